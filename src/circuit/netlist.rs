@@ -1,0 +1,250 @@
+//! The netlist: a directed graph of ports, constants and cells, feedback included. A net is known by the node that drives it.
+
+use std::fmt;
+
+use petgraph::Direction::Incoming;
+use petgraph::stable_graph::{NodeIndex, StableDiGraph};
+use petgraph::visit::EdgeRef;
+
+use crate::model::Function;
+use crate::source::Span;
+
+/// A net, named by its driver.
+pub type NetId = NodeIndex;
+
+/// A gate instance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// What it computes of its pins 0 and 1; a function of one input reads pin 0 alone, and has no pin 1.
+    pub function: Function,
+    /// The name of the net it drives, where the source gives one.
+    pub name: Option<String>,
+    /// The output before the first cycle; only cells on a feedback loop need one.
+    pub start: Option<bool>,
+    /// Where the source asks for it.
+    pub span: Option<Span>,
+}
+
+/// A node of the graph.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// An input port.
+    Input(String),
+    /// An output port; its one pin is the net it shows.
+    Output(String),
+    /// A net that never changes.
+    Constant(bool),
+    /// A name for a net that is driven elsewhere, maybe later: how feedback is written. Its one pin is the driver.
+    Wire {
+        /// The name.
+        name: String,
+        /// The start value declared with `init`.
+        start: Option<bool>,
+        /// Where it is declared.
+        span: Option<Span>,
+    },
+    /// A gate.
+    Cell(Cell),
+}
+
+/// A netlist that is not well formed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NetlistError {
+    /// A pin without a driver.
+    #[error("`{0}` has no driver")]
+    Undriven(String),
+    /// Wires that only drive each other.
+    #[error("`{0}` is driven by itself alone")]
+    WireLoop(String),
+}
+
+/// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.
+#[derive(Clone, Debug, Default)]
+pub struct Netlist {
+    /// The circuit's name.
+    pub name: String,
+    graph: StableDiGraph<Node, u8, u32>,
+    inputs: Vec<NetId>,
+    outputs: Vec<NetId>,
+}
+
+impl Netlist {
+    /// An empty netlist.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..Self::default() }
+    }
+
+    /// Adds an input port after the others.
+    pub fn add_input(&mut self, name: impl Into<String>) -> NetId {
+        let id = self.graph.add_node(Node::Input(name.into()));
+        self.inputs.push(id);
+        id
+    }
+
+    /// Adds an output port after the others, showing `net`.
+    pub fn add_output(&mut self, name: impl Into<String>, net: NetId) -> NetId {
+        let id = self.graph.add_node(Node::Output(name.into()));
+        self.graph.add_edge(net, id, 0);
+        self.outputs.push(id);
+        id
+    }
+
+    /// Adds a constant net.
+    pub fn add_constant(&mut self, value: bool) -> NetId {
+        self.graph.add_node(Node::Constant(value))
+    }
+
+    /// Adds a wire without a driver yet; give it one with [`Netlist::drive`].
+    pub fn add_wire(&mut self, name: impl Into<String>, start: Option<bool>, span: Option<Span>) -> NetId {
+        self.graph.add_node(Node::Wire { name: name.into(), start, span })
+    }
+
+    /// Adds a cell whose pins 0, 1, … listen to `pins`.
+    ///
+    /// # Panics
+    /// When the number of pins is not one or two.
+    pub fn add_cell(&mut self, cell: Cell, pins: &[NetId]) -> NetId {
+        assert!(matches!(pins.len(), 1 | 2), "a cell has one pin or two");
+        let id = self.graph.add_node(Node::Cell(cell));
+        for (pin, &net) in pins.iter().enumerate() {
+            self.graph.add_edge(net, id, pin as u8);
+        }
+        id
+    }
+
+    /// Adds an unnamed gate.
+    pub fn add_gate(&mut self, function: Function, pins: &[NetId]) -> NetId {
+        self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
+    }
+
+    /// Makes pin `pin` of `listener` listen to `net`, and to nothing else.
+    pub fn drive(&mut self, listener: NetId, pin: u8, net: NetId) {
+        let old =
+            self.graph.edges_directed(listener, Incoming).find(|edge| *edge.weight() == pin).map(|edge| edge.id());
+        if let Some(old) = old {
+            self.graph.remove_edge(old);
+        }
+        self.graph.add_edge(net, listener, pin);
+    }
+
+    /// Takes a node out, with its edges.
+    pub fn remove(&mut self, id: NetId) {
+        self.graph.remove_node(id);
+        self.inputs.retain(|&input| input != id);
+        self.outputs.retain(|&output| output != id);
+    }
+
+    /// The node.
+    pub fn node(&self, id: NetId) -> &Node {
+        &self.graph[id]
+    }
+
+    /// The node, to be changed.
+    pub fn node_mut(&mut self, id: NetId) -> &mut Node {
+        &mut self.graph[id]
+    }
+
+    /// The cell at a node, if it is one.
+    pub fn cell(&self, id: NetId) -> Option<&Cell> {
+        match self.node(id) {
+            Node::Cell(cell) => Some(cell),
+            _ => None,
+        }
+    }
+
+    /// The drivers of a node's pins, pin 0 first.
+    pub fn pins(&self, id: NetId) -> Vec<NetId> {
+        let mut pins: Vec<_> =
+            self.graph.edges_directed(id, Incoming).map(|edge| (*edge.weight(), edge.source())).collect();
+        pins.sort_unstable();
+        pins.into_iter().map(|(_, net)| net).collect()
+    }
+
+    /// The listeners of a net with their pins, in order of their numbers.
+    pub fn fanout(&self, id: NetId) -> Vec<(NetId, u8)> {
+        let mut listeners: Vec<_> = self.graph.edges(id).map(|edge| (edge.target(), *edge.weight())).collect();
+        listeners.sort_unstable();
+        listeners
+    }
+
+    /// The input ports in order.
+    pub fn inputs(&self) -> &[NetId] {
+        &self.inputs
+    }
+
+    /// The output ports in order.
+    pub fn outputs(&self) -> &[NetId] {
+        &self.outputs
+    }
+
+    /// Every node, in order of numbers.
+    pub fn ids(&self) -> impl Iterator<Item = NetId> + '_ {
+        self.graph.node_indices()
+    }
+
+    /// The cells, in order of numbers.
+    pub fn cells(&self) -> impl Iterator<Item = (NetId, &Cell)> {
+        self.ids().filter_map(|id| Some((id, self.cell(id)?)))
+    }
+
+    /// The graph itself, for petgraph's algorithms: an edge's weight is the listener's pin.
+    pub fn graph(&self) -> &StableDiGraph<Node, u8, u32> {
+        &self.graph
+    }
+
+    /// A net's name for people: the port's, the wire's or the cell's own, else `n` and its number.
+    pub fn net_name(&self, id: NetId) -> String {
+        match self.node(id) {
+            Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => name.clone(),
+            Node::Constant(value) => u8::from(*value).to_string(),
+            Node::Cell(Cell { name: Some(name), .. }) => name.clone(),
+            Node::Cell(_) => format!("n{}", id.index()),
+        }
+    }
+}
+
+impl fmt::Display for Netlist {
+    /// The netlist as text: ports, then a line for each cell or wire in order of numbers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = |ids: &[NetId]| ids.iter().map(|&id| self.net_name(id)).collect::<Vec<_>>().join(", ");
+        writeln!(f, "netlist {}({}) -> ({}) {{", self.name, names(&self.inputs), names(&self.outputs))?;
+        for id in self.ids() {
+            let (operator, start) = match self.node(id) {
+                Node::Input(_) | Node::Constant(_) => continue,
+                Node::Output(_) => ("output".to_owned(), None),
+                Node::Wire { start, .. } => ("wire".to_owned(), *start),
+                Node::Cell(cell) => (cell.function.to_string(), cell.start),
+            };
+            let start = start.map_or(String::new(), |start| format!(" init {}", u8::from(start)));
+            writeln!(f, "    {} = {operator}({}){start}", self.net_name(id), names(&self.pins(id)))?;
+        }
+        writeln!(f, "}}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_netlist_prints_as_text() {
+        let mut netlist = Netlist::new("half");
+        let a = netlist.add_input("a");
+        let b = netlist.add_input("b");
+        let sum = netlist.add_gate(Function::XOR, &[a, b]);
+        netlist.add_output("s", sum);
+        assert_eq!(netlist.to_string(), "netlist half(a, b) -> (s) {\n    n2 = xor(a, b)\n    s = output(n2)\n}\n");
+    }
+
+    #[test]
+    fn driving_a_pin_again_replaces_its_driver() {
+        let mut netlist = Netlist::new("loop");
+        let a = netlist.add_input("a");
+        let wire = netlist.add_wire("q", Some(false), None);
+        let gate = netlist.add_gate(Function::NAND, &[a, wire]);
+        netlist.drive(wire, 0, a);
+        netlist.drive(wire, 0, gate);
+        assert_eq!(netlist.pins(wire), [gate]);
+        assert_eq!(netlist.fanout(a), [(gate, 0)]);
+    }
+}

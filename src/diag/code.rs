@@ -1,0 +1,45 @@
+//! The codes of diagnostics: one for each rule, each with a page under `docs/errors/`.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+use super::Severity;
+
+/// A rule that input can break.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Code {
+    /// The text does not follow the grammar.
+    Syntax,
+}
+
+impl Code {
+    /// All codes, in alphabetical order of their words.
+    pub const ALL: &[Self] = &[Self::Syntax];
+
+    /// The code as users write it, for `nbc explain`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Syntax => "syntax",
+        }
+    }
+
+    /// How bad it is.
+    pub fn severity(self) -> Severity {
+        match self {
+            Self::Syntax => Severity::Error,
+        }
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.word())
+    }
+}
+
+impl Serialize for Code {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
+    }
+}

@@ -1,0 +1,7 @@
+//! Circuits made of soft robots: a declarative language, a compiler to swarms of brainless robots, and their physics.
+#![deny(missing_docs)]
+
+pub mod circuit;
+pub mod diag;
+pub mod model;
+pub mod source;

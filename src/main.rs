@@ -1,0 +1,4 @@
+//! The `nbc` program.
+#![deny(missing_docs)]
+
+fn main() {}

@@ -1,0 +1,219 @@
+//! Bodies: rectangles of voxels.
+
+use serde::{Deserialize, Serialize};
+
+use super::Palette;
+
+/// A body: `height` rows of `width` material codes, row 0 on top; code 0 is empty (docs/physics.md 1).
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "Vec<String>", into = "Vec<String>")]
+pub struct Body {
+    width: usize,
+    height: usize,
+    codes: Vec<u8>,
+}
+
+/// Why rows of text are no body.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BodyError {
+    /// No rows, or rows without columns.
+    #[error("the body has no voxels")]
+    Empty,
+    /// Rows of different width.
+    #[error("row {row} has {found} voxels, expected {expected} as in row 1")]
+    Ragged {
+        /// The row, from 1.
+        row: usize,
+        /// Its width.
+        found: usize,
+        /// The first row's width.
+        expected: usize,
+    },
+    /// A character which is no material code of the palette.
+    #[error("row {row}, column {column}: `{digit}` is no material, expected a code from 0 to {highest}")]
+    UnknownCode {
+        /// The row, from 1.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The character found.
+        digit: char,
+        /// The highest code there is.
+        highest: char,
+    },
+    /// More rows or columns than a body may have.
+    #[error("the body is {width} x {height}, expected at most {limit} x {limit}", limit = Body::MAX_SIDE)]
+    TooLarge {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+}
+
+impl Body {
+    /// The most rows or columns of a body.
+    pub const MAX_SIDE: usize = 100;
+
+    /// A body of `height` rows of `width` codes, row by row from the top.
+    ///
+    /// # Panics
+    /// When the number of codes is not `width * height`.
+    pub fn new(width: usize, height: usize, codes: Vec<u8>) -> Self {
+        assert_eq!(codes.len(), width * height, "a body has a code for each place");
+        Self { width, height, codes }
+    }
+
+    /// Reads rows of codes, top row first: a digit or lower-case letter a voxel, checked against a palette of `materials` materials.
+    ///
+    /// # Errors
+    /// [`BodyError`] names the first place that is wrong. A body whose places are all empty is [`BodyError::Empty`].
+    pub fn parse<S: AsRef<str>>(rows: &[S], materials: usize) -> Result<Self, BodyError> {
+        let expected = rows.first().map_or(0, |row| row.as_ref().chars().count());
+        if expected == 0 {
+            return Err(BodyError::Empty);
+        }
+        if expected > Self::MAX_SIDE || rows.len() > Self::MAX_SIDE {
+            return Err(BodyError::TooLarge { width: expected, height: rows.len() });
+        }
+        let mut codes = Vec::with_capacity(expected * rows.len());
+        for (r, row) in rows.iter().enumerate() {
+            let found = row.as_ref().chars().count();
+            if found != expected {
+                return Err(BodyError::Ragged { row: r + 1, found, expected });
+            }
+            for (c, digit) in row.as_ref().chars().enumerate() {
+                codes.push(parse_code(digit, materials).ok_or(BodyError::UnknownCode {
+                    row: r + 1,
+                    column: c + 1,
+                    digit,
+                    highest: code_digit(materials as u8),
+                })?);
+            }
+        }
+        if codes.iter().all(|&code| code == 0) {
+            return Err(BodyError::Empty);
+        }
+        Ok(Self { width: expected, height: rows.len(), codes })
+    }
+
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The code at row `row` (0 on top) and column `column` (0 on the left).
+    pub fn code(&self, row: usize, column: usize) -> u8 {
+        assert!(column < self.width, "column inside the body");
+        self.codes[row * self.width + column]
+    }
+
+    /// All codes in reading order.
+    pub fn codes(&self) -> &[u8] {
+        &self.codes
+    }
+
+    /// The rows as text, top row first; read again by [`Body::parse`].
+    pub fn rows(&self) -> Vec<String> {
+        self.codes.chunks(self.width).map(|row| row.iter().map(|&code| code_digit(code)).collect()).collect()
+    }
+
+    /// The same body seen in a mirror: left and right exchanged.
+    pub fn mirrored(&self) -> Self {
+        let codes = self.codes.chunks(self.width).flat_map(|row| row.iter().rev().copied()).collect();
+        Self { codes, ..*self }
+    }
+
+    /// The same shape with every code `k` replaced by `to(k)`.
+    pub fn recoded(&self, to: impl Fn(u8) -> u8) -> Self {
+        Self { codes: self.codes.iter().map(|&code| to(code)).collect(), ..*self }
+    }
+
+    /// Whether there is a voxel and all voxels hang together by their sides.
+    pub fn is_connected(&self) -> bool {
+        let Some(first) = self.codes.iter().position(|&code| code > 0) else { return false };
+        let mut reached = vec![false; self.codes.len()];
+        let mut open = vec![first];
+        reached[first] = true;
+        while let Some(at) = open.pop() {
+            let (row, column) = (at / self.width, at % self.width);
+            let beside = [
+                (row > 0).then(|| at - self.width),
+                (row + 1 < self.height).then(|| at + self.width),
+                (column > 0).then(|| at - 1),
+                (column + 1 < self.width).then(|| at + 1),
+            ];
+            for next in beside.into_iter().flatten() {
+                if self.codes[next] > 0 && !reached[next] {
+                    reached[next] = true;
+                    open.push(next);
+                }
+            }
+        }
+        self.codes.iter().zip(&reached).all(|(&code, &reached)| code == 0 || reached)
+    }
+}
+
+fn code_digit(code: u8) -> char {
+    char::from_digit(u32::from(code), 36).expect("codes stay below 36")
+}
+
+fn parse_code(digit: char, materials: usize) -> Option<u8> {
+    let code = digit.to_digit(36).filter(|_| !digit.is_ascii_uppercase())?;
+    (code as usize <= materials).then_some(code as u8)
+}
+
+impl TryFrom<Vec<String>> for Body {
+    type Error = BodyError;
+
+    fn try_from(rows: Vec<String>) -> Result<Self, BodyError> {
+        Self::parse(&rows, Palette::MAX_MATERIALS)
+    }
+}
+
+impl From<Body> for Vec<String> {
+    fn from(body: Body) -> Self {
+        body.rows()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(rows: &[&str], expected: Result<&[&str], &str>) {
+        let found = Body::parse(rows, 8).map(|body| body.rows()).map_err(|error| error.to_string());
+        assert_eq!(found, expected.map(|rows| rows.iter().map(|row| row.to_string()).collect()).map_err(str::to_owned));
+    }
+
+    #[test]
+    fn rows_round_trip() {
+        check(&["00345", "33333"], Ok(&["00345", "33333"]));
+    }
+
+    #[test]
+    fn bad_rows_are_named() {
+        check(&[], Err("the body has no voxels"));
+        check(&["000", "000"], Err("the body has no voxels"));
+        check(&["33", "3"], Err("row 2 has 1 voxels, expected 2 as in row 1"));
+        check(&["39"], Err("row 1, column 2: `9` is no material, expected a code from 0 to 8"));
+    }
+
+    #[test]
+    fn diagonal_voxels_do_not_hang_together() {
+        assert!(!Body::parse(&["30", "03"], 8).unwrap().is_connected());
+        assert!(Body::parse(&["30", "33"], 8).unwrap().is_connected());
+    }
+
+    #[test]
+    fn a_mirror_image_of_a_mirror_image_is_the_body() {
+        let body = Body::parse(&["012", "345"], 8).unwrap();
+        assert_eq!(body.mirrored().rows(), ["210", "543"]);
+        assert_eq!(body.mirrored().mirrored(), body);
+    }
+}

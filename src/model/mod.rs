@@ -1,0 +1,27 @@
+//! The nouns of the field as plain data, without behavior that belongs to a stage: what a voxel is made of, what a body is, what a
+//! robot does, what a circuit means.
+
+mod behavior;
+mod body;
+mod evolution;
+mod function;
+mod genotype;
+mod material;
+mod robot;
+mod schedule;
+mod stimulus;
+mod trial;
+
+pub use behavior::{Behavior, Direction};
+pub use body::{Body, BodyError};
+pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Objective, Rules, Symmetry};
+pub use function::Function;
+pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
+pub use material::{Drive, Material, MaterialKind, Palette, Response};
+pub use robot::{Character, Library, Provenance, Robot, Transition};
+pub use schedule::{Schedule, Spell};
+pub use stimulus::Pattern;
+pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
+
+/// Env steps in one actuation cycle of the paper (docs/physics.md 10).
+pub const CYCLE_STEPS: u32 = 84;

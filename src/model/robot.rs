@@ -1,0 +1,118 @@
+//! Robots: bodies whose behavior is known, and libraries of them.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Behavior, Body, Function, Genotype, Pattern};
+
+/// A body whose behavior is known, with where it comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Robot {
+    /// The robot's name, unique in its library.
+    pub name: String,
+    /// Which way it walks.
+    pub behavior: Behavior,
+    /// Its voxels.
+    pub body: Body,
+    /// Displacement in voxels over the paper's fixed simulations, patterns 00, 01, 10, 11 (docs/physics.md 10).
+    pub displacement: [f64; 4],
+    /// How it does as a gate.
+    pub character: Character,
+    /// Where it comes from.
+    pub provenance: Provenance,
+    /// The network it was developed from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub genotype: Option<Genotype>,
+}
+
+impl Robot {
+    /// The gate it is.
+    pub fn function(&self) -> Function {
+        self.behavior.function()
+    }
+}
+
+/// How a robot does as a gate, measured over switches of its inputs (docs/physics.md 14).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Character {
+    /// Cycles that an input pattern must be held for the output to be right at the end of every hold.
+    pub clock: u32,
+    /// Random switches over which wrong outputs were counted.
+    pub switches: u32,
+    /// Wrong outputs at the end of a hold of `clock` cycles, as a share of `switches`.
+    pub error_rate: f64,
+    /// Wrong cycles within holds whose output ought not to change, as a share of such cycles.
+    pub glitch_rate: f64,
+    /// Least displacement in the right direction at the end of a hold, in voxels a cycle; negative where an output was wrong.
+    pub margin: f64,
+    /// Whether the body ever fell over.
+    pub topples: bool,
+    /// Settle times, one entry for each of the twelve transitions between different patterns.
+    pub settle: Vec<Transition>,
+}
+
+/// The settle time of one input transition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Transition {
+    /// The pattern before.
+    #[serde(with = "pair")]
+    pub from: Pattern,
+    /// The pattern after.
+    #[serde(with = "pair")]
+    pub to: Pattern,
+    /// Cycles until the output is right and stays so.
+    pub cycles: u32,
+}
+
+/// Where a robot comes from: enough to make it again.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// The program that made it.
+    pub program: String,
+    /// Its version.
+    pub version: String,
+    /// The evolution declaration's name.
+    pub evolution: String,
+    /// The run's seed.
+    pub seed: u64,
+    /// The generation in which the robot was born.
+    pub generation: u32,
+    /// Evaluations made in the run up to then.
+    pub evaluations: u64,
+}
+
+/// Robots to build circuits from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Library {
+    /// The robots, best first within each function.
+    pub robots: Vec<Robot>,
+}
+
+impl Library {
+    /// The robots that compute a function, best first.
+    pub fn robots_for(&self, function: Function) -> impl Iterator<Item = &Robot> {
+        self.robots.iter().filter(move |robot| robot.function() == function)
+    }
+}
+
+/// Patterns of two stimuli written as two digits.
+mod pair {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    use crate::model::Pattern;
+
+    pub fn serialize<S: Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&pattern.to_string())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pattern, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        Pattern::PAIRS
+            .into_iter()
+            .find(|pattern| pattern.to_string() == word)
+            .ok_or_else(|| D::Error::custom(format!("`{word}` is no pattern, expected 00, 01, 10 or 11")))
+    }
+}

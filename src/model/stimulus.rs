@@ -1,0 +1,46 @@
+//! Stimuli: binary signals of the environment, present or absent.
+
+use std::fmt;
+
+/// Which stimuli are present: bit `i` belongs to stimulus `i`, counted from 0 in the order of declaration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Pattern(u32);
+
+impl Pattern {
+    /// The four patterns of two stimuli in the paper's order: 00, 01, 10, 11, stimulus 1 written first.
+    pub const PAIRS: [Pattern; 4] = [Pattern(0b00), Pattern(0b10), Pattern(0b01), Pattern(0b11)];
+
+    /// The most stimuli a pattern holds.
+    pub const MAX_STIMULI: usize = 32;
+
+    /// The pattern whose stimulus `i` is present where `present[i]` is true.
+    ///
+    /// # Panics
+    /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
+    pub fn new(present: &[bool]) -> Self {
+        assert!(present.len() <= Self::MAX_STIMULI, "a pattern holds at most 32 stimuli");
+        Self(present.iter().enumerate().fold(0, |bits, (i, &on)| bits | (u32::from(on) << i)))
+    }
+
+    /// Whether stimulus `i` (from 0) is present.
+    pub fn has(self, i: usize) -> bool {
+        self.0 >> i & 1 == 1
+    }
+
+    /// The place of a two-stimulus pattern in [`Pattern::PAIRS`]: twice stimulus 1 plus stimulus 2.
+    pub fn pair_index(self) -> usize {
+        usize::from(self.has(0)) * 2 + usize::from(self.has(1))
+    }
+
+    /// The pattern as digits, stimulus 1 first, `stimuli` of them.
+    pub fn digits(self, stimuli: usize) -> String {
+        (0..stimuli).map(|i| if self.has(i) { '1' } else { '0' }).collect()
+    }
+}
+
+impl fmt::Display for Pattern {
+    /// The two-stimulus form, `01` for stimulus 2 alone.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.digits(2))
+    }
+}

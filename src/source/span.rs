@@ -1,0 +1,37 @@
+//! Where in the source something stands.
+
+use serde::Serialize;
+
+/// A file's number in [`super::Sources`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub struct FileId(pub u32);
+
+/// A half-open range of bytes of one source file; twelve bytes, so that every node of a tree can carry one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub struct Span {
+    /// The file.
+    pub file: FileId,
+    /// The first byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The range `start..end` of `file`.
+    pub fn new(file: FileId, start: usize, end: usize) -> Self {
+        let narrow = |offset: usize| u32::try_from(offset).expect("source files are smaller than 4 GiB");
+        Self { file, start: narrow(start), end: narrow(end) }
+    }
+
+    /// The smallest span that covers `self` and `other`, which must be of one file.
+    pub fn to(self, other: Self) -> Self {
+        assert_eq!(self.file, other.file, "a span covers one file only");
+        Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
+    }
+
+    /// The bytes as a range that indexes the file's text.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
