@@ -5,3 +5,4 @@ pub mod circuit;
 pub mod diag;
 pub mod model;
 pub mod source;
+pub mod swarm;

@@ -1,0 +1,185 @@
+//! From a mapped netlist and a library to a swarm: a robot for each cell, and what each robot senses.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::circuit::{NetId, Netlist, Node};
+use crate::model::{Function, Library, Robot};
+
+/// Where a stimulus or an output port gets its bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Signal {
+    /// An input port, by its place among the inputs.
+    Input(usize),
+    /// A member's output in the cycle before, by its place among the members.
+    Robot(usize),
+    /// A bit that never changes.
+    Constant(bool),
+}
+
+/// One robot of a swarm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member {
+    /// The net it drives.
+    pub net: String,
+    /// The robot that drives it.
+    pub robot: Robot,
+    /// What it senses as stimulus 1 and stimulus 2.
+    pub senses: [Signal; 2],
+    /// Its output before the first cycle.
+    pub start: bool,
+}
+
+/// A swarm ready to be simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// The circuit's name.
+    pub circuit: String,
+    /// The names of the input ports.
+    pub inputs: Vec<String>,
+    /// The robots, in order of the netlist's cells.
+    pub members: Vec<Member>,
+    /// The output ports: name and what they show.
+    pub outputs: Vec<(String, Signal)>,
+}
+
+/// A netlist that a library cannot play.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AssembleError {
+    /// No robot computes a cell's function.
+    #[error("the library holds no robot for `{function}`")]
+    MissingFunction {
+        /// The function.
+        function: Function,
+    },
+}
+
+/// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are wired.
+///
+/// The first robot of the library that computes a cell's function plays it; failing that, one that computes it with exchanged
+/// inputs. A cell of one input is sensed on the side its robot listens to; the other stimulus stays absent.
+///
+/// # Errors
+/// [`AssembleError::MissingFunction`] when no robot fits a cell.
+///
+/// # Panics
+/// When the netlist still has wires, which `dissolve-wires` takes out.
+pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, AssembleError> {
+    let signals = number_signals(netlist);
+    let mut members = Vec::new();
+    for (id, cell) in netlist.cells() {
+        let pins: Vec<Signal> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
+        let (robot, exchange) = choose(library, cell.function)?;
+        let mut senses = [pins[0], pins.get(1).copied().unwrap_or(Signal::Constant(false))];
+        if exchange {
+            senses.reverse();
+        }
+        let start = cell.start.unwrap_or(false);
+        members.push(Member { net: netlist.net_name(id), robot: robot.clone(), senses, start });
+    }
+    Ok(Assembly {
+        circuit: netlist.name.clone(),
+        inputs: netlist.inputs().iter().map(|&id| netlist.net_name(id)).collect(),
+        members,
+        outputs: netlist.outputs().iter().map(|&id| (netlist.net_name(id), signals[&netlist.pins(id)[0]])).collect(),
+    })
+}
+
+/// The signal of each net: inputs and robots are numbered in the netlist's order.
+fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, Signal> {
+    let mut signals: BTreeMap<NetId, Signal> =
+        netlist.inputs().iter().enumerate().map(|(i, &id)| (id, Signal::Input(i))).collect();
+    let mut robots = 0;
+    for id in netlist.ids() {
+        match netlist.node(id) {
+            Node::Constant(value) => {
+                signals.insert(id, Signal::Constant(*value));
+            }
+            Node::Cell(_) => {
+                signals.insert(id, Signal::Robot(robots));
+                robots += 1;
+            }
+            Node::Input(_) | Node::Output(_) => {}
+            Node::Wire { name, .. } => panic!("wire `{name}` should have been dissolved before assembly"),
+        }
+    }
+    signals
+}
+
+/// The robot for a function, and whether its stimuli must be exchanged.
+fn choose(library: &Library, function: Function) -> Result<(&Robot, bool), AssembleError> {
+    let straight = library.robots_for(function).next().map(|robot| (robot, false));
+    let exchanged = || library.robots_for(function.swapped()).next().map(|robot| (robot, true));
+    straight.or_else(exchanged).ok_or(AssembleError::MissingFunction { function })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Body, Character, Provenance};
+
+    fn robot(function: Function) -> Robot {
+        Robot {
+            name: function.name().to_owned(),
+            behavior: function.into(),
+            body: Body::parse(&["33"], 8).unwrap(),
+            displacement: [0.0; 4],
+            character: Character {
+                clock: 1,
+                switches: 0,
+                error_rate: 0.0,
+                glitch_rate: 0.0,
+                margin: 0.0,
+                topples: false,
+                settle: Vec::new(),
+            },
+            provenance: Provenance {
+                program: "nbc".to_owned(),
+                version: "0".to_owned(),
+                evolution: "none".to_owned(),
+                seed: 0,
+                generation: 0,
+                evaluations: 0,
+            },
+            genotype: None,
+        }
+    }
+
+    fn check(function: Function, robots: &[Function], expected: Result<(&str, [Signal; 2]), AssembleError>) {
+        let mut netlist = Netlist::new("one");
+        let pins: Vec<_> = (0..function.arity()).map(|i| netlist.add_input(format!("i{i}"))).collect();
+        let gate = netlist.add_gate(function, &pins);
+        netlist.add_output("y", gate);
+        let library = Library { robots: robots.iter().copied().map(robot).collect() };
+        let found = assemble(&netlist, &library).map(|assembly| {
+            assert_eq!(assembly.outputs, [("y".to_owned(), Signal::Robot(0))]);
+            (assembly.members[0].robot.name.clone(), assembly.members[0].senses)
+        });
+        assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses)));
+    }
+
+    #[test]
+    fn a_cell_gets_the_robot_of_its_function() {
+        let senses = [Signal::Input(0), Signal::Input(1)];
+        check(Function::NAND, &[Function::AND, Function::NAND], Ok(("nand", senses)));
+    }
+
+    #[test]
+    fn a_robot_with_exchanged_inputs_will_do() {
+        let (here, there) = (Function::new(0b0100), Function::new(0b0010));
+        check(here, &[there], Ok(("nota_and_b", [Signal::Input(1), Signal::Input(0)])));
+    }
+
+    #[test]
+    fn an_inverter_is_sensed_where_its_robot_listens() {
+        check(Function::NOT, &[Function::NOT], Ok(("not", [Signal::Input(0), Signal::Constant(false)])));
+        check(Function::NOT, &[Function::NOT_B], Ok(("notb", [Signal::Constant(false), Signal::Input(0)])));
+    }
+
+    #[test]
+    fn a_function_nobody_computes_is_named() {
+        check(Function::XOR, &[Function::AND], Err(AssembleError::MissingFunction { function: Function::XOR }));
+    }
+}

@@ -1,0 +1,188 @@
+//! Whether a swarm did what a test asks, row by row, and which robot failed where it did not.
+
+use std::ops::Range;
+
+use serde::Serialize;
+
+use crate::swarm::SwarmTrace;
+
+/// Cycles over which an output must have had its value when its row ends.
+const STEADY_CYCLES: usize = 2;
+
+/// What a test came to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct TestVerdict {
+    /// The test's title.
+    pub title: String,
+    /// The circuit under test.
+    pub circuit: String,
+    /// The names of the input ports.
+    pub inputs: Vec<String>,
+    /// The names of the output ports.
+    pub outputs: Vec<String>,
+    /// Cycles for which each row was held.
+    pub hold: usize,
+    /// The rows in order.
+    pub rows: Vec<RowVerdict>,
+    /// Whether all rows passed.
+    pub passed: bool,
+}
+
+/// What a test's row came to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct RowVerdict {
+    /// The input ports' bits.
+    pub inputs: Vec<bool>,
+    /// The outputs asked for; `None` where the row does not say.
+    pub expected: Vec<Option<bool>>,
+    /// The outputs at the end of the row.
+    pub observed: Vec<bool>,
+    /// Whether every checked output had its value, over the last two cycles at least.
+    pub passed: bool,
+    /// Robots that were wrong in the row, where it failed.
+    pub lapses: Vec<Lapse>,
+}
+
+/// A robot that gave the wrong output although its stimuli had not changed for as long as its clock.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Lapse {
+    /// The net whose bit was wrong.
+    pub net: String,
+    /// The robot's name.
+    pub robot: String,
+    /// The cycle, from 0 at the test's start.
+    pub cycle: usize,
+    /// What it sensed.
+    pub sensed: [bool; 2],
+    /// What it output.
+    pub output: bool,
+}
+
+/// Judges a trace whose cycles are the rows of a test one after another, each held for `hold` cycles; `expected[i]` are the
+/// outputs that row `i` asks for, and `clocks[k]` is the clock of robot `k` in cycles.
+///
+/// # Panics
+/// When the trace is shorter than its rows.
+pub fn judge(
+    title: &str,
+    trace: &SwarmTrace,
+    expected: &[Vec<Option<bool>>],
+    hold: usize,
+    clocks: &[u32],
+) -> TestVerdict {
+    assert!(trace.cycles.len() >= expected.len() * hold, "a trace as long as its test");
+    let rows: Vec<RowVerdict> = expected
+        .iter()
+        .enumerate()
+        .map(|(row, expected)| judge_row(trace, expected, row * hold..(row + 1) * hold, clocks))
+        .collect();
+    TestVerdict {
+        title: title.to_owned(),
+        circuit: trace.circuit.clone(),
+        inputs: trace.inputs.clone(),
+        outputs: trace.outputs.clone(),
+        hold,
+        passed: rows.iter().all(|row| row.passed),
+        rows,
+    }
+}
+
+fn judge_row(trace: &SwarmTrace, expected: &[Option<bool>], cycles: Range<usize>, clocks: &[u32]) -> RowVerdict {
+    let last = &trace.cycles[cycles.end - 1];
+    let steady = cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end;
+    let passed = trace.cycles[steady].iter().all(|cycle| meets(expected, &cycle.outputs));
+    RowVerdict {
+        inputs: last.inputs.clone(),
+        expected: expected.to_vec(),
+        observed: last.outputs.clone(),
+        passed,
+        lapses: if passed { Vec::new() } else { lapses(trace, cycles, clocks) },
+    }
+}
+
+fn meets(expected: &[Option<bool>], outputs: &[bool]) -> bool {
+    expected.iter().zip(outputs).all(|(expected, &output)| expected.is_none_or(|expected| expected == output))
+}
+
+/// The robots that were wrong in these cycles with settled stimuli, in order of cycles.
+fn lapses(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<Lapse> {
+    let robots = || trace.robots.iter().zip(clocks).enumerate();
+    let of_cycle = |cycle: usize| {
+        robots().filter_map(move |(k, (robot, &clock))| {
+            let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
+            let right = robot.function.output(sensed[0], sensed[1]);
+            (output != right && is_settled(trace, cycle, k, clock as usize)).then(|| Lapse {
+                net: robot.net.clone(),
+                robot: robot.robot.clone(),
+                cycle,
+                sensed,
+                output,
+            })
+        })
+    };
+    cycles.flat_map(of_cycle).collect()
+}
+
+/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended.
+fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
+    let sensed = trace.cycles[cycle].sensed[k];
+    cycle + 1 >= clock && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Function;
+    use crate::swarm::{CycleTrace, RobotTrace, Signal};
+
+    /// An inverter's trace with these inputs and outputs in each cycle.
+    fn inverter(cycles: &[(bool, bool)]) -> SwarmTrace {
+        SwarmTrace {
+            circuit: "inverter".to_owned(),
+            inputs: vec!["a".to_owned()],
+            outputs: vec!["y".to_owned()],
+            samples_per_cycle: 1,
+            robots: vec![RobotTrace {
+                net: "y".to_owned(),
+                function: Function::NOT,
+                robot: "not_1".to_owned(),
+                senses: [Signal::Input(0), Signal::Constant(false)],
+                sensed_nets: ["a".to_owned(), "0".to_owned()],
+                com_x: vec![0.0; cycles.len() + 1],
+                fault: None,
+            }],
+            cycles: cycles
+                .iter()
+                .map(|&(a, y)| CycleTrace {
+                    inputs: vec![a],
+                    sensed: vec![[a, false]],
+                    bits: vec![y],
+                    outputs: vec![y],
+                })
+                .collect(),
+        }
+    }
+
+    fn check(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32, passed: bool, wrong_cycles: &[usize]) {
+        let verdict = judge("t", &inverter(cycles), &[vec![expected]], cycles.len(), &[clock]);
+        assert_eq!(verdict.passed, passed);
+        let found: Vec<usize> = verdict.rows[0].lapses.iter().map(|lapse| lapse.cycle).collect();
+        assert_eq!(found, wrong_cycles);
+    }
+
+    #[test]
+    fn a_row_passes_on_its_last_two_cycles() {
+        check(&[(true, true), (true, false), (true, false)], Some(false), 1, true, &[]);
+        check(&[(true, false), (true, true), (true, false)], Some(false), 1, false, &[1]);
+    }
+
+    #[test]
+    fn an_output_that_is_not_asked_for_is_not_checked() {
+        check(&[(true, true), (true, true)], None, 1, true, &[]);
+    }
+
+    #[test]
+    fn a_robot_that_has_not_settled_is_not_to_blame() {
+        check(&[(true, true), (true, true), (true, true)], Some(false), 3, false, &[2]);
+    }
+}
