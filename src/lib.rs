@@ -2,6 +2,7 @@
 #![deny(missing_docs)]
 
 pub mod circuit;
+pub mod cli;
 pub mod diag;
 pub mod model;
 pub mod source;

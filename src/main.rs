@@ -1,4 +1,8 @@
 //! The `nbc` program.
 #![deny(missing_docs)]
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    nbc::cli::main()
+}

@@ -11,23 +11,29 @@ use super::Severity;
 pub enum Code {
     /// The text does not follow the grammar.
     Syntax,
+    /// A file that cannot be read as source text.
+    Unreadable,
+    /// A file or folder that cannot be written.
+    Unwritable,
 }
 
 impl Code {
     /// All codes, in alphabetical order of their words.
-    pub const ALL: &[Self] = &[Self::Syntax];
+    pub const ALL: &[Self] = &[Self::Syntax, Self::Unreadable, Self::Unwritable];
 
     /// The code as users write it, for `nbc explain`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Syntax => "syntax",
+            Self::Unreadable => "unreadable",
+            Self::Unwritable => "unwritable",
         }
     }
 
     /// How bad it is.
     pub fn severity(self) -> Severity {
         match self {
-            Self::Syntax => Severity::Error,
+            Self::Syntax | Self::Unreadable | Self::Unwritable => Severity::Error,
         }
     }
 }

@@ -1,1 +1,205 @@
-//! Diagnostics as text for people, through miette.
+//! Diagnostics as text for people, through miette; JSON reads [`Diagnostic`] itself.
+
+use std::fmt;
+
+use miette::{
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan,
+    SpanContents,
+};
+
+use super::{Diagnostic, Label, Severity};
+use crate::source::{FileId, SourceFile, Sources};
+
+/// All diagnostics as text, in their order, each with its excerpt of the source.
+pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
+    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
+    diagnostics
+        .iter()
+        .map(|diagnostic| {
+            let mut text = String::new();
+            handler
+                .render_report(&mut text, &Report::new(diagnostic, sources))
+                .expect("text can be written to a string");
+            text + "\n"
+        })
+        .collect()
+}
+
+/// A diagnostic as miette wants it.
+#[derive(Debug)]
+struct Report<'a> {
+    heading: Option<&'a Diagnostic>,
+    message: &'a str,
+    labels: Vec<&'a Label>,
+    excerpt: Option<Excerpt<'a>>,
+    related: Vec<Report<'a>>,
+}
+
+impl<'a> Report<'a> {
+    fn new(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Self {
+        let file = diagnostic.labels.first().map(|label| label.span.file);
+        let (here, elsewhere): (Vec<_>, Vec<_>) =
+            diagnostic.labels.iter().chain(&diagnostic.related).partition(|label| Some(label.span.file) == file);
+        Self {
+            heading: Some(diagnostic),
+            message: &diagnostic.message,
+            labels: here,
+            excerpt: file.map(|file| Excerpt::new(sources, file)),
+            related: elsewhere.into_iter().map(|label| Self::elsewhere(label, sources)).collect(),
+        }
+    }
+
+    fn elsewhere(label: &'a Label, sources: &'a Sources) -> Self {
+        let excerpt = Some(Excerpt::new(sources, label.span.file));
+        Self { heading: None, message: &label.text, labels: vec![label], excerpt, related: Vec::new() }
+    }
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message)
+    }
+}
+
+impl std::error::Error for Report<'_> {}
+
+impl miette::Diagnostic for Report<'_> {
+    fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        self.heading.map(|diagnostic| Box::new(diagnostic.code) as Box<dyn fmt::Display>)
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.heading.map(|diagnostic| diagnostic.severity) {
+            Some(Severity::Error) => miette::Severity::Error,
+            Some(Severity::Warning) => miette::Severity::Warning,
+            None => miette::Severity::Advice,
+        })
+    }
+
+    fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        self.heading?.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.excerpt.as_ref().map(|excerpt| excerpt as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let labeled = |label: &&Label| {
+            let start = self.excerpt.as_ref().map_or(0, |excerpt| excerpt.visible(label.span.range().start));
+            LabeledSpan::new(Some(label.text.clone()), start, label.span.range().len())
+        };
+        (!self.labels.is_empty())
+            .then(|| Box::new(self.labels.iter().map(labeled)) as Box<dyn Iterator<Item = LabeledSpan>>)
+    }
+
+    fn related<'b>(&'b self) -> Option<Box<dyn Iterator<Item = &'b dyn miette::Diagnostic> + 'b>> {
+        let related = self.related.iter().map(|report| report as &dyn miette::Diagnostic);
+        (!self.related.is_empty()).then(|| Box::new(related) as Box<dyn Iterator<Item = &dyn miette::Diagnostic>>)
+    }
+}
+
+/// A source file of which only the surroundings of a span are shown, even where one line is megabytes long.
+#[derive(Debug)]
+struct Excerpt<'a>(&'a SourceFile);
+
+/// The most bytes of one line shown on either side of a span.
+const MARGIN: usize = 60;
+
+impl<'a> Excerpt<'a> {
+    fn new(sources: &'a Sources, file: FileId) -> Self {
+        Self(sources.file(file))
+    }
+
+    /// The nearest offset with a character to point at: the end of a text has none.
+    fn visible(&self, offset: usize) -> usize {
+        let text = &self.0.text;
+        text.floor_char_boundary(offset.min(text.len().saturating_sub(1)))
+    }
+
+    /// The bytes shown for a span: whole lines with their neighbors where they are short, else the nearest part of the line.
+    fn range(&self, span: &SourceSpan, before: usize, after: usize) -> std::ops::Range<usize> {
+        let text = &self.0.text;
+        let start = span.offset().min(text.len());
+        let end = (start + span.len()).min(text.len());
+        let from = nth_line_start(text, start, before);
+        let to = nth_line_end(text, end, after);
+        let clip_from = text.floor_char_boundary(start.saturating_sub(MARGIN));
+        let clip_to = text.ceil_char_boundary(start.saturating_add(2 * MARGIN).min(text.len()));
+        let short = text[from..to].lines().all(|line| line.len() <= 4 * MARGIN);
+        if short { from..to } else { line_start(text, start).max(clip_from)..line_end(text, start).min(clip_to) }
+    }
+}
+
+fn line_start(text: &str, at: usize) -> usize {
+    text[..at].rfind('\n').map_or(0, |newline| newline + 1)
+}
+
+fn line_end(text: &str, at: usize) -> usize {
+    text[at..].find('\n').map_or(text.len(), |newline| at + newline)
+}
+
+fn nth_line_start(text: &str, at: usize, before: usize) -> usize {
+    (0..before).fold(line_start(text, at), |start, _| line_start(text, start.saturating_sub(1)))
+}
+
+fn nth_line_end(text: &str, at: usize, after: usize) -> usize {
+    (0..after).fold(line_end(text, at), |end, _| line_end(text, (end + 1).min(text.len())))
+}
+
+impl SourceCode for Excerpt<'_> {
+    fn read_span<'b>(
+        &'b self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
+        let range = self.range(span, before, after);
+        // Without context lines miette asks for the place of the span itself.
+        let place = self.0.line_column(if before == 0 { span.offset() } else { range.start });
+        let data = if self.0.text.is_empty() { b" " } else { &self.0.text.as_bytes()[range.clone()] };
+        let lines = self.0.text[range.clone()].lines().count();
+        let shown = SourceSpan::new(range.start.into(), data.len());
+        let name = self.0.name.clone();
+        Ok(Box::new(MietteSpanContents::new_named(name, data, shown, place.line - 1, place.column - 1, lines)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Code;
+    use crate::source::Span;
+
+    fn render(source: &str, start: usize, end: usize) -> String {
+        let mut sources = Sources::default();
+        let file = sources.add("a.nb", source);
+        let diagnostic =
+            Diagnostic::new(Code::Syntax, "unexpected `}`", Span::new(file, start, end), "expected a name")
+                .with_help("write a name");
+        text(&[diagnostic], &sources, false)
+    }
+
+    #[test]
+    fn a_diagnostic_shows_its_place_and_its_help() {
+        let shown = render("circuit\n  }\n", 10, 11);
+        for part in ["syntax", "unexpected `}`", "a.nb:2:3", "expected a name", "write a name"] {
+            assert!(shown.contains(part), "no {part:?} in\n{shown}");
+        }
+    }
+
+    #[test]
+    fn a_line_of_megabytes_is_shown_in_part() {
+        let shown = render(&"x".repeat(10_000_000), 5_000_000, 5_000_001);
+        assert!(shown.len() < 2_000, "{} bytes shown", shown.len());
+        assert!(shown.contains("expected a name"), "{shown}");
+    }
+
+    #[test]
+    fn a_place_past_the_end_is_shown_at_the_end() {
+        let shown = render("circuit", 7, 7);
+        assert!(shown.contains("expected a name"), "{shown}");
+        assert!(render("", 0, 0).contains("expected a name"));
+    }
+}

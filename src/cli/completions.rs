@@ -1,0 +1,28 @@
+//! `nbc completions`: completion scripts for shells.
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use crate::cli::{Cli, Context, Failure, Status};
+
+/// Print a completion script for a shell
+#[derive(Args)]
+#[command(after_help = "Example:\n  nbc completions bash > ~/.local/share/bash-completion/completions/nbc")]
+pub struct Arguments {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+impl Arguments {
+    /// Prints the script.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut Cli::command(), "nbc", &mut script);
+        context.print(String::from_utf8_lossy(&script))?;
+        Ok(Status::Done)
+    }
+}

@@ -1,0 +1,69 @@
+//! Why a command could not be carried out.
+
+use std::io;
+use std::path::Path;
+
+use crate::cli::{Context, Format, Status};
+use crate::diag::{Code, Diagnostic, render};
+use crate::source::Sources;
+
+/// Why a command could not be carried out.
+#[derive(Debug)]
+pub enum Failure {
+    /// The user's input is at fault.
+    Input {
+        /// What is wrong with it.
+        diagnostics: Vec<Diagnostic>,
+        /// The texts that the diagnostics point into.
+        sources: Sources,
+    },
+    /// Standard output cannot be written.
+    Output(io::Error),
+}
+
+impl Failure {
+    /// Input at fault in places of `sources`.
+    pub fn input(diagnostics: Vec<Diagnostic>, sources: Sources) -> Self {
+        Self::Input { diagnostics, sources }
+    }
+
+    /// A fault without a place in a text.
+    pub fn plain(diagnostic: Diagnostic) -> Self {
+        Self::Input { diagnostics: vec![diagnostic], sources: Sources::default() }
+    }
+
+    /// A file or folder that cannot be written.
+    pub fn unwritable(path: &Path, error: &io::Error) -> Self {
+        let message = format!("cannot write `{}`: {}", path.display(), error.to_string().to_lowercase());
+        Self::plain(Diagnostic::without_place(Code::Unwritable, message))
+    }
+
+    /// Tells the user, and says how the program ends. Nobody reads a closed pipe, so that is a silent end.
+    pub fn report(self, context: &mut Context) -> Status {
+        match self {
+            Self::Input { diagnostics, sources } => {
+                if context.format == Format::Json {
+                    // The failure itself is what matters if this cannot be written either.
+                    let _ = context
+                        .print_json(&serde_json::json!({ "diagnostics": diagnostics }))
+                        .and_then(|()| context.flush());
+                }
+                context.log(&render::text(&diagnostics, &sources, context.color));
+                Status::BadInput
+            }
+            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Done,
+            Self::Output(error) => {
+                let message = format!("cannot write the output: {}", error.to_string().to_lowercase());
+                let diagnostic = Diagnostic::without_place(Code::Unwritable, message);
+                context.log(&render::text(&[diagnostic], &Sources::default(), context.color));
+                Status::BadInput
+            }
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}

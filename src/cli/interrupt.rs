@@ -1,0 +1,41 @@
+//! Ctrl-C, SIGTERM and SIGUSR1 as a flag that long work looks at.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
+use signal_hook::flag;
+
+use crate::cli::Status;
+
+/// A wish to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
+#[derive(Clone, Debug, Default)]
+pub struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// Watches the signals from now on.
+    ///
+    /// # Errors
+    /// When the system refuses to let signals be watched.
+    pub fn watch() -> io::Result<Self> {
+        let interrupt = Self::default();
+        for signal in [SIGINT, SIGTERM] {
+            flag::register_conditional_shutdown(signal, Status::Interrupted.code().into(), interrupt.0.clone())?;
+        }
+        for signal in [SIGINT, SIGTERM, SIGUSR1] {
+            flag::register(signal, interrupt.0.clone())?;
+        }
+        Ok(interrupt)
+    }
+
+    /// Whether a signal has come.
+    pub fn is_raised(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// The flag itself, for work that knows nothing of the command line.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.0
+    }
+}

@@ -1,0 +1,74 @@
+//! The command line: one file per command, each an `Arguments` that clap reads and a `run` that does it.
+//!
+//! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
+
+mod completions;
+mod context;
+mod failure;
+mod interrupt;
+mod progress;
+mod status;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub use context::{Context, Format};
+pub use failure::Failure;
+pub use interrupt::Interrupt;
+pub use progress::Progress;
+pub use status::Status;
+
+macro_rules! commands {
+    ($($name:ident in $module:ident,)*) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $($name($module::Arguments),)*
+        }
+
+        impl Command {
+            fn run(self, context: &mut Context) -> Result<Status, Failure> {
+                match self {
+                    $(Self::$name(arguments) => arguments.run(context),)*
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    Completions in completions,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  nbc run circuits/latch.nb                 compile, simulate and test a circuit of robots
+  nbc library list                          the robots that circuits are made of
+  nbc simulate ROBOT --schedule '00*10 11*10'
+
+Exit status: 0 done and every test passed, 1 a test failed, 2 bad input or usage, 4 interrupted.";
+
+/// Circuits made of soft robots: compile, simulate, evolve.
+#[derive(Parser)]
+#[command(name = "nbc", version, after_help = EXAMPLES, subcommand_required = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(flatten)]
+    global: context::GlobalArguments,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Runs the program on the process's arguments.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // A closed pipe leaves nobody to tell.
+            let _ = error.print();
+            return if error.use_stderr() { Status::BadInput.into() } else { Status::Done.into() };
+        }
+    };
+    let mut context = Context::new(&cli.global);
+    let outcome = cli.command.run(&mut context).and_then(|status| context.flush().map(|()| status));
+    outcome.unwrap_or_else(|failure| failure.report(&mut context)).into()
+}
