@@ -1,0 +1,144 @@
+//! The invariants of ARCHITECTURE.md that are about the text of the source.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The folders with their layers; a folder may import lower layers only.
+const LAYERS: &[(&str, u8)] = &[
+    ("source", 0),
+    ("diag", 1),
+    ("model", 1),
+    ("syntax", 2),
+    ("sim", 2),
+    ("evolve", 2),
+    ("circuit", 2),
+    ("check", 3),
+    ("swarm", 3),
+    ("store", 3),
+    ("report", 4),
+    ("pipeline", 5),
+    ("cli", 6),
+];
+
+fn source_files() -> Vec<(PathBuf, String)> {
+    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
+    let mut files = Vec::new();
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let text = fs::read_to_string(&path).unwrap();
+                files.push((path, text));
+            }
+        }
+    }
+    files.sort();
+    assert!(files.len() > 20, "the source was found");
+    files
+}
+
+/// The part of a file before its unit tests, which may do what the core may not.
+fn product_code(text: &str) -> &str {
+    text.split("#[cfg(test)]").next().unwrap()
+}
+
+/// The folder under `src` that a file belongs to; `pipeline` and `lib` are files.
+fn folder(path: &Path) -> String {
+    let inside = path.strip_prefix(Path::new(env!("CARGO_MANIFEST_DIR")).join("src")).unwrap();
+    let first = inside.components().next().unwrap().as_os_str().to_string_lossy().into_owned();
+    first.trim_end_matches(".rs").to_owned()
+}
+
+fn layer(folder: &str) -> Option<u8> {
+    LAYERS.iter().find(|(name, _)| *name == folder).map(|&(_, layer)| layer)
+}
+
+/// Fails with the rule when a line of product code outside the allowed places holds one of the words, unless the line is marked
+/// `// lookups only`.
+fn forbid(rule: &str, words: &[&str], allowed: impl Fn(&Path) -> bool) {
+    let mut found = Vec::new();
+    for (path, text) in source_files() {
+        if allowed(&path) {
+            continue;
+        }
+        for (number, line) in product_code(&text).lines().enumerate() {
+            let (code, remark) = line.split_once("//").unwrap_or((line, ""));
+            if words.iter().any(|word| code.contains(word)) && remark.trim() != "lookups only" {
+                found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{rule}\n{}", found.join("\n"));
+}
+
+#[test]
+fn a_folder_imports_lower_layers_only() {
+    let mut found = Vec::new();
+    for (path, text) in source_files() {
+        let from = folder(&path);
+        let Some(own) = layer(&from) else { continue };
+        for (number, line) in product_code(&text).lines().enumerate() {
+            for part in line.split("crate::").skip(1) {
+                let to: String = part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                if to != from && layer(&to).is_some_and(|layer| layer >= own) {
+                    found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "a folder imports lower layers only, and none of its own\n{}", found.join("\n"));
+}
+
+#[test]
+fn the_core_touches_nothing_outside() {
+    let outside =
+        ["println!", "eprintln!", "print!(", "std::fs", "std::env::", "Instant::now", "SystemTime", "std::net"];
+    let shells = |path: &Path| matches!(folder(path).as_str(), "cli" | "store" | "main");
+    forbid("no printing, clock, environment, file or network outside cli/ and store/", &outside, shells);
+}
+
+#[test]
+fn unsafe_code_is_in_one_file_of_the_physics() {
+    let files: Vec<_> = source_files()
+        .into_iter()
+        .filter(|(_, text)| text.lines().any(|line| line.split("//").next().unwrap().contains("unsafe {")))
+        .map(|(path, _)| path)
+        .collect();
+    assert!(files.len() <= 1, "`unsafe` is in one file: {files:?}");
+    assert!(files.iter().all(|path| folder(path) == "sim"), "`unsafe` is in sim/: {files:?}");
+}
+
+#[test]
+fn nothing_iterates_over_hash_maps() {
+    let rule = "a hash map's order differs from run to run: use an ordered map, or say `// lookups only` where it is never iterated";
+    forbid(rule, &["HashMap", "HashSet"], |_| false);
+}
+
+#[test]
+fn each_outer_crate_has_one_home() {
+    let in_folder = |name: &'static str| move |path: &Path| folder(path) == name;
+    forbid("only diag/render.rs names miette", &["miette"], |path| path.ends_with("diag/render.rs"));
+    forbid("only store/ names YAML", &["serde_yaml"], in_folder("store"));
+    let shell = |path: &Path| matches!(folder(path).as_str(), "cli" | "main");
+    forbid("only cli/ names clap and indicatif", &["clap::", "indicatif"], shell);
+}
+
+#[test]
+fn every_module_says_what_it_is() {
+    let silent: Vec<_> =
+        source_files().into_iter().filter(|(_, text)| !text.starts_with("//!")).map(|(path, _)| path).collect();
+    assert!(silent.is_empty(), "every module opens with a line that says what it is: {silent:?}");
+}
+
+#[test]
+fn every_numbered_citation_of_the_model_exists() {
+    let model = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/physics.md")).unwrap();
+    for (path, text) in source_files() {
+        for part in text.split("docs/physics.md ").skip(1) {
+            let section: String = part.chars().take_while(char::is_ascii_digit).collect();
+            assert!(model.contains(&format!("\n## {section}. ")), "{} cites section {section}", path.display());
+        }
+    }
+}
