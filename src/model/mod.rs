@@ -3,24 +3,33 @@
 
 mod behavior;
 mod body;
+mod circuit;
 mod evolution;
 mod function;
 mod genotype;
 mod material;
+mod program;
 mod robot;
 mod schedule;
 mod stimulus;
+mod test;
 mod trial;
 
 pub use behavior::{Behavior, Direction};
 pub use body::{Body, BodyError};
+pub use circuit::{
+    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, Parameter,
+    Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
+};
 pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Objective, Rules, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialKind, Palette, Response};
+pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Program, Simulation, Swarm};
 pub use robot::{Character, Library, Provenance, Robot, Transition};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;
+pub use test::{CircuitTest, Column, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).

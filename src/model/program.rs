@@ -1,0 +1,136 @@
+//! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
+
+use super::{Behavior, Circuit, CircuitTest, Evolution, Instance, Material, Schedule};
+use crate::source::Span;
+
+/// Everything a source file and what it uses declare.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The stimuli, in the order that numbers them.
+    pub stimuli: Vec<String>,
+    /// The materials.
+    pub materials: Vec<Material>,
+    /// The schedules of stimuli.
+    pub schedules: Vec<NamedSchedule>,
+    /// The evolution runs.
+    pub evolutions: Vec<Evolution>,
+    /// The circuits.
+    pub circuits: Vec<Circuit>,
+    /// The libraries.
+    pub libraries: Vec<LibrarySource>,
+    /// The swarms.
+    pub swarms: Vec<Swarm>,
+    /// What is to be simulated besides the tests; of the file itself, not of those it uses.
+    pub simulations: Vec<Simulation>,
+    /// The tests; of the file itself, not of those it uses.
+    pub tests: Vec<CircuitTest>,
+}
+
+/// A schedule with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedSchedule {
+    /// The name.
+    pub name: String,
+    /// The stimuli it speaks of, as places in [`Program::stimuli`].
+    pub stimuli: Vec<usize>,
+    /// The spells.
+    pub schedule: Schedule,
+}
+
+/// A declared library: where its robots come from, and which of them count.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LibrarySource {
+    /// The name.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Where the robots come from.
+    pub from: Origin,
+    /// The behaviors it is restricted to; `None` is all.
+    pub behaviors: Option<Vec<Behavior>>,
+}
+
+/// Where the robots of a library come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The robots that come with the program.
+    Shipped,
+    /// The archive of the evolution run of that name.
+    Evolution(String),
+    /// Robot files in a folder, relative to the source file.
+    Folder(String),
+}
+
+/// A declared swarm: a circuit made of a library's robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swarm {
+    /// The name.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// The circuit.
+    pub circuit: Instance,
+    /// The name of the library in [`Program::libraries`].
+    pub library: String,
+    /// How long each row of a test is held.
+    pub hold: Hold,
+    /// The cycles over which a robot's output is taken; the paper's is 1.
+    pub window: u32,
+}
+
+/// How long inputs are held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hold {
+    /// As long as static timing says that the slowest path needs.
+    #[default]
+    Auto,
+    /// That many cycles.
+    Cycles(u32),
+}
+
+/// A swarm under a schedule of its inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    /// The swarm's name in [`Program::swarms`].
+    pub swarm: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// The spells in order of time.
+    pub spells: Vec<InputSpell>,
+}
+
+/// Inputs held for a while.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputSpell {
+    /// The input bits in order of the ports, the most significant bit of a port first.
+    pub inputs: Vec<bool>,
+    /// How long, in cycles.
+    pub cycles: u32,
+}
+
+impl Program {
+    /// The circuit of that name.
+    pub fn circuit(&self, name: &str) -> Option<&Circuit> {
+        self.circuits.iter().find(|circuit| circuit.name == name)
+    }
+
+    /// The evolution run of that name.
+    pub fn evolution(&self, name: &str) -> Option<&Evolution> {
+        self.evolutions.iter().find(|evolution| evolution.name == name)
+    }
+
+    /// The library of that name.
+    pub fn library(&self, name: &str) -> Option<&LibrarySource> {
+        self.libraries.iter().find(|library| library.name == name)
+    }
+
+    /// The swarm of that name.
+    pub fn swarm(&self, name: &str) -> Option<&Swarm> {
+        self.swarms.iter().find(|swarm| swarm.name == name)
+    }
+
+    /// The schedule of that name.
+    pub fn schedule(&self, name: &str) -> Option<&NamedSchedule> {
+        self.schedules.iter().find(|schedule| schedule.name == name)
+    }
+}
