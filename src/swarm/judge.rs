@@ -20,17 +20,26 @@ pub struct TestVerdict {
     pub inputs: Vec<String>,
     /// The names of the output ports.
     pub outputs: Vec<String>,
-    /// Cycles for which each row was held.
-    pub hold: usize,
     /// The rows in order.
     pub rows: Vec<RowVerdict>,
     /// Whether all rows passed.
     pub passed: bool,
 }
 
+/// What a test's row asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Demand {
+    /// Cycles for which the row is held.
+    pub hold: usize,
+    /// The outputs at its end; `None` where the row does not say.
+    pub expected: Vec<Option<bool>>,
+}
+
 /// What a test's row came to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RowVerdict {
+    /// Cycles for which the row was held.
+    pub hold: usize,
     /// The input ports' bits.
     pub inputs: Vec<bool>,
     /// The outputs asked for; `None` where the row does not say.
@@ -58,42 +67,38 @@ pub struct Lapse {
     pub output: bool,
 }
 
-/// Judges a trace whose cycles are the rows of a test one after another, each held for `hold` cycles; `expected[i]` are the
-/// outputs that row `i` asks for, and `clocks[k]` is the clock of robot `k` in cycles.
+/// Judges a trace whose cycles are the rows of a test one after another; `clocks[k]` is the clock of robot `k` in cycles.
 ///
 /// # Panics
-/// When the trace is shorter than its rows.
-pub fn judge(
-    title: &str,
-    trace: &SwarmTrace,
-    expected: &[Vec<Option<bool>>],
-    hold: usize,
-    clocks: &[u32],
-) -> TestVerdict {
-    assert!(trace.cycles.len() >= expected.len() * hold, "a trace as long as its test");
-    let rows: Vec<RowVerdict> = expected
+/// When the trace is shorter than its rows, or a row has no cycle.
+pub fn judge(title: &str, trace: &SwarmTrace, rows: &[Demand], clocks: &[u32]) -> TestVerdict {
+    let mut start = 0;
+    let verdicts: Vec<RowVerdict> = rows
         .iter()
-        .enumerate()
-        .map(|(row, expected)| judge_row(trace, expected, row * hold..(row + 1) * hold, clocks))
+        .map(|row| {
+            let cycles = start..start + row.hold;
+            start = cycles.end;
+            judge_row(trace, row, cycles, clocks)
+        })
         .collect();
     TestVerdict {
         title: title.to_owned(),
         circuit: trace.circuit.clone(),
         inputs: trace.inputs.clone(),
         outputs: trace.outputs.clone(),
-        hold,
-        passed: rows.iter().all(|row| row.passed),
-        rows,
+        passed: verdicts.iter().all(|row| row.passed),
+        rows: verdicts,
     }
 }
 
-fn judge_row(trace: &SwarmTrace, expected: &[Option<bool>], cycles: Range<usize>, clocks: &[u32]) -> RowVerdict {
+fn judge_row(trace: &SwarmTrace, row: &Demand, cycles: Range<usize>, clocks: &[u32]) -> RowVerdict {
     let last = &trace.cycles[cycles.end - 1];
     let steady = cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end;
-    let passed = trace.cycles[steady].iter().all(|cycle| meets(expected, &cycle.outputs));
+    let passed = trace.cycles[steady].iter().all(|cycle| meets(&row.expected, &cycle.outputs));
     RowVerdict {
+        hold: row.hold,
         inputs: last.inputs.clone(),
-        expected: expected.to_vec(),
+        expected: row.expected.clone(),
         observed: last.outputs.clone(),
         passed,
         lapses: if passed { Vec::new() } else { lapses(trace, cycles, clocks) },
@@ -164,7 +169,8 @@ mod tests {
     }
 
     fn check(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32, passed: bool, wrong_cycles: &[usize]) {
-        let verdict = judge("t", &inverter(cycles), &[vec![expected]], cycles.len(), &[clock]);
+        let verdict =
+            judge("t", &inverter(cycles), &[Demand { hold: cycles.len(), expected: vec![expected] }], &[clock]);
         assert_eq!(verdict.passed, passed);
         let found: Vec<usize> = verdict.rows[0].lapses.iter().map(|lapse| lapse.cycle).collect();
         assert_eq!(found, wrong_cycles);

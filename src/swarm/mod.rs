@@ -5,5 +5,5 @@ mod judge;
 mod trace;
 
 pub use assemble::{AssembleError, Assembly, Member, Signal, assemble};
-pub use judge::{Lapse, RowVerdict, TestVerdict, judge};
+pub use judge::{Demand, Lapse, RowVerdict, TestVerdict, judge};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};
