@@ -6,4 +6,5 @@ pub mod cli;
 pub mod diag;
 pub mod model;
 pub mod source;
+pub mod store;
 pub mod swarm;

@@ -9,8 +9,18 @@ use super::Severity;
 /// A rule that input can break.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Code {
+    /// A schedule on the command line that is none.
+    BadSchedule,
+    /// An option's value that makes no sense.
+    BadValue,
+    /// A file of another version of the program.
+    ForeignFormat,
+    /// A robot file that is damaged, or none.
+    RobotFile,
     /// The text does not follow the grammar.
     Syntax,
+    /// A name that no robot of the library has.
+    UnknownRobot,
     /// A file that cannot be read as source text.
     Unreadable,
     /// A file or folder that cannot be written.
@@ -19,12 +29,26 @@ pub enum Code {
 
 impl Code {
     /// All codes, in alphabetical order of their words.
-    pub const ALL: &[Self] = &[Self::Syntax, Self::Unreadable, Self::Unwritable];
+    pub const ALL: &[Self] = &[
+        Self::BadSchedule,
+        Self::BadValue,
+        Self::ForeignFormat,
+        Self::RobotFile,
+        Self::Syntax,
+        Self::UnknownRobot,
+        Self::Unreadable,
+        Self::Unwritable,
+    ];
 
     /// The code as users write it, for `nbc explain`.
     pub fn word(self) -> &'static str {
         match self {
+            Self::BadSchedule => "bad-schedule",
+            Self::BadValue => "bad-value",
+            Self::ForeignFormat => "foreign-format",
+            Self::RobotFile => "robot-file",
             Self::Syntax => "syntax",
+            Self::UnknownRobot => "unknown-robot",
             Self::Unreadable => "unreadable",
             Self::Unwritable => "unwritable",
         }
@@ -33,7 +57,14 @@ impl Code {
     /// How bad it is.
     pub fn severity(self) -> Severity {
         match self {
-            Self::Syntax | Self::Unreadable | Self::Unwritable => Severity::Error,
+            Self::BadSchedule
+            | Self::BadValue
+            | Self::ForeignFormat
+            | Self::RobotFile
+            | Self::Syntax
+            | Self::UnknownRobot
+            | Self::Unreadable
+            | Self::Unwritable => Severity::Error,
         }
     }
 }

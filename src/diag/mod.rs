@@ -2,6 +2,7 @@
 
 mod code;
 mod diagnostic;
+mod file;
 pub mod render;
 
 pub use code::Code;

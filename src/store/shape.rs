@@ -1,0 +1,139 @@
+//! Bodies from any YAML or JSON mapping that has one.
+
+use serde::Deserialize;
+
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Body, BodyError};
+use crate::source::{SourceFile, Span};
+use crate::store::yaml;
+
+/// Anything with a body.
+#[derive(Deserialize)]
+#[serde(expecting = "a mapping with a `body`")]
+struct Embodied {
+    body: Rows,
+}
+
+/// A body as people write it.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "rows of digits such as [\"00345\", \"33333\"]")]
+enum Rows {
+    Block(String),
+    List(Vec<Row>),
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Row {
+    Text(String),
+    // Rows without quotes and leading zeros are numbers to YAML.
+    Number(u64),
+    Codes(Vec<u8>),
+}
+
+impl Rows {
+    fn into_text(self) -> Vec<String> {
+        match self {
+            Self::Block(text) => text.lines().map(|line| line.trim().to_owned()).collect(),
+            Self::List(rows) => rows.into_iter().map(Row::into_text).collect(),
+        }
+    }
+}
+
+impl Row {
+    fn into_text(self) -> String {
+        match self {
+            Self::Text(text) => text,
+            Self::Number(number) => number.to_string(),
+            Self::Codes(codes) => codes.iter().map(|&code| char::from_digit(code.into(), 36).unwrap_or('?')).collect(),
+        }
+    }
+}
+
+/// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first.
+///
+/// # Errors
+/// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials.
+pub fn read_body(file: &SourceFile, materials: usize) -> Result<Body, Diagnostic> {
+    let embodied: Embodied = serde_yaml::from_str(&file.text).map_err(|error| {
+        yaml::fault(file, &error).with_help("give the body's rows, top row first: `body: [\"00345\", \"33333\"]`")
+    })?;
+    let rows = embodied.body.into_text();
+    Body::parse(&rows, materials).map_err(|error| fault(file, &rows, &error))
+}
+
+/// What is wrong with a body, at the row where it can be found in the text.
+pub(super) fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
+    let body = yaml::key_span(file, "body");
+    let span = match *error {
+        BodyError::Empty | BodyError::TooLarge { .. } => body,
+        BodyError::Ragged { row, .. } => row_span(file, body, rows, row - 1).unwrap_or(body),
+        BodyError::UnknownCode { row, column, .. } => row_span(file, body, rows, row - 1).map_or(body, |span| {
+            let at =
+                |column| span.range().start + rows[row - 1].chars().take(column).map(char::len_utf8).sum::<usize>();
+            Span::new(file.id, at(column - 1), at(column))
+        }),
+    };
+    Diagnostic::new(Code::RobotFile, format!("`{}` holds no body: {error}", file.name), span, "here")
+        .with_help("a body is a rectangle of material codes, top row first, 0 for empty")
+}
+
+/// Where row `wanted` stands in the text, found by walking from row to row after the key; `None` where rows are written otherwise.
+fn row_span(file: &SourceFile, body: Span, rows: &[String], wanted: usize) -> Option<Span> {
+    let mut at = body.range().end;
+    for row in &rows[..wanted] {
+        at += file.text[at..].find(row.as_str())? + row.len();
+    }
+    let start = at + file.text[at..].find(rows[wanted].as_str())?;
+    Some(Span::new(file.id, start, start + rows[wanted].len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Sources;
+
+    fn read(text: &str) -> Result<Vec<String>, (String, String)> {
+        let mut sources = Sources::default();
+        let id = sources.add("a.yaml", text);
+        read_body(sources.file(id), 8)
+            .map(|body| body.rows())
+            .map_err(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned()))
+    }
+
+    fn check(text: &str, expected: &[&str]) {
+        assert_eq!(read(text), Ok(expected.iter().map(|row| row.to_string()).collect()));
+    }
+
+    fn check_fault(text: &str, message: &str, place: &str) {
+        let (found, at) = read(text).unwrap_err();
+        assert!(found.contains(message), "{found:?} does not say {message:?}");
+        assert_eq!(at, place, "{found}");
+    }
+
+    #[test]
+    fn bodies_are_read_however_their_rows_are_written() {
+        check("body: [\"00345\", \"33333\"]", &["00345", "33333"]);
+        check("{\"name\": \"x\", \"body\": [\"00345\", \"33333\"]}", &["00345", "33333"]);
+        check("body:\n  - 00345\n  - 33333\n", &["00345", "33333"]);
+        check("body: |\n  00345\n  33333\n", &["00345", "33333"]);
+        check("body: [[0, 3], [3, 3]]", &["03", "33"]);
+    }
+
+    #[test]
+    fn faults_are_shown_where_they_are() {
+        check_fault("body: [\"33\", \"333\"]", "row 2 has 3 voxels, expected 2", "333");
+        check_fault("body: [\"33\", \"39\"]", "`9` is no material", "9");
+        check_fault("name: x\nbody: []", "the body has no voxels", "body");
+        check_fault("body: [\"00\"]", "the body has no voxels", "body");
+    }
+
+    #[test]
+    fn what_is_no_mapping_with_a_body_is_refused() {
+        for text in
+            ["", "name: x", "33", "body: 33.5", "body: {a: 1}", "body: [-3]", "\u{0}", "body: [", "- body", "&a [*a]"]
+        {
+            assert!(read(text).is_err(), "{text:?} was read as {:?}", read(text));
+        }
+    }
+}
