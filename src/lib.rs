@@ -4,6 +4,7 @@
 pub mod circuit;
 pub mod cli;
 pub mod diag;
+pub mod evolve;
 pub mod model;
 pub mod source;
 pub mod store;

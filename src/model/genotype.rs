@@ -2,14 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A node's number, never used again within one genotype.
+/// A node's number, unique within its genotype.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NodeId(pub u32);
 
 /// A network from a voxel's place to a score for each material code (paper, Methods; docs/physics.md 11).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Genotype {
-    /// The nodes: five inputs, an output for each code, then the hidden ones, in order of their numbers.
+    /// The nodes: the inputs, an output for each code, then the hidden ones, in order of their numbers. Of equal scores the output
+    /// that comes first wins.
     pub nodes: Vec<(NodeId, NodeKind)>,
     /// The links in order of insertion, which is the order of summation.
     pub links: Vec<Link>,

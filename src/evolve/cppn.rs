@@ -1,0 +1,220 @@
+//! Compositional pattern-producing networks: the starting network, and its scores over a bounding box (docs/physics.md 11).
+
+use crate::model::{Activation, Genotype, Link, NodeId, NodeKind, Rules};
+
+/// Inputs of a network: x, y (row), z (column), distance, bias.
+const INPUTS: u8 = 5;
+/// The input which holds the column.
+pub(crate) const COLUMN: u8 = 2;
+
+/// The score of one material code at each place of the box, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScoreMap {
+    /// The material code, 0 for empty.
+    pub code: u8,
+    /// A score for each place.
+    pub scores: Vec<f64>,
+}
+
+/// The network that every search starts from: each input linked to each output with weight 0, no hidden nodes.
+///
+/// `materials` is the size of the palette; there is one output more, for empty. By the paper's text there is no input for the axis of
+/// length 1.
+pub fn start(materials: usize, rules: Rules) -> Genotype {
+    let first = if rules == Rules::Code { 0 } else { 1 };
+    let inputs = (first..INPUTS).map(NodeKind::Input);
+    let outputs = (0..=materials as u8).map(|code| NodeKind::Output(code, Activation::Sigmoid));
+    let nodes: Vec<_> = (0..).map(NodeId).zip(inputs.chain(outputs)).collect();
+    let is_input = |kind: &NodeKind| matches!(kind, NodeKind::Input(_));
+    let mut links = Vec::new();
+    for &(source, _) in nodes.iter().filter(|(_, kind)| is_input(kind)) {
+        for &(target, _) in nodes.iter().filter(|(_, kind)| !is_input(kind)) {
+            links.push(Link { source, target, weight: 0.0 });
+        }
+    }
+    Genotype { nodes, links }
+}
+
+/// The scores of all codes over a box of `width` columns and `height` rows, in the order of the network's outputs.
+pub fn scores(genotype: &Genotype, rules: Rules, width: usize, height: usize) -> Vec<ScoreMap> {
+    let mut run = Run::new(genotype, rules, width, height);
+    let outputs = genotype.nodes.iter().enumerate().filter_map(|(at, &(_, kind))| match kind {
+        NodeKind::Output(code, _) => Some((at, code)),
+        _ => None,
+    });
+    outputs.map(|(at, code)| ScoreMap { code, scores: run.output(at) }).collect()
+}
+
+/// An activation's value.
+pub fn activate(activation: Activation, u: f64) -> f64 {
+    match activation {
+        Activation::Sine => libm::sin(u),
+        Activation::Abs => u.abs(),
+        Activation::NegAbs => -u.abs(),
+        Activation::Square => u * u,
+        Activation::NegSquare => -(u * u),
+        Activation::SqrtAbs => u.abs().sqrt(),
+        Activation::NegSqrtAbs => -u.abs().sqrt(),
+        Activation::Sigmoid => 2.0 / (1.0 + libm::exp(-u)) - 1.0,
+    }
+}
+
+/// One evaluation of a network over a whole box.
+struct Run<'a> {
+    genotype: &'a Genotype,
+    rules: Rules,
+    inputs: Vec<Vec<f64>>,
+    /// What a node gives to whoever asks again.
+    remembered: Vec<Option<Vec<f64>>>,
+    /// Nodes being computed; asking for one of them again is a cycle, which only a damaged file can hold.
+    open: Vec<bool>,
+}
+
+impl<'a> Run<'a> {
+    fn new(genotype: &'a Genotype, rules: Rules, width: usize, height: usize) -> Self {
+        let nodes = genotype.nodes.len();
+        let inputs = inputs(rules, width, height);
+        Self { genotype, rules, inputs, remembered: vec![None; nodes], open: vec![false; nodes] }
+    }
+
+    /// The map of the output at place `at`. By the authors' code an output that an earlier one has asked for is 0 everywhere.
+    fn output(&mut self, at: usize) -> Vec<f64> {
+        let taken = self.rules == Rules::Code && self.remembered[at].is_some();
+        let map = if taken { self.zeros() } else { self.request(at) };
+        self.remembered[at] = Some(map.clone());
+        map
+    }
+
+    /// The values which the node at place `at` gives to a node that asks for them.
+    fn request(&mut self, at: usize) -> Vec<f64> {
+        let (id, kind) = self.genotype.nodes[at];
+        let activation = match kind {
+            NodeKind::Input(input) => {
+                return self.inputs.get(usize::from(input)).cloned().unwrap_or_else(|| self.zeros());
+            }
+            NodeKind::Output(_, activation) | NodeKind::Hidden(activation) => activation,
+        };
+        if let Some(values) = &self.remembered[at] {
+            return values.clone();
+        }
+        if std::mem::replace(&mut self.open[at], true) {
+            return self.zeros();
+        }
+        let sum = self.sum(id);
+        let activated: Vec<f64> = sum.iter().map(|&u| activate(activation, u)).collect();
+        // The authors' code remembers the sum: later consumers see the node without its activation.
+        self.remembered[at] = Some(if self.rules == Rules::Code { sum } else { activated.clone() });
+        activated
+    }
+
+    fn sum(&mut self, target: NodeId) -> Vec<f64> {
+        let genotype = self.genotype;
+        let mut sum = self.zeros();
+        for link in genotype.links.iter().filter(|link| link.target == target) {
+            let Some(source) = genotype.nodes.iter().position(|&(id, _)| id == link.source) else { continue };
+            for (sum, value) in sum.iter_mut().zip(self.request(source)) {
+                *sum += link.weight * value;
+            }
+        }
+        sum
+    }
+
+    fn zeros(&self) -> Vec<f64> {
+        vec![0.0; self.inputs[0].len()]
+    }
+}
+
+/// The five inputs at each place of the box, row by row.
+fn inputs(rules: Rules, width: usize, height: usize) -> Vec<Vec<f64>> {
+    let along = |index: usize, length: usize| match length {
+        // A coordinate without extent is the middle; in the authors' code it is the low end.
+        0 | 1 if rules == Rules::Code => -1.0,
+        0 | 1 => 0.0,
+        // Integers first, so that opposite places have exactly opposite coordinates.
+        _ => (2.0 * index as f64 - (length - 1) as f64) / (length - 1) as f64,
+    };
+    let places = || (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
+    let x = if rules == Rules::Code { -1.0 } else { 0.0 };
+    let rows: Vec<f64> = places().map(|(row, _)| along(row, height)).collect();
+    let columns: Vec<f64> = places().map(|(_, column)| along(column, width)).collect();
+    let distance = rows.iter().zip(&columns).map(|(y, z)| (x * x + y * y + z * z).sqrt()).collect();
+    let places = width * height;
+    vec![vec![x; places], rows, columns, scaled(distance, rules), vec![1.0; places]]
+}
+
+/// Scaled linearly so that the least is -1 and the greatest 1.
+fn scaled(values: Vec<f64>, rules: Rules) -> Vec<f64> {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let flat = if rules == Rules::Code { -1.0 } else { 0.0 };
+    values.iter().map(|v| if most > least { (v - least) / (most - least) * 2.0 - 1.0 } else { flat }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A network of one hidden node (id 100, square) which two outputs ask for: 0 first, then 1.
+    fn shared_hidden() -> Genotype {
+        let node = |id, kind| (NodeId(id), kind);
+        let link = |source, target, weight| Link { source: NodeId(source), target: NodeId(target), weight };
+        Genotype {
+            nodes: vec![
+                node(0, NodeKind::Input(4)),
+                node(1, NodeKind::Output(0, Activation::Abs)),
+                node(2, NodeKind::Output(1, Activation::Abs)),
+                node(100, NodeKind::Hidden(Activation::Square)),
+            ],
+            links: vec![link(0, 100, 3.0), link(100, 1, 1.0), link(100, 2, 1.0)],
+        }
+    }
+
+    fn values(genotype: &Genotype, rules: Rules) -> Vec<f64> {
+        scores(genotype, rules, 1, 1).iter().map(|map| map.scores[0]).collect()
+    }
+
+    #[test]
+    fn a_hidden_node_is_seen_raw_by_its_second_consumer_in_the_code_only() {
+        assert_eq!(values(&shared_hidden(), Rules::Paper), [9.0, 9.0]);
+        assert_eq!(values(&shared_hidden(), Rules::Code), [9.0, 3.0]);
+    }
+
+    #[test]
+    fn an_output_taken_by_an_earlier_one_is_zero_in_the_code_only() {
+        let mut genotype = shared_hidden();
+        genotype.links = vec![
+            Link { source: NodeId(0), target: NodeId(2), weight: 2.0 },
+            Link { source: NodeId(2), target: NodeId(1), weight: 5.0 },
+        ];
+        assert_eq!(values(&genotype, Rules::Paper), [10.0, 2.0]);
+        assert_eq!(values(&genotype, Rules::Code), [10.0, 0.0]);
+    }
+
+    #[test]
+    fn a_cycle_ends() {
+        let mut genotype = shared_hidden();
+        genotype.links.push(Link { source: NodeId(1), target: NodeId(100), weight: 1.0 });
+        assert!(values(&genotype, Rules::Paper).iter().all(|v| v.is_finite()));
+    }
+
+    #[test]
+    fn coordinates_are_opposite_at_opposite_places() {
+        let maps = inputs(Rules::Paper, 7, 5);
+        for row in 0..5 {
+            for column in 0..7 {
+                let (here, there) = (row * 7 + column, row * 7 + 6 - column);
+                assert_eq!(maps[2][here].to_bits(), (0.0 - maps[2][there]).to_bits());
+                assert_eq!(maps[3][here].to_bits(), maps[3][there].to_bits());
+            }
+        }
+        assert_eq!((maps[1][0], maps[2][0], maps[3][0]), (-1.0, -1.0, 1.0));
+        assert_eq!(maps[3][2 * 7 + 3], -1.0);
+    }
+
+    #[test]
+    fn x_is_constant_in_the_code_and_absent_in_the_paper() {
+        assert_eq!(start(8, Rules::Code).links.len(), 45);
+        assert_eq!(start(8, Rules::Paper).links.len(), 36);
+        assert!(inputs(Rules::Code, 5, 5)[0].iter().all(|&x| x == -1.0));
+    }
+}

@@ -1,0 +1,115 @@
+//! Development: from a network to a body, or why there is none (docs/physics.md 11).
+
+use crate::evolve::cppn;
+use crate::model::{Body, Genotype, MaterialKind, Palette, Rules};
+
+/// Actuators that a body must have.
+pub const LEAST_ACTUATORS: usize = 3;
+
+/// Why a network gives no body that can be tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Undeveloped {
+    /// Too few actuators to walk with.
+    #[error("the body has {found} actuators, expected at least {LEAST_ACTUATORS}")]
+    FewActuators {
+        /// Actuators found.
+        found: usize,
+    },
+    /// Voxels that do not hang together by their sides.
+    #[error("the body falls apart")]
+    Apart,
+}
+
+/// The body of a network: at each place the code with the highest score, the first of equals.
+pub fn phenotype(genotype: &Genotype, rules: Rules, width: usize, height: usize) -> Body {
+    let maps = cppn::scores(genotype, rules, width, height);
+    let best = |place: usize| {
+        let mut best: Option<(u8, f64)> = None;
+        for map in &maps {
+            if best.is_none_or(|(_, score)| map.scores[place] > score) {
+                best = Some((map.code, map.scores[place]));
+            }
+        }
+        best.map_or(0, |(code, _)| code)
+    };
+    Body::new(width, height, (0..width * height).map(best).collect())
+}
+
+/// Whether a body can be tried: at least three actuators, and in one piece.
+///
+/// # Errors
+/// Says what is missing.
+pub fn validate(body: &Body, palette: &Palette) -> Result<(), Undeveloped> {
+    let is_actuator = |code: &&u8| matches!(palette.kind(**code), Some(MaterialKind::Actuator(_)));
+    let found = body.codes().iter().filter(is_actuator).count();
+    if found < LEAST_ACTUATORS {
+        Err(Undeveloped::FewActuators { found })
+    } else if !body.is_connected() {
+        Err(Undeveloped::Apart)
+    } else {
+        Ok(())
+    }
+}
+
+/// Develops a network into a body that can be tried.
+///
+/// # Errors
+/// Says why its body cannot.
+pub fn develop(
+    genotype: &Genotype,
+    palette: &Palette,
+    rules: Rules,
+    width: usize,
+    height: usize,
+) -> Result<Body, Undeveloped> {
+    let body = phenotype(genotype, rules, width, height);
+    validate(&body, palette).map(|()| body)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::evolve::mutate;
+    use crate::model::MutationWeights;
+
+    fn check(rows: &[&str], expected: Result<(), Undeveloped>) {
+        assert_eq!(validate(&Body::parse(rows, 8).unwrap(), &Palette::paper()), expected);
+    }
+
+    #[test]
+    fn a_body_needs_three_actuators_in_one_piece() {
+        check(&["333"], Ok(()));
+        check(&["341", "200"], Err(Undeveloped::FewActuators { found: 2 }));
+        check(&["330", "003"], Err(Undeveloped::Apart));
+    }
+
+    #[test]
+    fn the_start_is_empty() {
+        let body = phenotype(&cppn::start(8, Rules::Paper), Rules::Paper, 5, 5);
+        assert!(body.codes().iter().all(|&code| code == 0), "equal scores give the first code");
+    }
+
+    proptest! {
+        #[test]
+        fn development_gives_connected_bodies_or_says_why_not(seed: u64, times in 0..120usize, code: bool) {
+            let rules = if code { Rules::Code } else { Rules::Paper };
+            let palette = Palette::paper();
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let mut genotype = cppn::start(8, rules);
+            for _ in 0..times {
+                mutate::mutate(&mut genotype, &MutationWeights::default(), rules, &mut rng);
+            }
+            let body = phenotype(&genotype, rules, 6, 4);
+            let actuators = body.codes().iter().filter(|&&code| code == 3 || code == 4).count();
+            match develop(&genotype, &palette, rules, 6, 4) {
+                Ok(developed) => prop_assert!(developed == body && body.is_connected() && actuators >= 3),
+                Err(Undeveloped::FewActuators { found }) => prop_assert!(found == actuators && found < 3),
+                Err(Undeveloped::Apart) => prop_assert!(!body.is_connected()),
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Evolution of bodies: networks, their mutation and development, an archive of elites, and a search that is asked for candidates
+//! and told their outcomes. It knows no physics.
+
+mod archive;
+pub mod cppn;
+mod descriptor;
+mod develop;
+mod mutate;
+mod outcome;
+mod search;
+mod symmetry;
+
+pub use archive::{AddStatus, Archive, ArchiveStats, Champion, Elite};
+pub use descriptor::{Descriptor, NicheKey};
+pub use develop::{LEAST_ACTUATORS, Undeveloped, develop, phenotype, validate};
+pub use mutate::mutate;
+pub use outcome::{Counts, Outcome, Scores};
+pub use search::{Candidate, Origin, Search, SearchState};
+pub use symmetry::{Recoding, mirrored, recodings};

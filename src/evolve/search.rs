@@ -1,0 +1,390 @@
+//! The search: asked for candidates, told their outcomes, generation by generation (paper, Methods; docs/physics.md 11).
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use crate::evolve::mutate::pick;
+use crate::evolve::{
+    AddStatus, Archive, Counts, Elite, NicheKey, Outcome, Recoding, Scores, cppn, mirrored, mutate, phenotype,
+    recodings, validate,
+};
+use crate::model::{Body, Evolution, Genotype, Rules, Symmetry};
+
+/// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
+const MOST_ATTEMPTS: u32 = 20_000;
+
+/// Where a candidate comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// From nothing.
+    Random,
+    /// From an elite of that niche by mutation.
+    Offspring(NicheKey),
+    /// The mirror image of a body that was taken in the generation before.
+    Mirror,
+}
+
+/// A body to be tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Its place in the generation.
+    pub index: u32,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Its network.
+    pub genotype: Genotype,
+    /// Its voxels.
+    pub body: Body,
+    /// Networks drawn before it whose bodies could not be tried.
+    pub undeveloped: u32,
+}
+
+/// A MAP-Elites search in progress. Everything it will do follows from the declaration, the seed and its state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
+    evolution: Evolution,
+    recodings: Vec<Recoding>,
+    archive: Archive,
+    seed: u64,
+    generation: u32,
+    counts: Counts,
+    mirrors: Vec<Genotype>,
+}
+
+/// What must be kept to go on with a search later.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SearchState {
+    /// The run's seed.
+    pub seed: u64,
+    /// Generations done.
+    pub generation: u32,
+    /// How often each outcome came.
+    pub counts: Counts,
+    /// Networks whose bodies are mirror images to be tried next.
+    pub mirrors: Vec<Genotype>,
+    /// Filled niches and their elites.
+    pub niches: Vec<(NicheKey, Vec<Elite>)>,
+}
+
+impl Search {
+    /// A search that has done nothing yet.
+    pub fn new(evolution: &Evolution, seed: u64) -> Self {
+        Self {
+            evolution: evolution.clone(),
+            recodings: match evolution.symmetry {
+                Symmetry::None => Vec::new(),
+                Symmetry::Npn => recodings(&evolution.palette),
+            },
+            archive: Archive::new(evolution),
+            seed,
+            generation: 0,
+            counts: Counts::default(),
+            mirrors: Vec::new(),
+        }
+    }
+
+    /// The search in the state that [`Search::state`] gave.
+    pub fn resume(evolution: &Evolution, state: SearchState) -> Self {
+        Self {
+            archive: Archive::with_niches(evolution, state.niches),
+            generation: state.generation,
+            counts: state.counts,
+            mirrors: state.mirrors,
+            ..Self::new(evolution, state.seed)
+        }
+    }
+
+    /// Its state, as plain data.
+    pub fn state(&self) -> SearchState {
+        SearchState {
+            seed: self.seed,
+            generation: self.generation,
+            counts: self.counts,
+            mirrors: self.mirrors.clone(),
+            niches: self.archive.niches().map(|(key, elites)| (key.clone(), elites.to_vec())).collect(),
+        }
+    }
+
+    /// The declaration it follows.
+    pub fn evolution(&self) -> &Evolution {
+        &self.evolution
+    }
+
+    /// The archive.
+    pub fn archive(&self) -> &Archive {
+        &self.archive
+    }
+
+    /// The run's seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Generations done.
+    pub fn generation(&self) -> u32 {
+        self.generation
+    }
+
+    /// How often each outcome came.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Whether all declared generations are done.
+    pub fn is_done(&self) -> bool {
+        self.generation >= self.evolution.generations
+    }
+
+    /// The candidates of the next generation. Asking twice gives the same ones.
+    pub fn ask(&self) -> Vec<Candidate> {
+        let parents = self.parents();
+        let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
+        let offspring = parents.iter().map(|(key, elite)| (Origin::Offspring((*key).clone()), Some(*elite)));
+        let newcomers = std::iter::repeat_n((Origin::Random, None), fresh);
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for (index, (origin, parent)) in (0..).zip(offspring.chain(newcomers)) {
+            candidates.extend(self.draw(index, origin, parent));
+        }
+        let next = candidates.len() as u32;
+        candidates.extend((next..).zip(&self.mirrors).map(|(index, genotype)| self.mirror(index, genotype)));
+        candidates
+    }
+
+    /// Takes the outcomes of a generation's candidates, in their order.
+    ///
+    /// # Panics
+    /// When there is not one outcome for each candidate.
+    pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[Outcome]) {
+        assert_eq!(candidates.len(), outcomes.len(), "each candidate has one outcome");
+        self.mirrors.clear();
+        self.generation += 1;
+        for (candidate, outcome) in candidates.iter().zip(outcomes) {
+            self.counts.evaluations += 1;
+            self.counts.undeveloped += u64::from(candidate.undeveloped);
+            match outcome {
+                Outcome::Measured(scores) => self.take(candidate, scores),
+                Outcome::Surpassed => self.counts.surpassed += 1,
+                Outcome::Inconsistent => self.counts.inconsistent += 1,
+                Outcome::Faulty(_) => self.counts.faults += 1,
+            }
+        }
+    }
+
+    /// Whether a body, or an image of it that its evaluation also fills, could still enter the archive with fitnesses of at most
+    /// `bound`.
+    pub fn could_take(&self, body: &Body, scores: &Scores) -> bool {
+        let own = || self.archive.could_take(body, scores.behavior, &scores.fitness);
+        let image = |recoding: &Recoding| {
+            self.archive.could_take(&recoding.body(body), recoding.behavior(scores.behavior), &scores.fitness)
+        };
+        if self.recodings.is_empty() { own() } else { self.recodings.iter().any(image) }
+    }
+
+    fn take(&mut self, candidate: &Candidate, scores: &Scores) {
+        let elite = Elite {
+            fitness: scores.fitness,
+            behavior: scores.behavior,
+            displacement: scores.displacement,
+            body: candidate.body.clone(),
+            genotype: candidate.genotype.clone(),
+            generation: self.generation,
+            evaluations: self.counts.evaluations,
+        };
+        let taken = self.offer(elite);
+        if taken && self.evolution.symmetry == Symmetry::Npn && candidate.origin != Origin::Mirror {
+            self.mirrors.push(mirrored(&candidate.genotype));
+        }
+    }
+
+    /// Offers an elite and its images; whether any was taken.
+    fn offer(&mut self, elite: Elite) -> bool {
+        let images: Vec<Elite> = match self.recodings.as_slice() {
+            [] => vec![elite],
+            recodings => recodings.iter().map(|recoding| image(recoding, &elite)).collect(),
+        };
+        let mut taken = false;
+        for image in images {
+            let status = self.archive.add(image);
+            self.counts.new += u64::from(status == AddStatus::New);
+            self.counts.improved += u64::from(status == AddStatus::Improved);
+            taken |= status != AddStatus::Rejected;
+        }
+        taken
+    }
+
+    /// Distinct niches, drawn evenly without replacement, and an elite of each.
+    fn parents(&self) -> Vec<(&NicheKey, &Elite)> {
+        let mut rng = self.stream(u32::MAX);
+        let mut niches: Vec<_> = self.archive.niches().collect();
+        let wanted = self.evolution.batch.min(niches.len());
+        let mut parents = Vec::with_capacity(wanted);
+        while parents.len() < wanted {
+            let Some(at) = pick(niches.len(), &mut rng) else { break };
+            let (key, elites) = niches.remove(at);
+            parents.extend(pick(elites.len(), &mut rng).map(|at| (key, &elites[at])));
+        }
+        parents
+    }
+
+    /// Mutates until there is a body that can be tried; `None` when that seems impossible.
+    fn draw(&self, index: u32, origin: Origin, parent: Option<&Elite>) -> Option<Candidate> {
+        let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
+        let mut rng = self.stream(index);
+        let start =
+            parent.map_or_else(|| cppn::start(palette.materials().len(), *rules), |elite| elite.genotype.clone());
+        let mut genotype = start.clone();
+        for undeveloped in 0..MOST_ATTEMPTS {
+            mutate(&mut genotype, mutation, *rules, &mut rng);
+            let body = phenotype(&genotype, *rules, *width, *height);
+            let is_valid = validate(&body, palette).is_ok();
+            match parent {
+                // By the paper's text a failed attempt is undone, and an offspring differs from its parent.
+                Some(_) if *rules == Rules::Paper && !is_valid => genotype.clone_from(&start),
+                Some(elite) if *rules == Rules::Paper && body == elite.body => {}
+                _ if is_valid => return Some(Candidate { index, origin, genotype, body, undeveloped }),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn mirror(&self, index: u32, genotype: &Genotype) -> Candidate {
+        let Evolution { rules, width, height, .. } = self.evolution;
+        let body = phenotype(genotype, rules, width, height);
+        Candidate { index, origin: Origin::Mirror, genotype: genotype.clone(), body, undeveloped: 0 }
+    }
+
+    /// The random stream of a place in the coming generation.
+    fn stream(&self, index: u32) -> ChaCha8Rng {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        rng.set_stream(u64::from(self.generation) << 32 | u64::from(index));
+        rng
+    }
+}
+
+/// The elite that a recoding makes of another.
+fn image(recoding: &Recoding, elite: &Elite) -> Elite {
+    if recoding.is_identity() {
+        return elite.clone();
+    }
+    Elite {
+        behavior: recoding.behavior(elite.behavior),
+        displacement: recoding.displacement(&elite.displacement),
+        body: recoding.body(&elite.body),
+        genotype: recoding.genotype(&elite.genotype),
+        ..elite.clone()
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::model::{Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Pattern, Schedule, Spell};
+
+    /// The paper's run in a 5 x 5 box.
+    pub(crate) fn evolution() -> Evolution {
+        let spells = Pattern::PAIRS.map(|pattern| Spell { pattern, steps: 840 }).to_vec();
+        let count = |of| Axis::Count { of, bins: 4 };
+        Evolution {
+            name: "gates".to_owned(),
+            width: 5,
+            height: 5,
+            palette: Palette::paper(),
+            mutation: MutationWeights::default(),
+            variable: Schedule { spells },
+            fixed_steps: 840,
+            descriptors: vec![count(Count::Voxels), count(Count::Active), count(Count::Sensory), Axis::Behavior],
+            batch: 16,
+            newcomers: 0,
+            generations: 30,
+            seeds: vec![1],
+            rules: Rules::Paper,
+            objective: Objective::Distance,
+            symmetry: Symmetry::None,
+            niche: Niche::Dominance,
+        }
+    }
+
+    /// A made-up outcome that depends on the body alone.
+    pub(crate) fn outcome(body: &Body) -> Outcome {
+        let weight = |k: usize| {
+            body.codes().iter().enumerate().map(|(i, &c)| ((i * k + 3) % 7 * usize::from(c)) as f64).sum::<f64>()
+        };
+        let displacement = [1, 2, 3, 5].map(|k| weight(k) % 11.0 - 5.0);
+        let fitness =
+            [displacement.iter().map(|d| d.abs()).sum(), displacement.iter().map(|d| d.abs()).fold(9.0, f64::min)];
+        Outcome::Measured(Scores { fitness, behavior: Behavior::of(&displacement), displacement })
+    }
+
+    fn advance(search: &mut Search) {
+        let candidates = search.ask();
+        let outcomes: Vec<Outcome> = candidates.iter().map(|candidate| outcome(&candidate.body)).collect();
+        search.tell(&candidates, &outcomes);
+    }
+
+    #[test]
+    fn every_body_asked_for_can_be_tried_and_differs_from_its_parent() {
+        let mut search = Search::new(&evolution(), 1);
+        for _ in 0..20 {
+            for candidate in search.ask() {
+                assert_eq!(validate(&candidate.body, &Palette::paper()), Ok(()));
+                if let Origin::Offspring(key) = &candidate.origin {
+                    let (_, elites) = search.archive().niches().find(|(niche, _)| *niche == key).unwrap();
+                    assert_ne!(elites[0].body, candidate.body);
+                }
+            }
+            advance(&mut search);
+        }
+        assert!(search.archive().stats().filled > 16, "the search finds its way");
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_search_and_another_seed_another() {
+        let run = |seed| {
+            let mut search = Search::new(&evolution(), seed);
+            (0..15).for_each(|_| advance(&mut search));
+            search
+        };
+        assert_eq!(run(1), run(1));
+        assert_ne!(run(1).archive(), run(2).archive());
+    }
+
+    #[test]
+    fn a_resumed_search_goes_on_as_if_nothing_had_happened() {
+        for symmetry in [Symmetry::None, Symmetry::Npn] {
+            let evolution = Evolution { symmetry, rules: Rules::Code, ..evolution() };
+            let mut straight = Search::new(&evolution, 7);
+            (0..12).for_each(|_| advance(&mut straight));
+            let text = serde_json::to_string(&straight.state()).unwrap();
+            let mut resumed = Search::resume(&evolution, serde_json::from_str(&text).unwrap());
+            for search in [&mut straight, &mut resumed] {
+                (0..12).for_each(|_| advance(search));
+            }
+            assert_eq!(straight, resumed);
+        }
+    }
+
+    #[test]
+    fn images_fill_the_niches_of_their_class_and_develop_from_their_networks() {
+        let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 3);
+        (0..6).for_each(|_| advance(&mut search));
+        for elite in search.archive().elites() {
+            assert_eq!(phenotype(&elite.genotype, Rules::Paper, 5, 5), elite.body);
+            for recoding in recodings(&Palette::paper()) {
+                let (body, behavior) = (recoding.body(&elite.body), recoding.behavior(elite.behavior));
+                let held = !search.archive().could_take(&body, behavior, &elite.fitness);
+                assert!(held, "the image's niche holds something as good");
+            }
+        }
+        assert!(search.ask().iter().any(|candidate| candidate.origin == Origin::Mirror));
+    }
+
+    #[test]
+    fn a_palette_that_cannot_walk_ends_the_search_without_candidates() {
+        let palette = Palette::new(Palette::paper().materials()[..2].to_vec());
+        let search = Search::new(&Evolution { palette, batch: 1, width: 2, height: 2, ..evolution() }, 1);
+        assert!(search.ask().is_empty());
+    }
+}
