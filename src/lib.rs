@@ -6,6 +6,7 @@ pub mod cli;
 pub mod diag;
 pub mod evolve;
 pub mod model;
+pub mod report;
 pub mod source;
 pub mod store;
 pub mod swarm;

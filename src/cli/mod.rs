@@ -6,6 +6,7 @@ mod completions;
 mod context;
 mod failure;
 mod interrupt;
+mod library;
 mod progress;
 mod status;
 
@@ -38,6 +39,7 @@ macro_rules! commands {
 
 commands! {
     Completions in completions,
+    Library in library,
 }
 
 const EXAMPLES: &str = "\

@@ -146,6 +146,7 @@ mod tests {
             circuit: "inverter".to_owned(),
             inputs: vec!["a".to_owned()],
             outputs: vec!["y".to_owned()],
+            shown: vec![Signal::Robot(0)],
             samples_per_cycle: 1,
             robots: vec![RobotTrace {
                 net: "y".to_owned(),

@@ -14,6 +14,8 @@ pub struct SwarmTrace {
     pub inputs: Vec<String>,
     /// The names of the output ports.
     pub outputs: Vec<String>,
+    /// What each output port shows.
+    pub shown: Vec<Signal>,
     /// Samples of the robots' paths in one cycle.
     pub samples_per_cycle: usize,
     /// The robots, in order of the assembly's members.
