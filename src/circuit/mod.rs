@@ -1,5 +1,21 @@
 //! Circuits: the netlist, what makes it, what changes it, what reads and writes it. Knows nothing of physics.
 
+pub mod cells;
+#[cfg(test)]
+mod example;
+pub mod levels;
+pub mod loops;
+pub mod map;
 mod netlist;
+pub mod network;
+pub mod passes;
+pub mod proof;
+pub mod recipes;
+pub mod timing;
 
+pub use cells::{CellKind, CellLibrary};
+pub use loops::Loops;
+pub use map::{MapError, map};
 pub use netlist::{Cell, NetId, Netlist, NetlistError, Node};
+pub use proof::{Proof, ProofError, prove};
+pub use timing::{Delays, Timing};

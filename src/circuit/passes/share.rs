@@ -1,0 +1,86 @@
+//! Merges cells that compute the same function of the same nets.
+
+use std::collections::BTreeMap;
+
+use crate::circuit::loops::Loops;
+use crate::circuit::passes::Pass;
+use crate::circuit::{NetId, Netlist, NetlistError, Node};
+use crate::model::Function;
+
+/// Structural hashing outside loop cores.
+#[derive(Clone, Copy, Debug)]
+pub struct Share;
+
+impl Pass for Share {
+    fn name(&self) -> &'static str {
+        "share"
+    }
+
+    fn description(&self) -> &'static str {
+        "merge cells that compute the same function of the same nets, outside loops"
+    }
+
+    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
+        let loops = Loops::of(netlist);
+        let mut known = BTreeMap::new();
+        for &id in loops.order() {
+            let Some(key) = key(netlist, id).filter(|_| !loops.contains(id)) else {
+                continue;
+            };
+            let first = *known.entry(key).or_insert(id);
+            if first != id {
+                merge(netlist, id, first);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a node computes of which nets, the pins of a cell in order of their numbers.
+fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
+    match netlist.node(id) {
+        Node::Constant(value) => Some((if *value { Function::ONE } else { Function::ZERO }, Vec::new())),
+        Node::Cell(cell) => {
+            let pins = netlist.pins(id);
+            match pins[..] {
+                [a, b] if b < a => Some((cell.function.swapped(), vec![b, a])),
+                _ => Some((cell.function, pins)),
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Gives the listeners of `id` to `first`, which takes over the name if it has none.
+fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
+    for (listener, pin) in netlist.fanout(id) {
+        netlist.drive(listener, pin, first);
+    }
+    let copy = netlist.cell(id).cloned();
+    if let (Node::Cell(cell), Some(copy)) = (netlist.node_mut(first), copy) {
+        cell.name = cell.name.take().or(copy.name);
+        cell.span = cell.span.or(copy.span);
+    }
+    netlist.remove(id);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_cells_merge_whatever_the_order_of_their_pins() {
+        let mut netlist = Netlist::new("twice");
+        let a = netlist.add_input("a");
+        let b = netlist.add_input("b");
+        let one = netlist.add_gate(Function::NAND, &[a, b]);
+        let two = netlist.add_gate(Function::NAND, &[b, a]);
+        let three = netlist.add_gate(Function::parse("a_and_notb").unwrap(), &[one, a]);
+        let four = netlist.add_gate(Function::parse("nota_and_b").unwrap(), &[a, two]);
+        let both = netlist.add_gate(Function::XOR, &[three, four]);
+        netlist.add_output("q", both);
+        Share.run(&mut netlist).unwrap();
+        assert_eq!(netlist.cells().count(), 3);
+        assert_eq!(netlist.pins(both), [three, three]);
+    }
+}

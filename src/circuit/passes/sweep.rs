@@ -1,0 +1,54 @@
+//! Takes out what no output listens to.
+
+use std::collections::BTreeSet;
+
+use crate::circuit::passes::Pass;
+use crate::circuit::{Netlist, NetlistError, Node};
+
+/// Cells, loops and constants that no output port depends on go.
+#[derive(Clone, Copy, Debug)]
+pub struct Sweep;
+
+impl Pass for Sweep {
+    fn name(&self) -> &'static str {
+        "sweep"
+    }
+
+    fn description(&self) -> &'static str {
+        "remove cells that no output depends on"
+    }
+
+    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
+        let mut used: BTreeSet<_> = netlist.outputs().iter().copied().collect();
+        let mut pending = netlist.outputs().to_vec();
+        while let Some(id) = pending.pop() {
+            pending.extend(netlist.pins(id).into_iter().filter(|&pin| used.insert(pin)));
+        }
+        let unused: Vec<_> = netlist
+            .ids()
+            .filter(|id| !used.contains(id) && matches!(netlist.node(*id), Node::Cell(_) | Node::Constant(_)))
+            .collect();
+        unused.into_iter().for_each(|id| netlist.remove(id));
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Function;
+
+    #[test]
+    fn unused_cells_go_and_ports_stay() {
+        let mut netlist = Netlist::new("waste");
+        let a = netlist.add_input("a");
+        netlist.add_input("b");
+        let unused = netlist.add_gate(Function::OR, &[a, a]);
+        netlist.drive(unused, 1, unused);
+        let gate = netlist.add_gate(Function::NOT, &[a]);
+        netlist.add_output("q", gate);
+        Sweep.run(&mut netlist).unwrap();
+        assert_eq!(netlist.cells().count(), 1);
+        assert_eq!(netlist.inputs().len(), 2);
+    }
+}

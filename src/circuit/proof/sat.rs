@@ -1,0 +1,223 @@
+//! Comparison of two networks by SAT: gates that agree in simulation are proved equal from the inputs on and merged, so that the
+//! outputs are easy in the end (SAT sweeping).
+
+use std::collections::BTreeMap;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
+use rustsat::types::{Lit, TernaryVal};
+use rustsat_batsat::BasicSolver;
+
+use crate::circuit::network::{Gate, Network, Signal, word};
+use crate::circuit::proof::Method;
+use crate::model::Function;
+
+/// Words of 64 random patterns to start with.
+const WORDS: usize = 16;
+
+/// Proves two networks equal; fails with an output and inputs at which it differs.
+pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
+    let mut sweep = Sweep::new(one.inputs);
+    let first = sweep.add(one);
+    let second = sweep.add(two);
+    for (output, (&a, &b)) in one.outputs.iter().zip(&two.outputs).enumerate() {
+        if let Some(inputs) = sweep.difference(first[a as usize], second[b as usize]) {
+            return Err((output, inputs));
+        }
+    }
+    Ok(Method::Sat { calls: sweep.calls })
+}
+
+/// Signals of several networks over the same inputs, merged where they are proved equal or opposite.
+pub struct Sweep {
+    solver: BasicSolver,
+    /// The input words so far, `patterns[word][input]`.
+    patterns: Vec<Vec<u64>>,
+    inputs: usize,
+    gates: Vec<Gate>,
+    /// The values of each signal, `values[signal][word]`.
+    values: Vec<Vec<u64>>,
+    /// Signals by their values, those that are 1 in the first pattern turned over.
+    classes: BTreeMap<Vec<u64>, Signal>,
+    /// How often the solver was called.
+    pub calls: usize,
+}
+
+impl Sweep {
+    /// No gates yet.
+    pub fn new(inputs: usize) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_726f_6f66);
+        let patterns = (0..WORDS).map(|_| (0..inputs).map(|_| rand::Rng::next_u64(&mut random)).collect()).collect();
+        let mut sweep = Self {
+            solver: BasicSolver::default(),
+            patterns,
+            inputs,
+            gates: Vec::new(),
+            values: Vec::new(),
+            classes: BTreeMap::new(),
+            calls: 0,
+        };
+        sweep.values = (0..2 + inputs).map(|signal| sweep.source_values(signal)).collect();
+        sweep.clause(&[sweep.literal(0, false)]);
+        sweep.clause(&[sweep.literal(1, true)]);
+        sweep.classify();
+        sweep
+    }
+
+    fn source_values(&self, signal: usize) -> Vec<u64> {
+        match signal {
+            0 => vec![0; self.patterns.len()],
+            1 => vec![!0; self.patterns.len()],
+            _ => self.patterns.iter().map(|inputs| inputs[signal - 2]).collect(),
+        }
+    }
+
+    fn literal(&self, signal: Signal, value: bool) -> Lit {
+        Lit::new(signal, !value)
+    }
+
+    fn clause(&mut self, literals: &[Lit]) {
+        self.solver.add_clause(literals.iter().copied().collect()).expect("clauses fit into memory");
+    }
+
+    /// Adds a network's gates and gives the signal that each of its signals became.
+    pub fn add(&mut self, network: &Network) -> Vec<(Signal, bool)> {
+        let mut made: Vec<(Signal, bool)> = (0..2 + network.inputs as Signal).map(|signal| (signal, false)).collect();
+        for gate in &network.gates {
+            let [a, b] = gate.pins.map(|pin| made[pin as usize]);
+            let mut function = gate.function;
+            for (pin, (_, inverted)) in [a, b].into_iter().enumerate() {
+                function = if inverted { function.with_input_inverted(pin) } else { function };
+            }
+            made.push(self.gate(function, [a.0, b.0]));
+        }
+        made
+    }
+
+    /// Adds a gate, or finds the signal that equals it or its opposite.
+    fn gate(&mut self, function: Function, pins: [Signal; 2]) -> (Signal, bool) {
+        let signal = self.values.len() as Signal;
+        let [a, b] = pins.map(|pin| &self.values[pin as usize]);
+        let values = a.iter().zip(b).map(|(&a, &b)| word(function, a, b)).collect();
+        self.values.push(values);
+        self.gates.push(Gate { function, pins });
+        self.define(signal, function, pins);
+        loop {
+            let (key, inverted) = key(&self.values[signal as usize]);
+            let Some(&class) = self.classes.get(&key) else {
+                self.classes.insert(key, signal);
+                return (signal, false);
+            };
+            let opposite = inverted != self::key(&self.values[class as usize]).1;
+            match self.difference((class, opposite), (signal, false)) {
+                None => {
+                    self.clause(&[self.literal(class, opposite), self.literal(signal, true)]);
+                    self.clause(&[self.literal(class, !opposite), self.literal(signal, false)]);
+                    // The class stands for the gate from here on.
+                    return (class, opposite);
+                }
+                Some(pattern) => self.learn(&pattern),
+            }
+        }
+    }
+
+    /// The clauses of a gate: one for each pattern of its pins.
+    fn define(&mut self, signal: Signal, function: Function, [a, b]: [Signal; 2]) {
+        for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
+            if a != b || x == y {
+                let output = self.literal(signal, function.output(x, y));
+                self.clause(&[self.literal(a, !x), self.literal(b, !y), output]);
+            }
+        }
+    }
+
+    /// Inputs at which two signals, each maybe turned over, differ.
+    pub fn difference(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Option<Vec<bool>> {
+        if one == two {
+            return None;
+        }
+        [false, true].into_iter().find_map(|value| {
+            self.calls += 1;
+            let assumed = [self.literal(one.0, value != one.1), self.literal(two.0, value == two.1)];
+            match self.solver.solve_assumps(&assumed) {
+                Ok(SolverResult::Sat) => Some(self.inputs_found()),
+                Ok(SolverResult::Unsat) => None,
+                other => unreachable!("the solver runs without limits, and gave {other:?}"),
+            }
+        })
+    }
+
+    fn inputs_found(&self) -> Vec<bool> {
+        let value = |i: usize| self.solver.lit_val(self.literal(i as Signal + 2, true));
+        (0..self.inputs).map(|i| matches!(value(i), Ok(TernaryVal::True))).collect()
+    }
+
+    /// Adds a word of patterns: the given one and those that differ from it in one input.
+    fn learn(&mut self, pattern: &[bool]) {
+        let words: Vec<u64> =
+            pattern.iter().enumerate().map(|(i, &value)| if value { !0u64 } else { 0 } ^ 2 << (i % 63)).collect();
+        self.patterns.push(words.clone());
+        for signal in 0..self.values.len() {
+            let value = match signal.checked_sub(2 + self.inputs) {
+                None => self.source_values(signal)[self.patterns.len() - 1],
+                Some(i) => {
+                    let Gate { function, pins } = self.gates[i];
+                    let [a, b] = pins.map(|pin| *self.values[pin as usize].last().expect("there are patterns"));
+                    word(function, a, b)
+                }
+            };
+            self.values[signal].push(value);
+        }
+        self.classify();
+    }
+
+    /// Sorts the signals that stand for themselves by their values again.
+    fn classify(&mut self) {
+        let members: Vec<Signal> = if self.classes.is_empty() {
+            (0..self.values.len() as Signal).filter(|&signal| signal != 1).collect()
+        } else {
+            self.classes.values().copied().collect()
+        };
+        self.classes.clear();
+        for signal in members {
+            let key = key(&self.values[signal as usize]).0;
+            let class = self.classes.entry(key).or_insert(signal);
+            *class = signal.min(*class);
+        }
+    }
+}
+
+/// Values turned so that the first pattern is 0, and whether that turned them.
+fn key(values: &[u64]) -> (Vec<u64>, bool) {
+    let inverted = values[0] & 1 == 1;
+    (values.iter().map(|word| if inverted { !word } else { *word }).collect(), inverted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chain of exclusive ors over the inputs, taken from one end or the other.
+    fn parity(inputs: usize, backwards: bool) -> Network {
+        let mut network = Network::new(inputs);
+        let order: Vec<_> = if backwards { (0..inputs).rev().collect() } else { (0..inputs).collect() };
+        let mut sum = network.input(order[0]);
+        for &i in &order[1..] {
+            let input = network.input(i);
+            sum = network.add(Function::XOR, [sum, input]);
+        }
+        network.outputs.push(sum);
+        network
+    }
+
+    #[test]
+    fn equal_networks_are_proved_and_different_ones_told_apart() {
+        assert!(equal(&parity(12, false), &parity(12, true)).is_ok());
+        let mut other = parity(12, true);
+        let last = other.gates.len() - 1;
+        other.gates[last].function = Function::OR;
+        let (output, inputs) = equal(&parity(12, false), &other).unwrap_err();
+        assert_eq!((output, inputs.len()), (0, 12));
+    }
+}
