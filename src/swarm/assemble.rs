@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::circuit::{NetId, Netlist, Node};
 use crate::model::{Function, Library, Robot};
+use crate::swarm::cells::choose;
 
 /// Where a stimulus or an output port gets its bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -71,7 +72,8 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
     let mut members = Vec::new();
     for (id, cell) in netlist.cells() {
         let pins: Vec<Signal> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
-        let (robot, exchange) = choose(library, cell.function)?;
+        let missing = AssembleError::MissingFunction { function: cell.function };
+        let (robot, exchange) = choose(library, cell.function).ok_or(missing)?;
         let mut senses = [pins[0], pins.get(1).copied().unwrap_or(Signal::Constant(false))];
         if exchange {
             senses.reverse();
@@ -106,13 +108,6 @@ fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, Signal> {
         }
     }
     signals
-}
-
-/// The robot for a function, and whether its stimuli must be exchanged.
-fn choose(library: &Library, function: Function) -> Result<(&Robot, bool), AssembleError> {
-    let straight = library.robots_for(function).next().map(|robot| (robot, false));
-    let exchanged = || library.robots_for(function.swapped()).next().map(|robot| (robot, true));
-    straight.or_else(exchanged).ok_or(AssembleError::MissingFunction { function })
 }
 
 #[cfg(test)]
