@@ -1,7 +1,17 @@
 //! Reports: what was found, as text, pictures and data. Everything here is text or bytes; who writes them where is decided above.
 
+mod chart;
+mod color;
 mod listing;
+mod raster;
+mod spacetime;
+mod svg;
 mod table;
 
+pub use chart::{Panel, Scale, range_of, tick_label};
+pub use color::Color;
 pub use listing::{Listing, describe_robot};
+pub use raster::{png, rasterize};
+pub use spacetime::{Strip, Track, draw_robot, draw_swarm};
+pub use svg::{Anchor, Paint, Point, Svg, Type};
 pub use table::{Align, Table};

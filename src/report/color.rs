@@ -1,0 +1,66 @@
+//! Colors that people with any color vision can tell apart.
+
+use std::fmt;
+
+/// A color of the sRGB space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Color {
+    /// Red.
+    pub r: u8,
+    /// Green.
+    pub g: u8,
+    /// Blue.
+    pub b: u8,
+}
+
+impl Color {
+    /// Paper.
+    pub const WHITE: Self = Self::new(255, 255, 255);
+    /// Ink.
+    pub const BLACK: Self = Self::new(26, 26, 26);
+    /// Axes and small print.
+    pub const GRAY: Self = Self::new(110, 110, 110);
+    /// Grids.
+    pub const PALE: Self = Self::new(222, 222, 222);
+
+    /// The series of Okabe and Ito: blue, vermilion, bluish green, reddish purple, orange, sky blue, yellow.
+    pub const SERIES: [Self; 7] = [
+        Self::new(0, 114, 178),
+        Self::new(213, 94, 0),
+        Self::new(0, 158, 115),
+        Self::new(204, 121, 167),
+        Self::new(230, 159, 0),
+        Self::new(86, 180, 233),
+        Self::new(240, 228, 66),
+    ];
+    /// Stimulus 1 wherever it is drawn.
+    pub const STIMULUS_1: Self = Self::SERIES[0];
+    /// Stimulus 2 wherever it is drawn.
+    pub const STIMULUS_2: Self = Self::SERIES[4];
+    /// An output wherever it is drawn.
+    pub const OUTPUT: Self = Self::SERIES[2];
+    /// A fault wherever it is drawn.
+    pub const FAULT: Self = Self::SERIES[1];
+
+    /// The color of these three parts.
+    pub const fn new(r: u8, g: u8, b: u8) -> Self {
+        Self { r, g, b }
+    }
+
+    /// The `i`-th color of the series, which starts again at its end.
+    pub fn series(i: usize) -> Self {
+        Self::SERIES[i % Self::SERIES.len()]
+    }
+
+    /// A color on the way to another: 0 is this one, 1 the other.
+    pub fn mix(self, other: Self, share: f64) -> Self {
+        let part = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share.clamp(0.0, 1.0)).round() as u8;
+        Self::new(part(self.r, other.r), part(self.g, other.g), part(self.b, other.b))
+    }
+}
+
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.r, self.g, self.b)
+    }
+}

@@ -1,0 +1,166 @@
+//! Pictures by their content: what is drawn, where, and that the same input gives the same bytes.
+
+use nbc::model::{Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
+use nbc::report;
+use nbc::swarm::{CycleTrace, RobotTrace, Signal, SwarmTrace};
+
+/// A latch of five made-up robots: each walks half a voxel a cycle the way its bit says.
+pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
+    let names = ["n1", "q", "n3", "not_d", "nq"];
+    let senses = [
+        [Signal::Input(0), Signal::Input(1)],
+        [Signal::Robot(0), Signal::Robot(4)],
+        [Signal::Robot(3), Signal::Input(1)],
+        [Signal::Input(0), Signal::Constant(false)],
+        [Signal::Robot(2), Signal::Robot(1)],
+    ];
+    let functions = [Function::NAND, Function::NAND, Function::NAND, Function::NOT, Function::NAND];
+    let mut bits = vec![false; 5];
+    let mut paths = vec![vec![250.0]; 5];
+    let mut cycles = Vec::new();
+    for &(d, e) in rows.iter().flat_map(|row| std::iter::repeat_n(row, hold)) {
+        let value = |signal: Signal| match signal {
+            Signal::Input(i) => [d, e][i],
+            Signal::Robot(k) => bits[k],
+            Signal::Constant(value) => value,
+        };
+        let sensed: Vec<[bool; 2]> = senses.iter().map(|pair| pair.map(value)).collect();
+        bits = functions.iter().zip(&sensed).map(|(function, s)| function.output(s[0], s[1])).collect();
+        for (path, &bit) in paths.iter_mut().zip(&bits) {
+            let last = path[path.len() - 1];
+            path.extend((1..=4).map(|i| last + if bit { 0.125 } else { -0.125 } * f64::from(i)));
+        }
+        cycles.push(CycleTrace { inputs: vec![d, e], sensed, outputs: vec![bits[1], bits[4]], bits: bits.clone() });
+    }
+    let net = |signal: Signal| match signal {
+        Signal::Input(i) => ["d", "e"][i].to_owned(),
+        Signal::Robot(k) => names[k].to_owned(),
+        Signal::Constant(value) => u8::from(value).to_string(),
+    };
+    let robots = (0..5).map(|k| RobotTrace {
+        net: names[k].to_owned(),
+        function: functions[k],
+        robot: format!("{}_1", functions[k]),
+        senses: senses[k],
+        sensed_nets: senses[k].map(net),
+        com_x: paths[k].clone(),
+        fault: None,
+    });
+    SwarmTrace {
+        circuit: "d_latch".to_owned(),
+        inputs: vec!["d".to_owned(), "e".to_owned()],
+        outputs: vec!["q".to_owned(), "nq".to_owned()],
+        shown: vec![Signal::Robot(1), Signal::Robot(4)],
+        samples_per_cycle: 4,
+        robots: robots.collect(),
+        cycles,
+    }
+}
+
+fn paper_rows() -> SwarmTrace {
+    latch(&[(false, true), (true, true), (true, false), (false, false), (false, true)], 8)
+}
+
+/// The texts of a drawing, in order.
+fn texts(svg: &str) -> Vec<String> {
+    let document = roxmltree::Document::parse(svg).expect("a drawing is well-formed XML");
+    document.descendants().filter(|n| n.has_tag_name("text")).map(|n| n.text().unwrap_or("").to_owned()).collect()
+}
+
+fn count(svg: &str, tag: &str, attribute: &str) -> usize {
+    let document = roxmltree::Document::parse(svg).expect("a drawing is well-formed XML");
+    document.descendants().filter(|node| node.has_tag_name(tag) && node.has_attribute(attribute)).count()
+}
+
+#[test]
+fn the_swarm_diagram_has_a_panel_for_each_robot_and_each_output() {
+    let svg = report::draw_swarm(&paper_rows()).finish();
+    let texts = texts(&svg);
+    for wanted in [
+        "n1 = nand",
+        "q = nand",
+        "not_d = not",
+        "output q",
+        "output nq",
+        "position (voxels)",
+        "time (cycles)",
+        "d",
+        "e",
+    ] {
+        assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");
+    }
+    // Seven panels, each with a dotted line for each of the four changes of the inputs.
+    assert_eq!(count(&svg, "line", "stroke-dasharray"), 7 * 4);
+}
+
+#[test]
+fn paths_go_the_way_of_the_bits() {
+    let svg = report::draw_swarm(&latch(&[(true, true)], 8)).finish();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let group = document
+        .descendants()
+        .find(|node| node.attribute("id").is_some_and(|id| id.starts_with("track-q = nand")))
+        .unwrap();
+    let path = group.children().filter(|node| node.has_tag_name("polyline")).last().unwrap();
+    let points: Vec<(f64, f64)> = path
+        .attribute("points")
+        .unwrap()
+        .split(' ')
+        .map(|pair| pair.split_once(',').unwrap())
+        .map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()))
+        .collect();
+    assert_eq!(points.len(), 8 * 4 + 1);
+    assert!(points.windows(2).all(|pair| pair[1].1 > pair[0].1), "time runs downwards");
+    assert!(points.last().unwrap().0 > points[0].0, "a robot whose bit is 1 goes right");
+}
+
+#[test]
+fn the_same_trace_gives_the_same_bytes() {
+    let [one, two] = [(); 2].map(|()| report::draw_swarm(&paper_rows()));
+    assert_eq!(one.finish(), two.finish());
+    assert_eq!(report::png(&one), report::png(&two));
+}
+
+#[test]
+fn the_png_is_the_drawing_at_twice_its_size() {
+    let svg = report::draw_swarm(&paper_rows());
+    let decoder = png::Decoder::new(std::io::Cursor::new(report::png(&svg)));
+    let mut reader = decoder.read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(
+        (f64::from(info.width), f64::from(info.height)),
+        ((svg.width() * 2.0).ceil(), (svg.height() * 2.0).ceil())
+    );
+    let has = |color: [u8; 3]| pixels.chunks(4).any(|pixel| pixel[..3] == color);
+    assert!(has([255, 255, 255]) && has([26, 26, 26]), "ink on paper");
+}
+
+#[test]
+fn a_fault_is_shown_where_it_happened() {
+    let mut trace = paper_rows();
+    trace.robots[1].fault = Some(Fault { env_step: 1, kind: FaultKind::Unstable });
+    trace.robots[1].com_x.fill(250.0);
+    assert!(texts(&report::draw_swarm(&trace).finish()).contains(&"unstable in cycle 1".to_owned()));
+}
+
+#[test]
+fn an_empty_trace_still_draws() {
+    let mut trace = latch(&[], 8);
+    report::png(&report::draw_swarm(&trace));
+    trace.robots.clear();
+    trace.shown = vec![Signal::Constant(true), Signal::Input(0)];
+    report::png(&report::draw_swarm(&trace));
+}
+
+#[test]
+fn one_robots_diagram_shows_its_schedule() {
+    let spell = |pattern: usize, steps| Spell { pattern: Pattern::PAIRS[pattern], steps };
+    let schedule = Schedule { spells: vec![spell(0, 840), spell(3, 840)] };
+    let com_x: Vec<f64> = (0..=1680).map(|i| 250.0 + f64::from(i) * 0.01).collect();
+    let svg = report::draw_robot("nand_1", &schedule, &Trajectory { com_x, com_y: vec![], fault: None }).finish();
+    let texts = texts(&svg);
+    for wanted in ["nand_1", "stimulus 1", "stimulus 2", "20"] {
+        assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");
+    }
+}
