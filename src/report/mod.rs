@@ -4,14 +4,18 @@ mod chart;
 mod color;
 mod listing;
 mod raster;
+mod result;
 mod spacetime;
 mod svg;
 mod table;
+mod verdict;
 
 pub use chart::{Panel, Scale, range_of, tick_label};
 pub use color::Color;
 pub use listing::{Listing, describe_robot};
 pub use raster::{png, rasterize};
+pub use result::{RobotResult, RunResult, TestResult};
 pub use spacetime::{Strip, Track, draw_robot, draw_swarm};
 pub use svg::{Anchor, Paint, Point, Svg, Type};
 pub use table::{Align, Table};
+pub use verdict::{describe_swarm, describe_test};

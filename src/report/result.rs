@@ -1,0 +1,72 @@
+//! A run's results as data for programs: `result.json`.
+
+use serde::Serialize;
+
+use crate::swarm::{SwarmTrace, TestVerdict};
+
+/// What a run found.
+#[derive(Clone, Debug, Serialize)]
+pub struct RunResult<'a> {
+    /// The program that found it.
+    pub program: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// The source file's path as the user wrote it.
+    pub source: &'a str,
+    /// Whether every test passed.
+    pub passed: bool,
+    /// The tests in order.
+    pub tests: Vec<TestResult<'a>>,
+}
+
+/// What one test found.
+#[derive(Clone, Debug, Serialize)]
+pub struct TestResult<'a> {
+    /// The verdict, row by row.
+    #[serde(flatten)]
+    pub verdict: &'a TestVerdict,
+    /// The robots in order: net, function, robot, and the nets that the robot senses.
+    pub robots: Vec<RobotResult<'a>>,
+    /// The pictures' paths.
+    pub pictures: Vec<String>,
+}
+
+/// One robot of a swarm.
+#[derive(Clone, Debug, Serialize)]
+pub struct RobotResult<'a> {
+    /// The net it drives.
+    pub net: &'a str,
+    /// The gate it plays.
+    pub function: &'static str,
+    /// Its name in the library.
+    pub robot: &'a str,
+    /// The nets it senses as stimulus 1 and stimulus 2.
+    pub senses: &'a [String; 2],
+    /// Voxels between its start and its end.
+    pub displacement: f64,
+    /// The env step at which its simulation was given up.
+    pub unstable_at: Option<u32>,
+}
+
+impl<'a> RunResult<'a> {
+    /// The results of the tests of a source file.
+    pub fn new(source: &'a str, tests: Vec<TestResult<'a>>) -> Self {
+        let passed = tests.iter().all(|test| test.verdict.passed);
+        Self { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), source, passed, tests }
+    }
+}
+
+impl<'a> TestResult<'a> {
+    /// The results of one test, with the paths of its pictures.
+    pub fn new(verdict: &'a TestVerdict, trace: &'a SwarmTrace, pictures: Vec<String>) -> Self {
+        let robots = trace.robots.iter().map(|robot| RobotResult {
+            net: &robot.net,
+            function: robot.function.name(),
+            robot: &robot.robot,
+            senses: &robot.sensed_nets,
+            displacement: robot.com_x.last().zip(robot.com_x.first()).map_or(0.0, |(end, start)| end - start),
+            unstable_at: robot.fault.map(|fault| fault.env_step),
+        });
+        Self { verdict, robots: robots.collect(), pictures }
+    }
+}

@@ -1,0 +1,106 @@
+//! What a test came to, as a truth table for people.
+
+use crate::report::{Align, Table};
+use crate::swarm::{Lapse, RowVerdict, SwarmTrace, TestVerdict};
+
+/// A test's truth table with expected and observed outputs for every row, and the robots to blame where a row failed.
+pub fn describe_test(verdict: &TestVerdict) -> String {
+    use Align::{Left, Right};
+    let mut table =
+        Table::new(&[("inputs", Left), ("expected", Left), ("observed", Left), ("cycles", Right), ("", Left)]);
+    let (inputs, outputs) = (verdict.inputs.join(" "), verdict.outputs.join(" "));
+    table.push(vec![inputs, outputs.clone(), outputs, String::new(), String::new()]);
+    for row in &verdict.rows {
+        let some = |bits: &[bool]| bits.iter().map(|&bit| Some(bit)).collect::<Vec<_>>();
+        table.push(vec![
+            align_bits(&some(&row.inputs), &verdict.inputs),
+            align_bits(&row.expected, &verdict.outputs),
+            align_bits(&some(&row.observed), &verdict.outputs),
+            row.hold.to_string(),
+            pass_word(row.passed).to_owned(),
+        ]);
+    }
+    let table = table.to_string().lines().map(|line| format!("    {line}\n")).collect::<String>();
+    let blame: String = verdict.rows.iter().flat_map(describe_lapses).collect();
+    format!("test {} \"{}\": {}\n{table}{blame}", verdict.circuit, verdict.title, pass_word(verdict.passed))
+}
+
+/// The robots of a swarm, grouped by the gate they play: `4 nand (nand_1), 1 not (not_2)`.
+pub fn describe_swarm(trace: &SwarmTrace) -> String {
+    let mut groups: Vec<(String, usize)> = Vec::new();
+    for robot in &trace.robots {
+        let word = format!("{} ({})", robot.function, robot.robot);
+        match groups.iter_mut().find(|(known, _)| *known == word) {
+            Some((_, count)) => *count += 1,
+            None => groups.push((word, 1)),
+        }
+    }
+    let words: Vec<String> = groups.into_iter().map(|(word, count)| format!("{count} {word}")).collect();
+    match trace.robots.len() {
+        0 => "no robots".to_owned(),
+        1 => format!("one robot: {}", words.join(", ")),
+        count => format!("{count} robots: {}", words.join(", ")),
+    }
+}
+
+fn pass_word(passed: bool) -> &'static str {
+    if passed { "pass" } else { "FAIL" }
+}
+
+/// Bits below the names of their ports; `-` where nothing is asked.
+fn align_bits(bits: &[Option<bool>], names: &[String]) -> String {
+    let digit = |bit: &Option<bool>| bit.map_or("-", |bit| if bit { "1" } else { "0" });
+    let cells =
+        bits.iter().zip(names).map(|(bit, name)| format!("{:<width$}", digit(bit), width = name.chars().count()));
+    cells.collect::<Vec<_>>().join(" ").trim_end().to_owned()
+}
+
+fn describe_lapses(row: &RowVerdict) -> Vec<String> {
+    let told = |lapse: &Lapse| {
+        let [first, second] = lapse.sensed.map(u8::from);
+        let output = u8::from(lapse.output);
+        let (net, robot, cycle) = (&lapse.net, &lapse.robot, lapse.cycle + 1);
+        format!("    cycle {cycle}: robot {robot} on net {net} output {output} on stimuli {first} {second}\n")
+    };
+    row.lapses.iter().map(told).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(passed: bool) -> TestVerdict {
+        let lapse =
+            Lapse { net: "q".to_owned(), robot: "nand_1".to_owned(), cycle: 4, sensed: [true, false], output: false };
+        TestVerdict {
+            title: "holds".to_owned(),
+            circuit: "latch".to_owned(),
+            inputs: vec!["d".to_owned(), "en".to_owned()],
+            outputs: vec!["q".to_owned(), "nq".to_owned()],
+            rows: vec![RowVerdict {
+                hold: 12,
+                inputs: vec![true, false],
+                expected: vec![Some(true), None],
+                observed: vec![passed, false],
+                passed,
+                lapses: if passed { vec![] } else { vec![lapse] },
+            }],
+            passed,
+        }
+    }
+
+    #[test]
+    fn a_test_is_a_truth_table() {
+        assert_eq!(
+            describe_test(&verdict(true)),
+            "test latch \"holds\": pass\n    inputs  expected  observed  cycles\n    d en    q nq      q nq\n    1 0     1 -       1 0           12  pass\n"
+        );
+    }
+
+    #[test]
+    fn a_failure_names_the_robot() {
+        let text = describe_test(&verdict(false));
+        assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
+        assert!(text.ends_with("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
+    }
+}
