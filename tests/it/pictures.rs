@@ -101,7 +101,7 @@ fn paths_go_the_way_of_the_bits() {
         .descendants()
         .find(|node| node.attribute("id").is_some_and(|id| id.starts_with("track-q = nand")))
         .unwrap();
-    let path = group.children().filter(|node| node.has_tag_name("polyline")).next_back().unwrap();
+    let path = group.children().rfind(|node| node.has_tag_name("polyline")).unwrap();
     let points: Vec<(f64, f64)> = path
         .attribute("points")
         .unwrap()
