@@ -2,10 +2,13 @@
 
 mod chart;
 mod color;
+mod layers;
 mod listing;
 mod raster;
 mod result;
+mod schematic;
 mod spacetime;
+mod sprite;
 mod svg;
 mod table;
 mod verdict;
@@ -15,7 +18,9 @@ pub use color::Color;
 pub use listing::{Listing, describe_robot};
 pub use raster::{png, rasterize};
 pub use result::{RobotResult, RunResult, TestResult};
+pub use schematic::draw_schematic;
 pub use spacetime::{Strip, Track, draw_robot, draw_swarm};
+pub use sprite::{Pose, Scheme, draw_body, draw_portrait, draw_sprite};
 pub use svg::{Anchor, Paint, Point, Svg, Type};
 pub use table::{Align, Table};
 pub use verdict::{describe_swarm, describe_test};

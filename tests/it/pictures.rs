@@ -1,7 +1,8 @@
 //! Pictures by their content: what is drawn, where, and that the same input gives the same bytes.
 
-use nbc::model::{Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
-use nbc::report;
+use nbc::circuit::{Cell, Netlist};
+use nbc::model::{Body, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
+use nbc::report::{self, Scheme};
 use nbc::swarm::{CycleTrace, RobotTrace, Signal, SwarmTrace};
 
 /// A latch of five made-up robots: each walks half a voxel a cycle the way its bit says.
@@ -162,5 +163,73 @@ fn one_robots_diagram_shows_its_schedule() {
     let texts = texts(&svg);
     for wanted in ["nand_1", "stimulus 1", "stimulus 2", "20"] {
         assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");
+    }
+}
+
+/// The paper's latch as a netlist of cells.
+fn latch_netlist() -> Netlist {
+    let mut netlist = Netlist::new("d_latch");
+    let [d, e] = ["d", "e"].map(|name| netlist.add_input(name));
+    let named = |name: &str, function| Cell { function, name: Some(name.to_owned()), start: None, span: None };
+    let set = netlist.add_cell(named("set", Function::NAND), &[d, e]);
+    let not_d = netlist.add_cell(named("not_d", Function::NOT), &[d]);
+    let reset = netlist.add_cell(named("reset", Function::NAND), &[not_d, e]);
+    let q = netlist.add_cell(named("q", Function::NAND), &[set, set]);
+    let nq = netlist.add_cell(named("nq", Function::NAND), &[reset, q]);
+    netlist.drive(q, 1, nq);
+    netlist.add_output("q", q);
+    netlist.add_output("nq", nq);
+    netlist
+}
+
+#[test]
+fn the_schematic_has_a_box_for_each_cell_and_a_wire_for_each_pin() {
+    let netlist = latch_netlist();
+    let critical: Vec<_> = netlist.inputs()[..1].iter().copied().chain(netlist.cells().map(|(id, _)| id)).collect();
+    let svg = report::draw_schematic(&netlist, &[], &critical, Scheme::Paper).finish();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let cells: Vec<&str> = document
+        .descendants()
+        .filter(|node| node.attribute("id").is_some_and(|id| id.starts_with("cell-")))
+        .map(|node| node.first_element_child().and_then(|title| title.text()).unwrap())
+        .collect();
+    assert_eq!(
+        cells,
+        ["set = nand(d, e)", "not_d = not(d)", "reset = nand(not_d, e)", "q = nand(set, nq)", "nq = nand(reset, q)"]
+    );
+    let texts = texts(&svg);
+    for wanted in ["d_latch", "d", "e", "q", "nq", "NAND", "NOT", "critical path"] {
+        assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");
+    }
+    // Nine pins of cells and two of outputs; two nets pass a layer on their way, and one runs down to its lane.
+    assert_eq!(count(&svg, "polyline", "points"), 11 + 2 + 1);
+        .unwrap();
+}
+
+#[test]
+fn odd_netlists_draw_too() {
+    report::png(&report::draw_schematic(&Netlist::new("empty"), &[], &[], Scheme::Safe));
+    let mut netlist = Netlist::new("through");
+    let a = netlist.add_input("a_name_that_is_much_too_long");
+    let one = netlist.add_constant(true);
+    netlist.add_output("y", a);
+    netlist.add_output("z", one);
+    let gate = netlist.add_gate(Function::NAND, &[a, a]);
+    netlist.drive(gate, 1, gate);
+    report::png(&report::draw_schematic(&netlist, &[], &[], Scheme::Safe));
+}
+
+#[test]
+fn a_sprite_has_a_square_for_each_voxel_in_its_materials_color() {
+    let body = Body::parse(&["00345", "33333"], 8).unwrap();
+    for scheme in [Scheme::Paper, Scheme::Safe] {
+        let svg = report::draw_portrait("walker", &body, scheme).finish();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let of_color = |code| {
+            let fill = scheme.color(code).to_string();
+            document.descendants().filter(|n| n.has_tag_name("polygon") && n.attribute("fill") == Some(&fill)).count()
+        };
+        assert_eq!([3, 4, 5, 6].map(of_color), [6, 1, 1, 0]);
+        assert_eq!(texts(&svg), ["walker", "3 muscle", "4 antimuscle", "5 s1_shrink"]);
     }
 }

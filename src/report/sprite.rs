@@ -1,0 +1,114 @@
+//! Bodies as pictures: voxels in the colors of their materials.
+
+use crate::model::{Body, Palette, Robot};
+use crate::report::Color;
+use crate::report::svg::{Paint, Point, Svg, Type};
+
+/// Which colors materials have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scheme {
+    /// The paper's (paper, Methods): black, gray, orange, teal, red, blue, green, magenta.
+    #[default]
+    Paper,
+    /// Colors that people with any color vision can tell apart.
+    Safe,
+}
+
+const PAPER: [Color; 8] = [
+    Color::new(38, 38, 38),
+    Color::new(190, 190, 190),
+    Color::new(255, 152, 41),
+    Color::new(41, 176, 176),
+    Color::new(214, 48, 49),
+    Color::new(52, 94, 214),
+    Color::new(62, 168, 70),
+    Color::new(205, 66, 190),
+];
+
+const SAFE: [Color; 8] = [
+    Color::new(0, 0, 0),
+    Color::new(160, 160, 160),
+    Color::new(230, 159, 0),
+    Color::new(86, 180, 233),
+    Color::new(213, 94, 0),
+    Color::new(0, 114, 178),
+    Color::new(0, 158, 115),
+    Color::new(204, 121, 167),
+];
+
+impl Scheme {
+    /// The color of a material code; codes beyond the paper's eight start the series again.
+    pub fn color(self, code: u8) -> Color {
+        let colors = match self {
+            Self::Paper => &PAPER,
+            Self::Safe => &SAFE,
+        };
+        colors[usize::from(code.max(1) - 1) % colors.len()]
+    }
+}
+
+/// A body at one moment: the corners of its voxels in voxels, y upwards, and their material codes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Each voxel's corners, in order around it, and its code.
+    pub voxels: Vec<([Point; 4], u8)>,
+}
+
+impl Pose {
+    /// A body at rest, its box's lower left corner at the origin.
+    pub fn at_rest(body: &Body) -> Self {
+        let voxel = |row: usize, column: usize| {
+            let (left, top) = (column as f64, (body.height() - row) as f64);
+            [(left, top), (left + 1.0, top), (left + 1.0, top - 1.0), (left, top - 1.0)]
+        };
+        let places = (0..body.height()).flat_map(|row| (0..body.width()).map(move |column| (row, column)));
+        let filled = places.filter(|&(row, column)| body.code(row, column) > 0);
+        Self { voxels: filled.map(|(row, column)| (voxel(row, column), body.code(row, column))).collect() }
+    }
+
+    /// Draws the voxels: `to_pixel` says where a point of the world is in the picture.
+    pub fn draw(&self, svg: &mut Svg, scheme: Scheme, opacity: f64, to_pixel: impl Fn(Point) -> Point) {
+        for (corners, code) in &self.voxels {
+            let color = scheme.color(*code);
+            let edge = color.mix(Color::BLACK, 0.35);
+            let paint = Paint::fill(color).with_stroke(edge, 0.7);
+            svg.polygon(&corners.map(&to_pixel), if opacity < 1.0 { paint.with_opacity(opacity) } else { paint });
+        }
+    }
+}
+
+/// The body alone, `voxel` pixels for each voxel's side, on nothing.
+pub fn draw_body(body: &Body, scheme: Scheme, voxel: f64) -> Svg {
+    let (width, height) = (body.width() as f64 * voxel, body.height() as f64 * voxel);
+    let mut svg = Svg::transparent(width + 2.0, height + 2.0, "a robot's body");
+    let to_pixel = |(x, y): Point| (1.0 + x * voxel, 1.0 + height - y * voxel);
+    Pose::at_rest(body).draw(&mut svg, scheme, 1.0, to_pixel);
+    svg
+}
+
+/// A robot's portrait: its body, its name and gate, and the names of its materials.
+pub fn draw_sprite(robot: &Robot, scheme: Scheme) -> Svg {
+    let title = format!("{}: {}, {}", robot.name, robot.function(), robot.behavior);
+    draw_portrait(&title, &robot.body, scheme)
+}
+
+/// A body with a title and the names of its materials.
+pub fn draw_portrait(title: &str, body: &Body, scheme: Scheme) -> Svg {
+    let voxel = 24.0;
+    let picture = draw_body(body, scheme, voxel);
+    let palette = Palette::paper();
+    let codes: Vec<u8> = (1..=Palette::MAX_MATERIALS as u8).filter(|code| body.codes().contains(code)).collect();
+    let legend_left = 20.0 + picture.width() + 24.0;
+    let height = (56.0 + picture.height() + 16.0).max(60.0 + codes.len() as f64 * 20.0);
+    let width = (legend_left + 130.0).max(24.0 + title.chars().count() as f64 * 9.0);
+    let mut svg = Svg::new(width, height, title);
+    svg.text((20.0, 30.0), title, Type::new(14.0).bold());
+    svg.place((20.0, 48.0), 1.0, &picture);
+    for (i, &code) in codes.iter().enumerate() {
+        let top = 49.0 + i as f64 * 20.0;
+        let name = palette.materials().get(usize::from(code) - 1).map_or("material", |material| material.name.as_str());
+        svg.rect((legend_left, top), 13.0, 13.0, Paint::fill(scheme.color(code)));
+        svg.text((legend_left + 20.0, top + 11.0), &format!("{code} {name}"), Type::new(11.0));
+    }
+    svg
+}
