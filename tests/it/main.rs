@@ -1,4 +1,5 @@
 //! Integration tests, in one binary.
 
+mod physics;
 mod pictures;
 mod tidy;

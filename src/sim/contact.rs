@@ -1,0 +1,115 @@
+//! The geometry of contact: which corners of a voxel are inside which other voxel, and which side they came through (docs/physics.md 7).
+//!
+//! Ties at the start of a simulation are decided by the last bit here, so every formula is rounded as written.
+
+use nalgebra::Vector2;
+
+use crate::sim::constants::Constants;
+use crate::sim::lattice::CORNERS;
+use crate::sim::real::{Mask, Real};
+
+/// A voxel where it is now.
+#[derive(Clone, Copy, Debug)]
+pub struct Quad {
+    /// Top left, top right, bottom right, bottom left.
+    pub corners: [Vector2<f64>; CORNERS],
+    /// Which sides are surface: top, right, bottom, left.
+    pub surface: [bool; CORNERS],
+}
+
+/// A corner of one voxel inside another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The surface side that it came through.
+    pub side: usize,
+    /// How far it is from that side's line, in metres.
+    pub distance: f64,
+    /// Unit normal of that side, outwards.
+    pub normal: Vector2<f64>,
+}
+
+/// The two sides that meet in each corner, in the order in which they are tried.
+const MEETING: [[usize; 2]; CORNERS] = [[0, 3], [0, 1], [2, 1], [2, 3]];
+
+/// Whether `point` is inside the voxel with these corners: the triangle above its falling diagonal or the one below (docs/physics.md 7.2).
+#[inline(always)]
+pub fn is_inside<R: Real>(point: [R; 2], corners: [[R; 2]; CORNERS]) -> R::Mask {
+    let from = |corner: [R; 2]| [corner[0] - point[0], corner[1] - point[1]];
+    let cross = |a: [R; 2], b: [R; 2]| a[0] * b[1] - a[1] * b[0];
+    let [tl, tr, br, bl] = [from(corners[0]), from(corners[1]), from(corners[2]), from(corners[3])];
+    let c = cross(br, tl);
+    let agrees = |other: R| R::splat(0.0).at_most(c * other);
+    let upper = agrees(cross(tl, tr)).and(agrees(cross(tr, br)));
+    let lower = agrees(cross(tl, bl)).and(agrees(cross(bl, br)));
+    upper.or(lower)
+}
+
+impl Quad {
+    /// Least and greatest coordinates.
+    pub fn bounds(&self) -> [Vector2<f64>; 2] {
+        let [a, b, c, d] = self.corners;
+        [a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d)]
+    }
+
+    /// The corners between which a side runs: clockwise on the surface, else left to right or top to bottom (docs/physics.md 3).
+    pub fn ends(&self, side: usize) -> [usize; 2] {
+        let clockwise = [side, (side + 1) % CORNERS];
+        if self.surface[side] || side < 2 { clockwise } else { [clockwise[1], clockwise[0]] }
+    }
+
+    fn segment(&self, side: usize) -> [Vector2<f64>; 2] {
+        self.ends(side).map(|corner| self.corners[corner])
+    }
+
+    /// Whether a point is inside.
+    pub fn contains(&self, point: Vector2<f64>) -> bool {
+        is_inside([point.x, point.y], self.corners.map(|corner| [corner.x, corner.y]))
+    }
+
+    /// The contact of corner `corner` of `main` with this voxel, if it is inside and came through a surface side: the nearest of the
+    /// surface sides which are crossed by one of the two sides that meet in the corner (docs/physics.md 7.3 and 7.4).
+    pub fn hit_by(&self, main: &Quad, corner: usize, constants: &Constants) -> Option<Hit> {
+        let point = main.corners[corner];
+        if !self.contains(point) {
+            return None;
+        }
+        let mut nearest: Option<(usize, f64)> = None;
+        for side in (0..CORNERS).filter(|&side| self.surface[side]) {
+            let crossed = MEETING[corner].iter().any(|&own| crosses(main.segment(own), self.segment(side), constants));
+            if crossed {
+                let distance = distance(point, self.segment(side), constants);
+                if nearest.is_none_or(|(_, least)| distance < least) {
+                    nearest = Some((side, distance));
+                }
+            }
+        }
+        nearest.map(|(side, distance)| Hit { side, distance, normal: self.normal(side) })
+    }
+
+    /// The outward unit normal of a surface side: its direction turned by a quarter to the left.
+    fn normal(&self, side: usize) -> Vector2<f64> {
+        let [a, b] = self.segment(side);
+        let e = b - a;
+        Vector2::new(-e.y, e.x) / e.norm()
+    }
+}
+
+/// Whether segment `first` (of the main voxel) and segment `second` (of the reference) have a point in common; never when nearly parallel.
+fn crosses(first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], constants: &Constants) -> bool {
+    let (d1, d2) = (first[1] - first[0], second[1] - second[0]);
+    let q = second[0] - first[0];
+    let det = -d1.x * d2.y + d2.x * d1.y;
+    if det.abs() < constants.parallel {
+        return false;
+    }
+    let t = (-d2.y * q.x + d2.x * q.y) / det;
+    let u = (-d1.y * q.x + d1.x * q.y) / det;
+    (0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)
+}
+
+/// How far a point is from the line through a segment.
+fn distance(point: Vector2<f64>, [a, b]: [Vector2<f64>; 2], constants: &Constants) -> f64 {
+    let e = b - a;
+    let length = e.norm();
+    if length < constants.shortest { constants.nowhere } else { e.perp(&(point - a)).abs() / length }
+}

@@ -1,0 +1,24 @@
+//! The physics of voxel robots: bodies, stimuli in; trajectories out (docs/physics.md).
+//!
+//! It knows nothing of languages, gates or evolution.
+#![allow(clippy::needless_range_loop, reason = "an axis or a corner indexes several arrays at once")]
+
+mod batch;
+mod constants;
+mod contact;
+mod flock;
+mod lattice;
+mod limits;
+mod proximity;
+mod real;
+mod response;
+mod run;
+mod signal;
+mod state;
+mod step;
+mod trials;
+
+pub use constants::Constants;
+pub use flock::Flock;
+pub use lattice::{DrivenEdge, Edge, Lattice, LatticePoint, Voxel};
+pub use trials::{run_trials, run_trials_with};

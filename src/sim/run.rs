@@ -1,0 +1,120 @@
+//! A simulation on its way, and how a batch of them is carried forward.
+
+use std::sync::Arc;
+
+use crate::model::{Fault, FaultKind, Pattern, Schedule};
+use crate::sim::batch::Batch;
+use crate::sim::constants::Constants;
+use crate::sim::lattice::Lattice;
+use crate::sim::real::Real;
+use crate::sim::signal::Signals;
+use crate::sim::state::State;
+use crate::sim::step::env_step;
+
+/// What all simulations of a setting share.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The physics' numbers.
+    pub constants: Constants,
+    /// What the materials ask for.
+    pub signals: Signals,
+    /// Ground voxels.
+    pub width: usize,
+}
+
+/// One simulation: a robot, its clock and what it has yet to do.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The body.
+    pub lattice: Arc<Lattice>,
+    /// Where it is.
+    pub state: State,
+    /// Env steps behind it.
+    pub clock: u32,
+    /// What stopped it, if anything did.
+    pub fault: Option<Fault>,
+    /// Spells yet to come, the next one last.
+    spells: Vec<(Pattern, u32)>,
+    /// The center of mass after each env step, in voxels.
+    pub centers: Vec<[f64; 2]>,
+}
+
+impl Run {
+    /// A body at its start with nothing to do.
+    pub fn new(lattice: Arc<Lattice>, start: usize, constants: &Constants) -> Self {
+        let state = State::start(&lattice, start, constants);
+        Self { lattice, state, clock: 0, fault: None, spells: Vec::new(), centers: Vec::new() }
+    }
+
+    /// Gives it a schedule to go through.
+    pub fn assign(&mut self, schedule: &Schedule) {
+        let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
+        self.spells = spells.map(|spell| (spell.pattern, spell.steps)).collect();
+    }
+
+    /// Whether there is nothing left to do.
+    pub fn is_done(&self) -> bool {
+        self.fault.is_some() || self.spells.is_empty()
+    }
+
+    fn pattern(&self) -> Pattern {
+        self.spells.last().expect("a run that is not done has a spell").0
+    }
+
+    fn tick(&mut self, center: [f64; 2]) {
+        self.clock += 1;
+        self.centers.push(center);
+        let spell = self.spells.last_mut().expect("a run that is not done has a spell");
+        spell.1 -= 1;
+        if spell.1 == 0 {
+            self.spells.pop();
+        }
+    }
+}
+
+/// Carries runs of one box forward side by side, until the first of them is done.
+///
+/// `env_step` is the kernel compiled for `R`.
+pub fn carry<R: Real>(runs: &mut [&mut Run], world: &World, env_step: impl Fn(&mut Batch<R>)) {
+    let robots: Vec<_> = runs.iter().map(|run| (&*run.lattice, &run.state)).collect();
+    let mut batch = Batch::<R>::new(&robots, world.width, &world.constants);
+    let mut targets = Vec::new();
+    while !runs.iter().any(|run| run.is_done()) {
+        for (lane, run) in runs.iter().enumerate() {
+            targets.clear();
+            targets.extend(world.signals.targets(run.clock, run.pattern()));
+            batch.set_targets(lane, &targets);
+        }
+        env_step(&mut batch);
+        for (lane, run) in runs.iter_mut().enumerate() {
+            finish_env_step(lane, run, &batch);
+        }
+        if runs.iter().all(|run| run.fault.is_none()) {
+            batch.save();
+        }
+    }
+    for (lane, run) in runs.iter_mut().enumerate() {
+        match run.fault {
+            None => batch.unload(lane, &mut run.state),
+            Some(_) => batch.unload_saved(lane, &mut run.state),
+        }
+    }
+}
+
+/// Books an env step of one lane: its center of mass, or its fault.
+fn finish_env_step<R: Real>(lane: usize, run: &mut Run, batch: &Batch<R>) {
+    let center = batch.center(lane);
+    let fault = |kind| Some(Fault { env_step: run.clock + 1, kind });
+    if batch.unstable >> lane & 1 == 1 {
+        run.fault = fault(FaultKind::Unstable);
+    } else if !center.iter().all(|axis| axis.is_finite()) {
+        run.fault = fault(FaultKind::NonFinite);
+    } else {
+        run.tick(center);
+    }
+}
+
+/// Carries runs forward one at a time with the scalar kernel.
+pub fn carry_scalar(runs: &mut [&mut Run], world: &World) {
+    carry::<f64>(runs, world, env_step);
+}

@@ -1,0 +1,99 @@
+//! What each material asks of its voxels in each env step (docs/physics.md 4 and 10).
+
+use std::f64::consts::PI;
+
+use crate::model::{MaterialKind, Palette, Pattern};
+use crate::sim::constants::Constants;
+
+/// The target widths of a palette's materials over time.
+#[derive(Clone, Debug)]
+pub struct Signals {
+    /// Indexed by material code; code 0 asks for nothing.
+    signals: Vec<Signal>,
+}
+
+/// One material's target, as a share of the width at rest.
+#[derive(Clone, Debug)]
+enum Signal {
+    /// The material is passive.
+    Still,
+    /// One sample for each env step of the period.
+    Periodic(Vec<f64>),
+    /// One of two, by whether a stimulus is present.
+    Sensed { stimulus: usize, absent: f64, present: f64 },
+}
+
+impl Signals {
+    /// The signals of a palette's materials, sampled and clipped.
+    pub fn new(palette: &Palette, constants: &Constants) -> Self {
+        let clip = |target: f64| target.clamp(constants.least_target, constants.greatest_target);
+        let signal = |kind| match kind {
+            MaterialKind::Rigid | MaterialKind::Soft => Signal::Still,
+            MaterialKind::Actuator(drive) => {
+                let sample = |k| clip(sample(k, drive.period, drive.phase.to_radians(), drive.low, drive.high));
+                Signal::Periodic((0..drive.period.max(1)).map(sample).collect())
+            }
+            MaterialKind::Sensor(response) => Signal::Sensed {
+                stimulus: response.stimulus,
+                absent: clip(response.absent),
+                present: clip(response.present),
+            },
+        };
+        let materials = palette.materials().iter().map(|material| signal(material.kind));
+        Self { signals: std::iter::once(Signal::Still).chain(materials).collect() }
+    }
+
+    /// The target of a material in env step `env_step` (from 0) under a pattern; 1 for passive materials.
+    pub fn target(&self, code: u8, env_step: u32, pattern: Pattern) -> f64 {
+        match &self.signals[usize::from(code)] {
+            Signal::Still => 1.0,
+            Signal::Periodic(samples) => samples[env_step as usize % samples.len()],
+            Signal::Sensed { stimulus, absent, present } => {
+                if pattern.has(*stimulus) {
+                    *present
+                } else {
+                    *absent
+                }
+            }
+        }
+    }
+
+    /// The targets of all codes, code 0 first.
+    pub fn targets(&self, env_step: u32, pattern: Pattern) -> impl Iterator<Item = f64> + '_ {
+        (0..self.signals.len()).map(move |code| self.target(code as u8, env_step, pattern))
+    }
+}
+
+/// Sample `k` of a sine of `period` samples, both ends included (docs/physics.md 10).
+fn sample(k: u32, period: u32, phase: f64, low: f64, high: f64) -> f64 {
+    let angle = phase + 2.0 * PI * f64::from(k) / f64::from(period.saturating_sub(1).max(1));
+    low + (libm::sin(angle) + 1.0) / 2.0 * (high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_signals_are_the_papers_to_the_last_bit() {
+        let signals = Signals::new(&Palette::paper(), &Constants::default());
+        for n in 0..200 {
+            let k = f64::from(n % 84);
+            let sine = 0.6 + (libm::sin(2.0 * PI * k / 83.0) + 1.0) / 2.0;
+            let antiphase = 0.6 + (libm::sin(PI + 2.0 * PI * k / 83.0) + 1.0) / 2.0;
+            let pattern = Pattern::PAIRS[2];
+            assert_eq!(signals.target(3, n, pattern).to_bits(), sine.clamp(0.6, 1.6).to_bits());
+            assert_eq!(signals.target(4, n, pattern).to_bits(), antiphase.clamp(0.6, 1.6).to_bits());
+            assert_eq!([5, 6, 7, 8].map(|code| signals.target(code, n, pattern)), [0.6, 1.6, 1.6, 0.6]);
+        }
+    }
+
+    #[test]
+    fn targets_are_clipped() {
+        let mut materials = Palette::paper().materials().to_vec();
+        materials[4].kind = MaterialKind::Sensor(crate::model::Response { stimulus: 0, absent: 9.0, present: -3.0 });
+        let signals = Signals::new(&Palette::new(materials), &Constants::default());
+        assert_eq!(signals.target(5, 0, Pattern::PAIRS[0]), 1.6);
+        assert_eq!(signals.target(5, 0, Pattern::PAIRS[3]), 0.6);
+    }
+}

@@ -1,0 +1,176 @@
+//! The physics against reference trajectories, published figures and laws.
+
+use std::collections::BTreeMap;
+
+use nbc::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
+use nbc::sim::{Constants, Flock, run_trials, run_trials_with};
+use serde::Deserialize;
+
+/// Largest difference from a reference, in voxels (docs/physics.md 12).
+const TOLERANCE: f64 = 1e-9;
+
+/// Largest difference over ten cycles, which amplify rounding in some motions (docs/physics.md 12).
+const TEN_CYCLE_TOLERANCE: f64 = 1e-6;
+
+const CYCLE: u32 = 84;
+
+#[derive(Deserialize)]
+struct Reference {
+    cases: Vec<Case>,
+}
+
+#[derive(Clone, Deserialize)]
+struct Case {
+    name: String,
+    world_width: usize,
+    start_x: usize,
+    body: Vec<String>,
+    #[serde(default)]
+    schedule: Vec<(String, u32)>,
+    unstable_at: Option<u32>,
+    rounding_sensitive_from: Option<usize>,
+    #[serde(default)]
+    com_x: Vec<f64>,
+    #[serde(default)]
+    com_y: Vec<f64>,
+    #[serde(default)]
+    points: BTreeMap<usize, Vec<[f64; 2]>>,
+    #[serde(default)]
+    fixed: BTreeMap<String, Fixed>,
+}
+
+#[derive(Clone, Deserialize)]
+struct Fixed {
+    com_x: Vec<f64>,
+    com_y: Vec<f64>,
+}
+
+fn reference() -> Vec<Case> {
+    serde_json::from_str::<Reference>(include_str!("../golden/trajectories.json")).unwrap().cases
+}
+
+fn traces() -> Vec<Case> {
+    reference().into_iter().filter(|case| case.fixed.is_empty()).collect()
+}
+
+fn pattern(digits: &str) -> Pattern {
+    Pattern::PAIRS.into_iter().find(|pattern| pattern.to_string() == digits).unwrap()
+}
+
+fn setting(start_x: usize, world_width: usize) -> Setting {
+    Setting { palette: Palette::paper(), world_width, start_x: Some(start_x) }
+}
+
+impl Case {
+    fn setting(&self) -> Setting {
+        setting(self.start_x, self.world_width)
+    }
+
+    fn body(&self) -> Body {
+        Body::parse(&self.body, 8).unwrap()
+    }
+
+    fn schedule(&self) -> Schedule {
+        let spell = |(digits, steps): &(String, u32)| Spell { pattern: pattern(digits), steps: *steps };
+        Schedule { spells: self.schedule.iter().map(spell).collect() }
+    }
+
+    /// The env steps that are to be compared strictly.
+    fn strict(&self) -> usize {
+        self.rounding_sensitive_from.unwrap_or(self.com_x.len())
+    }
+
+    /// The largest difference of the center of mass from the reference, in voxels; infinite where the fault differs.
+    fn difference(&self, found: &Trajectory) -> f64 {
+        let fault = found.fault.map(|fault| (fault.env_step, fault.kind));
+        if fault != self.unstable_at.map(|step| (step, FaultKind::Unstable)) || found.com_x.len() != self.com_x.len() {
+            return f64::INFINITY;
+        }
+        let x = greatest_difference(&self.com_x[..self.strict()], &found.com_x);
+        x.max(greatest_difference(&self.com_y[..self.strict()], &found.com_y))
+    }
+}
+
+fn greatest_difference(expected: &[f64], found: &[f64]) -> f64 {
+    expected.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, |a, b| if b <= a { a } else { b })
+}
+
+fn simulate(case: &Case, constants: &Constants) -> Trajectory {
+    let trial = Trial { body: case.body(), schedule: case.schedule() };
+    run_trials_with(constants, &case.setting(), &[trial]).remove(0)
+}
+
+#[test]
+fn reference_trajectories() {
+    for case in traces() {
+        let difference = case.difference(&simulate(&case, &Constants::default()));
+        assert!(difference < TOLERANCE, "{}: {difference:e} voxels from the reference", case.name);
+    }
+}
+
+#[test]
+fn reference_points() {
+    for case in traces().iter().filter(|case| !case.points.is_empty()) {
+        let mut flock = Flock::new(&case.setting(), &[case.body()]);
+        let patterns: Vec<_> = case.schedule().patterns().collect();
+        for step in 0..case.strict() {
+            if let Some(expected) = case.points.get(&step) {
+                let found = flock.points(0);
+                assert_eq!(found.len(), expected.len(), "{}", case.name);
+                for (point, (a, b)) in expected.iter().zip(&found).enumerate() {
+                    let difference = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+                    assert!(difference < TOLERANCE, "{} step {step} point {point}: {a:?} {b:?}", case.name);
+                }
+            }
+            if let Some(&pattern) = patterns.get(step) {
+                flock.advance(&[pattern], 1);
+            }
+        }
+    }
+}
+
+#[test]
+fn ten_cycles_of_each_pattern() {
+    for case in reference().iter().filter(|case| !case.fixed.is_empty()) {
+        let trial = |pattern| Trial { body: case.body(), schedule: Schedule::constant(pattern, 10 * CYCLE) };
+        let found = run_trials(&case.setting(), &Pattern::PAIRS.map(trial));
+        for (pattern, found) in Pattern::PAIRS.iter().zip(found) {
+            assert_eq!(found.fault, None);
+            let expected = &case.fixed[&pattern.to_string()];
+            let ends = |com: &[f64]| com.iter().step_by(CYCLE as usize).copied().collect::<Vec<_>>();
+            let x = greatest_difference(&expected.com_x, &ends(&found.com_x));
+            let difference = x.max(greatest_difference(&expected.com_y, &ends(&found.com_y)));
+            assert!(difference < TEN_CYCLE_TOLERANCE, "{} {pattern}: {difference:e} voxels", case.name);
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct Published {
+    robots: Vec<PublishedRobot>,
+}
+
+#[derive(Deserialize)]
+struct PublishedRobot {
+    name: String,
+    behavior: String,
+    start_x: usize,
+    world_width: usize,
+    min_displacement: f64,
+    body: Vec<String>,
+}
+
+#[test]
+fn published_robots_walk_as_published() {
+    let published: Published = serde_json::from_str(include_str!("../golden/paper_robots.json")).unwrap();
+    for robot in published.robots {
+        let body = Body::parse(&robot.body, 8).unwrap();
+        let trial = |pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, 10 * CYCLE) };
+        let found = run_trials(&setting(robot.start_x, robot.world_width), &Pattern::PAIRS.map(trial));
+        let displacement = |i: usize| found[i].com_x.last().unwrap() - found[i].com_x[0];
+        let displacements = [0, 1, 2, 3].map(displacement);
+        assert_eq!(Behavior::of(&displacements).to_string(), robot.behavior, "{}", robot.name);
+        let least = displacements.iter().fold(f64::INFINITY, |least, d| d.abs().min(least));
+        assert!((least - robot.min_displacement).abs() < 1e-5, "{}: {least}", robot.name);
+    }
+}
