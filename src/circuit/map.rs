@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use crate::circuit::cells::CellLibrary;
 use crate::circuit::loops::Loops;
+use crate::circuit::network::{Network, Signal, View};
 use crate::circuit::passes::{self, DissolveWires, Pass, Sweep};
 use crate::circuit::proof::core_names;
 use crate::circuit::recipes::{Operand, Recipe, Recipes};
-use crate::circuit::{Cell, NetId, Netlist, NetlistError, Node};
+use crate::circuit::synth::{Effort, reduce};
+use crate::circuit::{NetId, Netlist, NetlistError, Node};
 use crate::model::Function;
 
 /// A netlist that cannot be mapped.
@@ -51,20 +53,61 @@ fn list(functions: &[Function], none: &str, joint: &str) -> String {
     }
 }
 
-/// Maps a netlist onto a library. Loop cores and their guards stay as written, split into cells function by function.
+/// What to make least of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Objective {
+    /// Robots.
+    #[default]
+    Area,
+    /// Cycles along the slowest path, then robots.
+    Delay,
+    /// The risk of a wrong step: the least noise margin of any robot used is as wide as the library allows, then robots.
+    Margin,
+}
+
+/// How to map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MapOptions {
+    /// What to make least of.
+    pub objective: Objective,
+    /// How much work to put into it.
+    pub effort: Effort,
+}
+
+/// Maps a netlist onto a library for few robots, at normal effort.
+///
+/// # Errors
+/// As [`map_with`].
+pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError> {
+    map_with(netlist, library, MapOptions::default())
+}
+
+/// Maps a netlist onto a library. Loop cores and their guards stay as written, split into cells function by function; the logic
+/// around them is synthesized anew.
 ///
 /// # Errors
 /// When the netlist is not well formed or the library cannot make a function of it.
-pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError> {
+pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
     let mut source = netlist.clone();
     passes::run(&mut source)?;
-    let mut mapper = Mapper::new(&source, library);
-    mapper.copy()?;
-    let mut mapped = mapper.mapped;
+    if options.objective == Objective::Margin {
+        return map_widest(&source, library, options);
+    }
+    let mut mapped = Mapper::new(&source, library).map(options)?;
     DissolveWires.run_on(&mut mapped)?;
     Sweep.run(&mut mapped)?;
     name_outputs(&mut mapped);
     Ok(mapped)
+}
+
+/// Maps with the robots of the widest margins that suffice.
+fn map_widest(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
+    let mut margins: Vec<f64> = library.kinds().map(|(_, kind)| kind.margin).collect();
+    margins.sort_by(f64::total_cmp);
+    let options = MapOptions { objective: Objective::Area, ..options };
+    let narrower = margins.into_iter().rev().map(|margin| library.with_margin(margin));
+    let mapped = narrower.filter(CellLibrary::is_complete).map(|library| map_with(source, &library, options)).next();
+    mapped.unwrap_or_else(|| map_with(source, library, options))
 }
 
 /// The mapping of one netlist.
@@ -74,92 +117,121 @@ struct Mapper<'a> {
     loops: Loops,
     recipes: Recipes,
     mapped: Netlist,
+    /// The cells that stay as written: loop cores and guards.
+    kept: Vec<NetId>,
+    /// Where the nets are in the mapped netlist that its logic starts from.
     net: BTreeMap<NetId, NetId>,
-    known: BTreeMap<(Function, Vec<NetId>), NetId>,
-    /// The names of nets on loops, which no other cell may take.
-    core_names: BTreeMap<NetId, String>,
 }
 
 impl<'a> Mapper<'a> {
     fn new(source: &'a Netlist, library: &'a CellLibrary) -> Self {
         let loops = Loops::of(source);
+        let guards = loops.guards(source);
+        let kept =
+            |id: &NetId| matches!(source.node(*id), Node::Cell(_)) && (loops.contains(*id) || guards.contains(id));
         Self {
             source,
             library,
-            core_names: core_names(source, &loops),
+            kept: loops.order().iter().copied().filter(kept).collect(),
             loops,
             recipes: Recipes::of(library),
             mapped: Netlist::new(&source.name),
             net: BTreeMap::new(),
-            known: BTreeMap::new(),
         }
     }
 
-    fn copy(&mut self) -> Result<(), MapError> {
+    fn map(mut self, options: MapOptions) -> Result<Netlist, MapError> {
         for &id in self.source.inputs() {
             let net = self.mapped.add_input(self.source.net_name(id));
             self.net.insert(id, net);
         }
-        for (id, name) in self.core_names.clone() {
-            let start = self.source.cell(id).and_then(|cell| cell.start);
+        let names = core_names(self.source, &self.loops);
+        for &id in &self.kept {
+            // A guard has a wire without a name, which leaves no trace; a core cell keeps its name and start value.
+            let name = names.get(&id).cloned().unwrap_or_default();
+            let start = self.source.cell(id).and_then(|cell| cell.start).filter(|_| self.loops.contains(id));
             let wire = self.mapped.add_wire(name, start, None);
             self.net.insert(id, wire);
         }
-        for id in self.loops.order().to_vec() {
-            self.copy_node(id)?;
+        let view = View::of(self.source, &self.kept).expect("every loop passes through cells that are kept");
+        let (network, sinks) = self.logic(&view);
+        let reduced =
+            reduce(&network, &self.stages(), self.library, options).map_err(|missing| self.missing(missing))?;
+        let nets = self.copy(&reduced);
+        let shown: BTreeMap<NetId, NetId> = sinks.into_iter().zip(nets).collect();
+        for &id in &self.kept.clone() {
+            let pins: Vec<_> = self.source.pins(id).iter().map(|pin| shown[pin]).collect();
+            let net = self.split(id, &pins)?;
+            self.mapped.drive(self.net[&id], 0, net);
         }
         for &id in self.source.outputs() {
-            let driver = self.net[&self.source.pins(id)[0]];
-            self.mapped.add_output(self.source.net_name(id), driver);
+            self.mapped.add_output(self.source.net_name(id), shown[&self.source.pins(id)[0]]);
         }
-        Ok(())
+        Ok(self.mapped)
     }
 
-    fn copy_node(&mut self, id: NetId) -> Result<(), MapError> {
-        match self.source.node(id) {
-            Node::Constant(value) => {
-                let net = self.mapped.add_constant(*value);
-                self.net.insert(id, net);
-            }
-            Node::Cell(cell) => {
-                let pins: Vec<_> = self.source.pins(id).iter().map(|pin| self.net[pin]).collect();
-                let core = self.loops.contains(id);
-                let net = self.split(cell, &pins, core)?;
-                if core {
-                    self.mapped.drive(self.net[&id], 0, net);
-                } else {
-                    self.net.insert(id, net);
-                }
-            }
-            Node::Input(_) | Node::Output(_) | Node::Wire { .. } => {}
-        }
-        Ok(())
+    /// The logic between ports and kept cells, and the nets of the source that its outputs are.
+    fn logic(&self, view: &View) -> (Network, Vec<NetId>) {
+        let sinks = self.source.outputs().iter().chain(&self.kept);
+        let mut sinks: Vec<_> = sinks.flat_map(|&id| self.source.pins(id)).collect();
+        sinks.sort_unstable();
+        sinks.dedup();
+        let mut network = view.network.clone();
+        network.outputs = sinks.iter().map(|sink| view.signal[sink]).collect();
+        (network, sinks)
     }
 
-    /// Splits a cell into cells of the library.
-    fn split(&mut self, cell: &Cell, pins: &[NetId], core: bool) -> Result<NetId, MapError> {
-        let Recipe { steps, result, .. } = self.recipe(cell.function)?;
+    /// For each input of the logic, how many kept cells lie before it: no cell may come to depend on a later one.
+    fn stages(&self) -> Vec<u32> {
+        let mut stages: BTreeMap<NetId, u32> = BTreeMap::new();
+        for &id in self.loops.order() {
+            let members = self.loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &self.loops.cores()[core]);
+            let pins = members.iter().flat_map(|&member| self.source.pins(member)).filter(|pin| !members.contains(pin));
+            let latest = pins.map(|pin| stages.get(&pin).copied().unwrap_or(0)).max().unwrap_or(0);
+            stages.insert(id, latest + u32::from(self.kept.contains(&id)));
+        }
+        self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
+    }
+
+    /// Adds the gates of a network whose inputs are the ports and the kept nets; gives the nets of its outputs.
+    fn copy(&mut self, network: &Network) -> Vec<NetId> {
+        let mut constants = [None; 2];
+        let mut nets: Vec<Option<NetId>> = vec![None, None];
+        nets.extend(self.source.inputs().iter().chain(&self.kept).map(|id| Some(self.net[id])));
+        let mapped = &mut self.mapped;
+        let mut net = |mapped: &mut Netlist, nets: &[Option<NetId>], signal: Signal| {
+            nets[signal as usize]
+                .unwrap_or_else(|| *constants[signal as usize].get_or_insert_with(|| mapped.add_constant(signal == 1)))
+        };
+        for gate in &network.gates {
+            let pins = gate.pins.map(|pin| net(mapped, &nets, pin));
+            let used = if gate.function.depends_on(1) { 2 } else { 1 };
+            nets.push(Some(mapped.add_gate(gate.function, &pins[..used])));
+        }
+        network.outputs.iter().map(|&output| net(mapped, &nets, output)).collect()
+    }
+
+    /// Splits a kept cell into cells of the library.
+    fn split(&mut self, id: NetId, pins: &[NetId]) -> Result<NetId, MapError> {
+        let cell = self.source.cell(id).expect("kept cells are cells");
+        let missing = || self.missing(cell.function);
+        let Recipe { steps, result, .. } = self.recipes.get(cell.function).cloned().ok_or_else(missing)?;
         let mut nets: Vec<NetId> = Vec::with_capacity(steps.len());
         for step in &steps {
             let pins = step.pins.map(|operand| self.operand(operand, pins, &nets));
-            let net = if core { self.add(step.function, &pins) } else { self.share(step.function, pins) };
-            nets.push(net);
+            let used = if step.function.depends_on(1) { 2 } else { 1 };
+            nets.push(self.mapped.add_gate(step.function, &pins[..used]));
         }
         let net = self.operand(result, pins, &nets);
         if let (Node::Cell(made), Operand::Step(_)) = (self.mapped.node_mut(net), result) {
-            let free = |name: &String| !core && !self.core_names.values().any(|taken| taken == name);
-            made.name = made.name.take().or_else(|| cell.name.clone().filter(free));
-            made.span = made.span.or(cell.span);
+            made.span = cell.span;
         }
         Ok(net)
     }
 
-    fn recipe(&self, function: Function) -> Result<Recipe, MapError> {
-        self.recipes.get(function).cloned().ok_or_else(|| MapError::Incomplete {
-            missing: function,
-            held: self.library.functions().collect(),
-            completions: self.library.completions(),
-        })
+    fn missing(&self, function: Function) -> MapError {
+        let held = self.library.functions().collect();
+        MapError::Incomplete { missing: function, held, completions: self.library.completions() }
     }
 
     fn operand(&mut self, operand: Operand, pins: &[NetId], nets: &[NetId]) -> NetId {
@@ -168,33 +240,6 @@ impl<'a> Mapper<'a> {
             Operand::Step(i) => nets[usize::from(i)],
             Operand::Constant(value) => self.mapped.add_constant(value),
         }
-    }
-
-    /// A cell outside loops: an equal one that is there already, or what a second inverter inverts.
-    fn share(&mut self, function: Function, pins: [NetId; 2]) -> NetId {
-        if let Some(Cell { function: Function::NOT, .. }) =
-            self.mapped.cell(pins[0]).filter(|_| function == Function::NOT)
-        {
-            return self.mapped.pins(pins[0])[0];
-        }
-        let (function, pins) =
-            if pins[1] < pins[0] && function.arity() == 2 && self.library.contains(function.swapped()) {
-                (function.swapped(), [pins[1], pins[0]])
-            } else {
-                (function, pins)
-            };
-        let used = if function.depends_on(1) { 2 } else { 1 };
-        if let Some(&net) = self.known.get(&(function, pins[..used].to_vec())) {
-            return net;
-        }
-        let net = self.add(function, &pins);
-        self.known.insert((function, pins[..used].to_vec()), net);
-        net
-    }
-
-    fn add(&mut self, function: Function, pins: &[NetId]) -> NetId {
-        let used = if function.depends_on(1) { 2 } else { 1 };
-        self.mapped.add_gate(function, &pins[..used.min(pins.len())])
     }
 }
 
@@ -259,7 +304,7 @@ mod tests {
             "any one of `nor`, `nota_and_b`, `a_and_notb`, `nand`, `and`, `nota_or_b`, `a_or_notb` or `or` would complete \
              the library"
         );
-        assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`nand` cannot be made of no cells");
+        assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made of no cells");
     }
 
     #[test]

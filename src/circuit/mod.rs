@@ -3,6 +3,7 @@
 pub mod cells;
 #[cfg(test)]
 mod example;
+pub mod formats;
 pub mod levels;
 pub mod loops;
 pub mod map;
@@ -11,11 +12,13 @@ pub mod network;
 pub mod passes;
 pub mod proof;
 pub mod recipes;
+pub mod synth;
 pub mod timing;
 
 pub use cells::{CellKind, CellLibrary};
 pub use loops::Loops;
-pub use map::{MapError, map};
+pub use map::{MapError, MapOptions, Objective, map, map_with};
 pub use netlist::{Cell, NetId, Netlist, NetlistError, Node};
 pub use proof::{Proof, ProofError, prove};
+pub use synth::Effort;
 pub use timing::{Delays, Timing};

@@ -139,6 +139,15 @@ impl Netlist {
         &self.graph[id]
     }
 
+    /// Gives a port, a wire or a cell another name.
+    pub fn rename(&mut self, id: NetId, new: &str) {
+        match self.node_mut(id) {
+            Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => *name = new.to_owned(),
+            Node::Cell(cell) => cell.name = Some(new.to_owned()),
+            Node::Constant(_) => {}
+        }
+    }
+
     /// The node, to be changed.
     pub fn node_mut(&mut self, id: NetId) -> &mut Node {
         &mut self.graph[id]

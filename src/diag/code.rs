@@ -13,8 +13,12 @@ pub enum Code {
     BadSchedule,
     /// An option's value that makes no sense.
     BadValue,
+    /// A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what cannot be built.
+    CircuitFile,
     /// A file of another version of the program.
     ForeignFormat,
+    /// A cell library that does not hold enough functions.
+    IncompleteLibrary,
     /// A robot file that is damaged, or none.
     RobotFile,
     /// The text does not follow the grammar.
@@ -32,7 +36,9 @@ impl Code {
     pub const ALL: &[Self] = &[
         Self::BadSchedule,
         Self::BadValue,
+        Self::CircuitFile,
         Self::ForeignFormat,
+        Self::IncompleteLibrary,
         Self::RobotFile,
         Self::Syntax,
         Self::UnknownRobot,
@@ -45,7 +51,9 @@ impl Code {
         match self {
             Self::BadSchedule => "bad-schedule",
             Self::BadValue => "bad-value",
+            Self::CircuitFile => "circuit-file",
             Self::ForeignFormat => "foreign-format",
+            Self::IncompleteLibrary => "incomplete-library",
             Self::RobotFile => "robot-file",
             Self::Syntax => "syntax",
             Self::UnknownRobot => "unknown-robot",
@@ -59,7 +67,9 @@ impl Code {
         match self {
             Self::BadSchedule
             | Self::BadValue
+            | Self::CircuitFile
             | Self::ForeignFormat
+            | Self::IncompleteLibrary
             | Self::RobotFile
             | Self::Syntax
             | Self::UnknownRobot

@@ -80,7 +80,9 @@ fn inherit(netlist: &mut Netlist, wire: NetId, driver: NetId) {
         return;
     };
     if let Node::Cell(cell) = netlist.node_mut(driver) {
-        cell.name.get_or_insert(name);
+        if !name.is_empty() {
+            cell.name.get_or_insert(name);
+        }
         cell.start = cell.start.or(start);
         cell.span = cell.span.or(span);
     }

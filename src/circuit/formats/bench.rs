@@ -1,0 +1,77 @@
+//! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no name.
+
+use crate::circuit::formats::design::{Design, Register, RegisterKind};
+use crate::circuit::formats::draft::{Definition, Draft, DraftRegister};
+use crate::diag::Diagnostic;
+use crate::model::Function;
+use crate::source::{FileId, Span};
+
+/// Reads a file; `clock` names the clock of its flip-flops.
+///
+/// # Errors
+/// What is wrong with the text, with places.
+pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
+    let mut draft = Draft::default();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let code = line.split('#').next().unwrap_or("");
+        let trimmed = code.trim();
+        if !trimmed.is_empty() {
+            let at = start + (trimmed.as_ptr() as usize - line.as_ptr() as usize);
+            statement(&mut draft, trimmed, Span::new(file, at, at + trimmed.len()), clock);
+        }
+        start += line.len();
+    }
+    if draft.outputs.is_empty() && draft.errors.is_empty() {
+        draft.fault("no `OUTPUT` in this .bench file", Span::new(file, 0, 0), "expected `OUTPUT(net)`");
+    }
+    draft.finish()
+}
+
+fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
+    let (target, call) = match line.split_once('=') {
+        Some((target, call)) => (Some(target.trim()), call.trim()),
+        None => (None, line),
+    };
+    let Some((word, arguments)) = call.strip_suffix(')').and_then(|call| call.split_once('(')) else {
+        return draft.fault("not a statement of .bench", span, "expected `INPUT(a)`, `OUTPUT(b)` or `b = NAND(a, c)`");
+    };
+    let pins: Vec<_> = arguments.split(',').map(str::trim).map(|pin| draft.name(pin)).collect();
+    if arguments.split(',').any(|pin| pin.trim().is_empty()) || target == Some("") {
+        return draft.fault("a net without a name", span, "expected a name between the commas");
+    }
+    let word = word.trim().to_ascii_uppercase();
+    match (target, word.as_str(), &pins[..]) {
+        (None, "INPUT", &[net]) => draft.inputs.push((net, span)),
+        (None, "OUTPUT", &[net]) => draft.outputs.push((net, span)),
+        (Some(target), "DFF", &[next]) => {
+            let output = draft.name(target);
+            let clock = Some(clock.unwrap_or("clk").to_owned());
+            let register = Register { name: target.to_owned(), kind: RegisterKind::Rising, clock, start: Some(false) };
+            draft.registers.push(DraftRegister { register, output, next, span });
+        }
+        (Some(target), word, pins) => match gate(word, pins.len()) {
+            Some((function, inverted)) => {
+                let output = draft.name(target);
+                draft.define(output, Definition::Gate(function, inverted, pins.to_vec()), span);
+            }
+            None => draft.fault(format!("`{word}` of {} nets is no gate of .bench", pins.len()), span, "unknown gate"),
+        },
+        (None, ..) => draft.fault(format!("`{word}` is no port"), span, "expected `INPUT(net)` or `OUTPUT(net)`"),
+    }
+}
+
+/// The function of a gate's word, and whether it is inverted in the end.
+fn gate(word: &str, pins: usize) -> Option<(Function, bool)> {
+    Some(match word {
+        "NOT" | "INV" if pins == 1 => (Function::AND, true),
+        "BUF" | "BUFF" if pins == 1 => (Function::AND, false),
+        "AND" => (Function::AND, false),
+        "NAND" => (Function::AND, true),
+        "OR" => (Function::OR, false),
+        "NOR" => (Function::OR, true),
+        "XOR" => (Function::XOR, false),
+        "XNOR" => (Function::XOR, true),
+        _ => return None,
+    })
+}

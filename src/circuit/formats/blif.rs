@@ -1,0 +1,413 @@
+//! BLIF, the Berkeley logic interchange format: hierarchical in, flat out.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write;
+
+use crate::circuit::formats::design::{Design, Register, RegisterKind};
+use crate::circuit::formats::draft::{Definition, Draft, DraftRegister};
+use crate::circuit::formats::names::{cells_in_order, names, stand_ins};
+use crate::circuit::{NetId, Netlist, Node};
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Span};
+
+/// Reads the first model of a file, the models it instantiates put in their places.
+///
+/// # Errors
+/// What is wrong with the text, with places.
+pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
+    let mut models = Models { all: Vec::new(), by_name: HashMap::new(), errors: Vec::new() };
+    models.read(text, file);
+    if !models.errors.is_empty() {
+        return Err(models.errors);
+    }
+    if models.all.is_empty() {
+        let span = Span::new(file, 0, 0);
+        return Err(vec![Diagnostic::new(
+            Code::CircuitFile,
+            "no `.model` in this BLIF file",
+            span,
+            "expected `.model`",
+        )]);
+    }
+    let mut draft = Draft::titled(models.all[0].name);
+    let mut flat = Flat { models: &models, draft: &mut draft, clock, path: Vec::new() };
+    flat.instantiate(0, "", &BTreeMap::new());
+    draft.finish()
+}
+
+/// A logical line: its words with their places.
+type Words<'t> = Vec<(&'t str, Span)>;
+
+/// A statement of a model.
+enum Statement<'t> {
+    Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool },
+    Latch(Words<'t>),
+    Subcircuit(Words<'t>),
+}
+
+/// A model as it stands in the text.
+struct Model<'t> {
+    name: &'t str,
+    inputs: Words<'t>,
+    outputs: Words<'t>,
+    clocks: Words<'t>,
+    statements: Vec<(Statement<'t>, Span)>,
+}
+
+struct Models<'t> {
+    all: Vec<Model<'t>>,
+    by_name: HashMap<&'t str, usize>,
+    errors: Vec<Diagnostic>,
+}
+
+/// Directives that say nothing of the logic.
+const IGNORED: &[&str] = &[
+    ".area",
+    ".attr",
+    ".cname",
+    ".default_input_arrival",
+    ".default_input_drive",
+    ".default_max_input_load",
+    ".default_output_load",
+    ".default_output_required",
+    ".delay",
+    ".input_arrival",
+    ".input_drive",
+    ".input_required",
+    ".max_input_load",
+    ".output_load",
+    ".output_required",
+    ".param",
+    ".wire_load_slope",
+    ".wire",
+    ".wire_arrival",
+];
+
+impl<'t> Models<'t> {
+    fn fault(&mut self, message: impl Into<String>, span: Span, label: impl Into<String>) {
+        if self.errors.len() < 20 {
+            self.errors.push(Diagnostic::new(Code::CircuitFile, message, span, label));
+        }
+    }
+
+    fn read(&mut self, text: &'t str, file: FileId) {
+        for words in lines(text, file) {
+            let (first, span) = words[0];
+            if first.starts_with('.') {
+                if first == ".exdc" {
+                    self.fault("`.exdc` is not supported", span, "external don't-cares");
+                    return;
+                }
+                self.directive(words);
+            } else {
+                self.cube(&words);
+            }
+        }
+    }
+
+    fn directive(&mut self, words: Words<'t>) {
+        let (first, span) = words[0];
+        let rest = words[1..].to_vec();
+        if first == ".model" {
+            let name = rest.first().map_or("", |&(name, _)| name);
+            if self.by_name.insert(name, self.all.len()).is_some() {
+                self.fault(format!("model `{name}` is defined twice"), span, "the second definition");
+            }
+            let model = Model { name, inputs: vec![], outputs: vec![], clocks: vec![], statements: vec![] };
+            self.all.push(model);
+            return;
+        }
+        if first == ".end" || IGNORED.contains(&first) {
+            return;
+        }
+        let Some(model) = self.all.last_mut() else {
+            self.fault(format!("`{first}` before `.model`"), span, "expected `.model` first");
+            return;
+        };
+        match first {
+            ".inputs" => model.inputs.extend(rest),
+            ".outputs" => model.outputs.extend(rest),
+            ".clock" => model.clocks.extend(rest),
+            ".names" if rest.is_empty() => self.fault("`.names` without a net", span, "expected the name of a net"),
+            ".names" => {
+                model.statements.push((Statement::Names { signals: rest, cubes: Vec::new(), value: true }, span));
+            }
+            ".latch" if rest.len() < 2 => self.fault("`.latch` is cut short", span, "expected an input and an output"),
+            ".latch" => model.statements.push((Statement::Latch(rest), span)),
+            ".subckt" if rest.is_empty() => {
+                self.fault("`.subckt` without a model", span, "expected the name of a model")
+            }
+            ".subckt" => model.statements.push((Statement::Subcircuit(rest), span)),
+            ".gate" | ".mlatch" => self.fault(
+                format!("`{first}` names a cell of a library that is not in the file"),
+                span,
+                "write its function with `.names`",
+            ),
+            _ => self.fault(format!("`{first}` is no BLIF directive"), span, "unknown"),
+        }
+    }
+
+    fn cube(&mut self, words: &Words<'t>) {
+        let span = words[0].1.to(words[words.len() - 1].1);
+        let Some((Statement::Names { signals, cubes, value }, _)) =
+            self.all.last_mut().and_then(|model| model.statements.last_mut())
+        else {
+            let message = format!("`{}` is no directive", words[0].0);
+            return self.fault(message, span, "expected a directive such as `.names`, or a row after one");
+        };
+        let wanted = signals.len() - 1;
+        let (inputs, output) = match words[..] {
+            [(output, _)] if wanted == 0 => ("", output),
+            [(inputs, _), (output, _)] => (inputs, output),
+            _ => return self.fault("a row of a wrong form", span, "expected the inputs' digits and the output's"),
+        };
+        if inputs.len() != wanted || !inputs.bytes().all(|digit| b"01-".contains(&digit)) {
+            let label = format!("expected {wanted} digits `0`, `1` or `-`, found `{inputs}`");
+            return self.fault("a row of the wrong width", span, label);
+        }
+        let is = match output {
+            "1" => true,
+            "0" => false,
+            _ => {
+                return self.fault("a row with a wrong output", span, format!("expected `0` or `1`, found `{output}`"));
+            }
+        };
+        if !cubes.is_empty() && *value != is {
+            return self.fault("rows of both outputs", span, "all rows of one `.names` have the same output");
+        }
+        *value = is;
+        cubes.push(inputs.bytes().collect());
+    }
+}
+
+/// The logical lines: comments taken out, lines that end with a backslash joined, empty ones left out.
+fn lines(text: &str, file: FileId) -> impl Iterator<Item = Words<'_>> {
+    let mut rest = text.split_inclusive('\n').scan(0, |start, line| {
+        *start += line.len();
+        Some((*start - line.len(), line))
+    });
+    std::iter::from_fn(move || {
+        let mut words: Words<'_> = Vec::new();
+        for (start, line) in rest.by_ref() {
+            let line = line.split('#').next().unwrap_or("").trim_end();
+            let (line, continued) = line.strip_suffix('\\').map_or((line, false), |line| (line, true));
+            words.extend(line.split_whitespace().map(|word| {
+                let at = start + (word.as_ptr() as usize - line.as_ptr() as usize);
+                (word, Span::new(file, at, at + word.len()))
+            }));
+            if !continued && !words.is_empty() {
+                return Some(words);
+            }
+        }
+        (!words.is_empty()).then_some(words)
+    })
+}
+
+/// The flattening of models into one draft.
+struct Flat<'m, 't> {
+    models: &'m Models<'t>,
+    draft: &'m mut Draft,
+    clock: Option<&'m str>,
+    path: Vec<usize>,
+}
+
+impl<'m, 't> Flat<'m, 't> {
+    /// Puts a model in its place; `ports` says which nets its ports are.
+    fn instantiate(&mut self, model: usize, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+        self.path.push(model);
+        let models = self.models;
+        let model = &models.all[model];
+        if self.path.len() == 1 {
+            for &(name, span) in model.inputs.iter() {
+                let number = self.draft.name(name);
+                self.draft.inputs.push((number, span));
+            }
+            for &(name, span) in &model.outputs {
+                let number = self.draft.name(name);
+                self.draft.outputs.push((number, span));
+            }
+        }
+        for (statement, span) in &model.statements {
+            match statement {
+                Statement::Names { signals, cubes, value } => self.names(signals, cubes, *value, prefix, ports),
+                Statement::Latch(words) => self.latch(model, words, *span, prefix, ports),
+                Statement::Subcircuit(words) => self.subcircuit(words, prefix, ports),
+            }
+        }
+        self.path.pop();
+    }
+
+    fn net(&mut self, name: &str, prefix: &str, ports: &BTreeMap<&'t str, String>) -> u32 {
+        match ports.get(name) {
+            Some(outside) => self.draft.name(outside),
+            None if prefix.is_empty() => self.draft.name(name),
+            None => self.draft.name(&format!("{prefix}{name}")),
+        }
+    }
+
+    fn names(
+        &mut self,
+        signals: &Words<'t>,
+        cubes: &[Vec<u8>],
+        value: bool,
+        prefix: &str,
+        ports: &BTreeMap<&'t str, String>,
+    ) {
+        let mut nets: Vec<_> = signals.iter().map(|(name, _)| self.net(name, prefix, ports)).collect();
+        let output = nets.pop().expect("`.names` has an output");
+        let span = signals[signals.len() - 1].1;
+        self.draft.define(output, Definition::Cover { pins: nets, cubes: cubes.to_vec(), value }, span);
+    }
+
+    fn latch(
+        &mut self,
+        model: &Model<'t>,
+        words: &Words<'t>,
+        span: Span,
+        prefix: &str,
+        ports: &BTreeMap<&'t str, String>,
+    ) {
+        let (next, output) = (self.net(words[0].0, prefix, ports), self.net(words[1].0, prefix, ports));
+        let start = words.get(if words.len() % 2 == 1 { words.len() - 1 } else { usize::MAX }).map(|&(word, _)| word);
+        let start = match start {
+            None | Some("2" | "3") => None,
+            Some("0") => Some(false),
+            Some("1") => Some(true),
+            Some(word) => {
+                let message = format!("`{word}` is no start value of a latch");
+                return self.draft.fault(message, span, "expected 0, 1, 2 (any) or 3 (unknown)");
+            }
+        };
+        let (kind, clock) = match (words.get(2), words.get(3)) {
+            (Some((kind, _)), Some((clock, _))) => {
+                let kind = match *kind {
+                    "re" => RegisterKind::Rising,
+                    "fe" => RegisterKind::Falling,
+                    "ah" => RegisterKind::High,
+                    "al" => RegisterKind::Low,
+                    _ => {
+                        let message = format!("`{kind}` is no kind of latch that can be clocked");
+                        return self.draft.fault(message, span, "expected re, fe, ah or al");
+                    }
+                };
+                let number = self.net(clock, prefix, ports);
+                (kind, (*clock != "NIL").then(|| self.draft.text(number).to_owned()))
+            }
+            _ => (RegisterKind::Rising, None),
+        };
+        let one_clock = match model.clocks[..] {
+            [(clock, _)] => Some(clock.to_owned()),
+            _ => None,
+        };
+        let clock = clock.or(one_clock).or_else(|| self.clock.map(str::to_owned));
+        let name = self.draft.text(output).to_owned();
+        if clock.is_none() && self.draft.errors.len() < 20 {
+            let fault =
+                Diagnostic::new(Code::CircuitFile, format!("latch `{name}` has no clock"), span, "without a clock");
+            let help = format!("write `.latch {} {name} re clk 0`, or `.clock clk`, or pass `--clock clk`", words[0].0);
+            self.draft.errors.push(fault.with_help(help));
+        }
+        let register = Register { name, kind, clock, start };
+        self.draft.registers.push(DraftRegister { register, output, next, span });
+    }
+
+    fn subcircuit(&mut self, words: &Words<'t>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+        let (name, span) = words[0];
+        let Some(&model) = self.models.by_name.get(name) else {
+            let message = format!("model `{name}` is missing");
+            return self.draft.fault(message, span, "no `.model` of this name in the file");
+        };
+        if self.path.contains(&model) {
+            return self.draft.fault(format!("model `{name}` contains itself"), span, "instantiated here");
+        }
+        let mut inner = BTreeMap::new();
+        for &(word, at) in &words[1..] {
+            let Some((formal, actual)) = word.split_once('=') else {
+                return self.draft.fault(format!("`{word}` connects nothing"), at, "expected `port=net`");
+            };
+            let known = &self.models.all[model];
+            let ports_of_model = known.inputs.iter().chain(&known.outputs).chain(&known.clocks);
+            if !ports_of_model.map(|&(name, _)| name).any(|name| name == formal) {
+                return self.draft.fault(format!("model `{name}` has no port `{formal}`"), at, "connected here");
+            }
+            let number = self.net(actual, prefix, ports);
+            inner.insert(formal, self.draft.text(number).to_owned());
+        }
+        let instance = format!("{prefix}{name}@{}.", span.start);
+        self.instantiate(model, &instance, &inner);
+    }
+}
+
+/// Writes a design.
+pub fn write(design: &Design) -> String {
+    let netlist = &design.logic;
+    let legal = |name: &str| name.replace(|c: char| c.is_whitespace() || c == '#' || c == '\\' || c == '=', "_");
+    let names = names(netlist, legal);
+    let stand_ins = stand_ins(netlist);
+    let name = |id: NetId| match netlist.node(id) {
+        Node::Constant(value) => constant(*value),
+        _ => names[stand_ins.get(&id).unwrap_or(&id)].as_str(),
+    };
+    let list = |ids: &[NetId]| ids.iter().map(|id| format!(" {}", names[id])).collect::<String>();
+    let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
+    let (inputs, states) = netlist.inputs().split_at(design.inputs());
+    let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
+    let mut text = format!(".model {title}\n.inputs{}\n.outputs{}\n", list(inputs), list(outputs));
+    let known: Vec<_> = inputs.iter().map(|id| names[id].as_str()).collect();
+    let mut clocks: Vec<_> = design.registers.iter().filter_map(|register| register.clock.as_deref()).collect();
+    clocks.sort_unstable();
+    clocks.dedup();
+    for clock in clocks.into_iter().filter(|clock| !known.contains(clock)) {
+        let _ = writeln!(text, ".clock {}", legal(clock));
+    }
+    for ((register, state), next) in design.registers.iter().zip(states).zip(nexts) {
+        let kind = match register.kind {
+            RegisterKind::Rising => "re",
+            RegisterKind::Falling => "fe",
+            RegisterKind::High => "ah",
+            RegisterKind::Low => "al",
+        };
+        let clock = register.clock.as_ref().map_or(String::new(), |clock| format!(" {kind} {}", legal(clock)));
+        let start = register.start.map_or(2, u8::from);
+        let _ = writeln!(text, ".latch {} {}{clock} {start}", names[next], names[state]);
+    }
+    for id in cells_in_order(netlist) {
+        write_cell(&mut text, netlist, id, &name);
+    }
+    for value in [false, true] {
+        let used = |id: NetId| *netlist.node(id) == Node::Constant(value) && !netlist.fanout(id).is_empty();
+        if netlist.ids().any(used) {
+            let _ = writeln!(text, ".names {}{}", constant(value), if value { "\n1" } else { "" });
+        }
+    }
+    for &output in netlist.outputs() {
+        let driver = netlist.pins(output)[0];
+        if stand_ins.get(&driver) != Some(&output) {
+            let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names[&output]);
+        }
+    }
+    text.push_str(".end\n");
+    text
+}
+
+/// A cell as the rows at which it is 1.
+fn write_cell<'n>(text: &mut String, netlist: &Netlist, id: NetId, name: &impl Fn(NetId) -> &'n str) {
+    let function = netlist.cell(id).expect("the order holds cells").function;
+    let pins = netlist.pins(id);
+    let list: String = pins.iter().map(|&pin| format!(" {}", name(pin))).collect();
+    let _ = writeln!(text, ".names{list} {}", name(id));
+    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        if function.output(a == 1, b == 1) {
+            let _ = match pins.len() {
+                2 => writeln!(text, "{a}{b} 1"),
+                _ if b == 0 => writeln!(text, "{a} 1"),
+                _ => Ok(()),
+            };
+        }
+    }
+}
+
+/// The name of a constant net.
+fn constant(value: bool) -> &'static str {
+    if value { "$true" } else { "$false" }
+}

@@ -1,0 +1,243 @@
+//! Drafts: named nets and what defines them in any order, as the text formats have them, before they become a design.
+
+use std::collections::HashMap;
+
+use crate::circuit::formats::design::{Design, Register};
+use crate::circuit::{NetId, Netlist};
+use crate::diag::{Code, Diagnostic};
+use crate::model::Function;
+use crate::source::Span;
+
+/// A net's number in a draft.
+pub type Name = u32;
+
+/// What a net is.
+#[derive(Clone, Debug)]
+pub enum Definition {
+    /// A gate of any number of pins, maybe inverted in the end.
+    Gate(Function, bool, Vec<Name>),
+    /// A sum of cubes, each a digit `0`, `1` or `-` a pin; the net is `value` where one of them holds.
+    Cover { pins: Vec<Name>, cubes: Vec<Vec<u8>>, value: bool },
+}
+
+impl Definition {
+    fn pins(&self) -> &[Name] {
+        match self {
+            Self::Gate(_, _, pins) | Self::Cover { pins, .. } => pins,
+        }
+    }
+}
+
+/// A register of a draft.
+#[derive(Clone, Debug)]
+pub struct DraftRegister {
+    /// What it is in the design.
+    pub register: Register,
+    /// The net that shows its value.
+    pub output: Name,
+    /// The net of its next value.
+    pub next: Name,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// Nets by name, with what defines them.
+#[derive(Clone, Debug, Default)]
+pub struct Draft {
+    /// The circuit's name.
+    pub title: String,
+    /// Input ports.
+    pub inputs: Vec<(Name, Span)>,
+    /// Output ports.
+    pub outputs: Vec<(Name, Span)>,
+    /// Registers.
+    pub registers: Vec<DraftRegister>,
+    names: Vec<String>,
+    numbers: HashMap<String, Name>,
+    definitions: Vec<Option<(Definition, Span)>>,
+    /// What is wrong with it.
+    pub errors: Vec<Diagnostic>,
+}
+
+/// After so many errors no more are reported.
+const MOST_ERRORS: usize = 20;
+
+impl Draft {
+    /// An empty draft.
+    pub fn titled(title: &str) -> Self {
+        Self { title: title.to_owned(), ..Self::default() }
+    }
+
+    /// The number of a name.
+    pub fn name(&mut self, name: &str) -> Name {
+        if let Some(&number) = self.numbers.get(name) {
+            return number;
+        }
+        let number = self.names.len() as Name;
+        self.names.push(name.to_owned());
+        self.definitions.push(None);
+        self.numbers.insert(name.to_owned(), number);
+        number
+    }
+
+    /// The name with a number.
+    pub fn text(&self, name: Name) -> &str {
+        &self.names[name as usize]
+    }
+
+    /// Reports a fault.
+    pub fn fault(&mut self, message: impl Into<String>, span: Span, label: impl Into<String>) {
+        if self.errors.len() < MOST_ERRORS {
+            self.errors.push(Diagnostic::new(Code::CircuitFile, message, span, label));
+        }
+    }
+
+    /// Defines a net, or reports its second definition.
+    pub fn define(&mut self, name: Name, definition: Definition, span: Span) {
+        if let Some((_, first)) = self.definitions[name as usize] {
+            let message = format!("`{}` is defined twice", self.text(name));
+            if self.errors.len() < MOST_ERRORS {
+                let fault = Diagnostic::new(Code::CircuitFile, message, span, "the second definition");
+                self.errors.push(fault.with_related(first, "the first definition"));
+            }
+        } else {
+            self.definitions[name as usize] = Some((definition, span));
+        }
+    }
+
+    /// The design, if the draft is sound.
+    ///
+    /// # Errors
+    /// Nets that are used and not defined, defined twice, or that depend on themselves.
+    pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
+        let mut logic = Netlist::new(self.title.clone());
+        let mut nets: Vec<Option<NetId>> = vec![None; self.names.len()];
+        let sources: Vec<_> = self
+            .inputs
+            .iter()
+            .copied()
+            .chain(self.registers.iter().map(|register| (register.output, register.span)))
+            .collect();
+        for (name, span) in sources {
+            if nets[name as usize].is_some() || self.definitions[name as usize].is_some() {
+                let message = format!("`{}` is driven twice", self.text(name));
+                self.fault(message, span, "an input or a register, and something else too");
+                continue;
+            }
+            nets[name as usize] = Some(logic.add_input(self.text(name)));
+        }
+        let sinks: Vec<_> = self
+            .outputs
+            .iter()
+            .copied()
+            .chain(self.registers.iter().map(|register| (register.next, register.span)))
+            .collect();
+        let sinks_count = self.outputs.len();
+        for &(name, span) in &sinks {
+            self.build(name, span, &mut logic, &mut nets);
+        }
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        for (i, &(name, _)) in sinks.iter().enumerate() {
+            let label = match i.checked_sub(sinks_count) {
+                None => self.text(name).to_owned(),
+                Some(register) => format!("{}_next", self.registers[register].register.name),
+            };
+            logic.add_output(label, nets[name as usize].expect("every output was built"));
+        }
+        Ok(Design { logic, registers: self.registers.into_iter().map(|register| register.register).collect() })
+    }
+
+    /// Builds a net and all it depends on, without recursion.
+    fn build(&mut self, root: Name, used: Span, logic: &mut Netlist, nets: &mut [Option<NetId>]) {
+        let mut open = vec![(root, used, 0usize)];
+        let mut on_path = std::collections::HashSet::from([root]);
+        while let Some((name, used, pin)) = open.last_mut().map(|top| {
+            top.2 += 1;
+            (top.0, top.1, top.2 - 1)
+        }) {
+            if nets[name as usize].is_some() {
+                open.pop();
+                on_path.remove(&name);
+                continue;
+            }
+            let Some((definition, span)) = &self.definitions[name as usize] else {
+                let message = format!("`{}` is used and not defined", self.text(name));
+                self.fault(message, used, "used here");
+                nets[name as usize] = Some(logic.add_constant(false));
+                continue;
+            };
+            let span = *span;
+            match definition.pins().get(pin).copied() {
+                Some(next) if nets[next as usize].is_some() => {}
+                Some(next) if on_path.insert(next) => open.push((next, span, 0)),
+                Some(next) => {
+                    let message = format!("`{}` depends on itself", self.text(next));
+                    self.fault(message, span, "this closes the cycle");
+                    nets[next as usize] = Some(logic.add_constant(false));
+                }
+                None => {
+                    let net = add(logic, definition, nets);
+                    nets[name as usize] = Some(net);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the gates of a definition whose pins are all built.
+fn add(logic: &mut Netlist, definition: &Definition, nets: &[Option<NetId>]) -> NetId {
+    let net = |name: &Name| nets[*name as usize].expect("pins are built first");
+    match definition {
+        Definition::Gate(function, inverted, pins) => {
+            let pins = pins.iter().map(net).collect();
+            gate(logic, *function, *inverted, pins)
+        }
+        Definition::Cover { pins, cubes, value } => {
+            let pins: Vec<_> = pins.iter().map(net).collect();
+            cover(logic, &pins, cubes, *value)
+        }
+    }
+}
+
+/// A balanced tree of gates of an associative function, the last one inverted if asked for.
+fn gate(logic: &mut Netlist, function: Function, inverted: bool, mut nets: Vec<NetId>) -> NetId {
+    let last = |inverted: bool| if inverted { function.inverted() } else { function };
+    while nets.len() > 2 {
+        nets =
+            nets.chunks(2).map(|pair| if pair.len() == 2 { logic.add_gate(function, pair) } else { pair[0] }).collect();
+    }
+    match nets[..] {
+        [] => logic.add_constant((function == Function::AND) != inverted),
+        [one] if inverted => logic.add_gate(Function::NOT, &[one]),
+        [one] => one,
+        _ => logic.add_gate(last(inverted), &nets),
+    }
+}
+
+/// A sum of cubes; of two pins, one gate.
+fn cover(logic: &mut Netlist, pins: &[NetId], cubes: &[Vec<u8>], value: bool) -> NetId {
+    if pins.len() == 2 {
+        let holds = |cube: &[u8], x: u8, y: u8| (cube[0] == b'-' || cube[0] == x) && (cube[1] == b'-' || cube[1] == y);
+        let bits = [(b'0', b'0'), (b'0', b'1'), (b'1', b'0'), (b'1', b'1')]
+            .into_iter()
+            .enumerate()
+            .fold(0, |bits, (i, (x, y))| bits | u8::from(cubes.iter().any(|cube| holds(cube, x, y)) == value) << i);
+        return logic.add_gate(Function::new(bits), pins);
+    }
+    let terms: Vec<_> = cubes.iter().map(|cube| product(logic, pins, cube)).collect();
+    gate(logic, Function::OR, !value, terms)
+}
+
+fn product(logic: &mut Netlist, pins: &[NetId], cube: &[u8]) -> NetId {
+    let mut literals = Vec::new();
+    for (&net, digit) in pins.iter().zip(cube) {
+        match digit {
+            b'1' => literals.push(net),
+            b'0' => literals.push(logic.add_gate(Function::NOT, &[net])),
+            _ => {}
+        }
+    }
+    gate(logic, Function::AND, false, literals)
+}

@@ -1,0 +1,13 @@
+//! Exchange formats: BLIF, AIGER and ISCAS .bench in; BLIF, AIGER, Verilog, DOT and .nb out.
+
+pub mod aiger;
+pub mod bench;
+pub mod blif;
+mod design;
+pub mod dot;
+mod draft;
+mod names;
+pub mod nb;
+pub mod verilog;
+
+pub use design::{Design, Register, RegisterKind};

@@ -1,0 +1,400 @@
+//! The graph that the search changes: gates of a library with their values in every pattern, their listeners, and who needs them.
+
+use crate::circuit::network::{Network, Signal, counting_word, word};
+use crate::circuit::recipes::Operand;
+use crate::circuit::synth::prices::Prices;
+use crate::model::Function;
+
+/// A gate, or a constant or an input.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// What it computes; of no meaning for sources.
+    pub function: Function,
+    /// What its pins listen to, the same twice for functions of one input.
+    pub pins: [Signal; 2],
+    /// How many pins and outputs listen.
+    pub refs: u32,
+    /// Whether it is a gate in use, as opposed to a source or a free place.
+    pub alive: bool,
+    /// The latest loop that it may depend on, counted in topological order.
+    pub stage: u32,
+}
+
+/// Gates with their values; places of dead gates are used again.
+#[derive(Clone, Debug)]
+pub struct Graph<'p> {
+    prices: &'p Prices,
+    inputs: usize,
+    width: usize,
+    nodes: Vec<Node>,
+    values: Vec<u64>,
+    fanout: Vec<Vec<Signal>>,
+    outputs: Vec<Signal>,
+    order: Vec<Signal>,
+    position: Vec<u32>,
+    free: Vec<Signal>,
+    cost: u32,
+    /// The gate that is about to go, which no new gate may listen to.
+    leaving: Option<Signal>,
+}
+
+impl<'p> Graph<'p> {
+    /// The graph of a network with the given patterns, `width` words for each input.
+    pub fn new(network: &Network, prices: &'p Prices, stages: &[u32], patterns: &[Vec<u64>]) -> Self {
+        let width = patterns.first().map_or(1, Vec::len);
+        let mut graph = Self {
+            prices,
+            inputs: network.inputs,
+            width,
+            nodes: Vec::new(),
+            values: Vec::new(),
+            fanout: Vec::new(),
+            outputs: Vec::new(),
+            order: Vec::new(),
+            position: Vec::new(),
+            free: Vec::new(),
+            cost: 0,
+            leaving: None,
+        };
+        let zero = vec![0; width];
+        let one = vec![!0; width];
+        graph.source(0, &zero);
+        graph.source(0, &one);
+        for i in 0..network.inputs {
+            graph.source(stages.get(i).copied().unwrap_or(0), patterns.get(i).unwrap_or(&zero));
+        }
+        let mut made: Vec<Signal> = (0..2 + network.inputs as Signal).collect();
+        for gate in &network.gates {
+            let signal = graph.make(gate.function, gate.pins.map(|pin| made[pin as usize]));
+            made.push(signal);
+        }
+        for &output in &network.outputs {
+            let signal = made[output as usize];
+            graph.nodes[signal as usize].refs += 1;
+            graph.outputs.push(signal);
+        }
+        graph.drop_unused();
+        graph.sort();
+        graph
+    }
+
+    fn source(&mut self, stage: u32, values: &[u64]) {
+        self.nodes.push(Node { function: Function::BUF, pins: [0; 2], refs: 0, alive: false, stage });
+        self.values.extend(values);
+        self.fanout.push(Vec::new());
+    }
+
+    /// The words of patterns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// What the gates cost.
+    pub fn cost(&self) -> u32 {
+        self.cost
+    }
+
+    /// The prices of cells.
+    pub fn prices(&self) -> &'p Prices {
+        self.prices
+    }
+
+    /// The gates in use, drivers first.
+    pub fn order(&self) -> &[Signal] {
+        &self.order
+    }
+
+    /// The place of a gate in [`Graph::order`].
+    pub fn position(&self, signal: Signal) -> usize {
+        self.position[signal as usize] as usize
+    }
+
+    /// The node.
+    pub fn node(&self, signal: Signal) -> &Node {
+        &self.nodes[signal as usize]
+    }
+
+    /// How many places there are, sources first.
+    pub fn places(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The first signal that is not a source.
+    pub fn first_gate(&self) -> Signal {
+        2 + self.inputs as Signal
+    }
+
+    /// The signals shown.
+    pub fn outputs(&self) -> &[Signal] {
+        &self.outputs
+    }
+
+    /// The gates that listen to a signal.
+    pub fn fanout(&self, signal: Signal) -> &[Signal] {
+        &self.fanout[signal as usize]
+    }
+
+    /// The values of a signal.
+    pub fn values(&self, signal: Signal) -> &[u64] {
+        &self.values[signal as usize * self.width..][..self.width]
+    }
+
+    /// A gate of the library, found or made.
+    pub fn make(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
+        let pins = match (function.depends_on(0), function.depends_on(1)) {
+            (true, true) => pins,
+            (true, false) => [pins[0]; 2],
+            (false, true) => [pins[1]; 2],
+            (false, false) => return Signal::from(function == Function::ONE),
+        };
+        if function == Function::BUF || function == Function::BUF_B {
+            return pins[0];
+        }
+        self.find(function, pins).unwrap_or_else(|| self.make_new(function, pins))
+    }
+
+    /// A gate that computes this already.
+    fn find(&self, function: Function, pins: [Signal; 2]) -> Option<Signal> {
+        if function == Function::NOT && self.nodes[pins[0] as usize].function == Function::NOT {
+            return Some(self.nodes[pins[0] as usize].pins[0]);
+        }
+        let [a, b] = pins;
+        let shorter = if self.fanout[a as usize].len() <= self.fanout[b as usize].len() { a } else { b };
+        let equal = |node: &Node| {
+            node.function == function && node.pins == pins
+                || node.pins == [b, a] && node.function == function.swapped() && a != b
+        };
+        let stays = |gate: Signal| Some(gate) != self.leaving;
+        self.fanout[shorter as usize].iter().copied().find(|&gate| equal(&self.nodes[gate as usize]) && stays(gate))
+    }
+
+    /// A new gate without looking for an equal one.
+    pub fn make_new(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
+        let stage = pins.map(|pin| self.nodes[pin as usize].stage).into_iter().max().unwrap_or(0);
+        let node = Node { function, pins, refs: 0, alive: true, stage };
+        let signal = match self.free.pop() {
+            Some(place) => {
+                self.nodes[place as usize] = node;
+                place
+            }
+            None => {
+                self.nodes.push(node);
+                self.values.resize(self.values.len() + self.width, 0);
+                self.fanout.push(Vec::new());
+                (self.nodes.len() - 1) as Signal
+            }
+        };
+        self.simulate(signal);
+        for pin in distinct(pins) {
+            self.nodes[pin as usize].refs += 1;
+            self.fanout[pin as usize].push(signal);
+        }
+        self.cost += self.prices.cell(function);
+        signal
+    }
+
+    /// A function of two signals made of library cells.
+    pub fn compose(&mut self, function: Function, pins: [Signal; 2]) -> Option<Signal> {
+        let prices = self.prices;
+        let recipe = prices.recipe(function)?;
+        let mut made = [0 as Signal; 16];
+        let read = |made: &[Signal; 16], operand: Operand| match operand {
+            Operand::Input(pin) => pins[usize::from(pin)],
+            Operand::Constant(value) => Signal::from(value),
+            Operand::Step(i) => made[usize::from(i)],
+        };
+        for (i, step) in recipe.steps.iter().enumerate() {
+            made[i] = self.make(step.function, step.pins.map(|operand| read(&made, operand)));
+        }
+        let root = read(&made, recipe.result);
+        self.hold(root);
+        made.into_iter().for_each(|step| self.release(step));
+        self.let_go(root);
+        Some(root)
+    }
+
+    /// Works out a gate's values from its pins'.
+    fn simulate(&mut self, signal: Signal) {
+        let Node { function, pins: [a, b], .. } = self.nodes[signal as usize];
+        let (a, b, out) = (a as usize * self.width, b as usize * self.width, signal as usize * self.width);
+        for i in 0..self.width {
+            self.values[out + i] = word(function, self.values[a + i], self.values[b + i]);
+        }
+    }
+
+    /// Says which gate is about to go, so that it is not found for a new one to listen to.
+    pub fn set_leaving(&mut self, gate: Option<Signal>) {
+        self.leaving = gate;
+    }
+
+    /// Whether two gates compute the same function of the same signals.
+    pub fn same(&self, one: Signal, two: Signal) -> bool {
+        let (one, two) = (self.node(one), self.node(two));
+        let swapped = [two.pins[1], two.pins[0]];
+        one.function == two.function && one.pins == two.pins
+            || one.function == two.function.swapped() && one.pins == swapped
+    }
+
+    /// Keeps a signal from being released.
+    pub fn hold(&mut self, signal: Signal) {
+        self.nodes[signal as usize].refs += 1;
+    }
+
+    /// Ends [`Graph::hold`].
+    pub fn let_go(&mut self, signal: Signal) {
+        self.nodes[signal as usize].refs -= 1;
+    }
+
+    /// What would go if nothing listened to `signal` any more.
+    pub fn released(&mut self, signal: Signal) -> u32 {
+        let mut released = 0;
+        let mut pending = vec![signal];
+        let mut touched = Vec::new();
+        while let Some(gate) = pending.pop() {
+            released += self.prices.cell(self.nodes[gate as usize].function);
+            for pin in distinct(self.nodes[gate as usize].pins) {
+                let node = &mut self.nodes[pin as usize];
+                node.refs -= 1;
+                touched.push(pin);
+                if node.refs == 0 && node.alive {
+                    pending.push(pin);
+                }
+            }
+        }
+        touched.into_iter().for_each(|pin| self.nodes[pin as usize].refs += 1);
+        released
+    }
+
+    /// Takes out a gate without listeners, and what only it needed.
+    pub fn release(&mut self, signal: Signal) {
+        let mut pending = vec![signal];
+        while let Some(gate) = pending.pop() {
+            let node = &mut self.nodes[gate as usize];
+            if !node.alive || node.refs > 0 {
+                continue;
+            }
+            node.alive = false;
+            let (function, pins) = (node.function, node.pins);
+            // A dead place must not be mistaken for an inverter.
+            node.function = Function::BUF;
+            self.cost -= self.prices.cell(function);
+            for pin in distinct(pins) {
+                self.nodes[pin as usize].refs -= 1;
+                let listeners = &mut self.fanout[pin as usize];
+                let at = listeners.iter().position(|&listener| listener == gate).expect("a listener is on the list");
+                listeners.swap_remove(at);
+                pending.push(pin);
+            }
+            self.free.push(gate);
+        }
+    }
+
+    /// Gives the listeners of `old` to `new`, and takes out `old` and what only it needed.
+    pub fn substitute(&mut self, old: Signal, new: Signal) {
+        for gate in std::mem::take(&mut self.fanout[old as usize]) {
+            let before = self.nodes[gate as usize].pins;
+            let after = before.map(|pin| if pin == old { new } else { pin });
+            self.nodes[gate as usize].pins = after;
+            if !before.contains(&new) {
+                self.fanout[new as usize].push(gate);
+                self.nodes[new as usize].refs += 1;
+            }
+            self.nodes[old as usize].refs -= 1;
+        }
+        for output in &mut self.outputs {
+            if *output == old {
+                *output = new;
+                self.nodes[new as usize].refs += 1;
+                self.nodes[old as usize].refs -= 1;
+            }
+        }
+        self.release(old);
+    }
+
+    /// Takes out every gate that nothing listens to.
+    fn drop_unused(&mut self) {
+        for signal in (0..self.nodes.len()).rev() {
+            self.release(signal as Signal);
+        }
+    }
+
+    /// Brings the order up to date.
+    pub fn sort(&mut self) {
+        self.order.clear();
+        self.position.clear();
+        self.position.resize(self.nodes.len(), u32::MAX);
+        let mut stack: Vec<Signal> = Vec::new();
+        for i in 0..self.outputs.len() {
+            stack.push(self.outputs[i]);
+            while let Some(&signal) = stack.last() {
+                let node = &self.nodes[signal as usize];
+                if !node.alive || self.position[signal as usize] != u32::MAX {
+                    stack.pop();
+                    continue;
+                }
+                let waits = node
+                    .pins
+                    .into_iter()
+                    .find(|&pin| self.nodes[pin as usize].alive && self.position[pin as usize] == u32::MAX);
+                match waits {
+                    Some(pin) => stack.push(pin),
+                    None => {
+                        self.position[signal as usize] = self.order.len() as u32;
+                        self.order.push(signal);
+                        stack.pop();
+                    }
+                }
+            }
+        }
+    }
+
+    /// Works out all values and stages again, in order.
+    pub fn refresh(&mut self) {
+        for i in 0..self.order.len() {
+            let signal = self.order[i];
+            self.simulate(signal);
+            let stage = self.nodes[signal as usize].pins.map(|pin| self.nodes[pin as usize].stage);
+            self.nodes[signal as usize].stage = stage[0].max(stage[1]);
+        }
+    }
+
+    /// Whether a signal is shown.
+    pub fn is_output(&self, signal: Signal) -> bool {
+        self.outputs.contains(&signal)
+    }
+
+    /// Shows `outputs`, drops what they do not need, and gives the network.
+    pub fn finish(mut self, outputs: impl Iterator<Item = Signal>) -> Network {
+        for output in outputs {
+            self.nodes[output as usize].refs += 1;
+            self.outputs.push(output);
+        }
+        self.drop_unused();
+        self.sort();
+        self.network()
+    }
+
+    /// The network as it is now.
+    pub fn network(&self) -> Network {
+        let mut network = Network::new(self.inputs);
+        let mut signal: Vec<Signal> = (0..self.nodes.len() as Signal).collect();
+        for &gate in &self.order {
+            let Node { function, pins, .. } = self.nodes[gate as usize];
+            signal[gate as usize] = network.add(function, pins.map(|pin| signal[pin as usize]));
+        }
+        network.outputs = self.outputs.iter().map(|&output| signal[output as usize]).collect();
+        network
+    }
+}
+
+/// The pins of a gate, a net on both of them counted once.
+fn distinct(pins: [Signal; 2]) -> impl Iterator<Item = Signal> {
+    let [a, b] = pins;
+    std::iter::once(a).chain((a != b).then_some(b))
+}
+
+/// Every pattern of some inputs, as words for each input.
+pub fn every_pattern(inputs: usize) -> Vec<Vec<u64>> {
+    let words = (1usize << inputs).div_ceil(64);
+    (0..inputs).map(|i| (0..words).map(|block| counting_word(i, block)).collect()).collect()
+}

@@ -1,0 +1,9 @@
+//! Logic synthesis: the search for few cells that compute what a circuit computes.
+
+pub mod graph;
+pub mod prices;
+pub mod reduce;
+pub mod walk;
+pub mod window;
+
+pub use reduce::{Effort, reduce};

@@ -1,0 +1,51 @@
+//! Prices: what each cell of a library costs, and the cheapest cells that make each function of two signals.
+
+use crate::circuit::cells::{CellKind, CellLibrary};
+use crate::circuit::recipes::{Recipe, Recipes};
+use crate::model::Function;
+
+/// The prices of a library, looked up by function.
+#[derive(Clone, Debug)]
+pub struct Prices {
+    cells: [u32; 16],
+    recipes: Recipes,
+}
+
+impl Prices {
+    /// The prices of a library's robots.
+    pub fn of(library: &CellLibrary) -> Self {
+        let mut cells = [0; 16];
+        for (function, kind) in library.kinds() {
+            cells[usize::from(function.bits())] = kind.cost;
+        }
+        Self { cells, recipes: Recipes::of(library) }
+    }
+
+    /// All functions at two units, exclusive ors at `exclusive` units, inverters free: the first aim for libraries without XOR.
+    pub fn abstracted(exclusive: u32) -> Self {
+        let price = |function: Function| match function {
+            Function::XOR | Function::XNOR => exclusive,
+            _ if function.arity() == 2 => 2,
+            _ => 0,
+        };
+        let kind = |function| (function, CellKind { cost: price(function), ..CellKind::uniform(1, 1.0) });
+        Self::of(
+            &Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT).map(kind).collect(),
+        )
+    }
+
+    /// What a cell costs.
+    pub fn cell(&self, function: Function) -> u32 {
+        self.cells[usize::from(function.bits())]
+    }
+
+    /// The cheapest cells for a function.
+    pub fn recipe(&self, function: Function) -> Option<&Recipe> {
+        self.recipes.get(function)
+    }
+
+    /// The cost of the cheapest cells for a function.
+    pub fn cost(&self, function: Function) -> Option<u32> {
+        self.recipes.cost(function)
+    }
+}
