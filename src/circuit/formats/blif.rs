@@ -1,6 +1,6 @@
 //! BLIF, the Berkeley logic interchange format: hierarchical in, flat out.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
@@ -15,7 +15,7 @@ use crate::source::{FileId, Span};
 /// # Errors
 /// What is wrong with the text, with places.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
-    let mut models = Models { all: Vec::new(), by_name: HashMap::new(), errors: Vec::new() };
+    let mut models = Models { all: Vec::new(), by_name: BTreeMap::new(), errors: Vec::new() };
     models.read(text, file);
     if !models.errors.is_empty() {
         return Err(models.errors);
@@ -56,7 +56,7 @@ struct Model<'t> {
 
 struct Models<'t> {
     all: Vec<Model<'t>>,
-    by_name: HashMap<&'t str, usize>,
+    by_name: BTreeMap<&'t str, usize>,
     errors: Vec<Diagnostic>,
 }
 

@@ -1,6 +1,6 @@
 //! Drafts: named nets and what defines them in any order, as the text formats have them, before they become a design.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::circuit::formats::design::{Design, Register};
 use crate::circuit::{NetId, Netlist};
@@ -53,7 +53,7 @@ pub struct Draft {
     /// Registers.
     pub registers: Vec<DraftRegister>,
     names: Vec<String>,
-    numbers: HashMap<String, Name>,
+    numbers: BTreeMap<String, Name>,
     definitions: Vec<Option<(Definition, Span)>>,
     /// What is wrong with it.
     pub errors: Vec<Diagnostic>,
@@ -152,7 +152,7 @@ impl Draft {
     /// Builds a net and all it depends on, without recursion.
     fn build(&mut self, root: Name, used: Span, logic: &mut Netlist, nets: &mut [Option<NetId>]) {
         let mut open = vec![(root, used, 0usize)];
-        let mut on_path = std::collections::HashSet::from([root]);
+        let mut on_path = std::collections::BTreeSet::from([root]);
         while let Some((name, used, pin)) = open.last_mut().map(|top| {
             top.2 += 1;
             (top.0, top.1, top.2 - 1)
