@@ -11,6 +11,7 @@ mod spacetime;
 mod sprite;
 mod svg;
 mod table;
+mod vcd;
 mod verdict;
 
 pub use chart::{Panel, Scale, range_of, tick_label};
@@ -23,4 +24,5 @@ pub use spacetime::{Strip, Track, draw_robot, draw_swarm};
 pub use sprite::{Pose, Scheme, draw_body, draw_portrait, draw_sprite};
 pub use svg::{Anchor, Paint, Point, Svg, Type};
 pub use table::{Align, Table};
+pub use vcd::vcd;
 pub use verdict::{describe_swarm, describe_test};
