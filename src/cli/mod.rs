@@ -8,6 +8,8 @@ mod failure;
 mod interrupt;
 mod library;
 mod progress;
+mod schedule;
+mod simulate;
 mod status;
 
 use std::process::ExitCode;
@@ -40,6 +42,7 @@ macro_rules! commands {
 commands! {
     Completions in completions,
     Library in library,
+    Simulate in simulate,
 }
 
 const EXAMPLES: &str = "\

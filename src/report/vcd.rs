@@ -51,8 +51,12 @@ pub fn vcd(trace: &SwarmTrace) -> String {
 }
 
 fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
-    let starts = |bit: &dyn Fn(usize) -> bool| Values::Bits((0..trace.cycles.len()).map(|c| (c as u64 * CYCLE, bit(c))).collect());
-    let ends = |bit: &dyn Fn(usize) -> bool| Values::Bits((0..trace.cycles.len()).map(|c| ((c as u64 + 1) * CYCLE, bit(c))).collect());
+    let starts = |bit: &dyn Fn(usize) -> bool| {
+        Values::Bits((0..trace.cycles.len()).map(|c| (c as u64 * CYCLE, bit(c))).collect())
+    };
+    let ends = |bit: &dyn Fn(usize) -> bool| {
+        Values::Bits((0..trace.cycles.len()).map(|c| ((c as u64 + 1) * CYCLE, bit(c))).collect())
+    };
     let port = |name: &String, values| Wave { name: identifier(name), values };
     let inputs = trace.inputs.iter().enumerate().map(|(i, name)| port(name, starts(&|c| trace.cycles[c].inputs[i])));
     let outputs = trace.outputs.iter().enumerate().map(|(o, name)| port(name, ends(&|c| trace.cycles[c].outputs[o])));
@@ -104,7 +108,8 @@ fn changes_of(wave: &Wave, number: usize) -> Vec<(u64, usize, String)> {
             unknown.into_iter().chain(told).collect()
         }
         Values::Reals(reals) => {
-            let changed = reals.iter().enumerate().filter(|&(i, &(_, x))| i == 0 || reals[i - 1].1.to_bits() != x.to_bits());
+            let changed =
+                reals.iter().enumerate().filter(|&(i, &(_, x))| i == 0 || reals[i - 1].1.to_bits() != x.to_bits());
             changed.map(|(_, &(time, x))| (time, number, format!("r{x} {code}"))).collect()
         }
     }

@@ -1,0 +1,153 @@
+//! Schedules of a single robot as written on the command line: `00*10 01*56steps`.
+
+use crate::diag::{Code, Diagnostic};
+use crate::model::{CYCLE_STEPS, Pattern, Schedule, Spell};
+use crate::source::{SourceFile, Span};
+
+/// The most env steps of a schedule.
+const MAX_STEPS: u64 = 10_000_000;
+
+const HELP: &str = "an entry is the stimuli and how long: `01*10` is ten cycles, `01*56steps` is 56 env steps";
+
+/// Reads a schedule of two stimuli: entries parted by blanks, each two stimulus bits, `*`, and cycles or env steps.
+///
+/// # Errors
+/// A diagnostic for each entry that is wrong, at its place.
+pub(super) fn parse(file: &SourceFile) -> Result<Schedule, Vec<Diagnostic>> {
+    let (mut spells, mut faults) = (Vec::new(), Vec::new());
+    for span in words(file) {
+        match parse_entry(file, span) {
+            Ok(spell) => spells.push(spell),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    let whole = Span::new(file.id, 0, file.text.len());
+    if spells.is_empty() && faults.is_empty() {
+        faults.push(fault("the schedule is empty", whole, "expected an entry such as `01*10`"));
+    }
+    let steps: u64 = spells.iter().map(|spell| u64::from(spell.steps)).sum();
+    if steps > MAX_STEPS {
+        let message = format!("the schedule has {steps} env steps, expected at most {MAX_STEPS}");
+        faults.push(fault(&message, whole, "too long"));
+    }
+    if faults.is_empty() { Ok(Schedule { spells }) } else { Err(faults) }
+}
+
+/// The spans of the words of a text.
+fn words(file: &SourceFile) -> Vec<Span> {
+    let start = |word: &str| word.as_ptr() as usize - file.text.as_ptr() as usize;
+    file.text.split_whitespace().map(|word| Span::new(file.id, start(word), start(word) + word.len())).collect()
+}
+
+fn parse_entry(file: &SourceFile, span: Span) -> Result<Spell, Diagnostic> {
+    let entry = &file.text[span.range()];
+    let start = span.range().start;
+    let Some((bits, length)) = entry.split_once('*') else {
+        return Err(fault(&format!("`{entry}` does not say how long"), span, "expected `*` and a number"));
+    };
+    let bits_span = Span::new(file.id, start, start + bits.len());
+    let length_span = Span::new(file.id, start + bits.len() + 1, span.range().end);
+    Ok(Spell { pattern: parse_bits(bits, bits_span)?, steps: parse_length(length, length_span)? })
+}
+
+fn parse_bits(bits: &str, span: Span) -> Result<Pattern, Diagnostic> {
+    let found = Pattern::PAIRS.into_iter().find(|pattern| pattern.to_string() == bits);
+    found.ok_or_else(|| {
+        fault(
+            &format!("`{bits}` are no stimuli, expected 00, 01, 10 or 11"),
+            span,
+            "two bits, 0 or 1 for each stimulus",
+        )
+    })
+}
+
+fn parse_length(length: &str, span: Span) -> Result<u32, Diagnostic> {
+    let (number, unit) = match length.find(|c: char| !c.is_ascii_digit()) {
+        Some(at) => length.split_at(at),
+        None => (length, "cycles"),
+    };
+    let steps_each = match unit {
+        "cycle" | "cycles" => u64::from(CYCLE_STEPS),
+        "step" | "steps" => 1,
+        _ => {
+            return Err(fault(
+                &format!("`{length}` is no length"),
+                span,
+                "expected a number of cycles, or one with `steps`",
+            ));
+        }
+    };
+    // What is too long for a number is too long for a schedule.
+    let count = number.parse::<u64>().unwrap_or(if number.is_empty() { 0 } else { u64::MAX });
+    let steps = count.saturating_mul(steps_each);
+    match steps {
+        0 => Err(fault(&format!("`{length}` is no time at all, expected at least 1"), span, "at least 1")),
+        1..=MAX_STEPS => Ok(u32::try_from(steps).expect("the limit fits")),
+        _ => Err(fault(&format!("`{length}` is too long, expected at most {MAX_STEPS} env steps"), span, "too long")),
+    }
+}
+
+fn fault(message: &str, span: Span, label: &str) -> Diagnostic {
+    Diagnostic::new(Code::BadSchedule, message, span, label).with_help(HELP)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Sources;
+
+    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<(String, String)>> {
+        let mut sources = Sources::default();
+        let id = sources.add("--schedule", text);
+        let told = |spell: Spell| (spell.pattern.to_string(), spell.steps);
+        parse(sources.file(id)).map(|schedule| schedule.spells.into_iter().map(told).collect()).map_err(|faults| {
+            faults.into_iter().map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned())).collect()
+        })
+    }
+
+    fn check(text: &str, expected: &[(&str, u32)]) {
+        assert_eq!(read(text), Ok(expected.iter().map(|&(bits, steps)| (bits.to_owned(), steps)).collect()));
+    }
+
+    fn check_fault(text: &str, message: &str, place: &str) {
+        let faults = read(text).unwrap_err();
+        assert_eq!(faults, [(message.to_owned(), place.to_owned())]);
+    }
+
+    #[test]
+    fn entries_are_cycles_or_env_steps() {
+        check("00*10 01*56steps", &[("00", 840), ("01", 56)]);
+        check("  11*1cycle\n10*2cycles ", &[("11", 84), ("10", 168)]);
+    }
+
+    #[test]
+    fn faults_have_their_place() {
+        check_fault("00*10 02*10", "`02` are no stimuli, expected 00, 01, 10 or 11", "02");
+        check_fault("00*0", "`0` is no time at all, expected at least 1", "0");
+        check_fault("00*0steps", "`0steps` is no time at all, expected at least 1", "0steps");
+        check_fault("00", "`00` does not say how long", "00");
+        check_fault("00*", "`` is no time at all, expected at least 1", "");
+        check_fault("00*-1", "`-1` is no length", "-1");
+        check_fault("00*10s", "`10s` is no length", "10s");
+        check_fault("", "the schedule is empty", "");
+        check_fault("0*1", "`0` are no stimuli, expected 00, 01, 10 or 11", "0");
+        check_fault("é*1", "`é` are no stimuli, expected 00, 01, 10 or 11", "é");
+        let long = "9".repeat(40);
+        check_fault(
+            &format!("00*{long}"),
+            &format!("`{long}` is too long, expected at most 10000000 env steps"),
+            &long,
+        );
+    }
+
+    #[test]
+    fn every_fault_is_told() {
+        assert_eq!(read("02*1 00*0").unwrap_err().len(), 2);
+    }
+
+    #[test]
+    fn the_whole_is_limited() {
+        let text = "00*100000 ".repeat(2);
+        assert_eq!(read(&text).unwrap_err()[0].0, "the schedule has 16800000 env steps, expected at most 10000000");
+    }
+}

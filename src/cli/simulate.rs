@@ -1,0 +1,150 @@
+//! `nbc simulate`: one body under a schedule of stimuli.
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::cli::{Context, Failure, Format, Status, library, schedule};
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
+use crate::report::{Align, Table};
+use crate::sim;
+use crate::source::{FileError, Sources, World};
+use crate::store::{self, DiskWorld};
+
+/// The most ground voxels in a row.
+const MAX_WORLD_WIDTH: usize = 10_000;
+
+/// Simulate one robot under a schedule of stimuli
+#[derive(Args)]
+#[command(after_help = "Examples:
+  nbc simulate nand --schedule '00*10 01*10 10*10 11*10'
+  nbc simulate body.yaml --schedule '01*56steps' --world-width 60 --start-x 28 --format json
+
+A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, 1 rigid, 2 soft, \
+3 active, 4 active in antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.")]
+pub struct Arguments {
+    /// A file with a body, or the name of a robot of the library
+    robot: String,
+    /// The two stimuli and how long: `01*10` is ten cycles, `01*56steps` is 56 env steps
+    #[arg(long)]
+    schedule: String,
+    /// The ground column of the body's left column [default: the middle of the world]
+    #[arg(long, value_name = "COLUMN")]
+    start_x: Option<usize>,
+    /// Ground voxels in a row
+    #[arg(long, value_name = "VOXELS", default_value_t = Setting::paper().world_width)]
+    world_width: usize,
+}
+
+/// What programs are told.
+#[derive(Serialize)]
+struct Outcome<'a> {
+    /// Voxels walked in each entry of the schedule; null where the simulation did not come to the entry's end.
+    displacement: Vec<Option<f64>>,
+    /// Place of the center of mass in voxels, at the start and after each env step.
+    com_x: &'a [f64],
+    /// The env step that was abandoned, from 1.
+    unstable_at: Option<u32>,
+}
+
+impl Arguments {
+    /// Simulates and prints.
+    ///
+    /// # Errors
+    /// When the schedule, the body or the world makes no sense.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let schedule = read_schedule(&self.schedule)?;
+        let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::paper() };
+        let body = read_body(&self.robot, setting.palette.materials().len())?;
+        check_place(&setting, &body).map_err(Failure::plain)?;
+        let trajectory = sim::run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
+        match context.format {
+            Format::Json => context.print_json(&Outcome::of(&schedule, &trajectory))?,
+            Format::Text => context.print(describe(&schedule, &trajectory))?,
+        }
+        Ok(Status::Done)
+    }
+}
+
+fn read_schedule(text: &str) -> Result<Schedule, Failure> {
+    let mut sources = Sources::default();
+    let id = sources.add("--schedule", text);
+    schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
+}
+
+/// The body in a file; failing a file, that of a robot of the library.
+pub(super) fn read_body(robot: &str, materials: usize) -> Result<Body, Failure> {
+    let mut sources = Sources::default();
+    match DiskWorld.read(robot) {
+        Ok(text) => {
+            let id = sources.add(robot, text);
+            store::read_body(sources.file(id), materials).map_err(|fault| Failure::input(vec![fault], sources))
+        }
+        Err(FileError::NotFound) if !robot.contains(['/', '.']) => {
+            library::find(store::shipped_library(), robot).map(|robot| robot.body.clone())
+        }
+        Err(error) => Err(Failure::plain(Diagnostic::unreadable(robot, &error))),
+    }
+}
+
+/// Whether the body stands on the ground of the world.
+fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
+    let bad = |message: String| Err(Diagnostic::without_place(Code::BadValue, message));
+    let (world, width) = (setting.world_width, body.width());
+    if world > MAX_WORLD_WIDTH {
+        return bad(format!("`--world-width {world}` is too wide, expected at most {MAX_WORLD_WIDTH}"));
+    }
+    if world < width {
+        return bad(format!("`--world-width {world}` is too narrow for a body of {width} columns"));
+    }
+    let start = setting.start_column(width);
+    if start > world - width {
+        let last = world - width;
+        return bad(format!(
+            "`--start-x {start}` is off the ground, expected at most {last} for {width} columns on {world} voxels"
+        ));
+    }
+    Ok(())
+}
+
+impl<'a> Outcome<'a> {
+    fn of(schedule: &Schedule, trajectory: &'a Trajectory) -> Self {
+        Self {
+            displacement: displacements(schedule, trajectory),
+            com_x: &trajectory.com_x,
+            unstable_at: trajectory.fault.map(|fault| fault.env_step),
+        }
+    }
+}
+
+/// Voxels walked in each entry that was simulated to its end.
+fn displacements(schedule: &Schedule, trajectory: &Trajectory) -> Vec<Option<f64>> {
+    let mut start = 0;
+    let walked = schedule.spells.iter().map(|spell| {
+        let end = start + spell.steps as usize;
+        let walked = Some(trajectory.com_x.get(end)? - trajectory.com_x[start]);
+        start = end;
+        walked
+    });
+    walked.chain(std::iter::repeat(None)).take(schedule.spells.len()).collect()
+}
+
+fn describe(schedule: &Schedule, trajectory: &Trajectory) -> String {
+    use Align::{Left, Right};
+    let mut table = Table::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
+    for (spell, walked) in schedule.spells.iter().zip(displacements(schedule, trajectory)) {
+        let length = match spell.steps % CYCLE_STEPS {
+            0 => format!("{} cycles", spell.steps / CYCLE_STEPS),
+            _ => format!("{} steps", spell.steps),
+        };
+        let (walked, direction) = match walked {
+            Some(walked) => (format!("{walked:+.6}"), format!("{:?}", Direction::of(walked)).to_lowercase()),
+            None => ("-".to_owned(), "-".to_owned()),
+        };
+        table.push(vec![spell.pattern.to_string(), length, walked, direction]);
+    }
+    match trajectory.fault {
+        None => format!("{table}voxels walked\n"),
+        Some(fault) => format!("{table}the simulation went unstable at env step {}\n", fault.env_step),
+    }
+}

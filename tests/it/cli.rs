@@ -1,0 +1,256 @@
+//! The command line through the real program: what it prints, and how it ends.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+/// A folder of its own for one test, with the program run inside it.
+pub struct Bench {
+    folder: tempfile::TempDir,
+}
+
+/// What a run of the program gave.
+pub struct Ran {
+    pub status: i32,
+    pub out: String,
+    pub err: String,
+}
+
+impl Bench {
+    pub fn new() -> Self {
+        Self { folder: tempfile::tempdir().unwrap() }
+    }
+
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Writes a file into the folder.
+    pub fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    }
+
+    pub fn run(&self, arguments: &[&str]) -> Ran {
+        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).expect("the program prints text");
+        Ran { status: status.code().expect("the program ends by itself"), out: text(stdout), err: text(stderr) }
+    }
+
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_nbc"));
+        command.args(arguments).current_dir(self.path()).env_remove("NO_COLOR");
+        command
+    }
+}
+
+impl Ran {
+    /// The fault, told on standard error alone, with status 2 and without a panic.
+    #[track_caller]
+    pub fn expect_fault(&self, parts: &[&str]) {
+        assert_eq!(self.status, 2, "{}{}", self.out, self.err);
+        for part in parts {
+            assert!(self.err.contains(part), "{part:?} is not in\n{}", self.err);
+        }
+        assert!(!self.err.contains("panicked") && !self.err.contains('\u{1b}'), "{}", self.err);
+        assert_eq!(self.out, "");
+    }
+
+    #[track_caller]
+    pub fn expect_json(&self) -> Value {
+        assert_eq!(self.status, 0, "{}", self.err);
+        serde_json::from_str(&self.out).expect("standard output is JSON")
+    }
+}
+
+const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
+
+#[track_caller]
+fn check_schedule(schedule: &str, parts: &[&str]) {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    bench.run(&["simulate", "walker.yaml", "--schedule", schedule]).expect_fault(parts);
+}
+
+#[track_caller]
+fn check_body(bytes: &[u8], parts: &[&str]) {
+    let bench = Bench::new();
+    bench.file("walker.yaml", bytes);
+    bench.run(&["simulate", "walker.yaml", "--schedule", "00*1"]).expect_fault(parts);
+}
+
+#[test]
+fn simulate_tells_programs_every_env_step() {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    let arguments = ["simulate", "walker.yaml", "--schedule", "00*1 01*56steps", "--format", "json"];
+    let found = bench.run(&arguments).expect_json();
+    let com_x: Vec<f64> = found["com_x"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert_eq!(com_x.len(), 84 + 56 + 1);
+    let walked: Vec<f64> = found["displacement"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert_eq!(walked, [com_x[84] - com_x[0], com_x[140] - com_x[84]]);
+    assert_eq!(found["unstable_at"], Value::Null);
+    assert_eq!(bench.run(&arguments).expect_json(), found, "the same run gives the same numbers");
+}
+
+#[test]
+fn simulate_reads_json_and_places_the_body() {
+    let bench = Bench::new();
+    bench.file("walker.json", r#"{"name": "x", "body": [[3]]}"#);
+    let arguments = [
+        "simulate",
+        "walker.json",
+        "--schedule",
+        "00*1steps",
+        "--start-x",
+        "30",
+        "--world-width",
+        "60",
+        "--format",
+        "json",
+    ];
+    let found = bench.run(&arguments).expect_json();
+    // One voxel's first env step, docs/physics.md 13.
+    let second = (29.972641329456213 + 30.996388239344416) / 2.0;
+    for (i, expected) in [30.5, second].into_iter().enumerate() {
+        assert!((found["com_x"][i].as_f64().unwrap() - expected).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn an_unstable_body_is_told_and_no_error() {
+    let bench = Bench::new();
+    bench.file("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
+    let place = ["--start-x", "28", "--world-width", "60"];
+    let arguments = [&["simulate", "wild.yaml", "--schedule", "11*60steps 00*60steps"], &place[..]].concat();
+    let found = bench.run(&[&arguments[..], &["--format", "json"]].concat()).expect_json();
+    assert_eq!(found["unstable_at"], 72);
+    assert_eq!(found["com_x"].as_array().unwrap().len(), 72);
+    assert!(found["displacement"][0].is_number() && found["displacement"][1].is_null());
+    let ran = bench.run(&arguments);
+    assert_eq!(ran.status, 0);
+    assert!(ran.out.contains("unstable at env step 72"), "{}", ran.out);
+}
+
+#[test]
+fn bad_schedules_are_shown_where_they_are_wrong() {
+    check_schedule("00*10 02*10", &["bad-schedule", "`02` are no stimuli", "--schedule:1:7"]);
+    check_schedule("00*0", &["`0` is no time at all", "--schedule:1:4"]);
+    check_schedule("", &["the schedule is empty"]);
+    check_schedule("00*99999999999999999999", &["is too long"]);
+    check_schedule("00*10 é*3 10*x", &["`é` are no stimuli", "`x` is no length"]);
+}
+
+#[test]
+fn bad_robot_files_are_shown_where_they_are_wrong() {
+    check_body(b"body: [\"33\", \"333\"]", &["robot-file", "row 2 has 3 voxels", "walker.yaml:1:"]);
+    check_body(b"body: []", &["the body has no voxels"]);
+    check_body(b"body: [\"39\"]", &["`9` is no material", "walker.yaml:1:10"]);
+    check_body(b"", &["walker.yaml"]);
+    check_body(b"\xff\xfe\x00", &["not UTF-8"]);
+    check_body(b"body: [", &["walker.yaml"]);
+    let long = [b"body: [\"", &b"3".repeat(10_000_000)[..], b"\"]"].concat();
+    check_body(&long, &["10000000 x 1, expected at most 100 x 100"]);
+}
+
+#[test]
+fn missing_files_and_folders_are_named() {
+    let bench = Bench::new();
+    let simulate = |robot: &str| bench.run(&["simulate", robot, "--schedule", "00*1"]);
+    simulate("none.yaml").expect_fault(&["cannot read `none.yaml`", "no such file"]);
+    simulate(".").expect_fault(&["cannot read `.`", "it is a folder"]);
+    simulate("no_such_robot").expect_fault(&["unknown-robot", "`no_such_robot`", "nbc library list"]);
+}
+
+#[test]
+fn a_body_must_stand_on_the_ground() {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    let simulate = |more: &[&str]| bench.run(&[&["simulate", "walker.yaml", "--schedule", "00*1"], more].concat());
+    simulate(&["--start-x", "496"]).expect_fault(&["`--start-x 496` is off the ground", "at most 495"]);
+    simulate(&["--world-width", "4"]).expect_fault(&["too narrow for a body of 5"]);
+    simulate(&["--world-width", "99999999"]).expect_fault(&["too wide"]);
+    assert_eq!(simulate(&["--start-x", "495"]).status, 0);
+}
+
+#[test]
+fn usage_errors_end_with_status_2() {
+    let bench = Bench::new();
+    for arguments in [&["simulat"][..], &["simulate"], &["simulate", "x"], &["--format", "xml"], &[]] {
+        assert_eq!(bench.run(arguments).status, 2, "{arguments:?}");
+    }
+    assert_eq!(bench.run(&["--help"]).status, 0);
+    assert!(bench.run(&["--version"]).out.starts_with("nbc "));
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let bench = Bench::new();
+    let help = bench.run(&["--help"]).out;
+    let listed = help.split("Commands:").nth(1).unwrap().split("Options:").next().unwrap();
+    let commands: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(commands.len() > 3);
+    for command in commands.iter().filter(|command| **command != "help") {
+        let help = bench.run(&[command, "--help"]).out;
+        assert!(help.contains("Example"), "`nbc {command} --help` has no example:\n{help}");
+    }
+}
+
+#[test]
+fn faults_are_data_for_programs() {
+    let bench = Bench::new();
+    let ran = bench.run(&["simulate", "none.yaml", "--schedule", "00*1", "--format", "json"]);
+    assert_eq!(ran.status, 2);
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(found["diagnostics"][0]["code"], "unreadable");
+}
+
+#[test]
+fn colors_come_only_when_asked_for() {
+    let bench = Bench::new();
+    let color =
+        |when| bench.run(&["simulate", "none.yaml", "--schedule", "00*1", "--color", when]).err.contains('\u{1b}');
+    assert!(color("always"));
+    assert!(!color("never") && !color("auto"));
+}
+
+#[test]
+fn a_closed_pipe_ends_the_program_quietly() {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    let arguments = ["simulate", "walker.yaml", "--schedule", "00*60", "--format", "json"];
+    let mut child = bench.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+}
+
+#[test]
+fn a_full_disk_is_told() {
+    let bench = Bench::new();
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = bench.command(&["completions", "bash"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("cannot write the output"));
+}
+
+#[test]
+fn completions_name_the_commands() {
+    for shell in ["bash", "zsh", "fish"] {
+        let script = Bench::new().run(&["completions", shell]).out;
+        assert!(script.contains("simulate") && script.contains("library"), "{shell}");
+    }
+}
+
+#[test]
+fn bytes_from_a_pipe_are_read_too() {
+    let bench = Bench::new();
+    let arguments = ["simulate", "/dev/stdin", "--schedule", "00*1"];
+    let mut child = bench.command(&arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(WALKER.as_bytes()).unwrap();
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(0));
+}

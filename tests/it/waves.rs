@@ -1,0 +1,45 @@
+//! Waveforms, read back by a reader of others.
+
+use std::io::Cursor;
+
+use nbc::report;
+use wellen::simple::{Waveform, read_from_reader};
+
+use crate::pictures::latch;
+
+/// The times in microseconds and values of a signal, by its full name.
+fn changes(waves: &mut Waveform, name: &str) -> Vec<(u64, String)> {
+    let hierarchy = waves.hierarchy();
+    let variable = hierarchy.all_vars().find(|&var| hierarchy[var].full_name(hierarchy) == name);
+    let signal = hierarchy[variable.unwrap_or_else(|| panic!("no signal {name}"))].signal_ref();
+    waves.load_signals(&[signal]);
+    let times = waves.time_table().to_vec();
+    let signal = waves.get_signal(signal).unwrap();
+    signal.iter_changes().map(|(at, value)| (times[at as usize], value.to_string())).collect()
+}
+
+#[test]
+fn a_dump_reads_back_with_the_traces_values() {
+    let trace = latch(&[(true, true), (false, false)], 3);
+    let mut waves = read_from_reader(Cursor::new(report::vcd(&trace).into_bytes())).unwrap();
+    let cycle = 252_000;
+    let told = |times: &[(u64, &str)]| times.iter().map(|&(c, bit)| (c * cycle, bit.to_owned())).collect::<Vec<_>>();
+    assert_eq!(changes(&mut waves, "d_latch.inputs.d"), told(&[(0, "1"), (3, "0")]));
+    assert_eq!(waves.time_table().last(), Some(&(6 * cycle)));
+    let mut expected = vec![(0, "x")];
+    for (c, states) in trace.cycles.iter().enumerate() {
+        let bit = if states.bits[1] { "1" } else { "0" };
+        if expected.last().unwrap().1 != bit {
+            expected.push((c as u64 + 1, bit));
+        }
+    }
+    assert_eq!(changes(&mut waves, "d_latch.robot_q.bit"), told(&expected));
+    let places = changes(&mut waves, "d_latch.robot_q.x");
+    assert_eq!(places.len(), trace.robots[1].com_x.len());
+    assert_eq!(places[1], (cycle / 4, trace.robots[1].com_x[1].to_string()));
+}
+
+#[test]
+fn an_empty_trace_is_a_dump_too() {
+    read_from_reader(Cursor::new(report::vcd(&latch(&[], 1)).into_bytes())).unwrap();
+}
