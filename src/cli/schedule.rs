@@ -96,7 +96,10 @@ mod tests {
     use super::*;
     use crate::source::Sources;
 
-    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<(String, String)>> {
+    /// A fault's message and the text at its place.
+    type Told = (String, String);
+
+    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<Told>> {
         let mut sources = Sources::default();
         let id = sources.add("--schedule", text);
         let told = |spell: Spell| (spell.pattern.to_string(), spell.steps);
