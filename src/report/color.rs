@@ -23,6 +23,11 @@ impl Color {
     /// Grids.
     pub const PALE: Self = Self::new(222, 222, 222);
 
+    /// The ground that robots walk on.
+    pub const GROUND: Self = Self::new(120, 104, 88);
+    /// What is behind robots.
+    pub const SKY: Self = Self::new(250, 250, 247);
+
     /// The series of Okabe and Ito: blue, vermilion, bluish green, reddish purple, orange, sky blue, yellow.
     pub const SERIES: [Self; 7] = [
         Self::new(0, 114, 178),

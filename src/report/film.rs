@@ -1,0 +1,263 @@
+//! Films: robots walking, frame by frame, as GIF and APNG. One frame is held at a time, however long the film.
+
+use std::io::{self, Write};
+
+use resvg::tiny_skia::{self, FillRule, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, Transform};
+
+use crate::model::CYCLE_STEPS;
+use crate::report::Color;
+use crate::report::raster::rasterize;
+use crate::report::sprite::{Pose, Scheme};
+use crate::report::stage::{Moment, Stage};
+use crate::report::svg::{Anchor, Paint, Svg, Type};
+use crate::report::swatches::Swatches;
+
+/// Env steps from frame to frame: twelve frames a cycle.
+pub const STRIDE: u32 = CYCLE_STEPS / 12;
+/// Hundredths of a second for which a frame is shown: a cycle takes about half a second, half the robots' own pace.
+const DELAY: u16 = 4;
+
+const WIDTH: f64 = 560.0;
+const LABELS: f64 = 108.0;
+const HEAD: f64 = 34.0;
+const FOOT: f64 = 14.0;
+
+/// How a film looks.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// The title.
+    pub title: String,
+    /// A line for each robot, beside its lane.
+    pub lanes: Vec<String>,
+    /// The colors of the materials.
+    pub scheme: Scheme,
+    /// Rows and columns of the largest body.
+    pub largest: usize,
+}
+
+/// A film being drawn.
+struct Painter<'a> {
+    film: &'a Film,
+    /// What never changes: title, names, ground.
+    backdrop: Pixmap,
+    swatches: Swatches,
+    /// The world's x at the middle of each lane.
+    cameras: Vec<f64>,
+    frame: Pixmap,
+    indexed: Vec<u8>,
+}
+
+/// The part of a frame that is new: its place, its size, and its pixels as color numbers.
+struct Patch {
+    left: u32,
+    top: u32,
+    width: u32,
+    height: u32,
+    pixels: Vec<u8>,
+}
+
+impl<'a> Painter<'a> {
+    fn new(film: &'a Film) -> Self {
+        let backdrop = rasterize(&film.backdrop(), 1.0);
+        let swatches = Swatches::new(film.scheme);
+        let frame = backdrop.clone();
+        Self { film, backdrop, swatches, cameras: Vec::new(), frame, indexed: Vec::new() }
+    }
+
+    fn size(&self) -> (u32, u32) {
+        (self.backdrop.width(), self.backdrop.height())
+    }
+
+    /// Draws a moment and gives what has changed since the one before.
+    fn paint(&mut self, moment: &Moment, share: f64) -> Patch {
+        self.frame.draw_pixmap(0, 0, self.backdrop.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
+        self.follow(moment);
+        for lane in 0..moment.poses.len() {
+            self.paint_lane(moment, lane);
+        }
+        let (width, height) = self.size();
+        fill_rect(&mut self.frame, (0.0, f64::from(height) - 4.0), f64::from(width) * share, 4.0, Color::GRAY);
+        let index = |pixel: &tiny_skia::PremultipliedColorU8| [pixel.red(), pixel.green(), pixel.blue()];
+        let fresh: Vec<u8> = self.frame.pixels().iter().map(|pixel| self.swatches.index(index(pixel))).collect();
+        let patch = patch(&self.indexed, &fresh, width, height);
+        self.indexed = fresh;
+        patch
+    }
+
+    /// Moves each camera when its robot leaves the middle of the lane.
+    fn follow(&mut self, moment: &Moment) {
+        if self.cameras.is_empty() {
+            self.cameras = moment.centers.iter().map(|center| center[0]).collect();
+        }
+        let slack = (WIDTH - LABELS) / self.film.scale() / 6.0;
+        for (camera, center) in self.cameras.iter_mut().zip(&moment.centers) {
+            if center[0].is_finite() {
+                *camera = camera.clamp(center[0] - slack, center[0] + slack);
+            }
+        }
+    }
+
+    fn paint_lane(&mut self, moment: &Moment, lane: usize) {
+        let film = self.film;
+        let (scale, ground) = (film.scale(), film.ground(lane));
+        let middle = LABELS + (WIDTH - LABELS) / 2.0;
+        let camera = self.cameras[lane];
+        let to_pixel = |(x, y): (f64, f64)| (middle + (x - camera) * scale, ground - (y - 1.0) * scale);
+        let half = (WIDTH - LABELS) / 2.0 / scale;
+        for voxel in (camera - half).ceil() as i64..=(camera + half).floor() as i64 {
+            let tall = if voxel % 5 == 0 { 7.0 } else { 3.0 };
+            fill_rect(&mut self.frame, (to_pixel((voxel as f64, 0.0)).0, ground), 1.0, tall, Color::PALE);
+        }
+        paint_pose(&mut self.frame, &moment.poses[lane], film.scheme, to_pixel);
+        for (i, color) in [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate() {
+            let place = (16.0 + i as f64 * 22.0, ground - 16.0);
+            fill_rect(&mut self.frame, place, 16.0, 16.0, color);
+            if !moment.patterns[lane].has(i) {
+                fill_rect(&mut self.frame, (place.0 + 2.0, place.1 + 2.0), 12.0, 12.0, Color::WHITE);
+            }
+        }
+        if moment.faults[lane] {
+            fill_rect(&mut self.frame, (LABELS, ground + 9.0), WIDTH - LABELS, 4.0, Color::FAULT);
+        }
+    }
+}
+
+impl Film {
+    /// Pixels for each voxel.
+    fn scale(&self) -> f64 {
+        let most = if self.lanes.len() == 1 { 16.0 } else { 10.0 };
+        (120.0 / self.largest as f64).clamp(5.0, most)
+    }
+
+    fn lane_height(&self) -> f64 {
+        (self.largest as f64 * 1.25 + 0.5) * self.scale() + 26.0
+    }
+
+    /// Where the ground's face is in a lane.
+    fn ground(&self, lane: usize) -> f64 {
+        HEAD + (lane as f64 + 1.0) * self.lane_height() - 16.0
+    }
+
+    fn backdrop(&self) -> Svg {
+        let height = HEAD + self.lane_height() * self.lanes.len() as f64 + FOOT;
+        let mut svg = Svg::new(WIDTH, height, &self.title);
+        svg.text((14.0, 22.0), &self.title, Type::new(14.0).bold());
+        let legend = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::End);
+        svg.text((WIDTH - 10.0, 21.0), "squares: stimuli 1, 2; long ticks: 5 voxels", legend);
+        for (lane, name) in self.lanes.iter().enumerate() {
+            let (ground, top) = (self.ground(lane), HEAD + lane as f64 * self.lane_height());
+            svg.rect((LABELS, top), WIDTH - LABELS, ground - top, Paint::fill(Color::SKY));
+            svg.rect((LABELS, ground), WIDTH - LABELS, 9.0, Paint::fill(Color::GROUND));
+            svg.text((14.0, ground - 24.0), name, Type::new(11.0));
+        }
+        svg
+    }
+}
+
+fn skia_paint(color: Color) -> tiny_skia::Paint<'static> {
+    let mut paint = tiny_skia::Paint::default();
+    paint.set_color_rgba8(color.r, color.g, color.b, 255);
+    paint
+}
+
+fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, color: Color) {
+    let mut paint = skia_paint(color);
+    paint.anti_alias = false;
+    if let Some(rect) = Rect::from_xywh(x as f32, y as f32, width as f32, height as f32) {
+        frame.fill_rect(rect, &paint, Transform::identity(), None);
+    }
+}
+
+fn paint_pose(frame: &mut Pixmap, pose: &Pose, scheme: Scheme, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
+    for (corners, code) in &pose.voxels {
+        let color = scheme.color(*code);
+        let mut path = PathBuilder::new();
+        for (i, &corner) in corners.iter().enumerate() {
+            let (x, y) = to_pixel(corner);
+            if i == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
+        }
+        path.close();
+        // A voxel whose corners are no numbers has no path.
+        let Some(path) = path.finish() else { continue };
+        frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
+        let edge = skia_paint(color.mix(Color::BLACK, 0.5));
+        frame.stroke_path(&path, &edge, &Stroke { width: 0.8, ..Stroke::default() }, Transform::identity(), None);
+    }
+}
+
+/// The smallest rectangle that holds every pixel that differs; one pixel where none does.
+fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
+    if old.len() != fresh.len() {
+        return Patch { left: 0, top: 0, width, height, pixels: fresh.to_vec() };
+    }
+    let row = width as usize;
+    let differs = |y: usize| old[y * row..(y + 1) * row] != fresh[y * row..(y + 1) * row];
+    let top = (0..height as usize).find(|&y| differs(y)).unwrap_or(0);
+    let bottom = (0..height as usize).rfind(|&y| differs(y)).unwrap_or(0);
+    let differing = |x: usize| (top..=bottom).any(|y| old[y * row + x] != fresh[y * row + x]);
+    let left = (0..row).find(|&x| differing(x)).unwrap_or(0);
+    let right = (0..row).rfind(|&x| differing(x)).unwrap_or(0);
+    let pixels = (top..=bottom).flat_map(|y| fresh[y * row + left..=y * row + right].iter().copied()).collect();
+    let (wide, high) = ((right - left + 1) as u32, (bottom - top + 1) as u32);
+    Patch { left: left as u32, top: top as u32, width: wide, height: high, pixels }
+}
+
+/// Writes an endless GIF of the robots on a stage.
+///
+/// # Errors
+/// When `out` cannot be written.
+pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write) -> io::Result<()> {
+    let mut painter = Painter::new(film);
+    let (width, height) = painter.size();
+    let last = stage.moments().saturating_sub(1).max(1) as f64;
+    let side = |pixels: u32| u16::try_from(pixels).map_err(|_| io::Error::other("too many robots for one film"));
+    let mut encoder =
+        gif::Encoder::new(out, side(width)?, side(height)?, &painter.swatches.bytes()).map_err(io_error)?;
+    encoder.set_repeat(gif::Repeat::Infinite).map_err(io_error)?;
+    for (i, moment) in stage.enumerate() {
+        let patch = painter.paint(&moment, i as f64 / last);
+        let frame = gif::Frame {
+            delay: DELAY,
+            left: patch.left as u16,
+            top: patch.top as u16,
+            width: patch.width as u16,
+            height: patch.height as u16,
+            buffer: patch.pixels.into(),
+            ..gif::Frame::default()
+        };
+        encoder.write_frame(&frame).map_err(io_error)?;
+    }
+    Ok(())
+}
+
+/// Writes an endless APNG of the robots on a stage.
+///
+/// # Errors
+/// When `out` cannot be written.
+pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write) -> io::Result<()> {
+    let mut painter = Painter::new(film);
+    let (width, height) = painter.size();
+    let moments = stage.moments();
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_palette(painter.swatches.bytes());
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_animated(moments as u32, 0).map_err(io::Error::other)?;
+    encoder.set_frame_delay(DELAY, 100).map_err(io::Error::other)?;
+    let mut writer = encoder.write_header().map_err(io::Error::other)?;
+    for (i, moment) in stage.enumerate() {
+        let patch = painter.paint(&moment, i as f64 / moments.saturating_sub(1).max(1) as f64);
+        writer.reset_frame_position().map_err(io::Error::other)?;
+        writer.set_frame_dimension(patch.width, patch.height).map_err(io::Error::other)?;
+        writer.set_frame_position(patch.left, patch.top).map_err(io::Error::other)?;
+        writer.write_image_data(&patch.pixels).map_err(io::Error::other)?;
+    }
+    writer.finish().map_err(io::Error::other)
+}
+
+fn io_error(error: gif::EncodingError) -> io::Error {
+    match error {
+        gif::EncodingError::Io(error) => error,
+        other => io::Error::other(other),
+    }
+}

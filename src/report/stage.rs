@@ -1,0 +1,141 @@
+//! Robots simulated again, step by step, for films: their poses at even intervals.
+
+use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting};
+use crate::report::sprite::Pose;
+use crate::sim::Flock;
+use crate::swarm::{Assembly, SwarmTrace};
+
+/// Robots on their way through their stimuli.
+pub struct Stage {
+    flock: Flock,
+    /// Spells one after another: env steps, and each robot's stimuli.
+    spells: Vec<(u32, Vec<Pattern>)>,
+    /// The spell under way, and env steps left of it.
+    spell: usize,
+    left: u32,
+    /// Env steps from frame to frame.
+    stride: u32,
+    step: u32,
+    started: bool,
+}
+
+/// The robots at one moment.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// The env step, 0 at the start.
+    pub step: u32,
+    /// Each robot's voxels, in voxels of the world.
+    pub poses: Vec<Pose>,
+    /// Each robot's center of mass, in voxels.
+    pub centers: Vec<[f64; 2]>,
+    /// What each robot senses.
+    pub patterns: Vec<Pattern>,
+    /// Whether each robot's simulation has been given up.
+    pub faults: Vec<bool>,
+}
+
+impl Stage {
+    /// One body under a schedule.
+    pub fn of_trial(setting: &Setting, body: &Body, schedule: &Schedule, stride: u32) -> Self {
+        let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern])).collect();
+        Self::new(Flock::new(setting, std::slice::from_ref(body)), spells, stride)
+    }
+
+    /// A swarm with the stimuli that its robots sensed.
+    pub fn of_swarm(setting: &Setting, assembly: &Assembly, trace: &SwarmTrace, stride: u32) -> Self {
+        let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
+        let spells = trace
+            .cycles
+            .iter()
+            .map(|cycle| (CYCLE_STEPS, cycle.sensed.iter().map(|sensed| Pattern::new(sensed)).collect()))
+            .collect();
+        Self::new(Flock::new(setting, &bodies), spells, stride)
+    }
+
+    fn new(flock: Flock, spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
+        assert!(stride > 0, "frames are some steps apart");
+        let left = spells.first().map_or(0, |spell| spell.0);
+        Self { flock, spells, spell: 0, left, stride, step: 0, started: false }
+    }
+
+    /// How many robots there are.
+    pub fn robots(&self) -> usize {
+        self.flock.len()
+    }
+
+    /// The whole length in env steps.
+    pub fn steps(&self) -> u32 {
+        self.spells.iter().map(|spell| spell.0).sum()
+    }
+
+    /// How many moments there are: the start, and one after each whole stride.
+    pub fn moments(&self) -> usize {
+        (self.steps() / self.stride) as usize + 1
+    }
+
+    /// Env steps from moment to moment.
+    pub fn stride(&self) -> u32 {
+        self.stride
+    }
+
+    /// Each voxel's points, by their numbers in robot `i`, and its material code.
+    pub fn voxels(&self, i: usize) -> Vec<([usize; 4], u8)> {
+        self.flock.lattice(i).voxels().iter().map(|voxel| (voxel.corners, voxel.code)).collect()
+    }
+
+    /// Where the points of robot `i` are now, in voxels.
+    pub fn points(&self, i: usize) -> Vec<[f64; 2]> {
+        self.flock.points(i)
+    }
+
+    fn moment(&self) -> Moment {
+        let robots = 0..self.robots();
+        let none = vec![Pattern::default(); self.robots()];
+        Moment {
+            step: self.step,
+            poses: robots.clone().map(|i| self.pose(i)).collect(),
+            centers: robots.clone().map(|i| self.flock.com(i)).collect(),
+            patterns: self.spells.get(self.spell).or(self.spells.last()).map_or(none, |spell| spell.1.clone()),
+            faults: robots.map(|i| self.flock.fault(i).is_some()).collect(),
+        }
+    }
+
+    fn pose(&self, i: usize) -> Pose {
+        let points = self.points(i);
+        let corner = |point: usize| (points[point][0], points[point][1]);
+        Pose { voxels: self.voxels(i).into_iter().map(|(corners, code)| (corners.map(corner), code)).collect() }
+    }
+
+    /// Goes on by one stride; false where less is left.
+    fn advance(&mut self) -> bool {
+        if self.steps() - self.step < self.stride {
+            return false;
+        }
+        let mut wanted = self.stride;
+        while wanted > 0 {
+            let steps = wanted.min(self.left);
+            if steps > 0 {
+                self.flock.advance(&self.spells[self.spell].1, steps);
+            }
+            (wanted, self.left) = (wanted - steps, self.left - steps);
+            if self.left == 0 && self.spell + 1 < self.spells.len() {
+                self.spell += 1;
+                self.left = self.spells[self.spell].0;
+            }
+        }
+        self.step += self.stride;
+        true
+    }
+}
+
+impl Iterator for Stage {
+    type Item = Moment;
+
+    fn next(&mut self) -> Option<Moment> {
+        if self.started && !self.advance() {
+            return None;
+        }
+        self.started = true;
+        Some(self.moment())
+    }
+}

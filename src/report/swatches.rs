@@ -1,0 +1,70 @@
+//! The colors of a film: 256 of them, and for any color the nearest.
+
+use std::collections::BTreeMap;
+
+use crate::report::Color;
+use crate::report::sprite::Scheme;
+
+/// The colors of a film, at most 256 of them, and the nearest of them for any color.
+pub struct Swatches {
+    colors: Vec<Color>,
+    /// Numbers of colors that are in the list exactly.
+    exact: BTreeMap<[u8; 3], u8>,
+    /// Numbers of the nearest colors, by the five high bits of red, green and blue.
+    nearest: Vec<u8>,
+}
+
+impl Swatches {
+    /// The colors of a film with such materials: theirs, and their mixtures with what is behind them.
+    pub fn new(scheme: Scheme) -> Self {
+        let materials: Vec<Color> = (1..=8).map(|code| scheme.color(code)).collect();
+        let own = [
+            Color::WHITE,
+            Color::BLACK,
+            Color::GRAY,
+            Color::PALE,
+            Color::GROUND,
+            Color::SKY,
+            Color::STIMULUS_1,
+            Color::STIMULUS_2,
+            Color::FAULT,
+        ];
+        let mut colors: Vec<Color> = own.into_iter().chain(materials.iter().copied()).collect();
+        let partners = [Color::SKY, Color::GROUND, Color::BLACK];
+        // Edges are mixtures with what is behind them.
+        for color in materials {
+            colors.extend(partners.iter().flat_map(|&other| [0.25, 0.5, 0.75].map(|share| color.mix(other, share))));
+        }
+        colors.extend((0..=15).map(|level| Color::new(level * 17, level * 17, level * 17)));
+        let steps = [0, 63, 127, 191, 255];
+        colors.extend((0..125).map(|i| Color::new(steps[i / 25], steps[i / 5 % 5], steps[i % 5])));
+        colors.truncate(256);
+        let of_key = |key: usize| Color::new(wide(key >> 10), wide(key >> 5), wide(key));
+        let nearest = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();
+        let exact = colors.iter().enumerate().rev().map(|(i, c)| ([c.r, c.g, c.b], i as u8)).collect();
+        Self { colors, exact, nearest }
+    }
+
+    /// The number of the color nearest to this one.
+    pub fn index(&self, rgb: [u8; 3]) -> u8 {
+        let key = usize::from(rgb[0] >> 3) << 10 | usize::from(rgb[1] >> 3) << 5 | usize::from(rgb[2] >> 3);
+        self.exact.get(&rgb).copied().unwrap_or(self.nearest[key])
+    }
+
+    /// All colors, red, green, blue.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.colors.iter().flat_map(|color| [color.r, color.g, color.b]).collect()
+    }
+}
+
+/// Five bits as eight.
+fn wide(bits: usize) -> u8 {
+    let five = (bits & 31) as u8;
+    five << 3 | five >> 2
+}
+
+fn nearest(colors: &[Color], wanted: Color) -> usize {
+    let apart = |a: u8, b: u8| (i32::from(a) - i32::from(b)).pow(2);
+    let distance = |color: &Color| apart(color.r, wanted.r) + apart(color.g, wanted.g) + apart(color.b, wanted.b);
+    (0..colors.len()).min_by_key(|&i| distance(&colors[i])).unwrap_or(0)
+}

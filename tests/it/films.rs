@@ -1,0 +1,129 @@
+//! Films, decoded frame by frame.
+
+use nbc::model::{Body, Pattern, Schedule, Setting, Spell};
+use nbc::report::{self, Film, STRIDE, Scheme, Stage};
+
+const WALKER: [&str; 5] = ["66666", "46666", "44444", "44404", "44005"];
+
+fn schedule(cycles: u32) -> Schedule {
+    Schedule { spells: vec![Spell { pattern: Pattern::PAIRS[1], steps: cycles * 84 }] }
+}
+
+fn film(body: &Body, cycles: u32) -> (Film, Stage) {
+    let stage = Stage::of_trial(&Setting::paper(), body, &schedule(cycles), STRIDE);
+    let largest = body.width().max(body.height());
+    (Film { title: "walker".to_owned(), lanes: vec!["01".to_owned()], scheme: Scheme::Paper, largest }, stage)
+}
+
+fn gif_bytes(body: &Body, cycles: u32) -> Vec<u8> {
+    let (film, stage) = film(body, cycles);
+    let mut bytes = Vec::new();
+    report::write_gif(&film, stage, &mut bytes).unwrap();
+    bytes
+}
+
+/// The whole pictures of a GIF as color numbers, each frame put over the one before, with the palette.
+fn decode_gif(bytes: &[u8]) -> (Vec<Vec<u8>>, Vec<u8>) {
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::Indexed);
+    let mut decoder = options.read_info(bytes).unwrap();
+    let palette = decoder.global_palette().unwrap().to_vec();
+    let row = usize::from(decoder.width());
+    let mut picture = vec![0; row * usize::from(decoder.height())];
+    let mut pictures = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        for (y, line) in frame.buffer.chunks(usize::from(frame.width)).enumerate() {
+            let start = (usize::from(frame.top) + y) * row + usize::from(frame.left);
+            picture[start..start + line.len()].copy_from_slice(line);
+        }
+        pictures.push(picture.clone());
+    }
+    (pictures, palette)
+}
+
+#[test]
+fn a_gif_has_twelve_frames_a_cycle_and_the_robot_moves() {
+    let body = Body::parse(&WALKER, 8).unwrap();
+    let bytes = gif_bytes(&body, 2);
+    let (pictures, palette) = decode_gif(&bytes);
+    assert_eq!(pictures.len(), 2 * 12 + 1);
+    let teal = Scheme::Paper.color(4);
+    let number = palette.chunks(3).position(|rgb| rgb == [teal.r, teal.g, teal.b]).unwrap() as u8;
+    let area = |picture: &Vec<u8>| picture.iter().filter(|&&pixel| pixel == number).count();
+    assert!(pictures.iter().all(|picture| area(picture) > 800), "the muscles are in every frame");
+    assert!(pictures.windows(2).all(|pair| pair[0] != pair[1]), "every frame differs from the one before");
+    assert_eq!(gif_bytes(&body, 2), bytes, "the same film has the same bytes");
+}
+
+#[test]
+fn an_apng_shows_the_same_film() {
+    let body = Body::parse(&WALKER, 8).unwrap();
+    let (film, stage) = film(&body, 1);
+    let mut bytes = Vec::new();
+    report::write_apng(&film, stage, &mut bytes).unwrap();
+    let (pictures, palette) = decode_gif(&gif_bytes(&body, 1));
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::IDENTITY);
+    let mut reader = decoder.read_info().unwrap();
+    assert_eq!(reader.info().animation_control.unwrap().num_frames as usize, pictures.len());
+    // GIF fills its palette up to 256 colors.
+    assert!(palette.starts_with(reader.info().palette.as_deref().unwrap()));
+    let mut first = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut first).unwrap();
+    assert_eq!(first, pictures[0]);
+}
+
+#[test]
+fn a_large_robot_has_its_film_too() {
+    let rows: Vec<&str> = (0..10).map(|row| if row < 7 { "3434343434" } else { "3400000034" }).collect();
+    let bytes = gif_bytes(&Body::parse(&rows, 8).unwrap(), 2);
+    assert_eq!(decode_gif(&bytes).0.len(), 2 * 12 + 1);
+}
+
+#[test]
+fn a_fault_stops_the_robot_and_not_the_film() {
+    let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], 8).unwrap();
+    let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::paper() };
+    let schedule = Schedule {
+        spells: vec![Spell { pattern: Pattern::PAIRS[3], steps: 60 }, Spell { pattern: Pattern::PAIRS[0], steps: 60 }],
+    };
+    let moments: Vec<_> = Stage::of_trial(&setting, &body, &schedule, 7).collect();
+    assert_eq!(moments.len(), 120 / 7 + 1);
+    let broken = moments.iter().position(|moment| moment.faults[0]).unwrap();
+    assert_eq!(broken, 72usize.div_ceil(7));
+    assert_eq!(moments[broken].poses, moments.last().unwrap().poses);
+    let (film, _) = film(&body, 1);
+    report::write_gif(&film, Stage::of_trial(&setting, &body, &schedule, 7), &mut Vec::new()).unwrap();
+}
+
+#[test]
+fn no_time_at_all_is_one_frame() {
+    let body = Body::parse(&["33"], 8).unwrap();
+    let (film, _) = film(&body, 1);
+    let stage = Stage::of_trial(&Setting::paper(), &body, &Schedule::default(), STRIDE);
+    let mut bytes = Vec::new();
+    report::write_gif(&film, stage, &mut bytes).unwrap();
+    assert_eq!(decode_gif(&bytes).0.len(), 1);
+}
+
+#[test]
+fn a_strip_has_a_row_for_each_pattern_with_ghosts() {
+    let body = Body::parse(&WALKER, 8).unwrap();
+    let spells = [0, 3].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: 2 * 84 });
+    let svg = report::draw_strip("walker", &body, &Schedule { spells: spells.to_vec() }, Scheme::Safe).finish();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let voxels = |ghost: bool| {
+        let polygons = document.descendants().filter(|node| node.has_tag_name("polygon"));
+        polygons.filter(|node| node.has_attribute("opacity") == ghost).count()
+    };
+    let filled = body.codes().iter().filter(|&&code| code > 0).count();
+    assert_eq!(voxels(false), 2 * 7 * filled);
+    assert_eq!(voxels(true), 2 * 2 * 7 * filled);
+    let texts: Vec<_> =
+        document.descendants().filter(|node| node.has_tag_name("text")).filter_map(|node| node.text()).collect();
+    assert_eq!(texts, ["walker", "00", "11"]);
+    if let Some(path) = std::env::var_os("NBC_DUMP") {
+        let svg = report::draw_strip("walker", &body, &Schedule { spells: spells.to_vec() }, Scheme::Safe);
+        std::fs::write(path, report::png(&svg)).unwrap();
+    }
+}
