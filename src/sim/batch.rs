@@ -179,7 +179,6 @@ impl<R: Real> Batch<R> {
         }
         let countable = |occupant: &Occupant| if occupant.active { occupant.surface.len() as u32 } else { 0 };
         batch.countable = batch.occupants.iter().map(countable).collect();
-        batch.proximity.renew(&batch.masses, &batch.countable);
         batch.save();
         batch
     }

@@ -2,30 +2,32 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use crate::model::{Body, Fault, Pattern, Schedule, Setting};
-use crate::sim::constants::Constants;
+use crate::sim::kernel::Kernel;
 use crate::sim::lattice::Lattice;
-use crate::sim::run::{Run, World, carry_scalar};
+use crate::sim::roster::carry_all;
+use crate::sim::run::{Run, World, runs};
+use crate::sim::simulator::Simulator;
 
 /// Robots side by side, each alone in its own simulation.
 #[derive(Clone, Debug)]
 pub struct Flock {
     world: Arc<World>,
+    kernel: Kernel,
     runs: Vec<Run>,
 }
 
 impl Flock {
     /// A robot for each body, at the setting's start column, its clock at zero.
     pub fn new(setting: &Setting, bodies: &[Body]) -> Self {
-        let world = World::new(&Constants::default(), setting);
-        let run = |body: &Body| {
-            let lattice = Arc::new(Lattice::new(body, &setting.palette));
-            Run::new(lattice, setting.start_column(body.width()), &world.constants)
-        };
-        let runs = bodies.iter().map(run).collect();
-        Self { world: Arc::new(world), runs }
+        Simulator::default().flock(setting, bodies)
+    }
+
+    /// The same in the hands of a simulator.
+    pub(crate) fn with(simulator: &Simulator, setting: &Setting, bodies: &[Body]) -> Self {
+        let world = World::new(&simulator.constants, setting);
+        let runs = runs(&world, setting, bodies);
+        Self { world: Arc::new(world), kernel: simulator.kernel, runs }
     }
 
     /// How many robots.
@@ -45,14 +47,13 @@ impl Flock {
     /// When there is not one pattern a robot.
     pub fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
         assert_eq!(patterns.len(), self.runs.len(), "each robot has a pattern");
-        let world = &self.world;
-        self.runs.par_iter_mut().zip(patterns).for_each(|(run, &pattern)| {
+        for (run, &pattern) in self.runs.iter_mut().zip(patterns) {
             run.assign(&Schedule::constant(pattern, env_steps));
-            while !run.is_done() {
-                carry_scalar(&mut [&mut *run], world);
-            }
+        }
+        carry_all(&mut self.runs, &self.world, self.kernel);
+        for run in &mut self.runs {
             run.centers.clear();
-        });
+        }
     }
 
     /// The center of mass of robot `i`, in voxels: x and y.

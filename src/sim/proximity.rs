@@ -22,7 +22,7 @@ pub struct Proximity<R: Real> {
     tiles: Vec<Tile<R>>,
     /// Their masses.
     points: Vec<usize>,
-    /// Where those were when the lists were made.
+    /// Where those were when the lists were made; infinitely far before the first time.
     reference: Vec<Place<R>>,
     /// Points near a tile that is not theirs.
     near_points: Vec<NearPoint>,
@@ -68,7 +68,8 @@ impl<R: Real> Proximity<R> {
         let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
         points.sort_unstable();
         points.dedup();
-        Self { tiles, points, reference: Vec::new(), near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
+        let reference = vec![[R::splat(f64::INFINITY); 2]; points.len()];
+        Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
     }
 
     /// Calls `found` with each surface mass that is not above `height`, and its lanes. True when a point has moved so far that the lists

@@ -1,15 +1,15 @@
 //! A simulation on its way, and how a batch of them is carried forward.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::model::{Fault, FaultKind, Pattern, Schedule};
+use crate::model::{Body, Fault, FaultKind, Pattern, Schedule, Setting};
 use crate::sim::batch::Batch;
 use crate::sim::constants::Constants;
 use crate::sim::lattice::Lattice;
 use crate::sim::real::Real;
 use crate::sim::signal::Signals;
 use crate::sim::state::State;
-use crate::sim::step::env_step;
 
 /// What all simulations of a setting share.
 #[derive(Clone, Debug)]
@@ -27,6 +27,8 @@ pub struct World {
 pub struct Run {
     /// The body.
     pub lattice: Arc<Lattice>,
+    /// The body's number: runs of one number share a body.
+    pub body: usize,
     /// Where it is.
     pub state: State,
     /// Env steps behind it.
@@ -41,9 +43,9 @@ pub struct Run {
 
 impl Run {
     /// A body at its start with nothing to do.
-    pub fn new(lattice: Arc<Lattice>, start: usize, constants: &Constants) -> Self {
+    fn new(lattice: Arc<Lattice>, body: usize, start: usize, constants: &Constants) -> Self {
         let state = State::start(&lattice, start, constants);
-        Self { lattice, state, clock: 0, fault: None, spells: Vec::new(), centers: Vec::new() }
+        Self { lattice, body, state, clock: 0, fault: None, spells: Vec::new(), centers: Vec::new() }
     }
 
     /// Gives it a schedule to go through.
@@ -70,6 +72,26 @@ impl Run {
             self.spells.pop();
         }
     }
+}
+
+impl World {
+    /// The world of a setting.
+    pub fn new(constants: &Constants, setting: &Setting) -> Self {
+        let signals = Signals::new(&setting.palette, constants);
+        Self { constants: *constants, signals, width: setting.world_width }
+    }
+}
+
+/// A run for each body, at its start with nothing to do; equal bodies share their lattice.
+pub fn runs<'a>(world: &World, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
+    let mut known: BTreeMap<&Body, (usize, Arc<Lattice>)> = BTreeMap::new();
+    let run = |body: &'a Body| {
+        let number = known.len();
+        let fresh = || (number, Arc::new(Lattice::with_constants(body, &setting.palette, &world.constants)));
+        let (number, lattice) = known.entry(body).or_insert_with(fresh);
+        Run::new(Arc::clone(lattice), *number, setting.start_column(body.width()), &world.constants)
+    };
+    bodies.into_iter().map(run).collect()
 }
 
 /// Carries runs of one box forward side by side, until the first of them is done.
@@ -112,9 +134,4 @@ fn finish_env_step<R: Real>(lane: usize, run: &mut Run, batch: &Batch<R>) {
     } else {
         run.tick(center);
     }
-}
-
-/// Carries runs forward one at a time with the scalar kernel.
-pub fn carry_scalar(runs: &mut [&mut Run], world: &World) {
-    carry::<f64>(runs, world, env_step);
 }

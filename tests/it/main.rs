@@ -1,6 +1,7 @@
 //! Integration tests, in one binary.
 
 mod cli;
+mod determinism;
 mod films;
 mod physics;
 mod pictures;

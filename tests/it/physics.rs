@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nbc::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
-use nbc::sim::{Constants, Flock, run_trials, run_trials_with};
+use nbc::sim::{Constants, Flock, Simulator, run_trials};
 use serde::Deserialize;
 
 /// Largest difference from a reference, in voxels (docs/physics.md 12).
@@ -97,7 +97,7 @@ fn greatest_difference(expected: &[f64], found: &[f64]) -> f64 {
 
 fn simulate(case: &Case, constants: &Constants) -> Trajectory {
     let trial = Trial { body: case.body(), schedule: case.schedule() };
-    run_trials_with(constants, &case.setting(), &[trial]).remove(0)
+    Simulator { constants: *constants, ..Simulator::default() }.run_trials(&case.setting(), &[trial]).remove(0)
 }
 
 #[test]

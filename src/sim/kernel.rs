@@ -1,0 +1,520 @@
+//! The kernels: one step, compiled for each instruction set and number of lanes, chosen when the program runs.
+//!
+//! This is the one file with `unsafe`: vector types of an instruction set, and calls into functions compiled for it. A vector type is
+//! made only inside [`Kernel::carry`], after the processor has been asked whether it has the instructions.
+#![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
+
+use crate::sim::lanes::Lanes;
+use crate::sim::run::{Run, World, carry};
+use crate::sim::step::env_step;
+
+/// A set of vector instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum InstructionSet {
+    /// What every processor of the target has: SSE2 on x86-64, NEON on ARM.
+    Baseline,
+    /// AVX2.
+    Avx2,
+    /// AVX-512 F, DQ and VL.
+    Avx512,
+}
+
+/// A way to run the step: an instruction set, and how many simulations run side by side at most. Every kernel gives the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    set: InstructionSet,
+    lanes: usize,
+}
+
+impl Default for Kernel {
+    /// The fastest of this processor.
+    fn default() -> Self {
+        Self::widest(InstructionSet::best())
+    }
+}
+
+impl InstructionSet {
+    /// The sets that this processor has, plainest first.
+    pub fn available() -> Vec<Self> {
+        [Self::Baseline, Self::Avx2, Self::Avx512].into_iter().filter(|set| set.is_available()).collect()
+    }
+
+    /// The best that this processor has.
+    pub fn best() -> Self {
+        Self::available().pop().expect("the baseline is always there")
+    }
+
+    fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+
+    /// Its name as processors' makers write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "AVX2",
+            Self::Avx512 => "AVX-512",
+        }
+    }
+}
+
+impl Kernel {
+    /// The numbers of lanes that there are kernels for.
+    pub const WIDTHS: [usize; 3] = [1, 4, 8];
+
+    /// One simulation at a time.
+    pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
+
+    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions.
+    ///
+    /// # Panics
+    /// When there is no kernel of so many lanes.
+    pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
+        assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
+        set.is_available().then_some(Self { set, lanes })
+    }
+
+    /// The kernel with most lanes.
+    fn widest(set: InstructionSet) -> Self {
+        Self { set, lanes: 8 }
+    }
+
+    /// Simulations side by side at most.
+    pub fn lanes(self) -> usize {
+        self.lanes
+    }
+
+    /// The instruction set.
+    pub fn set(self) -> InstructionSet {
+        self.set
+    }
+
+    /// Carries at most [`Kernel::lanes`] runs of one box forward until the first of them is done, in no more lanes than they need.
+    pub(crate) fn carry(self, runs: &mut [&mut Run], world: &World) {
+        assert!(runs.len() <= self.lanes, "a run for each lane at most");
+        match (self.set, runs.len()) {
+            (_, 1) => carry::<f64>(runs, world, env_step),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4) => x86::carry_avx2_4(runs, world),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512, _) => x86::carry_avx512_8(runs, world),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx2, _) => x86::carry_avx2_8(runs, world),
+            (_, ..=4) => carry::<Lanes<4>>(runs, world, env_step),
+            _ => carry::<Lanes<8>>(runs, world, env_step),
+        }
+    }
+}
+
+/// Vectors of x86-64's instruction sets.
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use std::arch::x86_64::*;
+    use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+
+    use crate::sim::batch::Batch;
+    use crate::sim::real::{Mask, Real, cubic_step};
+    use crate::sim::run::{Run, World, carry};
+    use crate::sim::step::env_step;
+
+    /// Eight lanes of AVX-512.
+    #[derive(Clone, Copy, Debug)]
+    #[repr(transparent)]
+    pub struct Avx512(__m512d);
+
+    /// Four lanes of AVX2.
+    #[derive(Clone, Copy, Debug)]
+    #[repr(transparent)]
+    pub struct Avx2(__m256d);
+
+    /// Four lanes' answers: all bits of a lane set, or none.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Avx2Mask(__m256d);
+
+    /// Two vectors as one.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Pair<T>(T, T);
+
+    /// Eight lanes with the instructions of AVX-512, which must be there.
+    pub fn carry_avx512_8(runs: &mut [&mut Run], world: &World) {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
+        fn step(batch: &mut Batch<Avx512>) {
+            env_step(batch);
+        }
+        // SAFETY: a kernel of this set is made only where the processor has it.
+        carry::<Avx512>(runs, world, |batch| unsafe { step(batch) });
+    }
+
+    /// Four lanes with the instructions of AVX2, which must be there.
+    pub fn carry_avx2_4(runs: &mut [&mut Run], world: &World) {
+        #[target_feature(enable = "avx2")]
+        fn step(batch: &mut Batch<Avx2>) {
+            env_step(batch);
+        }
+        // SAFETY: a kernel of this set is made only where the processor has it.
+        carry::<Avx2>(runs, world, |batch| unsafe { step(batch) });
+    }
+
+    /// Eight lanes with the instructions of AVX2, which must be there.
+    pub fn carry_avx2_8(runs: &mut [&mut Run], world: &World) {
+        #[target_feature(enable = "avx2")]
+        fn step(batch: &mut Batch<Pair<Avx2>>) {
+            env_step(batch);
+        }
+        // SAFETY: a kernel of this set is made only where the processor has it.
+        carry::<Pair<Avx2>>(runs, world, |batch| unsafe { step(batch) });
+    }
+
+    macro_rules! arithmetic {
+        ($vector:ident, $add:ident, $sub:ident, $mul:ident) => {
+            impl Add for $vector {
+                type Output = Self;
+
+                #[inline(always)]
+                fn add(self, other: Self) -> Self {
+                    // SAFETY: a vector of this type exists only where the processor has its instructions; so below.
+                    Self(unsafe { $add(self.0, other.0) })
+                }
+            }
+
+            impl Sub for $vector {
+                type Output = Self;
+
+                #[inline(always)]
+                fn sub(self, other: Self) -> Self {
+                    Self(unsafe { $sub(self.0, other.0) })
+                }
+            }
+
+            impl Mul for $vector {
+                type Output = Self;
+
+                #[inline(always)]
+                fn mul(self, other: Self) -> Self {
+                    Self(unsafe { $mul(self.0, other.0) })
+                }
+            }
+
+            impl AddAssign for $vector {
+                #[inline(always)]
+                fn add_assign(&mut self, other: Self) {
+                    *self = *self + other;
+                }
+            }
+
+            impl SubAssign for $vector {
+                #[inline(always)]
+                fn sub_assign(&mut self, other: Self) {
+                    *self = *self - other;
+                }
+            }
+        };
+    }
+
+    arithmetic!(Avx512, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd);
+    arithmetic!(Avx2, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd);
+
+    /// One lane of a vector, read or written where it lies.
+    macro_rules! lane_access {
+        () => {
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> f64 {
+                assert!(lane < Self::LANES, "the lane exists");
+                // SAFETY: a vector is so many doubles one after another, and the lane is one of them.
+                unsafe { *(&raw const self.0).cast::<f64>().add(lane) }
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, value: f64) {
+                assert!(lane < Self::LANES, "the lane exists");
+                // SAFETY: as above.
+                unsafe { *(&raw mut self.0).cast::<f64>().add(lane) = value }
+            }
+        };
+    }
+
+    impl Mask for u8 {
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            u32::from(self)
+        }
+
+        #[inline(always)]
+        fn from_bits(bits: u32) -> Self {
+            bits as u8
+        }
+
+        #[inline(always)]
+        fn or(self, other: Self) -> Self {
+            self | other
+        }
+
+        #[inline(always)]
+        fn and(self, other: Self) -> Self {
+            self & other
+        }
+    }
+
+    impl Real for Avx512 {
+        const LANES: usize = 8;
+
+        type Mask = u8;
+
+        lane_access!();
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { _mm512_set1_pd(value) })
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(unsafe { _mm512_abs_pd(self.0) })
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(unsafe { _mm512_max_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(unsafe { _mm512_min_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> u8 {
+            unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) }
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> u8 {
+            unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) }
+        }
+
+        #[inline(always)]
+        fn select(mask: u8, yes: Self, no: Self) -> Self {
+            Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+        }
+
+        #[inline(always)]
+        fn recip_sqrt(self) -> Self {
+            let seed = unsafe {
+                let root = _mm256_sqrt_ps(_mm512_cvtpd_ps(self.0));
+                _mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1.0), root))
+            };
+            cubic_step(self, Self(seed))
+        }
+    }
+
+    impl Mask for Avx2Mask {
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            unsafe { _mm256_movemask_pd(self.0) as u32 }
+        }
+
+        #[inline(always)]
+        fn from_bits(bits: u32) -> Self {
+            let lane = |i: u32| if bits >> i & 1 == 1 { -1 } else { 0 };
+            Self(unsafe { _mm256_castsi256_pd(_mm256_setr_epi64x(lane(0), lane(1), lane(2), lane(3))) })
+        }
+
+        #[inline(always)]
+        fn or(self, other: Self) -> Self {
+            Self(unsafe { _mm256_or_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn and(self, other: Self) -> Self {
+            Self(unsafe { _mm256_and_pd(self.0, other.0) })
+        }
+    }
+
+    impl Real for Avx2 {
+        const LANES: usize = 4;
+
+        type Mask = Avx2Mask;
+
+        lane_access!();
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { _mm256_set1_pd(value) })
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(unsafe { _mm256_max_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(unsafe { _mm256_min_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> Avx2Mask {
+            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> Avx2Mask {
+            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
+            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+        }
+
+        #[inline(always)]
+        fn recip_sqrt(self) -> Self {
+            let seed = unsafe {
+                let root = _mm_sqrt_ps(_mm256_cvtpd_ps(self.0));
+                _mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0), root))
+            };
+            cubic_step(self, Self(seed))
+        }
+    }
+
+    impl<T: Real> Add for Pair<T> {
+        type Output = Self;
+
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            Self(self.0 + other.0, self.1 + other.1)
+        }
+    }
+
+    impl<T: Real> Sub for Pair<T> {
+        type Output = Self;
+
+        #[inline(always)]
+        fn sub(self, other: Self) -> Self {
+            Self(self.0 - other.0, self.1 - other.1)
+        }
+    }
+
+    impl<T: Real> Mul for Pair<T> {
+        type Output = Self;
+
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            Self(self.0 * other.0, self.1 * other.1)
+        }
+    }
+
+    impl<T: Real> AddAssign for Pair<T> {
+        #[inline(always)]
+        fn add_assign(&mut self, other: Self) {
+            *self = *self + other;
+        }
+    }
+
+    impl<T: Real> SubAssign for Pair<T> {
+        #[inline(always)]
+        fn sub_assign(&mut self, other: Self) {
+            *self = *self - other;
+        }
+    }
+
+    impl Mask for Pair<Avx2Mask> {
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            self.0.bits() | self.1.bits() << 4
+        }
+
+        #[inline(always)]
+        fn from_bits(bits: u32) -> Self {
+            Self(Avx2Mask::from_bits(bits), Avx2Mask::from_bits(bits >> 4))
+        }
+
+        #[inline(always)]
+        fn or(self, other: Self) -> Self {
+            Self(self.0.or(other.0), self.1.or(other.1))
+        }
+
+        #[inline(always)]
+        fn and(self, other: Self) -> Self {
+            Self(self.0.and(other.0), self.1.and(other.1))
+        }
+
+        #[inline(always)]
+        fn any(self) -> bool {
+            self.0.or(self.1).any()
+        }
+    }
+
+    impl Real for Pair<Avx2> {
+        const LANES: usize = 8;
+
+        type Mask = Pair<Avx2Mask>;
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(Avx2::splat(value), Avx2::splat(value))
+        }
+
+        #[inline(always)]
+        fn lane(&self, lane: usize) -> f64 {
+            if lane < 4 { self.0.lane(lane) } else { self.1.lane(lane - 4) }
+        }
+
+        #[inline(always)]
+        fn set_lane(&mut self, lane: usize, value: f64) {
+            if lane < 4 { self.0.set_lane(lane, value) } else { self.1.set_lane(lane - 4, value) }
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(self.0.abs(), self.1.abs())
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(self.0.max(other.0), self.1.max(other.1))
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(self.0.min(other.0), self.1.min(other.1))
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> Self::Mask {
+            Pair(self.0.below(other.0), self.1.below(other.1))
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> Self::Mask {
+            Pair(self.0.at_most(other.0), self.1.at_most(other.1))
+        }
+
+        #[inline(always)]
+        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+            Self(Avx2::select(mask.0, yes.0, no.0), Avx2::select(mask.1, yes.1, no.1))
+        }
+
+        #[inline(always)]
+        fn recip_sqrt(self) -> Self {
+            Self(self.0.recip_sqrt(), self.1.recip_sqrt())
+        }
+    }
+}
