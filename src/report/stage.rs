@@ -88,6 +88,13 @@ impl Stage {
         self.flock.points(i)
     }
 
+    /// Goes on to the next moment, the first time to the start; false at the end.
+    pub fn turn(&mut self) -> bool {
+        let first = !self.started;
+        self.started = true;
+        first || self.advance()
+    }
+
     fn moment(&self) -> Moment {
         let robots = 0..self.robots();
         let none = vec![Pattern::default(); self.robots()];
@@ -132,10 +139,6 @@ impl Iterator for Stage {
     type Item = Moment;
 
     fn next(&mut self) -> Option<Moment> {
-        if self.started && !self.advance() {
-            return None;
-        }
-        self.started = true;
-        Some(self.moment())
+        self.turn().then(|| self.moment())
     }
 }

@@ -3,6 +3,7 @@
 mod cli;
 mod determinism;
 mod films;
+mod page;
 mod physics;
 mod pictures;
 mod tidy;

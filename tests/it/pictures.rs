@@ -167,7 +167,7 @@ fn one_robots_diagram_shows_its_schedule() {
 }
 
 /// The paper's latch as a netlist of cells.
-fn latch_netlist() -> Netlist {
+pub fn latch_netlist() -> Netlist {
     let mut netlist = Netlist::new("d_latch");
     let [d, e] = ["d", "e"].map(|name| netlist.add_input(name));
     let named = |name: &str, function| Cell { function, name: Some(name.to_owned()), start: None, span: None };
