@@ -6,77 +6,79 @@ use serde::{Serialize, Serializer};
 
 use super::Severity;
 
-/// A rule that input can break.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Code {
-    /// A schedule on the command line that is none.
-    BadSchedule,
-    /// An option's value that makes no sense.
-    BadValue,
-    /// A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what cannot be built.
-    CircuitFile,
-    /// A file of another version of the program.
-    ForeignFormat,
-    /// A cell library that does not hold enough functions.
-    IncompleteLibrary,
-    /// A robot file that is damaged, or none.
-    RobotFile,
-    /// The text does not follow the grammar.
-    Syntax,
-    /// A name that no robot of the library has.
-    UnknownRobot,
-    /// A file that cannot be read as source text.
-    Unreadable,
-    /// A file or folder that cannot be written.
-    Unwritable,
+/// Declares the codes: each a name, its word, its severity and what it means, in alphabetical order of the words.
+macro_rules! codes {
+    ($($name:ident = $word:literal, $severity:ident: $meaning:literal;)*) => {
+        /// A rule that input can break.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Code {
+            $(#[doc = $meaning] $name,)*
+        }
+
+        impl Code {
+            /// All codes, in alphabetical order of their words.
+            pub const ALL: &[Self] = &[$(Self::$name,)*];
+
+            /// The code as users write it, for `nbc explain`.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$name => $word,)*
+                }
+            }
+
+            /// How bad it is.
+            pub fn severity(self) -> Severity {
+                match self {
+                    $(Self::$name => Severity::$severity,)*
+                }
+            }
+
+            /// What it means, in one sentence.
+            pub fn meaning(self) -> &'static str {
+                match self {
+                    $(Self::$name => $meaning,)*
+                }
+            }
+        }
+    };
 }
 
-impl Code {
-    /// All codes, in alphabetical order of their words.
-    pub const ALL: &[Self] = &[
-        Self::BadSchedule,
-        Self::BadValue,
-        Self::CircuitFile,
-        Self::ForeignFormat,
-        Self::IncompleteLibrary,
-        Self::RobotFile,
-        Self::Syntax,
-        Self::UnknownRobot,
-        Self::Unreadable,
-        Self::Unwritable,
-    ];
-
-    /// The code as users write it, for `nbc explain`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::BadSchedule => "bad-schedule",
-            Self::BadValue => "bad-value",
-            Self::CircuitFile => "circuit-file",
-            Self::ForeignFormat => "foreign-format",
-            Self::IncompleteLibrary => "incomplete-library",
-            Self::RobotFile => "robot-file",
-            Self::Syntax => "syntax",
-            Self::UnknownRobot => "unknown-robot",
-            Self::Unreadable => "unreadable",
-            Self::Unwritable => "unwritable",
-        }
-    }
-
-    /// How bad it is.
-    pub fn severity(self) -> Severity {
-        match self {
-            Self::BadSchedule
-            | Self::BadValue
-            | Self::CircuitFile
-            | Self::ForeignFormat
-            | Self::IncompleteLibrary
-            | Self::RobotFile
-            | Self::Syntax
-            | Self::UnknownRobot
-            | Self::Unreadable
-            | Self::Unwritable => Severity::Error,
-        }
-    }
+codes! {
+    Ambiguous = "ambiguous", Error: "Operators side by side that may be read in more than one way.";
+    BadSchedule = "bad-schedule", Error: "A schedule on the command line that is none.";
+    BadValue = "bad-value", Error: "An option's value that makes no sense.";
+    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what cannot be built.";
+    CircularUse = "circular-use", Error: "Files that use each other in a circle.";
+    Duplicate = "duplicate", Error: "A name that is declared twice.";
+    Empty = "empty", Error: "A file that declares nothing.";
+    ForeignFormat = "foreign-format", Error: "A file of another version of the program.";
+    HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the slowest path needs.";
+    IncompleteLibrary = "incomplete-library", Error: "A cell library that does not hold enough functions.";
+    LoopWithoutStart = "loop-without-start", Warning: "A feedback loop without a start value.";
+    MissingBehavior = "missing-behavior", Error: "A behavior that the library does not hold.";
+    MissingField = "missing-field", Error: "A declaration without a field that it needs.";
+    MultipleDrivers = "multiple-drivers", Error: "A net driven more than once.";
+    Nesting = "nesting", Error: "Text that is nested too deep.";
+    Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
+    OutOfRange = "out-of-range", Error: "A number outside the range that makes sense.";
+    Recursion = "recursion", Error: "A circuit that contains itself.";
+    RobotFile = "robot-file", Error: "A robot file that is damaged, or none.";
+    RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";
+    Syntax = "syntax", Error: "The text does not follow the grammar.";
+    TableIncomplete = "table-incomplete", Error: "A truth table that leaves a pattern out.";
+    TableOverlap = "table-overlap", Error: "A truth table with two rows for one pattern.";
+    TooLarge = "too-large", Error: "A circuit with more cells than can be built.";
+    Undriven = "undriven", Error: "A net that nothing drives.";
+    Unit = "unit", Error: "A quantity with a wrong unit, or without the unit it needs.";
+    Unknown = "unknown", Error: "A name that nothing declares.";
+    UnknownField = "unknown-field", Error: "A field that the declaration does not have.";
+    UnknownRobot = "unknown-robot", Error: "A name that no robot of the library has.";
+    UnknownWidth = "unknown-width", Error: "A width that cannot be told from the circuit.";
+    Unreadable = "unreadable", Error: "A file that cannot be read as source text.";
+    Unused = "unused", Warning: "An input or a net that nothing listens to.";
+    Unwritable = "unwritable", Error: "A file or folder that cannot be written.";
+    Value = "value", Error: "A value of another kind than the field takes.";
+    Width = "width", Error: "Two widths that ought to be equal.";
 }
 
 impl fmt::Display for Code {
@@ -88,5 +90,15 @@ impl fmt::Display for Code {
 impl Serialize for Code {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.word())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_codes_are_in_alphabetical_order() {
+        assert!(Code::ALL.is_sorted_by_key(|code| code.word()));
     }
 }
