@@ -1,6 +1,7 @@
 //! Circuits made of soft robots: a declarative language, a compiler to swarms of brainless robots, and their physics.
 #![deny(missing_docs)]
 
+pub mod check;
 pub mod circuit;
 pub mod cli;
 pub mod diag;
@@ -11,3 +12,4 @@ pub mod sim;
 pub mod source;
 pub mod store;
 pub mod swarm;
+pub mod syntax;

@@ -1,10 +1,12 @@
 //! Circuits: the netlist, what makes it, what changes it, what reads and writes it. Knows nothing of physics.
 
 pub mod cells;
+pub mod elaborate;
 #[cfg(test)]
 mod example;
 pub mod formats;
 pub mod levels;
+pub mod logic;
 pub mod loops;
 pub mod map;
 mod netlist;
@@ -16,6 +18,8 @@ pub mod synth;
 pub mod timing;
 
 pub use cells::{CellKind, CellLibrary};
+pub use elaborate::{Inspector, elaborate};
+pub use logic::{Logic, Restless};
 pub use loops::Loops;
 pub use map::{MapError, MapOptions, Objective, map, map_with};
 pub use netlist::{Cell, NetId, Netlist, NetlistError, Node};

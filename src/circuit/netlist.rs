@@ -112,6 +112,16 @@ impl Netlist {
         id
     }
 
+    /// Adds a gate instance whose pins listen to nothing yet; give them drivers with [`Netlist::connect`].
+    pub fn add_loose_cell(&mut self, cell: Cell) -> NetId {
+        self.graph.add_node(Node::Cell(cell))
+    }
+
+    /// Makes a pin that listens to nothing yet listen to `net`.
+    pub fn connect(&mut self, listener: NetId, pin: u8, net: NetId) {
+        self.graph.add_edge(net, listener, pin);
+    }
+
     /// Adds an unnamed gate.
     pub fn add_gate(&mut self, function: Function, pins: &[NetId]) -> NetId {
         self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
@@ -156,6 +166,14 @@ impl Netlist {
     /// The cell at a node, if it is one.
     pub fn cell(&self, id: NetId) -> Option<&Cell> {
         match self.node(id) {
+            Node::Cell(cell) => Some(cell),
+            _ => None,
+        }
+    }
+
+    /// The cell at a node, if it is one, to be changed.
+    pub fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
+        match self.node_mut(id) {
             Node::Cell(cell) => Some(cell),
             _ => None,
         }

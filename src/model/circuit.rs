@@ -32,6 +32,17 @@ pub struct Circuit {
     pub variables: usize,
 }
 
+impl Circuit {
+    /// The first expression of the run that `root` ends: all parts of `root` lie in it, children before parents.
+    pub fn first_leaf(&self, root: ExpressionId) -> ExpressionId {
+        let mut at = root;
+        while let Some(first) = self.expressions[at.0 as usize].first_part() {
+            at = first;
+        }
+        at
+    }
+}
+
 /// The place of an expression in [`Circuit::expressions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ExpressionId(pub u32);
@@ -165,6 +176,22 @@ pub struct Expression {
     pub span: Span,
 }
 
+impl Expression {
+    /// The first of the expressions it is made of.
+    fn first_part(&self) -> Option<ExpressionId> {
+        match &self.kind {
+            ExpressionKind::Bits(_) | ExpressionKind::Number { .. } | ExpressionKind::Computed { .. } => None,
+            ExpressionKind::Net(_) | ExpressionKind::Slice { .. } => None,
+            ExpressionKind::Repetition { value, .. } => Some(*value),
+            ExpressionKind::Choice { condition, .. } => Some(*condition),
+            ExpressionKind::Concatenation(parts)
+            | ExpressionKind::Operation { operands: parts, .. }
+            | ExpressionKind::Call { operands: parts, .. }
+            | ExpressionKind::Table { inputs: parts, .. } => parts.first().copied(),
+        }
+    }
+}
+
 /// What an expression is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
@@ -176,6 +203,13 @@ pub enum ExpressionKind {
         width: SizeId,
         /// The value.
         value: u128,
+    },
+    /// A computed number in a given width.
+    Computed {
+        /// The width in bits.
+        width: SizeId,
+        /// The value.
+        value: SizeId,
     },
     /// A whole net.
     Net(NetSlot),
@@ -334,5 +368,36 @@ impl fmt::Display for Instance {
         }
         let arguments: Vec<_> = self.arguments.iter().map(u64::to_string).collect();
         f.pad(&format!("{}[{}]", self.circuit, arguments.join(", ")))
+    }
+}
+
+impl SizeOperator {
+    /// All, with their signs.
+    pub const SIGNS: [(Self, &'static str); 6] = [
+        (Self::Add, "+"),
+        (Self::Subtract, "-"),
+        (Self::Multiply, "*"),
+        (Self::Divide, "/"),
+        (Self::Remainder, "%"),
+        (Self::Power, "**"),
+    ];
+
+    /// The sign.
+    pub fn sign(self) -> &'static str {
+        Self::SIGNS.iter().find(|(operator, _)| *operator == self).expect("every operator has a sign").1
+    }
+
+    /// The operation of that sign.
+    pub fn parse(sign: &str) -> Option<Self> {
+        Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(operator, _)| *operator)
+    }
+
+    /// How tightly it binds: 1 loosest.
+    pub fn precedence(self) -> u8 {
+        match self {
+            Self::Add | Self::Subtract => 1,
+            Self::Multiply | Self::Divide | Self::Remainder => 2,
+            Self::Power => 3,
+        }
     }
 }

@@ -4,6 +4,7 @@ mod cli;
 mod determinism;
 mod films;
 mod page;
+mod language;
 mod physics;
 mod pictures;
 mod tidy;

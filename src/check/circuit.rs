@@ -1,0 +1,327 @@
+//! Circuits: names of nets, parameters and circuits looked up, operands counted. Widths come when the circuit is built.
+
+use std::collections::BTreeMap;
+
+use crate::check::names::{Home, Names, duplicate};
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::model::{
+    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Net, NetSlot, Parameter, SizeId, Statement,
+    Target,
+};
+use crate::source::Span;
+use crate::syntax::tree;
+
+/// What circuits look like from outside: enough to check their uses.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Headers {
+    pub(crate) circuits: Vec<Header>,
+}
+
+/// A circuit from outside.
+#[derive(Clone, Debug)]
+pub(crate) struct Header {
+    pub(crate) name: String,
+    pub(crate) parameters: Vec<String>,
+    pub(crate) inputs: Vec<String>,
+    pub(crate) outputs: Vec<String>,
+}
+
+impl Header {
+    pub(crate) fn of(circuit: &tree::Circuit) -> Self {
+        let names = |ports: &[tree::Port]| ports.iter().map(|port| port.name.text.clone()).collect();
+        Self {
+            name: circuit.name.text.clone(),
+            parameters: circuit.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
+            inputs: names(&circuit.inputs),
+            outputs: names(&circuit.outputs),
+        }
+    }
+
+    /// As it is declared, without widths.
+    pub(crate) fn signature(&self) -> String {
+        format!("{}({}) -> ({})", self.name, self.inputs.join(", "), self.outputs.join(", "))
+    }
+}
+
+/// What a name in a circuit stands for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Binding {
+    Variable(u32, Span),
+    Net(NetSlot),
+}
+
+/// A circuit that is being checked.
+pub(crate) struct CircuitChecker<'a> {
+    pub(crate) body: &'a tree::Body,
+    pub(crate) names: &'a Names,
+    pub(crate) headers: &'a Headers,
+    pub(crate) home: Home,
+    pub(crate) circuit: Circuit,
+    pub(crate) scopes: Vec<BTreeMap<&'a str, Binding>>,
+    /// For each net: whether something listens to it.
+    pub(crate) used: Vec<bool>,
+    /// For each net: whether something drives it.
+    driven: Vec<bool>,
+    pub(crate) calls: Vec<(CircuitId, Span)>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// A checked circuit with what is wrong with it, and the circuits it is made of.
+pub(crate) struct CheckedCircuit {
+    pub(crate) circuit: Circuit,
+    pub(crate) calls: Vec<(CircuitId, Span)>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// Checks one circuit.
+pub(crate) fn circuit(source: &tree::Circuit, home: Home, names: &Names, headers: &Headers) -> CheckedCircuit {
+    let circuit = Circuit {
+        name: source.name.text.clone(),
+        span: source.name.span,
+        parameters: Vec::new(),
+        nets: Vec::new(),
+        inputs: source.inputs.len(),
+        outputs: source.outputs.len(),
+        sizes: Vec::new(),
+        expressions: Vec::new(),
+        tables: Vec::new(),
+        body: Block::default(),
+        variables: 0,
+    };
+    let mut checker = CircuitChecker {
+        body: &source.body,
+        names,
+        headers,
+        home,
+        circuit,
+        scopes: vec![BTreeMap::new()],
+        used: Vec::new(),
+        driven: Vec::new(),
+        calls: Vec::new(),
+        diagnostics: Vec::new(),
+    };
+    checker.parameters(&source.parameters);
+    checker.ports(source);
+    checker.circuit.body = checker.block(&source.body.statements);
+    checker.loose_ends();
+    CheckedCircuit { circuit: checker.circuit, calls: checker.calls, diagnostics: checker.diagnostics }
+}
+
+impl<'a> CircuitChecker<'a> {
+    fn parameters(&mut self, parameters: &'a [tree::Parameter]) {
+        for parameter in parameters {
+            let default = parameter.default.map(|size| self.size(size));
+            let slot = self.variable(&parameter.name);
+            debug_assert_eq!(slot as usize, self.circuit.parameters.len());
+            let (name, span) = (parameter.name.text.clone(), parameter.name.span);
+            self.circuit.parameters.push(Parameter { name, span, default });
+        }
+    }
+
+    fn ports(&mut self, source: &'a tree::Circuit) {
+        for port in source.inputs.iter().chain(&source.outputs) {
+            let width = port.width.map(|size| self.size(size));
+            self.declare(&port.name, width);
+        }
+        for slot in 0..source.inputs.len() {
+            self.driven[slot] = true;
+        }
+        for used in &mut self.used[source.inputs.len()..] {
+            *used = true;
+        }
+    }
+
+    fn variable(&mut self, name: &'a tree::Name) -> u32 {
+        let slot = self.circuit.variables as u32;
+        self.circuit.variables += 1;
+        self.bind(name, Binding::Variable(slot, name.span));
+        slot
+    }
+
+    fn declare(&mut self, name: &'a tree::Name, width: Option<SizeId>) -> NetSlot {
+        let slot = NetSlot(self.circuit.nets.len() as u32);
+        self.circuit.nets.push(Net { name: name.text.clone(), span: name.span, width });
+        self.used.push(name.text.starts_with('_'));
+        self.driven.push(false);
+        self.bind(name, Binding::Net(slot));
+        slot
+    }
+
+    fn bind(&mut self, name: &'a tree::Name, binding: Binding) {
+        let scope = self.scopes.last_mut().expect("a circuit has a scope");
+        if let Some(first) = scope.insert(&name.text, binding) {
+            let first = match first {
+                Binding::Variable(_, span) => span,
+                Binding::Net(slot) => self.circuit.nets[slot.0 as usize].span,
+            };
+            self.diagnostics.push(duplicate("name", name, first));
+        }
+    }
+
+    pub(crate) fn lookup(&self, name: &str) -> Option<Binding> {
+        self.scopes.iter().rev().find_map(|scope| scope.get(name)).copied()
+    }
+
+    fn block(&mut self, statements: &'a [tree::Statement]) -> Block {
+        let first = if self.scopes.len() == 1 { 0 } else { self.circuit.nets.len() as u32 };
+        self.declare_nets(statements);
+        let last = self.circuit.nets.len() as u32;
+        let statements = statements.iter().filter_map(|statement| self.statement(statement)).collect();
+        Block { nets: first..last, statements }
+    }
+
+    /// Nets may be used before they are driven, so a block's nets are declared before its statements are read.
+    fn declare_nets(&mut self, statements: &'a [tree::Statement]) {
+        for statement in statements {
+            if let tree::StatementKind::Nets(nets) = &statement.kind {
+                for port in nets {
+                    // A declared net without a width is one bit wide, as a port is.
+                    let width = match port.width {
+                        Some(size) => self.size(size),
+                        None => self.one(port.name.span),
+                    };
+                    self.declare(&port.name, Some(width));
+                }
+            }
+        }
+        for statement in statements {
+            if let tree::StatementKind::Drive { targets, .. } = &statement.kind {
+                for target in targets.iter().filter(|target| target.name.text != "_") {
+                    if self.lookup(&target.name.text).is_none() {
+                        self.declare(&target.name, None);
+                    }
+                }
+            }
+        }
+    }
+
+    fn statement(&mut self, statement: &'a tree::Statement) -> Option<Statement> {
+        match &statement.kind {
+            tree::StatementKind::Nets(_) => None,
+            tree::StatementKind::Drive { targets, value, .. } => self.drive(targets, *value),
+            tree::StatementKind::For { variable, from, to, statements } => {
+                let span = self.body.sizes[from.0 as usize].span.to(self.body.sizes[to.0 as usize].span);
+                let (from, to) = (self.size(*from), self.size(*to));
+                self.scopes.push(BTreeMap::new());
+                let variable = self.variable(variable);
+                let body = self.block(statements);
+                self.scopes.pop();
+                Some(Statement::For { variable, from, to, span, body })
+            }
+        }
+    }
+
+    fn drive(&mut self, targets: &'a [tree::Target], value: tree::ExpressionId) -> Option<Statement> {
+        let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
+        let value = self.expression(value, targets.len());
+        Some(Statement::Drive { targets: lowered.into_iter().collect::<Option<_>>()?, value })
+    }
+
+    fn target(&mut self, target: &'a tree::Target) -> Option<Target> {
+        let start = target.start.map(|size| self.size(size));
+        if target.name.text == "_" {
+            return Some(Target { net: None, bits: None, start, span: target.span });
+        }
+        let slot = match self.lookup(&target.name.text).expect("the targets of a block are declared first") {
+            Binding::Net(slot) => slot,
+            Binding::Variable(_, first) => {
+                self.diagnostics.push(duplicate("name", &target.name, first));
+                return None;
+            }
+        };
+        let bits = target.index.map(|index| self.index(&index));
+        self.driven[slot.0 as usize] = true;
+        self.target_faults(target, slot).map_or(Some(()), |fault| {
+            self.diagnostics.push(fault);
+            None
+        })?;
+        Some(Target { net: Some(slot), bits, start, span: target.span })
+    }
+
+    fn target_faults(&self, target: &tree::Target, slot: NetSlot) -> Option<Diagnostic> {
+        let net = &self.circuit.nets[slot.0 as usize];
+        let slot = slot.0 as usize;
+        if slot < self.circuit.inputs {
+            let message = format!("the input `{}` is driven from inside", net.name);
+            let fault = Diagnostic::new(Code::MultipleDrivers, message, target.span, "driven here");
+            return Some(
+                fault.with_label(net.span, "an input is driven from outside").with_help("drive a net of another name"),
+            );
+        }
+        let is_port = slot < self.circuit.inputs + self.circuit.outputs;
+        (target.index.is_some() && net.width.is_none() && !is_port).then(|| {
+            let message = format!("the width of `{}` cannot be told", net.name);
+            let help = format!("declare it before: `net {}[8]`", net.name);
+            Diagnostic::new(Code::UnknownWidth, message, target.span, "only some of its bits are driven here")
+                .with_help(help)
+        })
+    }
+
+    pub(crate) fn index(&mut self, index: &tree::Index) -> (SizeId, SizeId) {
+        let high = self.size(index.high);
+        (high, index.low.map_or(high, |low| self.size(low)))
+    }
+
+    /// Nets that nothing drives, and nets that nothing listens to.
+    fn loose_ends(&mut self) {
+        for (slot, net) in self.circuit.nets.iter().enumerate() {
+            if !self.driven[slot] {
+                let what = if slot < self.circuit.inputs + self.circuit.outputs { "output" } else { "net" };
+                let message = format!("nothing drives the {what} `{}`", net.name);
+                let help = format!("add a line `{} = …`", net.name);
+                self.diagnostics
+                    .push(Diagnostic::new(Code::Undriven, message, net.span, "declared here").with_help(help));
+            } else if !self.used[slot] && self.home != Home::Prelude {
+                let what = if slot < self.circuit.inputs { "input" } else { "net" };
+                let message = format!("nothing listens to the {what} `{}`", net.name);
+                let help = format!("take it out, or call it `_{}`", net.name);
+                self.diagnostics
+                    .push(Diagnostic::new(Code::Unused, message, net.span, "declared here").with_help(help));
+            }
+        }
+    }
+
+    /// A net that a name in an expression means.
+    pub(crate) fn net(&mut self, name: &tree::Name) -> Option<NetSlot> {
+        match self.lookup(&name.text) {
+            Some(Binding::Net(slot)) => {
+                self.used[slot.0 as usize] = true;
+                Some(slot)
+            }
+            Some(Binding::Variable(..)) => {
+                let message = format!("`{}` is a number, not a net", name.text);
+                let fault = Diagnostic::new(Code::Unknown, message, name.span, "expected a net");
+                self.diagnostics
+                    .push(fault.with_help("numbers stand in widths, bits and ranges; a constant is `4'd9`"));
+                None
+            }
+            None => {
+                self.diagnostics.push(self.unknown_net(name));
+                None
+            }
+        }
+    }
+
+    fn unknown_net(&self, name: &tree::Name) -> Diagnostic {
+        let diagnostic =
+            Diagnostic::new(Code::Unknown, format!("no net is called `{}`", name.text), name.span, "not declared");
+        if let Some(circuit) = self.names.find(&name.text, self.home) {
+            let signature = self.headers.circuits[circuit].signature();
+            return diagnostic.with_help(format!("it is a circuit, to be called with operands: `{signature}`"));
+        }
+        match suggest::help(&name.text, self.nets_in_scope()) {
+            Some(help) => diagnostic.with_help(help),
+            None => diagnostic,
+        }
+    }
+
+    fn nets_in_scope(&self) -> impl Iterator<Item = &'a str> {
+        let nets = |(name, binding): (&&'a str, &Binding)| matches!(binding, Binding::Net(_)).then_some(*name);
+        self.scopes.iter().rev().flat_map(move |scope| scope.iter().filter_map(nets)).collect::<Vec<_>>().into_iter()
+    }
+
+    pub(crate) fn push(&mut self, kind: ExpressionKind, span: Span) -> ExpressionId {
+        self.circuit.expressions.push(Expression { kind, span });
+        ExpressionId(self.circuit.expressions.len() as u32 - 1)
+    }
+}

@@ -1,0 +1,224 @@
+//! Evolution runs. A field that is left out is the paper's; `from` takes those of another run.
+
+use crate::check::fields::{self, Fields};
+use crate::check::names::{Home, Names};
+use crate::check::quantity;
+use crate::diag::{Code, Diagnostic};
+use crate::model::{
+    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Objective, Palette, Program, Rules,
+    Schedule, Symmetry,
+};
+use crate::syntax::tree::{Number, RecordDeclaration, Value, ValueKind};
+
+/// The greatest width and height of a body's box, in voxels.
+const MAX_BOX: u32 = 64;
+
+/// What an evolution run may speak of.
+pub(crate) struct Known<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) materials: &'a Names,
+    pub(crate) schedules: &'a Names,
+    pub(crate) evolutions: &'a Names,
+}
+
+/// Checks an evolution run; `place` is its own place among the runs.
+pub(crate) fn evolution(
+    source: &RecordDeclaration,
+    place: usize,
+    home: Home,
+    known: &Known<'_>,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<Evolution> {
+    let what = format!("the evolution `{}`", source.name.text);
+    let mut fields = Fields::new(what, source.name.span, &source.record);
+    let base = fields.read("from", None, |value| base(value, place, home, known).map(Some));
+    let base = base.unwrap_or_else(|| known.program.evolutions.first().cloned().unwrap_or_else(paper));
+    let (width, height) = fields.read("box", (base.width, base.height), area);
+    let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
+    fields.read("genome", (), |value| fields::choice(value, &[("cppn", ())]));
+    let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
+    let evolution = Evolution {
+        name: source.name.text.clone(),
+        width,
+        height,
+        palette: palette.unwrap_or(base.palette),
+        mutation: fields.read("mutation", base.mutation, mutation),
+        variable: variable.unwrap_or(base.variable),
+        fixed_steps: fields.read("fixed", base.fixed_steps, steps),
+        descriptors: fields.read("descriptors", base.descriptors, axes),
+        batch: fields.read("batch", base.batch as u32, |value| quantity::count(value, 1..=1_000_000)) as usize,
+        newcomers: fields.read("newcomers", base.newcomers as u32, |value| quantity::count(value, 0..=1_000_000))
+            as usize,
+        generations: fields.read("generations", base.generations, |value| quantity::count(value, 1..=u32::MAX)),
+        seeds: fields.read("seed", base.seeds, seeds),
+        rules: fields.read("rules", base.rules, |value| {
+            fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])
+        }),
+        objective: fields.read("objective", base.objective, objective),
+        symmetry: fields.read("symmetry", base.symmetry, |value| {
+            fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
+        }),
+        niche: fields.read("niche", base.niche, niche),
+    };
+    let found = fields.finish();
+    let sound = found.is_empty();
+    faults.extend(found);
+    sound.then_some(evolution)
+}
+
+/// The paper's run without its materials and stimuli, which the prelude declares.
+fn paper() -> Evolution {
+    Evolution {
+        name: String::new(),
+        width: 5,
+        height: 5,
+        palette: Palette::new(Vec::new()),
+        mutation: MutationWeights::default(),
+        variable: Schedule::default(),
+        fixed_steps: 10 * crate::model::CYCLE_STEPS,
+        descriptors: Vec::new(),
+        batch: 16,
+        newcomers: 1,
+        generations: 3000,
+        seeds: vec![1],
+        rules: Rules::default(),
+        objective: Objective::default(),
+        symmetry: Symmetry::default(),
+        niche: Niche::default(),
+    }
+}
+
+fn base(value: &Value, place: usize, home: Home, known: &Known<'_>) -> Result<Evolution, Diagnostic> {
+    let name = fields::word(value, "the name of an evolution")?;
+    let found = known.evolutions.resolve(name, home)?;
+    known.program.evolutions.get(found).filter(|_| found < place).cloned().ok_or_else(|| {
+        let message = format!("`{}` is not declared before", name.text);
+        Diagnostic::new(Code::Unknown, message, name.span, "declared after its use, or with faults")
+            .with_help("declare it first")
+    })
+}
+
+fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
+    let ValueKind::Product(width, height) = &value.kind else {
+        return Err(quantity::wrong_kind("a box in voxels such as `5 x 5`", value.span));
+    };
+    let side = |side: &Number| {
+        let found = quantity::whole(quantity::number(side)?, 1..=MAX_BOX, side.span, "voxels")?;
+        Ok::<_, Diagnostic>(found as usize)
+    };
+    Ok((side(width)?, side(height)?))
+}
+
+fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Palette, Diagnostic> {
+    let mut materials: Vec<Material> = Vec::new();
+    let values = fields::list(value);
+    if values.is_empty() || values.len() > Palette::MAX_MATERIALS {
+        let message = format!("a palette of {} materials", values.len());
+        let label = format!("expected 1 to {}", Palette::MAX_MATERIALS);
+        return Err(Diagnostic::new(Code::OutOfRange, message, value.span, label));
+    }
+    for value in values {
+        let name = fields::word(value, "the name of a material")?;
+        let material = known.program.materials.get(known.materials.resolve(name, home)?);
+        let twice = materials.iter().any(|known| known.name == name.text);
+        if twice {
+            let message = format!("the material `{}` is listed twice", name.text);
+            return Err(Diagnostic::new(Code::Duplicate, message, name.span, "listed again here"));
+        }
+        materials.extend(material.cloned());
+    }
+    Ok(Palette::new(materials))
+}
+
+fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {
+    let name = fields::word(value, "the name of a schedule")?;
+    let found: Option<&NamedSchedule> = known.program.schedules.get(known.schedules.resolve(name, home)?);
+    Ok(found.map(|found| found.schedule.clone()).unwrap_or_default())
+}
+
+fn steps(value: &Value) -> Result<u32, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(quantity) => quantity::steps(quantity),
+        _ => Err(quantity::wrong_kind("a time such as `10 cycles`", value.span)),
+    }
+}
+
+fn axes(value: &Value) -> Result<Vec<Axis>, Diagnostic> {
+    fields::list(value).iter().map(axis).collect()
+}
+
+fn axis(value: &Value) -> Result<Axis, Diagnostic> {
+    const EXPECTED: &str = "`voxels in 4 bins`, `active in 4 bins`, `sensory in 4 bins` or `behavior`";
+    let ValueKind::Bins(name, bins) = &value.kind else {
+        return match fields::word(value, EXPECTED) {
+            Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
+            _ => Err(quantity::wrong_kind(EXPECTED, value.span)),
+        };
+    };
+    let of = match name.text.as_str() {
+        "voxels" => Count::Voxels,
+        "active" => Count::Active,
+        "sensory" => Count::Sensory,
+        _ => return Err(quantity::wrong_kind(EXPECTED, name.span)),
+    };
+    let bins = quantity::whole(quantity::number(bins)?, 1..=1000, bins.span, "bins")?;
+    Ok(Axis::Count { of, bins: bins as usize })
+}
+
+/// A number, a list of numbers, or a range of them, both ends included.
+fn seeds(value: &Value) -> Result<Vec<u64>, Diagnostic> {
+    if let ValueKind::Range(first, last) = &value.kind {
+        let seed = |end| quantity::whole(quantity::bare(end)?, 0..=u32::MAX, end.span(), "");
+        let (first, last) = (seed(first)?, seed(last)?);
+        if first > last || last - first >= 10_000 {
+            return Err(Diagnostic::new(
+                Code::OutOfRange,
+                "a range of no or too many seeds",
+                value.span,
+                "expected 1 to 10000 seeds",
+            ));
+        }
+        return Ok((first..=last).map(u64::from).collect());
+    }
+    fields::list(value).iter().map(|seed| quantity::count(seed, 0..=u32::MAX).map(u64::from)).collect()
+}
+
+fn objective(value: &Value) -> Result<Objective, Diagnostic> {
+    fields::choice(value, &[("distance", Objective::Distance), ("gate", Objective::Gate)])
+}
+
+fn niche(value: &Value) -> Result<Niche, Diagnostic> {
+    match &value.kind {
+        ValueKind::Applied(name, size) if name.text == "pareto" && size.len() == 1 => {
+            Ok(Niche::Pareto(quantity::count(&size[0], 1..=1000)? as usize))
+        }
+        _ => fields::choice(value, &[("dominance", Niche::Dominance)])
+            .map_err(|_| quantity::wrong_kind("`dominance` or `pareto(8)`", value.span)),
+    }
+}
+
+fn mutation(value: &Value) -> Result<MutationWeights, Diagnostic> {
+    let ValueKind::Record(record) = &value.kind else {
+        return Err(quantity::wrong_kind("weights such as `{ add_node: 1, change_weight: 2 }`", value.span));
+    };
+    let mut fields = Fields::new("a mutation", value.span, record);
+    let weights = MutationWeights {
+        add_node: fields.read("add_node", 1.0, weight),
+        remove_node: fields.read("remove_node", 1.0, weight),
+        add_link: fields.read("add_link", 1.0, weight),
+        remove_link: fields.read("remove_link", 1.0, weight),
+        change_activation: fields.read("change_activation", 1.0, weight),
+        change_weight: fields.read("change_weight", 1.0, weight),
+    };
+    match fields.finish().into_iter().next() {
+        Some(fault) => Err(fault),
+        None => Ok(weights),
+    }
+}
+
+fn weight(value: &Value) -> Result<f64, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(quantity) => quantity::within(quantity::bare(quantity)?, 0.0..=1e6, value.span),
+        _ => Err(quantity::wrong_kind("a weight", value.span)),
+    }
+}

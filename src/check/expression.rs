@@ -1,0 +1,289 @@
+//! Expressions of circuits: nets and circuits looked up, operands counted, operators turned into circuits of the prelude.
+
+use crate::check::circuit::CircuitChecker;
+use crate::check::names::Home;
+use crate::diag::{Code, Diagnostic};
+use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
+use crate::source::Span;
+use crate::syntax::tree::{self, Infix};
+
+/// The circuit of the prelude that an operator stands for.
+fn circuit_of(infix: Infix) -> &'static str {
+    match infix {
+        Infix::Add => "add",
+        Infix::Subtract => "subtract",
+        Infix::Equal => "equal",
+        Infix::NotEqual => "not_equal",
+        Infix::Less => "less",
+        Infix::Greater => "greater",
+        Infix::AtMost => "at_most",
+        Infix::AtLeast => "at_least",
+        Infix::Bitwise(operator) => operator.word(),
+    }
+}
+
+impl<'a> CircuitChecker<'a> {
+    /// An expression of the body, looked up from its leaves to its root without recursion; the root gives `outputs` values.
+    pub(crate) fn expression(&mut self, root: tree::ExpressionId, outputs: usize) -> ExpressionId {
+        let body = self.body;
+        let mut done: Vec<ExpressionId> = Vec::new();
+        for at in first_leaf(&body.expressions, root) as usize..=root.0 as usize {
+            let expression = &body.expressions[at];
+            let wanted = if at == root.0 as usize { outputs } else { 1 };
+            if let tree::ExpressionKind::Group(_) = expression.kind {
+                continue;
+            }
+            let kind = self.kind(expression, wanted, &mut done);
+            let id = self.push(kind, expression.span);
+            done.push(id);
+        }
+        let id = done.pop().expect("an expression has a value");
+        self.value_count(id, outputs, body.expressions[root.0 as usize].span);
+        id
+    }
+
+    /// Several targets need a call of a circuit with as many outputs.
+    fn value_count(&mut self, id: ExpressionId, outputs: usize, span: Span) {
+        let is_call = matches!(self.circuit.expressions[id.0 as usize].kind, ExpressionKind::Call { .. });
+        if outputs != 1 && !is_call {
+            let message = format!("one value for {outputs} nets");
+            let fault = Diagnostic::new(Code::Operands, message, span, "expected a call of a circuit");
+            self.diagnostics
+                .push(fault.with_help("drive each net in a line of its own, or bits of one net with `{a, b}`"));
+        }
+    }
+
+    fn kind(
+        &mut self,
+        expression: &'a tree::Expression,
+        outputs: usize,
+        done: &mut Vec<ExpressionId>,
+    ) -> ExpressionKind {
+        let span = expression.span;
+        match &expression.kind {
+            tree::ExpressionKind::Digits(digits) => self.digits(digits, span),
+            tree::ExpressionKind::Constant { width, base, digits } => self.constant(*width, *base, digits, span),
+            tree::ExpressionKind::Computed { width, value } => {
+                ExpressionKind::Computed { width: self.size(*width), value: self.size(*value) }
+            }
+            tree::ExpressionKind::Net { name, index } => self.reference(name, index.as_ref()),
+            tree::ExpressionKind::Group(_) => unreachable!("groups are passed over"),
+            tree::ExpressionKind::Concatenation(parts) => ExpressionKind::Concatenation(take(done, parts.len())),
+            tree::ExpressionKind::Repetition { count, values } => {
+                self.repetition(*count, take(done, values.len()), span)
+            }
+            tree::ExpressionKind::Not(_) => operation(Operator::Not, take(done, 1)),
+            tree::ExpressionKind::Infix { operator, place, .. } => self.infix(*operator, *place, take(done, 2)),
+            tree::ExpressionKind::Operation { operator, operands } => {
+                let operands = take(done, operands.len());
+                self.operand_count(*operator, operands.len(), span);
+                operation(*operator, operands)
+            }
+            tree::ExpressionKind::Choice { .. } => {
+                let [condition, then, otherwise] = take(done, 3)[..] else { unreachable!("three were taken") };
+                ExpressionKind::Choice { condition, then, otherwise }
+            }
+            tree::ExpressionKind::Call { name, arguments, operands } => {
+                let operands = take(done, operands.len());
+                self.call(name, arguments, operands, outputs, span)
+            }
+            tree::ExpressionKind::Table { inputs, rows } => {
+                let inputs = take(done, inputs.len());
+                let table = self.table(rows, span);
+                self.circuit.tables.push(table);
+                ExpressionKind::Table { inputs, table: self.circuit.tables.len() - 1 }
+            }
+        }
+    }
+
+    fn digits(&mut self, digits: &str, span: Span) -> ExpressionKind {
+        if !matches!(digits, "0" | "1") {
+            let message = format!("the width of `{digits}` cannot be told");
+            let fault =
+                Diagnostic::new(Code::UnknownWidth, message, span, "a constant of more than one bit needs its width");
+            let bits = digits.parse::<u64>().map_or(8, |value| u64::BITS - value.leading_zeros()).max(1);
+            self.diagnostics.push(fault.with_help(format!("write `{bits}'d{digits}`")));
+        }
+        ExpressionKind::Bits(vec![digits == "1"])
+    }
+
+    fn constant(&mut self, width: tree::SizeId, base: char, digits: &str, span: Span) -> ExpressionKind {
+        let width = self.size(width);
+        let radix = match base {
+            'b' => 2,
+            'h' => 16,
+            _ => 10,
+        };
+        let digits: String = digits.chars().filter(|&c| c != '_').collect();
+        let value = u128::from_str_radix(&digits, radix).unwrap_or_else(|error| {
+            let fault = match error.kind() {
+                std::num::IntErrorKind::PosOverflow => {
+                    Diagnostic::new(Code::OutOfRange, "the constant is too large", span, "expected less than 128 bits")
+                        .with_help("put it together from parts: `{64'h…, 64'h…}`")
+                }
+                _ => Diagnostic::new(Code::Syntax, format!("`{digits}` is no number in base {radix}"), span, "here")
+                    .with_help("`4'b1010` is binary, `4'd10` decimal, `4'ha` hexadecimal"),
+            };
+            self.diagnostics.push(fault);
+            0
+        });
+        ExpressionKind::Number { width, value }
+    }
+
+    fn reference(&mut self, name: &tree::Name, index: Option<&tree::Index>) -> ExpressionKind {
+        let bits = index.map(|index| self.index(index));
+        match (self.net(name), bits) {
+            (None, _) => ExpressionKind::Bits(vec![false]),
+            (Some(net), None) => ExpressionKind::Net(net),
+            (Some(net), Some((high, low))) => ExpressionKind::Slice { net, high, low },
+        }
+    }
+
+    fn repetition(&mut self, count: tree::SizeId, values: Vec<ExpressionId>, span: Span) -> ExpressionKind {
+        let count = self.size(count);
+        let value = match values[..] {
+            [value] => value,
+            _ => self.push(ExpressionKind::Concatenation(values), span),
+        };
+        ExpressionKind::Repetition { count, value }
+    }
+
+    fn infix(&mut self, infix: Infix, place: Span, operands: Vec<ExpressionId>) -> ExpressionKind {
+        if let Infix::Bitwise(operator) = infix {
+            return operation(operator, operands);
+        }
+        let name = circuit_of(infix);
+        let circuit = self.names.find(name, Home::Prelude).expect("the prelude declares the operators");
+        let circuit = CircuitId(circuit as u32);
+        self.calls.push((circuit, place));
+        let arguments = vec![None; self.headers.circuits[circuit.0 as usize].parameters.len()];
+        ExpressionKind::Call { circuit, arguments, operands }
+    }
+
+    fn operand_count(&mut self, operator: Operator, count: usize, span: Span) {
+        let (expected, fits) = match operator {
+            Operator::Not => ("one operand", count == 1),
+            Operator::Xnor => ("two operands", count == 2),
+            _ => ("two operands or more", count >= 2),
+        };
+        if !fits {
+            let message = format!("`{operator}` with {}", counted(count, "operand"));
+            let fault = Diagnostic::new(Code::Operands, message, span, format!("expected {expected}"));
+            self.diagnostics.push(match operator {
+                Operator::Xnor if count > 2 => {
+                    fault.with_help("of more than two, say which is meant: `not xor(a, b, c)`")
+                }
+                _ => fault,
+            });
+        }
+    }
+
+    fn call(
+        &mut self,
+        name: &tree::Name,
+        arguments: &[tree::Argument],
+        operands: Vec<ExpressionId>,
+        outputs: usize,
+        span: Span,
+    ) -> ExpressionKind {
+        let circuit = match self.names.resolve(name, self.home) {
+            Ok(circuit) => circuit,
+            Err(fault) => {
+                self.diagnostics.push(fault);
+                return ExpressionKind::Bits(vec![false]);
+            }
+        };
+        let headers = self.headers;
+        let header = &headers.circuits[circuit];
+        self.calls.push((CircuitId(circuit as u32), name.span));
+        let message = if operands.len() != header.inputs.len() {
+            let expected = counted(header.inputs.len(), "operand");
+            Some((format!("`{}` takes {expected}", name.text), format!("found {}", operands.len())))
+        } else if outputs != header.outputs.len() {
+            let expected = counted(header.outputs.len(), "output");
+            Some((format!("`{}` has {expected}", name.text), format!("{outputs} taken here")))
+        } else {
+            None
+        };
+        if let Some((message, label)) = message {
+            let help = format!("it is declared as `{}`", header.signature());
+            self.diagnostics.push(Diagnostic::new(Code::Operands, message, span, label).with_help(help));
+        }
+        let arguments = self.arguments(name, &header.parameters, arguments);
+        ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
+    }
+
+    /// Parameters given by place or by name, in the order of the circuit.
+    fn arguments(&mut self, name: &tree::Name, parameters: &[String], given: &[tree::Argument]) -> Vec<Option<SizeId>> {
+        let mut values = vec![None; parameters.len()];
+        for (place, argument) in given.iter().enumerate() {
+            let value = self.size(argument.value);
+            match parameter_place(name, parameters, place, argument) {
+                Ok(place) => values[place] = Some(value),
+                Err(fault) => self.diagnostics.push(fault),
+            }
+        }
+        values
+    }
+}
+
+/// Which parameter an argument belongs to.
+pub(crate) fn parameter_place(
+    circuit: &tree::Name,
+    parameters: &[String],
+    place: usize,
+    argument: &tree::Argument,
+) -> Result<usize, Diagnostic> {
+    let known: Vec<_> = parameters.iter().map(String::as_str).collect();
+    match &argument.name {
+        Some(name) => known.iter().position(|known| *known == name.text).ok_or_else(|| {
+            let message = format!("`{}` has no parameter `{}`", circuit.text, name.text);
+            let fault = Diagnostic::new(Code::Unknown, message, name.span, "not declared");
+            match crate::diag::suggest::help(&name.text, known.iter().copied()) {
+                Some(help) => fault.with_help(help),
+                None => fault,
+            }
+        }),
+        None if place < parameters.len() => Ok(place),
+        None => {
+            let message = format!("`{}` has {}", circuit.text, counted(parameters.len(), "parameter"));
+            Err(Diagnostic::new(Code::Operands, message, argument.span, "one too many"))
+        }
+    }
+}
+
+/// "1 operand", "2 operands".
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+fn operation(operator: Operator, operands: Vec<ExpressionId>) -> ExpressionKind {
+    ExpressionKind::Operation { operator, operands }
+}
+
+fn take(done: &mut Vec<ExpressionId>, count: usize) -> Vec<ExpressionId> {
+    done.split_off(done.len() - count)
+}
+
+/// The first expression of the contiguous run that ends with `root`.
+fn first_leaf(expressions: &[tree::Expression], root: tree::ExpressionId) -> u32 {
+    let mut at = root;
+    loop {
+        use tree::ExpressionKind as Kind;
+        let first = match &expressions[at.0 as usize].kind {
+            Kind::Digits(_) | Kind::Constant { .. } | Kind::Computed { .. } | Kind::Net { .. } => None,
+            Kind::Group(inner) | Kind::Not(inner) => Some(*inner),
+            Kind::Infix { left, .. } => Some(*left),
+            Kind::Choice { condition, .. } => Some(*condition),
+            Kind::Concatenation(values)
+            | Kind::Repetition { values, .. }
+            | Kind::Operation { operands: values, .. }
+            | Kind::Call { operands: values, .. }
+            | Kind::Table { inputs: values, .. } => values.first().copied(),
+        };
+        match first {
+            Some(first) => at = first,
+            None => return at.0,
+        }
+    }
+}

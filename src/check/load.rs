@@ -1,0 +1,149 @@
+//! The files of a program: the one that is checked, those it uses, and the prelude.
+
+use crate::check::names::Home;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Sources, Span, World};
+use crate::syntax::parse;
+use crate::syntax::tree::{DeclarationKind, Text, Tree};
+
+/// The declarations that every program begins with: the paper's setting, and the standard circuits.
+pub const PRELUDE: [(&str, &str); 2] = [
+    ("prelude.nb", include_str!("../../library/prelude.nb")),
+    ("standard.nb", include_str!("../../library/standard.nb")),
+];
+
+/// How deep files may use files.
+const MAX_DEPTH: usize = 64;
+
+/// The trees of a program, the prelude's first, the checked file's last.
+pub(crate) struct Loaded {
+    pub(crate) trees: Vec<(Home, Tree)>,
+    pub(crate) faults: Vec<Diagnostic>,
+}
+
+/// Reads a file that is named on the command line into `sources`.
+///
+/// # Errors
+/// When it cannot be read as source text.
+pub fn open(world: &dyn World, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
+    match world.read(path) {
+        Ok(text) => Ok(sources.add(path, text)),
+        Err(error) => Err(Diagnostic::unreadable(path, &error)),
+    }
+}
+
+/// Parses a file with everything it uses.
+pub(crate) fn load(world: &dyn World, sources: &mut Sources, file: FileId) -> Loaded {
+    let mut loader =
+        Loader { world, loaded: Loaded { trees: Vec::new(), faults: Vec::new() }, open: Vec::new(), done: Vec::new() };
+    for (name, text) in PRELUDE {
+        let id = sources.add(name, text);
+        loader.parse(sources, id, Home::Prelude);
+    }
+    loader.file(sources, file, Home::Own);
+    loader.loaded
+}
+
+struct Loader<'a> {
+    world: &'a dyn World,
+    loaded: Loaded,
+    /// The files that are being loaded, outermost first.
+    open: Vec<String>,
+    done: Vec<String>,
+}
+
+impl Loader<'_> {
+    fn parse(&mut self, sources: &Sources, id: FileId, home: Home) {
+        let parsed = parse(sources, id);
+        self.loaded.faults.extend(parsed.errors);
+        self.loaded.trees.push((home, parsed.tree));
+    }
+
+    fn file(&mut self, sources: &mut Sources, id: FileId, home: Home) {
+        let name = normal(&sources.file(id).name);
+        let parsed = parse(sources, id);
+        if home == Home::Own && parsed.tree.declarations.is_empty() && parsed.errors.is_empty() {
+            self.loaded.faults.push(empty(sources, id));
+        }
+        self.loaded.faults.extend(parsed.errors);
+        self.open.push(name);
+        for declaration in &parsed.tree.declarations {
+            if let DeclarationKind::Use(path) = &declaration.kind {
+                self.used(sources, id, path);
+            }
+        }
+        self.done.extend(self.open.pop());
+        self.loaded.trees.push((home, parsed.tree));
+    }
+
+    fn used(&mut self, sources: &mut Sources, from: FileId, path: &Text) {
+        let name = beside(&sources.file(from).name, &path.text);
+        if let Some(at) = self.open.iter().position(|open| *open == name) {
+            self.loaded.faults.push(circular(&self.open[at..], path.span));
+        } else if self.open.len() >= MAX_DEPTH {
+            let message = format!("files use files more than {MAX_DEPTH} deep");
+            self.loaded.faults.push(Diagnostic::new(Code::Nesting, message, path.span, "when it came to this one"));
+        } else if !self.done.contains(&name) {
+            match self.world.read(&name) {
+                Ok(text) => {
+                    let id = sources.add(name, text);
+                    self.file(sources, id, Home::Used);
+                }
+                Err(error) => {
+                    self.done.push(name.clone());
+                    let fault = Diagnostic::unreadable(&name, &error).with_label(path.span, "used here");
+                    let help = "the path of a used file starts from the file that uses it";
+                    self.loaded.faults.push(fault.with_help(help));
+                }
+            }
+        }
+    }
+}
+
+fn empty(sources: &Sources, id: FileId) -> Diagnostic {
+    let name = &sources.file(id).name;
+    Diagnostic::new(Code::Empty, format!("`{name}` declares nothing"), Span::new(id, 0, 0), "expected a declaration")
+        .with_help("declare a circuit: `circuit inverter(a) -> (q) { q = not a }`")
+}
+
+fn circular(open: &[String], span: Span) -> Diagnostic {
+    let circle: Vec<_> = open.iter().chain(open.first()).map(|name| format!("`{name}`")).collect();
+    let message = format!("files use each other in a circle: {}", circle.join(" uses "));
+    Diagnostic::new(Code::CircularUse, message, span, "this closes the circle")
+        .with_help("put what both need into a file of its own")
+}
+
+/// A path beside a file: relative to the folder that the file is in.
+fn beside(file: &str, path: &str) -> String {
+    match file.rfind(['/', '\\']) {
+        Some(end) if !path.starts_with('/') => normal(&format!("{}/{path}", &file[..end])),
+        _ => normal(path),
+    }
+}
+
+/// A path without `.` and, where it can be told without asking, without `..`.
+fn normal(path: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in path.split('/') {
+        match part {
+            "." => {}
+            ".." if parts.last().is_some_and(|last| !matches!(*last, ".." | "")) => _ = parts.pop(),
+            "" if !parts.is_empty() => {}
+            _ => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn used_files_are_found_beside_their_users() {
+        assert_eq!(beside("circuits/latch.nb", "adder.nb"), "circuits/adder.nb");
+        assert_eq!(beside("circuits/latch.nb", "../lib/./adder.nb"), "lib/adder.nb");
+        assert_eq!(beside("latch.nb", "../adder.nb"), "../adder.nb");
+        assert_eq!(beside("a/latch.nb", "/etc/adder.nb"), "/etc/adder.nb");
+    }
+}

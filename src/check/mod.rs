@@ -1,0 +1,54 @@
+//! Trees to a [`Program`]: names, units, widths; a file for each kind of declaration. Checking never stops at the first error.
+
+mod cell;
+mod circuit;
+mod evolution;
+mod expression;
+mod fields;
+mod instance;
+mod library;
+mod load;
+mod material;
+mod names;
+mod program;
+mod quantity;
+mod recursion;
+mod schedule;
+mod simulate;
+mod size;
+mod swarm;
+mod table;
+mod test;
+
+pub use load::{PRELUDE, open};
+pub use swarm::DEFAULT_LIBRARY;
+
+use crate::diag::Diagnostic;
+use crate::model::Program;
+use crate::source::{FileId, Sources, World};
+
+/// A program, and what is wrong with it.
+#[derive(Clone, Debug, Default)]
+pub struct Checked {
+    /// What could be made of the source; whole only where there are no errors.
+    pub program: Program,
+    /// Errors and warnings, in order of place.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Checked {
+    /// Whether there are errors, so that the program has no meaning.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+}
+
+/// Checks a file of `sources`, with the prelude and the files it uses, which are added to `sources`.
+pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked {
+    let loaded = load::load(world, sources, file);
+    let (program, mut diagnostics) = program::program(&loaded.trees);
+    diagnostics.extend(loaded.faults);
+    diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
+    diagnostics.dedup();
+    Checked { program, diagnostics }
+}

@@ -1,0 +1,95 @@
+//! Who is called what: one table of names for each kind of declaration. A file's names come before those of the prelude.
+
+use std::collections::BTreeMap;
+
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::syntax::tree::Name;
+
+/// Where a declaration comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Home {
+    /// The prelude, which files may redeclare.
+    Prelude,
+    /// A file that is used by another.
+    Used,
+    /// The file that is checked.
+    Own,
+}
+
+/// The names of one kind of declaration, with their places in the program.
+pub(crate) struct Names {
+    /// What is named, for messages.
+    kind: &'static str,
+    prelude: BTreeMap<String, Entry>,
+    files: BTreeMap<String, Entry>,
+}
+
+#[derive(Clone, Copy)]
+struct Entry {
+    index: usize,
+    span: Span,
+}
+
+impl Names {
+    pub(crate) fn new(kind: &'static str) -> Self {
+        Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new() }
+    }
+
+    /// Takes a name in, unless it is taken.
+    pub(crate) fn declare(&mut self, name: &Name, index: usize, home: Home) -> Result<(), Diagnostic> {
+        let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };
+        match table.get(&name.text) {
+            Some(first) => Err(duplicate(self.kind, name, first.span)),
+            None => {
+                table.insert(name.text.clone(), Entry { index, span: name.span });
+                Ok(())
+            }
+        }
+    }
+
+    /// What a name means in a file, or in the prelude.
+    pub(crate) fn find(&self, name: &str, home: Home) -> Option<usize> {
+        let file = self.files.get(name).filter(|_| home != Home::Prelude);
+        file.or_else(|| self.prelude.get(name)).map(|entry| entry.index)
+    }
+
+    /// What a name means, or that nothing has it.
+    pub(crate) fn resolve(&self, name: &Name, home: Home) -> Result<usize, Diagnostic> {
+        self.find(&name.text, home).ok_or_else(|| {
+            let message = format!("no {} is called `{}`", self.kind, name.text);
+            let diagnostic = Diagnostic::new(Code::Unknown, message, name.span, "not declared");
+            match suggest::help(&name.text, self.all()) {
+                Some(help) => diagnostic.with_help(help),
+                None => diagnostic,
+            }
+        })
+    }
+
+    /// Every name, in order.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().chain(self.prelude.keys().filter(|name| !self.files.contains_key(*name))).map(String::as_str)
+    }
+
+    /// Whether a name of the prelude is redeclared by a file.
+    pub(crate) fn is_redeclared(&self, name: &str) -> bool {
+        self.files.contains_key(name) && self.prelude.contains_key(name)
+    }
+}
+
+/// A name that is declared twice.
+pub(crate) fn duplicate(kind: &str, name: &Name, first: Span) -> Diagnostic {
+    let diagnostic = Diagnostic::new(
+        Code::Duplicate,
+        format!("the {kind} `{}` is declared twice", name.text),
+        name.span,
+        "declared again here",
+    );
+    let text = "first declared here";
+    let diagnostic = if first.file == name.span.file {
+        diagnostic.with_label(first, text)
+    } else {
+        diagnostic.with_related(first, text)
+    };
+    diagnostic.with_help("give one of them another name")
+}

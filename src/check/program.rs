@@ -1,0 +1,395 @@
+//! The declarations of all files together: first their names, then each kind after those that it speaks of.
+
+use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::evolution::{self, evolution};
+use crate::check::instance::instance;
+use crate::check::library::library;
+use crate::check::material::material;
+use crate::check::names::{Home, Names};
+use crate::check::recursion;
+use crate::check::schedule::schedule;
+use crate::check::simulate;
+use crate::check::swarm::swarm;
+use crate::check::test;
+use crate::circuit::Inspector;
+use crate::diag::{Code, Diagnostic};
+use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Simulation, Stimulation};
+use crate::source::Span;
+use crate::syntax::tree::{self, DeclarationKind, Name, RecordDeclaration, RecordKeyword, Tree};
+
+/// The program that trees declare, and what is wrong with it.
+pub(crate) fn program(trees: &[(Home, Tree)]) -> (Program, Vec<Diagnostic>) {
+    let mut assembly = Assembly::new(trees);
+    assembly.stimuli();
+    assembly.materials();
+    assembly.schedules();
+    assembly.evolutions();
+    assembly.libraries();
+    let references = assembly.circuits();
+    assembly.swarms();
+    assembly.build(&references);
+    (assembly.program, assembly.faults)
+}
+
+/// A program that is being put together.
+struct Assembly<'a> {
+    trees: &'a [(Home, Tree)],
+    program: Program,
+    faults: Vec<Diagnostic>,
+    stimuli: Names,
+    materials: Names,
+    schedules: Names,
+    evolutions: Names,
+    libraries: Names,
+    circuits: Names,
+    swarms: Names,
+    headers: Headers,
+    /// For each circuit whether it and all it is made of are without faults of names.
+    sound: Vec<bool>,
+    /// Where each circuit comes from.
+    homes: Vec<Home>,
+}
+
+/// What a test is compared with, before ports are known.
+struct Reference<'a> {
+    test: &'a tree::Test,
+    body: &'a tree::Body,
+}
+
+impl<'a> Assembly<'a> {
+    fn new(trees: &'a [(Home, Tree)]) -> Self {
+        Self {
+            trees,
+            program: Program::default(),
+            faults: Vec::new(),
+            stimuli: Names::new("stimulus"),
+            materials: Names::new("material"),
+            schedules: Names::new("schedule"),
+            evolutions: Names::new("evolution"),
+            libraries: Names::new("library"),
+            circuits: Names::new("circuit"),
+            swarms: Names::new("swarm"),
+            headers: Headers::default(),
+            sound: Vec::new(),
+            homes: Vec::new(),
+        }
+    }
+
+    fn declarations(&self) -> impl Iterator<Item = (Home, &'a tree::Declaration)> + use<'a> {
+        self.trees.iter().flat_map(|(home, tree)| tree.declarations.iter().map(|declaration| (*home, declaration)))
+    }
+
+    fn records(&self, keyword: RecordKeyword) -> Vec<(Home, &'a RecordDeclaration)> {
+        let record = |(home, declaration): (Home, &'a tree::Declaration)| match &declaration.kind {
+            DeclarationKind::Record(record) if record.keyword == keyword => Some((home, record)),
+            _ => None,
+        };
+        self.declarations().filter_map(record).collect()
+    }
+
+    /// Notes a fault, if there is one; says whether there was none.
+    fn note(&mut self, result: Result<(), Diagnostic>) -> bool {
+        let fine = result.is_ok();
+        self.faults.extend(result.err());
+        fine
+    }
+
+    fn stimuli(&mut self) {
+        for (home, declaration) in self.declarations() {
+            let DeclarationKind::Stimulus(names) = &declaration.kind else { continue };
+            for name in names {
+                self.stimulus(name, home);
+            }
+        }
+    }
+
+    fn stimulus(&mut self, name: &Name, home: Home) {
+        // Redeclaring one of the prelude's stimuli names the same signal.
+        let known = self.program.stimuli.iter().position(|stimulus| *stimulus == name.text);
+        let index = known.unwrap_or(self.program.stimuli.len());
+        let declared = self.stimuli.declare(name, index, home);
+        if !self.note(declared) || known.is_some() {
+            return;
+        }
+        self.program.stimuli.push(name.text.clone());
+        if self.program.stimuli.len() == Pattern::MAX_STIMULI + 1 {
+            let label = format!("expected at most {} stimuli", Pattern::MAX_STIMULI);
+            self.faults.push(Diagnostic::new(Code::OutOfRange, "too many stimuli", name.span, label));
+        }
+    }
+
+    fn materials(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Material) {
+            let checked = material(source, home, &self.stimuli, &mut self.faults);
+            if let Some(checked) = checked {
+                let declared = self.materials.declare(&source.name, self.program.materials.len(), home);
+                self.note(declared);
+                self.program.materials.push(checked);
+            } else {
+                let declared = self.materials.declare(&source.name, usize::MAX, home);
+                self.note(declared);
+            }
+        }
+    }
+
+    fn schedules(&mut self) {
+        for (home, declaration) in self.declarations() {
+            let DeclarationKind::Schedule(source) = &declaration.kind else { continue };
+            let checked = schedule(source, home, &self.stimuli, &mut self.faults);
+            let index = if checked.is_some() { self.program.schedules.len() } else { usize::MAX };
+            let declared = self.schedules.declare(&source.name, index, home);
+            self.note(declared);
+            self.program.schedules.extend(checked);
+        }
+    }
+
+    fn evolutions(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Evolution) {
+            let place = self.program.evolutions.len();
+            let known = evolution::Known {
+                program: &self.program,
+                materials: &self.materials,
+                schedules: &self.schedules,
+                evolutions: &self.evolutions,
+            };
+            let checked = evolution(source, place, home, &known, &mut self.faults);
+            let index = if checked.is_some() { place } else { usize::MAX };
+            let declared = self.evolutions.declare(&source.name, index, home);
+            self.note(declared);
+            self.program.evolutions.extend(checked);
+        }
+    }
+
+    fn libraries(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Library) {
+            let checked = library(source, home, &self.evolutions, &mut self.faults);
+            let declared = self.libraries.declare(&source.name, self.program.libraries.len(), home);
+            self.note(declared);
+            self.program.libraries.extend(checked);
+        }
+    }
+
+    /// Checks all circuits but for widths; returns the tests that compare with a body of their own.
+    fn circuits(&mut self) -> Vec<Reference<'a>> {
+        let mut sources = Vec::new();
+        for (home, declaration) in self.declarations() {
+            if let DeclarationKind::Circuit(source) = &declaration.kind {
+                let declared = self.circuits.declare(&source.name, sources.len(), home);
+                self.note(declared);
+                self.headers.circuits.push(Header::of(source));
+                sources.push((home, source));
+            }
+        }
+        let mut calls = Vec::new();
+        for &(home, source) in &sources {
+            let checked = circuit(source, home, &self.circuits, &self.headers);
+            self.sound.push(!checked.diagnostics.iter().any(Diagnostic::is_error));
+            self.homes.push(home);
+            self.faults.extend(checked.diagnostics);
+            calls.push(checked.calls);
+            self.program.circuits.push(checked.circuit);
+        }
+        let (faults, sound) = recursion::look(&calls, &self.sound, &self.headers);
+        self.faults.extend(faults);
+        self.sound = sound;
+        self.rename_redeclared();
+        self.own_tests().filter_map(reference).collect()
+    }
+
+    /// A circuit of the prelude that a file redeclares stays what the prelude's other circuits are made of.
+    fn rename_redeclared(&mut self) {
+        for (at, home) in self.homes.iter().enumerate() {
+            let name = &mut self.headers.circuits[at].name;
+            if *home == Home::Prelude && self.circuits.is_redeclared(name) {
+                *name = format!("prelude.{name}");
+                self.program.circuits[at].name.clone_from(name);
+            }
+        }
+    }
+
+    fn own_tests(&self) -> impl Iterator<Item = (Span, &'a tree::Test)> + use<'a> {
+        self.declarations().filter(|(home, _)| *home == Home::Own).filter_map(|(_, declaration)| {
+            match &declaration.kind {
+                DeclarationKind::Test(test) => Some((declaration.span, test)),
+                _ => None,
+            }
+        })
+    }
+
+    fn swarms(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Swarm) {
+            let checked = swarm(source, home, &self.circuits, &self.headers, &self.libraries, &mut self.faults);
+            let index = if checked.is_some() { self.program.swarms.len() } else { usize::MAX };
+            let declared = self.swarms.declare(&source.name, index, home);
+            self.note(declared);
+            self.program.swarms.extend(checked);
+        }
+    }
+
+    /// Builds what can be built, to find faults of width, and reads the tests and simulations, which need the ports.
+    fn build(&mut self, references: &[Reference<'a>]) {
+        let mut found = Vec::new();
+        let mut program = std::mem::take(&mut self.program);
+        let mut inspector = Inspector::new(&program);
+        for (at, _) in self.homes.iter().enumerate().filter(|(at, home)| **home != Home::Prelude && self.sound[*at]) {
+            inspector.inspect(CircuitId(at as u32));
+        }
+        for swarm in &program.swarms {
+            if self.is_sound(&swarm.circuit) {
+                inspector.ports(&swarm.circuit);
+            }
+        }
+        let simulations = self.simulations(&program, &mut inspector);
+        let mut tests = Vec::new();
+        let mut bodies = Vec::new();
+        for (span, test) in self.own_tests() {
+            let own = references.iter().find(|reference| std::ptr::eq(reference.test, test));
+            let tested = self.test(span, test, &mut inspector, own.map(|own| own.body), &mut bodies);
+            tests.extend(tested);
+        }
+        found.extend(inspector.into_diagnostics());
+        program.circuits.extend(bodies);
+        let mut inspector = Inspector::new(&program);
+        for at in self.homes.len()..program.circuits.len() {
+            inspector.inspect(CircuitId(at as u32));
+        }
+        found.extend(inspector.into_diagnostics());
+        program.simulations = simulations;
+        program.tests = tests;
+        self.program = program;
+        self.faults.extend(found);
+    }
+
+    fn is_sound(&self, instance: &Instance) -> bool {
+        self.headers.circuits.iter().position(|header| header.name == instance.circuit).is_some_and(|at| self.sound[at])
+    }
+
+    fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
+        let mut simulations = Vec::new();
+        for (home, declaration) in self.declarations().filter(|(home, _)| *home == Home::Own) {
+            let DeclarationKind::Simulate(source) = &declaration.kind else { continue };
+            let swarm = match self.swarms.resolve(&source.swarm, home) {
+                Ok(swarm) => program.swarms.get(swarm),
+                Err(fault) => {
+                    self.faults.push(fault);
+                    None
+                }
+            };
+            let Some(swarm) = swarm.filter(|swarm| self.is_sound(&swarm.circuit)) else { continue };
+            let Some((inputs, _)) = inspector.ports(&swarm.circuit) else { continue };
+            let spells =
+                simulate::spells(&source.with, &inputs, home, &self.schedules, &program.schedules, &mut self.faults);
+            simulations.push(Simulation { swarm: swarm.name.clone(), span: source.swarm.span, spells });
+        }
+        simulations
+    }
+
+    fn test(
+        &mut self,
+        span: Span,
+        source: &'a tree::Test,
+        inspector: &mut Inspector<'_>,
+        body: Option<&'a tree::Body>,
+        bodies: &mut Vec<crate::model::Circuit>,
+    ) -> Option<CircuitTest> {
+        let tested = self.instance(&source.circuit)?;
+        let (inputs, outputs) = inspector.ports(&tested)?;
+        let stimulation = match &source.kind {
+            tree::TestKind::Table(table) => {
+                let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
+                Stimulation::Rows(test::rows(table, &ports, &mut self.faults))
+            }
+            tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, (&inputs, &outputs))?,
+            tree::TestKind::Reference(_) => {
+                let name = format!("{tested} as tested {}", bodies.len() + 1);
+                let circuit = self.reference(&name, &source.circuit.name, body?, (&inputs, &outputs))?;
+                bodies.push(circuit);
+                Stimulation::All { reference: Instance { circuit: name, arguments: Vec::new() } }
+            }
+        };
+        if let Stimulation::All { .. } = stimulation {
+            self.all_inputs(&inputs, source.circuit.name.span);
+        }
+        let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
+        Some(CircuitTest { circuit: tested, title, span, inputs, outputs, stimulation })
+    }
+
+    /// A circuit that a test names, if it and all it is made of are sound.
+    fn instance(&mut self, source: &tree::Instance) -> Option<Instance> {
+        match instance(source, Home::Own, &self.circuits, &self.headers) {
+            Ok(instance) => Some(instance).filter(|instance| self.is_sound(instance)),
+            Err(fault) => {
+                self.faults.push(fault);
+                None
+            }
+        }
+    }
+
+    fn against(
+        &mut self,
+        tested: &tree::Instance,
+        other: &tree::Instance,
+        inspector: &mut Inspector<'_>,
+        ports: (&[Column], &[Column]),
+    ) -> Option<Stimulation> {
+        let reference = self.instance(other)?;
+        let (inputs, outputs) = inspector.ports(&reference)?;
+        let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
+        if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
+            let message = format!("`{}` and `{}` have different ports", tested.name.text, other.name.text);
+            let fault =
+                Diagnostic::new(Code::Operands, message, other.name.span, "ports as many and as wide are needed");
+            self.faults.push(fault.with_label(tested.name.span, "as those of this circuit"));
+            return None;
+        }
+        Some(Stimulation::All { reference })
+    }
+
+    /// The body of a test as a circuit with the ports of the tested one.
+    fn reference(
+        &mut self,
+        name: &str,
+        tested: &Name,
+        body: &tree::Body,
+        ports: (&[Column], &[Column]),
+    ) -> Option<crate::model::Circuit> {
+        let mut body = body.clone();
+        let mut port = |column: &Column| {
+            let kind = tree::SizeKind::Literal(column.width.to_string());
+            body.sizes.push(tree::Size { kind, span: tested.span });
+            let name = Name { text: column.name.clone(), span: tested.span };
+            tree::Port { name, width: Some(tree::SizeId(body.sizes.len() as u32 - 1)) }
+        };
+        let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
+        let name = Name { text: name.to_owned(), span: tested.span };
+        let source = tree::Circuit { name, parameters: Vec::new(), inputs, outputs, body };
+        let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
+        let sound = !checked.diagnostics.iter().any(Diagnostic::is_error);
+        let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);
+        // An input that the reference does not need is no mistake of the tested circuit.
+        self.faults.extend(checked.diagnostics.into_iter().filter(|fault| fault.code != Code::Unused));
+        (sound && called).then_some(checked.circuit)
+    }
+
+    fn all_inputs(&mut self, inputs: &[Column], span: Span) {
+        let bits: usize = inputs.iter().map(|column| column.width).sum();
+        if bits > MAX_TRIED_BITS {
+            let message = format!("all patterns of {bits} input bits");
+            let label = format!("expected at most {MAX_TRIED_BITS} bits");
+            self.faults.push(
+                Diagnostic::new(Code::TooLarge, message, span, label)
+                    .with_help("test a narrower instance, or list rows"),
+            );
+        }
+    }
+}
+
+/// The most input bits of which a test tries all patterns.
+const MAX_TRIED_BITS: usize = 16;
+
+fn reference<'a>((_, test): (Span, &'a tree::Test)) -> Option<Reference<'a>> {
+    match &test.kind {
+        tree::TestKind::Reference(body) => Some(Reference { test, body }),
+        _ => None,
+    }
+}

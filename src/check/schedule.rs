@@ -1,0 +1,82 @@
+//! Schedules of stimuli, and rows of bits in general.
+
+use crate::check::expression::counted;
+use crate::check::names::{Home, Names};
+use crate::check::quantity;
+use crate::diag::{Code, Diagnostic};
+use crate::model::{NamedSchedule, Pattern, Schedule, Spell};
+use crate::source::Span;
+use crate::syntax::tree;
+
+/// Checks a schedule.
+pub(crate) fn schedule(
+    source: &tree::Schedule,
+    home: Home,
+    stimuli: &Names,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<NamedSchedule> {
+    let before = faults.len();
+    let mut columns = Vec::new();
+    for name in &source.columns {
+        match stimuli.resolve(name, home) {
+            Ok(stimulus) if columns.contains(&stimulus) => {
+                let first = source.columns.iter().find(|first| first.text == name.text).expect("it was there before");
+                faults.push(crate::check::names::duplicate("stimulus", name, first.span));
+            }
+            Ok(stimulus) => columns.push(stimulus),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    let mut schedule = Schedule::default();
+    for spell in &source.spells {
+        let steps = quantity::steps(&spell.length).map_err(|fault| faults.push(fault)).ok();
+        let bits = row_of_bits(&spell.cells, source.columns.len(), spell.span, faults);
+        if let (Some(steps), Some(bits), true) = (steps, bits, columns.len() == source.columns.len()) {
+            schedule.spells.push(Spell { pattern: pattern(&columns, &bits), steps });
+        }
+    }
+    if source.spells.is_empty() {
+        let message = format!("the schedule `{}` has no rows", source.name.text);
+        faults.push(
+            Diagnostic::new(Code::Empty, message, source.name.span, "this schedule")
+                .with_help("add a row: `0 1 for 10 cycles`"),
+        );
+    }
+    let name = source.name.text.clone();
+    (faults.len() == before).then_some(NamedSchedule { name, stimuli: columns, schedule })
+}
+
+fn pattern(stimuli: &[usize], bits: &[bool]) -> Pattern {
+    let mut present = vec![false; stimuli.iter().max().map_or(0, |most| most + 1)];
+    for (&stimulus, &bit) in stimuli.iter().zip(bits) {
+        present[stimulus] = bit;
+    }
+    Pattern::new(&present)
+}
+
+fn row_of_bits(cells: &[tree::Name], columns: usize, span: Span, faults: &mut Vec<Diagnostic>) -> Option<Vec<bool>> {
+    if cells.len() != columns {
+        faults.push(row_width(cells.len(), columns, span));
+        return None;
+    }
+    let mut bits = Vec::new();
+    for cell in cells {
+        match cell.text.as_str() {
+            "0" => bits.push(false),
+            "1" => bits.push(true),
+            word => faults.push(Diagnostic::new(
+                Code::Value,
+                format!("`{word}` is no stimulus value"),
+                cell.span,
+                "expected `0` or `1`",
+            )),
+        }
+    }
+    (bits.len() == columns).then_some(bits)
+}
+
+/// A row with too many or too few values.
+pub(crate) fn row_width(values: usize, columns: usize, span: Span) -> Diagnostic {
+    let message = format!("a row of {} for {}", counted(values, "value"), counted(columns, "column"));
+    Diagnostic::new(Code::RowWidth, message, span, format!("expected {}", counted(columns, "value")))
+}

@@ -1,0 +1,112 @@
+//! Simulations: a swarm's inputs over time.
+
+use crate::check::cell::{Cell, cell};
+use crate::check::names::{Home, Names};
+use crate::check::quantity;
+use crate::check::schedule::row_width;
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::model::{CYCLE_STEPS, Column, InputSpell, NamedSchedule};
+use crate::source::Span;
+use crate::syntax::tree::{Name, Spell, With};
+
+/// The inputs of a simulation over time.
+pub(crate) fn spells(
+    with: &With,
+    inputs: &[Column],
+    home: Home,
+    schedules: &Names,
+    known: &[NamedSchedule],
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<InputSpell> {
+    match with {
+        With::Named(name) => match schedules.resolve(name, home) {
+            Ok(schedule) => {
+                known.get(schedule).map_or(Vec::new(), |schedule| named(schedule, name.span, inputs, faults))
+            }
+            Err(fault) => {
+                faults.push(fault);
+                Vec::new()
+            }
+        },
+        With::Spells { columns, spells } => {
+            let places = places(columns, inputs, faults);
+            spells.iter().filter_map(|spell| rows(spell, &places, inputs, faults)).collect()
+        }
+    }
+}
+
+/// A schedule of stimuli as inputs: as many stimuli as inputs, in order.
+fn named(schedule: &NamedSchedule, span: Span, inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<InputSpell> {
+    let bits: usize = inputs.iter().map(|column| column.width).sum();
+    if bits != schedule.stimuli.len() {
+        faults.push(row_width(schedule.stimuli.len(), bits, span));
+        return Vec::new();
+    }
+    let spell = |spell: &crate::model::Spell| {
+        let inputs = schedule.stimuli.iter().map(|&stimulus| spell.pattern.has(stimulus)).collect();
+        (spell.steps.is_multiple_of(CYCLE_STEPS)).then_some(InputSpell { inputs, cycles: spell.steps / CYCLE_STEPS })
+    };
+    let spells: Option<Vec<_>> = schedule.schedule.spells.iter().map(spell).collect();
+    spells.unwrap_or_else(|| {
+        let message = format!("the schedule `{}` has times that are no whole cycles", schedule.name);
+        faults.push(Diagnostic::new(Code::Unit, message, span, "a swarm's inputs change between cycles"));
+        Vec::new()
+    })
+}
+
+fn places(columns: &[Name], inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<usize> {
+    let mut places = Vec::new();
+    for name in columns {
+        match inputs.iter().position(|input| input.name == name.text) {
+            Some(place) => places.push(place),
+            None => {
+                let fault = Diagnostic::new(
+                    Code::Unknown,
+                    format!("no input is called `{}`", name.text),
+                    name.span,
+                    "no input of that name",
+                );
+                faults.push(match suggest::help(&name.text, inputs.iter().map(|input| input.name.as_str())) {
+                    Some(help) => fault.with_help(help),
+                    None => fault,
+                });
+            }
+        }
+    }
+    if let (Some(missing), Some(last)) = ((0..inputs.len()).find(|place| !places.contains(place)), columns.last())
+        && places.len() == columns.len()
+    {
+        let message = format!("the schedule gives no values for the input `{}`", inputs[missing].name);
+        faults.push(Diagnostic::new(
+            Code::MissingField,
+            message,
+            last.span,
+            format!("needs `{}` too", inputs[missing].name),
+        ));
+    }
+    places
+}
+
+fn rows(spell: &Spell, places: &[usize], inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Option<InputSpell> {
+    let cycles = quantity::cycles(&spell.length).map_err(|fault| faults.push(fault)).ok();
+    if spell.cells.len() != places.len() {
+        faults.push(row_width(spell.cells.len(), places.len(), spell.span));
+        return None;
+    }
+    let mut bits: Vec<Vec<bool>> = inputs.iter().map(|input| vec![false; input.width]).collect();
+    for (word, &place) in spell.cells.iter().zip(places) {
+        match cell(word, &inputs[place]) {
+            Ok(Cell::Bits(values)) if values.iter().all(Option::is_some) => {
+                bits[place] = values.into_iter().flatten().collect()
+            }
+            Ok(_) => faults.push(Diagnostic::new(
+                Code::Value,
+                format!("`{}` is no input", word.text),
+                word.span,
+                "expected `0` or `1`",
+            )),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    Some(InputSpell { inputs: bits.concat(), cycles: cycles? })
+}

@@ -1,0 +1,93 @@
+//! Sizes of circuits: integers over parameters and loop variables.
+
+use crate::check::circuit::{Binding, CircuitChecker};
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::model::{Size, SizeId, SizeKind};
+use crate::source::Span;
+use crate::syntax::tree;
+
+impl CircuitChecker<'_> {
+    /// An integer of the body, looked up from its leaves to its root without recursion.
+    pub(crate) fn size(&mut self, root: tree::SizeId) -> SizeId {
+        let body = self.body;
+        let mut done: Vec<SizeId> = Vec::new();
+        for at in first_leaf(&body.sizes, root) as usize..=root.0 as usize {
+            let size = &body.sizes[at];
+            let kind = match &size.kind {
+                tree::SizeKind::Group(_) => continue,
+                tree::SizeKind::Literal(digits) => self.literal(digits, size.span),
+                tree::SizeKind::Name(name) => self.number(name, size.span),
+                tree::SizeKind::Log2(_) => SizeKind::Log2(done.pop().expect("an operand")),
+                tree::SizeKind::Binary(operator, ..) => {
+                    let right = done.pop().expect("a right operand");
+                    SizeKind::Binary(*operator, done.pop().expect("a left operand"), right)
+                }
+            };
+            done.push(self.push_size(kind, size.span));
+        }
+        done.pop().expect("a size has a value")
+    }
+
+    pub(crate) fn one(&mut self, span: Span) -> SizeId {
+        self.push_size(SizeKind::Literal(1), span)
+    }
+
+    fn push_size(&mut self, kind: SizeKind, span: Span) -> SizeId {
+        self.circuit.sizes.push(Size { kind, span });
+        SizeId(self.circuit.sizes.len() as u32 - 1)
+    }
+
+    fn literal(&mut self, digits: &str, span: Span) -> SizeKind {
+        let value = digits.parse::<u32>().unwrap_or_else(|_| {
+            let fault =
+                Diagnostic::new(Code::OutOfRange, "the number is too large", span, "expected at most 4294967295");
+            self.diagnostics.push(fault);
+            1
+        });
+        SizeKind::Literal(value.into())
+    }
+
+    fn number(&mut self, name: &str, span: Span) -> SizeKind {
+        let fault = match self.lookup(name) {
+            Some(Binding::Variable(slot, _)) => return SizeKind::Variable(slot),
+            Some(Binding::Net(slot)) => {
+                self.used[slot.0 as usize] = true;
+                let message = format!("`{name}` is a net, not a number");
+                Diagnostic::new(Code::Unknown, message, span, "expected a parameter or a loop variable")
+                    .with_help("to choose a bit by a net, use `select(a, n)`")
+            }
+            None => {
+                let fault =
+                    Diagnostic::new(Code::Unknown, format!("no number is called `{name}`"), span, "not declared");
+                let known: Vec<_> = self.numbers_in_scope().collect();
+                match suggest::help(name, known) {
+                    Some(help) => fault.with_help(help),
+                    None => {
+                        fault.with_help("a circuit's parameters stand in brackets after its name: `circuit add[n](…)`")
+                    }
+                }
+            }
+        };
+        self.diagnostics.push(fault);
+        SizeKind::Literal(1)
+    }
+
+    fn numbers_in_scope(&self) -> impl Iterator<Item = &str> {
+        self.scopes
+            .iter()
+            .rev()
+            .flatten()
+            .filter_map(|(name, binding)| matches!(binding, Binding::Variable(..)).then_some(*name))
+    }
+}
+
+/// The first size of the contiguous run that ends with `root`.
+fn first_leaf(sizes: &[tree::Size], root: tree::SizeId) -> u32 {
+    let mut at = root;
+    loop {
+        at = match sizes[at.0 as usize].kind {
+            tree::SizeKind::Literal(_) | tree::SizeKind::Name(_) => return at.0,
+            tree::SizeKind::Log2(inner) | tree::SizeKind::Group(inner) | tree::SizeKind::Binary(_, inner, _) => inner,
+        };
+    }
+}

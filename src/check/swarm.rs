@@ -1,0 +1,54 @@
+//! Swarms: a circuit made of a library's robots.
+
+use crate::check::circuit::Headers;
+use crate::check::fields::{self, Fields};
+use crate::check::instance::instance;
+use crate::check::names::{Home, Names};
+use crate::check::quantity;
+use crate::diag::Diagnostic;
+use crate::model::{Hold, Swarm};
+use crate::syntax::tree::{RecordDeclaration, Value, ValueKind};
+
+/// The library that a swarm is made of where it names none; the prelude declares it.
+pub const DEFAULT_LIBRARY: &str = "shipped";
+
+/// The greatest number of cycles over which an output is taken.
+const MAX_WINDOW: u32 = 1000;
+
+/// Checks a swarm.
+pub(crate) fn swarm(
+    source: &RecordDeclaration,
+    home: Home,
+    circuits: &Names,
+    headers: &Headers,
+    libraries: &Names,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<Swarm> {
+    let what = format!("the swarm `{}`", source.name.text);
+    let mut fields = Fields::new(what, source.name.span, &source.record);
+    let circuit = fields.need("circuit", "circuit: d_latch", |value| match &value.kind {
+        ValueKind::Instance(source) => instance(source, home, circuits, headers),
+        _ => Err(quantity::wrong_kind("the name of a circuit", value.span)),
+    });
+    let library = fields.read("library", DEFAULT_LIBRARY.to_owned(), |value| {
+        let name = fields::word(value, "the name of a library")?;
+        libraries.resolve(name, home).map(|_| name.text.clone())
+    });
+    let hold = fields.read("hold", Hold::Auto, hold);
+    let window = fields.read("window", 1, |value| match &value.kind {
+        ValueKind::Quantity(window) => {
+            quantity::whole(f64::from(quantity::cycles(window)?), 1..=MAX_WINDOW, value.span, "cycles")
+        }
+        _ => Err(quantity::wrong_kind("a time such as `3 cycles`", value.span)),
+    });
+    faults.extend(fields.finish());
+    Some(Swarm { name: source.name.text.clone(), span: source.name.span, circuit: circuit?, library, hold, window })
+}
+
+fn hold(value: &Value) -> Result<Hold, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(hold) => quantity::cycles(hold).map(Hold::Cycles),
+        _ => fields::choice(value, &[("auto", Hold::Auto)])
+            .map_err(|_| quantity::wrong_kind("`auto` or a time such as `12 cycles`", value.span)),
+    }
+}

@@ -1,0 +1,186 @@
+//! Tests: columns are ports, rows are bits.
+
+use crate::check::cell::{Cell, cell};
+use crate::check::names::duplicate;
+use crate::check::quantity;
+use crate::check::schedule::row_width;
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::model::{Column, TestRow};
+use crate::source::Span;
+use crate::syntax::tree::{self, Name, TestTable};
+
+/// The ports of the circuit under test.
+pub(crate) struct Ports<'a> {
+    pub(crate) circuit: &'a str,
+    pub(crate) inputs: &'a [Column],
+    pub(crate) outputs: &'a [Column],
+}
+
+/// The rows of a test, as bits in order of the ports.
+pub(crate) fn rows(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
+    let before = faults.len();
+    let inputs = ports.places(&table.inputs, true, faults);
+    let outputs = ports.places(&table.outputs, false, faults);
+    missing_inputs(table, ports, faults);
+    if table.rows.is_empty() {
+        let fault = Diagnostic::new(Code::Empty, "a test without rows", table.header, "no row follows");
+        faults.push(fault.with_help("add rows: a value for each column, with `|` between inputs and outputs"));
+    }
+    if faults.len() > before {
+        return Vec::new();
+    }
+    let columns = Columns { ports, inputs: &inputs, outputs: &outputs };
+    table.rows.iter().flat_map(|row| columns.row(row, faults)).collect()
+}
+
+impl Ports<'_> {
+    /// The place of each named column among the ports.
+    fn places(&self, names: &[Name], inputs: bool, faults: &mut Vec<Diagnostic>) -> Vec<usize> {
+        let own = if inputs { self.inputs } else { self.outputs };
+        let mut places = Vec::new();
+        for (at, name) in names.iter().enumerate() {
+            if let Some(first) = names[..at].iter().find(|first| first.text == name.text) {
+                faults.push(duplicate("column", name, first.span));
+            }
+            match own.iter().position(|column| column.name == name.text) {
+                Some(place) => places.push(place),
+                None => faults.push(self.no_port(name, inputs)),
+            }
+        }
+        places
+    }
+
+    fn no_port(&self, name: &Name, inputs: bool) -> Diagnostic {
+        let (own, others) = if inputs { (self.inputs, self.outputs) } else { (self.outputs, self.inputs) };
+        let (what, other) = if inputs { ("input", "output") } else { ("output", "input") };
+        let message = format!("`{}` has no {what} `{}`", self.circuit, name.text);
+        let fault = Diagnostic::new(Code::Unknown, message, name.span, format!("no {what} of that name"));
+        if others.iter().any(|column| column.name == name.text) {
+            return fault.with_help(format!("it is an {other}: inputs stand before `|`, outputs after it"));
+        }
+        match suggest::help(&name.text, own.iter().map(|column| column.name.as_str())) {
+            Some(help) => fault.with_help(help),
+            None => fault,
+        }
+    }
+}
+
+fn missing_inputs(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnostic>) {
+    let missing: Vec<_> = ports
+        .inputs
+        .iter()
+        .map(|column| column.name.as_str())
+        .filter(|input| !table.inputs.iter().any(|name| name.text == *input))
+        .collect();
+    if !missing.is_empty() {
+        let names = suggest::alternatives(&missing, "and");
+        let message = format!("the test gives no values for {names} of `{}`", ports.circuit);
+        faults.push(
+            Diagnostic::new(Code::MissingField, message, table.header, format!("needs {names}"))
+                .with_help("every input needs a column"),
+        );
+    }
+}
+
+/// The columns of a table, as places among the ports.
+struct Columns<'a> {
+    ports: &'a Ports<'a>,
+    inputs: &'a [usize],
+    outputs: &'a [usize],
+}
+
+impl Columns<'_> {
+    /// A row as bits; two, where a clock is pulsed.
+    fn row(&self, row: &tree::TestRow, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
+        if let Some(fault) = self.shape_fault(row) {
+            faults.push(fault);
+            return Vec::new();
+        }
+        let before = faults.len();
+        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, faults);
+        let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, faults);
+        let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| faults.push(fault)).ok());
+        let expected = output_bits(&outputs, &row.outputs, faults);
+        let turns = if inputs.contains(&Some(Cell::Pulse)) { 2 } else { 1 };
+        let mut rows = Vec::new();
+        for turn in (0..turns).rev() {
+            let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, faults);
+            let expected = if turn == 0 { expected.clone() } else { vec![None; expected.len()] };
+            rows.push(TestRow { inputs, expected, hold, span: row.span });
+        }
+        if faults.len() > before { Vec::new() } else { rows }
+    }
+
+    fn shape_fault(&self, row: &tree::TestRow) -> Option<Diagnostic> {
+        let values = row.inputs.len() + row.outputs.len();
+        let columns = self.inputs.len() + self.outputs.len();
+        if row.bars.len() > 1 {
+            return Some(Diagnostic::new(Code::Syntax, "a row with more than one `|`", row.bars[1], "one too many"));
+        }
+        if values != columns {
+            return Some(row_width(values, columns, row.span));
+        }
+        if row.bars.is_empty() {
+            let fault =
+                Diagnostic::new(Code::Syntax, "a row without `|`", row.span, "expected `|` between inputs and outputs");
+            return Some(fault.with_help("write it where the header has it"));
+        }
+        (row.inputs.len() != self.inputs.len()).then(|| {
+            let fault = Diagnostic::new(
+                Code::RowWidth,
+                "the row's `|` is in another place than the header's",
+                row.bars[0],
+                "here",
+            );
+            fault.with_help(format!("{} before it", crate::check::expression::counted(self.inputs.len(), "value")))
+        })
+    }
+}
+
+/// The values of a row in order of the ports.
+fn cells(words: &[Name], places: &[usize], ports: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<Option<Cell>> {
+    let mut cells: Vec<_> = ports.iter().map(|port| Some(Cell::Bits(vec![None; port.width]))).collect();
+    for (word, &place) in words.iter().zip(places) {
+        cells[place] = cell(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
+    }
+    cells
+}
+
+fn output_bits(cells: &[Option<Cell>], words: &[Name], faults: &mut Vec<Diagnostic>) -> Vec<Option<bool>> {
+    if let Some(word) = words.iter().find(|word| word.text == "^") {
+        faults.push(Diagnostic::new(Code::Value, "a pulse is no output", word.span, "expected `0`, `1` or `-`"));
+    }
+    let bits = |cell: &Option<Cell>| match cell {
+        Some(Cell::Bits(bits)) => bits.clone(),
+        _ => Vec::new(),
+    };
+    cells.iter().flat_map(bits).collect()
+}
+
+fn input_bits(
+    cells: &[Option<Cell>],
+    ports: &[Column],
+    high: bool,
+    row: Span,
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<bool> {
+    let mut all = Vec::new();
+    for (cell, port) in cells.iter().zip(ports) {
+        match cell {
+            Some(Cell::Pulse) => all.push(high),
+            Some(Cell::Bits(bits)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
+                Some(bits) => all.extend(bits),
+                None => {
+                    let message = format!("the input `{}` has no value", port.name);
+                    let fault =
+                        Diagnostic::new(Code::Value, message, row, "expected `0` or `1` for an input, found `-`");
+                    if !faults.contains(&fault) {
+                        faults.push(fault);
+                    }
+                }
+            },
+            None => {}
+        }
+    }
+    all
+}

@@ -1,0 +1,163 @@
+//! A function of a few bits as a list of outputs, decomposed input by input (Shannon): equal parts are shared, outputs that do not
+//! matter are taken as they make parts equal.
+
+use std::collections::BTreeMap;
+
+use crate::model::{Function, Table};
+
+/// The outputs of a function for every pattern of its inputs, in counting order; `None` does not matter.
+pub(super) struct Dense {
+    outputs: Vec<Option<bool>>,
+}
+
+/// A part of a decomposed function, made of parts before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Shape {
+    /// Always the same.
+    Constant(bool),
+    /// An input, counted from the lowest.
+    Input(usize),
+    /// The opposite of a part.
+    Not(usize),
+    /// A gate of two parts.
+    Gate(Function, usize, usize),
+    /// By the first part, the second at 1, the third at 0.
+    Select(usize, usize, usize),
+}
+
+impl Dense {
+    /// One output bit, counted from the highest, of a table with that many inputs.
+    pub(super) fn of(table: &Table, inputs: usize, bit: usize) -> Self {
+        let otherwise = table.otherwise.as_ref().and_then(|output| output.bits[bit]);
+        let mut outputs = vec![otherwise; 1 << inputs];
+        for row in &table.rows {
+            let value =
+                |wanted| row.pattern.iter().fold(0usize, |sum, digit| sum << 1 | usize::from(*digit == Some(wanted)));
+            let (ones, zeros) = (value(true), value(false));
+            for (pattern, output) in outputs.iter_mut().enumerate() {
+                if pattern & ones == ones && pattern & zeros == 0 {
+                    *output = row.output.bits[bit];
+                }
+            }
+        }
+        Self { outputs }
+    }
+
+    /// The function as parts, the whole last.
+    pub(super) fn shape(&self) -> Vec<Shape> {
+        let mut parts = Parts::default();
+        let whole = parts.function(&self.outputs);
+        // What is last in the list need not be the whole, where the whole is a part of a part.
+        parts.list.truncate(whole + 1);
+        parts.list
+    }
+}
+
+#[derive(Default)]
+struct Parts {
+    list: Vec<Shape>,
+    known: BTreeMap<Shape, usize>,
+}
+
+impl Parts {
+    fn part(&mut self, shape: Shape) -> usize {
+        *self.known.entry(shape).or_insert_with(|| {
+            self.list.push(shape);
+            self.list.len() - 1
+        })
+    }
+
+    /// A function by its outputs; it halves them, so that it nests no deeper than there are inputs.
+    fn function(&mut self, outputs: &[Option<bool>]) -> usize {
+        if let Some(value) = constant(outputs) {
+            return self.part(Shape::Constant(value));
+        }
+        let (low, high) = outputs.split_at(outputs.len() / 2);
+        if let Some(both) = agreed(low, high) {
+            return self.function(&both);
+        }
+        let input = self.part(Shape::Input(outputs.len().trailing_zeros() as usize - 1));
+        match (constant(low), constant(high)) {
+            (Some(false), Some(_)) => input,
+            (Some(true), Some(_)) => self.part(Shape::Not(input)),
+            (Some(false), None) => self.gate(Function::AND, input, high),
+            (Some(true), None) => self.gate(Function::new(0b1011), input, high),
+            (None, Some(false)) => self.gate(Function::new(0b0010), input, low),
+            (None, Some(true)) => self.gate(Function::OR, input, low),
+            (None, None) => match agreed(&inverted(low), high) {
+                Some(opposite) => self.gate(Function::XOR, input, &inverted(&opposite)),
+                None => {
+                    let (then, otherwise) = (self.function(high), self.function(low));
+                    self.part(Shape::Select(input, then, otherwise))
+                }
+            },
+        }
+    }
+
+    fn gate(&mut self, function: Function, input: usize, rest: &[Option<bool>]) -> usize {
+        let rest = self.function(rest);
+        self.part(Shape::Gate(function, input, rest))
+    }
+}
+
+fn constant(outputs: &[Option<bool>]) -> Option<bool> {
+    let mut known = outputs.iter().flatten();
+    let first = *known.next().unwrap_or(&false);
+    known.all(|&output| output == first).then_some(first)
+}
+
+/// What both halves can be, if they can be the same.
+fn agreed(low: &[Option<bool>], high: &[Option<bool>]) -> Option<Vec<Option<bool>>> {
+    let one = |(a, b): (&Option<bool>, &Option<bool>)| match (a, b) {
+        (Some(a), Some(b)) if a != b => None,
+        _ => Some(a.or(*b)),
+    };
+    low.iter().zip(high).map(one).collect()
+}
+
+fn inverted(outputs: &[Option<bool>]) -> Vec<Option<bool>> {
+    outputs.iter().map(|output| output.map(|value| !value)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn evaluate(shape: &[Shape], pattern: usize) -> bool {
+        let mut values: Vec<bool> = Vec::new();
+        for part in shape {
+            let value = match *part {
+                Shape::Constant(value) => value,
+                Shape::Input(input) => pattern >> input & 1 == 1,
+                Shape::Not(part) => !values[part],
+                Shape::Gate(function, a, b) => function.output(values[a], values[b]),
+                Shape::Select(condition, then, otherwise) => {
+                    if values[condition] {
+                        values[then]
+                    } else {
+                        values[otherwise]
+                    }
+                }
+            };
+            values.push(value);
+        }
+        *values.last().unwrap()
+    }
+
+    #[test]
+    fn every_function_of_three_bits_is_decomposed_into_itself() {
+        for bits in 0..256usize {
+            let outputs: Vec<_> = (0..8).map(|pattern| Some(bits >> pattern & 1 == 1)).collect();
+            let shape = Dense { outputs: outputs.clone() }.shape();
+            for (pattern, output) in outputs.iter().enumerate() {
+                assert_eq!(Some(evaluate(&shape, pattern)), *output, "function {bits}, pattern {pattern}");
+            }
+        }
+    }
+
+    #[test]
+    fn outputs_that_do_not_matter_are_chosen_to_save_parts() {
+        let outputs = vec![Some(false), None, Some(false), Some(true)];
+        assert_eq!(Dense { outputs }.shape(), [Shape::Input(0)]);
+    }
+}

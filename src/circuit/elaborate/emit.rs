@@ -1,0 +1,316 @@
+//! Expressions to gates, bit by bit; the lowest bit of a value comes first.
+
+use crate::circuit::elaborate::build::ModuleBuilder;
+use crate::circuit::elaborate::module::{Bit, NONE, Signal, Site};
+use crate::circuit::elaborate::{fault, instance};
+use crate::diag::{Code, Diagnostic};
+use crate::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
+use crate::source::Span;
+
+/// `a` without `b`.
+const A_WITHOUT_B: u8 = 0b0100;
+
+impl ModuleBuilder<'_, '_> {
+    /// Builds one statement.
+    pub(super) fn item(&mut self, at: u32) {
+        let item = self.items[at as usize];
+        let name = item.targets.first().and_then(|target| self.target_name(target, item.frame));
+        let Some(values) = self.values(item.value, item.frame, name) else {
+            self.failed = true;
+            return;
+        };
+        let span = self.span(item.value);
+        for (target, value) in item.targets.iter().zip(values) {
+            self.drive(target, &value, item.frame, at, span);
+        }
+    }
+
+    /// A target as the name of a circuit inside.
+    fn target_name(&self, target: &Target, frame: u32) -> Option<String> {
+        let net = &self.module.nets[self.net(target.net?, frame)];
+        let bit = target.bits.and_then(|(high, _)| {
+            super::size::value(&self.circuit.sizes, high, &self.frames[frame as usize].variables).ok()
+        });
+        Some(bit.map_or_else(|| net.name.clone(), |bit| format!("{}[{bit}]", net.name)))
+    }
+
+    /// Lets a value drive a target.
+    fn drive(&mut self, target: &Target, value: &[Bit], frame: u32, by: u32, span: Span) {
+        let Some(slot) = target.net else { return };
+        let net = self.net(slot, frame);
+        let Some(width) = self.module.nets[net].width else { return };
+        let name = self.module.nets[net].name.clone();
+        let Some((low, count)) = target.bits.map_or(Some((0, width)), |bits| self.slice(bits, width, &name, frame))
+        else {
+            return;
+        };
+        if value.len() as u32 != count {
+            let target_span = target.span;
+            let fault = fault::width(&format!("the value of `{name}`"), count, value.len() as u32, span);
+            self.fault(fault.with_label(target_span, fault::bits(count.into())));
+            return;
+        }
+        let first = self.module.nets[net].first + low;
+        for (at, &driver) in value.iter().enumerate() {
+            self.drive_bit(first + at as u32, driver, by, target.span);
+        }
+        if let Some(start) = target.start {
+            self.start(start, first, count, frame);
+        }
+    }
+
+    fn drive_bit(&mut self, bit: Bit, value: Bit, item: u32, span: Span) {
+        let Signal::Net { driver, by, net, .. } = &mut self.module.signals[bit as usize] else {
+            unreachable!("inputs are no targets")
+        };
+        if *driver == NONE {
+            (*driver, *by) = (value, item);
+            return;
+        }
+        let (first, net) = (*by, *net);
+        let first = self.items[first as usize].targets.iter().map(|target| target.span).next().unwrap_or(span);
+        let message = format!("`{}` is driven more than once", self.module.nets[net as usize].name);
+        let fault = Diagnostic::new(Code::MultipleDrivers, message, span, "driven again here");
+        let fault = if first == span { fault } else { fault.with_label(first, "driven here") };
+        self.fault(fault.with_help("a net has one driver; choose between values with `if c then a else b`"));
+    }
+
+    fn start(&mut self, start: SizeId, first: Bit, width: u32, frame: u32) {
+        let Some(value) = self.size(start, frame) else { return };
+        if value < 0 || (width < 63 && value >= 1 << width) {
+            let span = self.circuit.sizes[start.0 as usize].span;
+            let message = format!("the start value {value} does not fit into {}", fault::bits(width.into()));
+            let label = if width < 63 {
+                format!("expected 0 to {}", (1i64 << width) - 1)
+            } else {
+                "expected no less than 0".to_owned()
+            };
+            self.fault(fault::range(message, span, label));
+            return;
+        }
+        let bit = |at: u32| at < 63 && value >> at & 1 == 1;
+        self.module.starts.extend((0..width).map(|at| (first + at, bit(at))));
+    }
+
+    /// The values of an expression, from its leaves to its root without recursion; `None` after a fault.
+    fn values(&mut self, root: ExpressionId, frame: u32, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
+        let circuit = self.circuit;
+        let mut done: Vec<Vec<Bit>> = Vec::new();
+        for at in circuit.first_leaf(root).0..root.0 {
+            let value = self.value(ExpressionId(at), frame, None, &mut done)?;
+            done.push(value.into_iter().next().expect("an expression inside has one value"));
+        }
+        self.value(root, frame, name, &mut done)
+    }
+
+    fn value(
+        &mut self,
+        id: ExpressionId,
+        frame: u32,
+        name: Option<String>,
+        done: &mut Vec<Vec<Bit>>,
+    ) -> Option<Vec<Vec<Bit>>> {
+        let circuit = self.circuit;
+        let span = self.span(id);
+        let mut take = |count: usize| done.split_off(done.len() - count);
+        let value = match &circuit.expressions[id.0 as usize].kind {
+            ExpressionKind::Bits(bits) => bits.iter().rev().map(|&bit| self.constant(bit)).collect(),
+            ExpressionKind::Number { width, value } => self.number(*width, *value, frame, span)?,
+            ExpressionKind::Computed { width, value } => {
+                let value = self.size(*value, frame)?;
+                let Ok(value) = u128::try_from(value) else {
+                    self.fault(fault::range(
+                        format!("the constant {value} is negative"),
+                        span,
+                        "expected 0 or more".to_owned(),
+                    ));
+                    return None;
+                };
+                self.number(*width, value, frame, span)?
+            }
+            ExpressionKind::Net(slot) => self.bits(*slot, None, frame)?,
+            ExpressionKind::Slice { net, high, low } => self.bits(*net, Some((*high, *low)), frame)?,
+            ExpressionKind::Concatenation(parts) => take(parts.len()).into_iter().rev().flatten().collect(),
+            ExpressionKind::Repetition { count, .. } => self.repetition(*count, &take(1)[0], frame)?,
+            ExpressionKind::Operation { operator, operands } => {
+                self.operation(*operator, operands, take(operands.len()), span)?
+            }
+            ExpressionKind::Choice { condition, then, otherwise } => {
+                self.choice([*condition, *then, *otherwise], take(3), span)?
+            }
+            ExpressionKind::Table { inputs, table } => {
+                let inputs: Vec<Bit> = take(inputs.len()).into_iter().rev().flatten().collect();
+                self.table(&circuit.tables[*table], &inputs)?
+            }
+            ExpressionKind::Call { circuit, arguments, operands } => {
+                let values = take(operands.len());
+                return self.call(*circuit, arguments, operands, values, frame, name, span);
+            }
+        };
+        Some(vec![value])
+    }
+
+    /// The constant 0 or 1.
+    pub(super) fn constant(&mut self, value: bool) -> Bit {
+        if self.constants[usize::from(value)] == NONE {
+            self.constants[usize::from(value)] = self.signal(Signal::Constant(value));
+        }
+        self.constants[usize::from(value)]
+    }
+
+    fn signal(&mut self, signal: Signal) -> Bit {
+        self.module.signals.push(signal);
+        self.module.signals.len() as Bit - 1
+    }
+
+    pub(super) fn gate(&mut self, function: Function, pins: [Bit; 2], span: Span) -> Bit {
+        self.signal(Signal::Gate { function, pins, span })
+    }
+
+    fn number(&mut self, width: SizeId, value: u128, frame: u32, span: Span) -> Option<Vec<Bit>> {
+        let width = self.width(width, frame)?;
+        if width < 128 && value >> width != 0 {
+            let message = format!("the constant {value} does not fit into {}", fault::bits(width.into()));
+            let needed = u128::BITS - value.leading_zeros();
+            let label = format!("expected at most {}", (1u128 << width) - 1);
+            self.fault(
+                fault::range(message, span, label)
+                    .with_help(format!("it needs {}: `{needed}'d{value}`", fault::bits(needed.into()))),
+            );
+            return None;
+        }
+        Some((0..width).map(|bit| self.constant(bit < 128 && value >> bit & 1 == 1)).collect())
+    }
+
+    fn bits(&mut self, slot: NetSlot, bits: Option<(SizeId, SizeId)>, frame: u32) -> Option<Vec<Bit>> {
+        let net = self.net(slot, frame);
+        let width = self.module.nets[net].width?;
+        let first = self.module.nets[net].first;
+        let (low, count) = match bits {
+            Some(bits) => self.slice(bits, width, &self.module.nets[net].name.clone(), frame)?,
+            None => (0, width),
+        };
+        Some((first + low..first + low + count).collect())
+    }
+
+    fn repetition(&mut self, count: SizeId, value: &[Bit], frame: u32) -> Option<Vec<Bit>> {
+        let times = self.size(count, frame)?;
+        if times < 0 || times.saturating_mul(value.len() as i64) > super::MAX_WIDTH {
+            let span = self.circuit.sizes[count.0 as usize].span;
+            let label = format!("expected 0 or more, and no more than {} in all", fault::bits(super::MAX_WIDTH as u64));
+            self.fault(fault::range(format!("{times} repetitions"), span, label));
+            return None;
+        }
+        Some(value.repeat(times as usize))
+    }
+
+    fn operation(
+        &mut self,
+        operator: Operator,
+        operands: &[ExpressionId],
+        values: Vec<Vec<Bit>>,
+        span: Span,
+    ) -> Option<Vec<Bit>> {
+        let width = values[0].len();
+        if let Some(at) = values.iter().position(|value| value.len() != width) {
+            let first = (width as u32, self.span(operands[0]));
+            let second = (values[at].len() as u32, self.span(operands[at]));
+            self.fault(fault::operands(&format!("operands of `{operator}`"), first, second));
+            return None;
+        }
+        Some((0..width).map(|bit| self.operation_bit(operator, values.iter().map(|value| value[bit]), span)).collect())
+    }
+
+    /// One bit of an operation: of more than two operands, all but the last are combined without the final inversion.
+    fn operation_bit(&mut self, operator: Operator, mut operands: impl Iterator<Item = Bit>, span: Span) -> Bit {
+        let first = operands.next().expect("an operation has operands");
+        let (inner, last) = match operator {
+            Operator::Not => return self.gate(Function::NOT, [first, NONE], span),
+            Operator::And => (Function::AND, Function::AND),
+            Operator::Or => (Function::OR, Function::OR),
+            Operator::Xor => (Function::XOR, Function::XOR),
+            Operator::Nand => (Function::AND, Function::NAND),
+            Operator::Nor => (Function::OR, Function::NOR),
+            Operator::Xnor => (Function::XOR, Function::XNOR),
+        };
+        let mut operands = operands.peekable();
+        let mut value = first;
+        while let Some(operand) = operands.next() {
+            let function = if operands.peek().is_some() { inner } else { last };
+            value = self.gate(function, [value, operand], span);
+        }
+        value
+    }
+
+    fn choice(&mut self, parts: [ExpressionId; 3], values: Vec<Vec<Bit>>, span: Span) -> Option<Vec<Bit>> {
+        let [condition, then, otherwise] = &values[..] else { unreachable!("a choice has three parts") };
+        if condition.len() != 1 {
+            let fault = fault::width("the condition", 1, condition.len() as u32, self.span(parts[0]));
+            self.fault(fault.with_help("ask for all, any or a value: `all(a)`, `any(a)`, `a == 4'd3`"));
+            return None;
+        }
+        if then.len() != otherwise.len() {
+            let first = (then.len() as u32, self.span(parts[1]));
+            let second = (otherwise.len() as u32, self.span(parts[2]));
+            self.fault(fault::operands("branches", first, second));
+            return None;
+        }
+        Some(
+            then.iter()
+                .zip(otherwise)
+                .map(|(&then, &otherwise)| self.select(condition[0], then, otherwise, span))
+                .collect(),
+        )
+    }
+
+    /// `then` where the condition is 1, else `otherwise`.
+    pub(super) fn select(&mut self, condition: Bit, then: Bit, otherwise: Bit, span: Span) -> Bit {
+        let chosen = self.gate(Function::AND, [condition, then], span);
+        let other = self.gate(Function::new(A_WITHOUT_B), [otherwise, condition], span);
+        self.gate(Function::OR, [chosen, other], span)
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "a call is all of these")]
+    fn call(
+        &mut self,
+        callee: CircuitId,
+        given: &[Option<SizeId>],
+        operands: &[ExpressionId],
+        values: Vec<Vec<Bit>>,
+        frame: u32,
+        name: Option<String>,
+        span: Span,
+    ) -> Option<Vec<Vec<Bit>>> {
+        let mut arguments = Vec::new();
+        for size in given {
+            arguments.push(match size {
+                Some(size) => Some(self.size(*size, frame)?),
+                None => None,
+            });
+        }
+        let widths: Vec<_> = values.iter().map(|value| Some(value.len() as u32)).collect();
+        let arguments = self.builder.arguments(callee, arguments, &widths, span)?;
+        let id = self.builder.build(callee, arguments)?;
+        let inputs = self.builder.module(id).inputs.clone();
+        for (port, (value, expected)) in values.iter().zip(inputs).enumerate() {
+            if value.len() as u32 != expected {
+                let operand = self.span(operands[port]);
+                let fault =
+                    instance::operand_fault(self.builder.circuit(callee), port, expected, value.len() as u32, operand);
+                self.fault(fault);
+                return None;
+            }
+        }
+        let name = name.unwrap_or_else(|| {
+            self.unnamed += 1;
+            format!("{}_{}", self.builder.circuit(callee).name, self.unnamed)
+        });
+        let site = self.module.sites.len() as u32;
+        self.module.sites.push(Site { module: id, inputs: values.concat(), name });
+        let mut bits = 0..;
+        let outputs = self.builder.module(id).outputs.clone();
+        let mut output =
+            |width| bits.by_ref().take(width as usize).map(|bit| self.signal(Signal::Output { site, bit })).collect();
+        Some(outputs.into_iter().map(&mut output).collect())
+    }
+}

@@ -1,0 +1,165 @@
+//! Frames: a block of statements in one turn of the loops around it, with the nets that belong to it.
+
+use crate::circuit::elaborate::build::ModuleBuilder;
+use crate::circuit::elaborate::module::{ModuleNet, NONE};
+use crate::circuit::elaborate::{MAX_STATEMENTS, fault};
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Block, ExpressionId, NetSlot, SizeId, Statement, Target};
+use crate::source::Span;
+
+/// A block in one turn of the loops around it.
+pub(super) struct Frame {
+    /// The frame of the block around.
+    parent: u32,
+    /// The first slot of the block's nets, and the net it is in this turn.
+    first_slot: u32,
+    first_net: u32,
+    nets: u32,
+    /// Parameters and loop variables.
+    pub(super) variables: Vec<i64>,
+}
+
+impl Frame {
+    /// The first slot of the block's nets, the net it is in this turn, and how many there are.
+    pub(super) fn nets(&self) -> (u32, u32, u32) {
+        (self.first_slot, self.first_net, self.nets)
+    }
+}
+
+/// A statement to be built, with its frame.
+#[derive(Clone, Copy)]
+pub(super) struct Item<'a> {
+    pub(super) frame: u32,
+    pub(super) targets: &'a [Target],
+    pub(super) value: ExpressionId,
+}
+
+impl<'a> ModuleBuilder<'a, '_> {
+    /// Lays loops flat: fills the list of statements to build.
+    pub(super) fn unroll(&mut self, variables: Vec<i64>) {
+        let body = &self.circuit.body;
+        let root = self.open_frame(u32::MAX, body, variables);
+        self.unroll_block(root, body);
+    }
+
+    fn open_frame(&mut self, parent: u32, block: &Block, variables: Vec<i64>) -> u32 {
+        let first_net = self.module.nets.len() as u32;
+        let turn = self.turn(&variables);
+        for slot in block.nets.clone() {
+            let net = &self.circuit.nets[slot as usize];
+            let name = if parent == u32::MAX { net.name.clone() } else { format!("{}{turn}", net.name) };
+            self.module.nets.push(ModuleNet { name, span: net.span, width: None, first: NONE });
+        }
+        self.frames.push(Frame {
+            parent,
+            first_slot: block.nets.start,
+            first_net,
+            nets: block.nets.len() as u32,
+            variables,
+        });
+        self.frames.len() as u32 - 1
+    }
+
+    /// The loop variables as a suffix of names.
+    fn turn(&self, variables: &[i64]) -> String {
+        variables.iter().skip(self.circuit.parameters.len()).map(|value| format!(".{value}")).collect()
+    }
+
+    fn unroll_block(&mut self, frame: u32, block: &'a Block) {
+        for statement in &block.statements {
+            match statement {
+                Statement::Drive { targets, value } => self.items.push(Item { frame, targets, value: *value }),
+                Statement::For { variable, from, to, span, body } => {
+                    self.unroll_loop(frame, *variable, (*from, *to), *span, body)
+                }
+            }
+            if self.failed {
+                return;
+            }
+        }
+    }
+
+    fn unroll_loop(&mut self, frame: u32, variable: u32, range: (SizeId, SizeId), span: Span, body: &'a Block) {
+        let (Some(from), Some(to)) = (self.size(range.0, frame), self.size(range.1, frame)) else {
+            self.failed = true;
+            return;
+        };
+        let turns = to.saturating_sub(from).max(0) as usize;
+        let statements = turns.saturating_mul(body.statements.len().max(1));
+        if statements.saturating_add(self.items.len()) > MAX_STATEMENTS || self.frames.len() + turns > MAX_STATEMENTS {
+            let message = format!("the loop makes {statements} statements");
+            self.fault(Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {MAX_STATEMENTS}")));
+            self.failed = true;
+            return;
+        }
+        for value in from..to {
+            let mut variables = self.frames[frame as usize].variables.clone();
+            variables.truncate(variable as usize);
+            variables.resize(variable as usize + 1, 0);
+            variables[variable as usize] = value;
+            let inner = self.open_frame(frame, body, variables);
+            self.unroll_block(inner, body);
+            if self.failed {
+                return;
+            }
+        }
+    }
+
+    /// The net that a slot is in a frame.
+    pub(super) fn net(&self, slot: NetSlot, frame: u32) -> usize {
+        let mut frame = &self.frames[frame as usize];
+        loop {
+            if (frame.first_slot..frame.first_slot + frame.nets).contains(&slot.0) {
+                return (frame.first_net + slot.0 - frame.first_slot) as usize;
+            }
+            assert!(frame.parent != u32::MAX, "every net belongs to a block around its use");
+            frame = &self.frames[frame.parent as usize];
+        }
+    }
+
+    /// The value of a size in a frame; a fault is noted.
+    pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i64> {
+        match super::size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables) {
+            Ok(value) => Some(value),
+            Err(fault) => {
+                self.fault(fault);
+                None
+            }
+        }
+    }
+
+    /// A width: a size from 1 to the most bits of a net.
+    pub(super) fn width(&mut self, size: SizeId, frame: u32) -> Option<u32> {
+        let value = self.size(size, frame)?;
+        if (1..=super::MAX_WIDTH).contains(&value) {
+            return Some(value as u32);
+        }
+        let label = format!("expected 1 to {}", super::MAX_WIDTH);
+        self.fault(fault::range(format!("a width of {value} bits"), self.circuit.sizes[size.0 as usize].span, label));
+        None
+    }
+
+    /// The lowest bit and the number of bits of a slice of a net that wide.
+    pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<(u32, u32)> {
+        let (high, low) = (self.size(bits.0, frame)?, self.size(bits.1, frame)?);
+        let span = self.circuit.sizes[bits.0.0 as usize].span.to(self.circuit.sizes[bits.1.0 as usize].span);
+        if high < low {
+            let message = format!("the slice `{high}..{low}` runs upwards");
+            let help = format!("the highest bit comes first: `{name}[{low}..{high}]`");
+            self.fault(Diagnostic::new(Code::OutOfRange, message, span, "here").with_help(help));
+            return None;
+        }
+        if low < 0 || high >= i64::from(width) {
+            let outside = if low < 0 { low } else { high };
+            let label = format!("`{name}` is {} wide", fault::bits(width.into()));
+            let help = if width == 1 {
+                format!("its only bit is `{name}` itself")
+            } else {
+                format!("its bits are 0 to {}", width - 1)
+            };
+            self.fault(fault::range(format!("`{name}` has no bit {outside}"), span, label).with_help(help));
+            return None;
+        }
+        Some((low as u32, (high - low + 1) as u32))
+    }
+}

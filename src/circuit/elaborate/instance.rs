@@ -1,0 +1,73 @@
+//! Parameters of a circuit that is used: given, told by the widths of the operands, or by default.
+
+use crate::circuit::elaborate::build::Builder;
+use crate::circuit::elaborate::{fault, size};
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Circuit, CircuitId, SizeKind};
+use crate::source::Span;
+
+impl Builder<'_> {
+    /// A value for each parameter; a fault is noted.
+    pub(super) fn arguments(
+        &mut self,
+        circuit: CircuitId,
+        given: Vec<Option<i64>>,
+        operands: &[Option<u32>],
+        span: Span,
+    ) -> Option<Vec<i64>> {
+        match arguments(self.circuit(circuit), given, operands, span) {
+            Ok(arguments) => Some(arguments),
+            Err(fault) => {
+                self.fault(fault);
+                None
+            }
+        }
+    }
+}
+
+/// A value for each parameter.
+pub(super) fn arguments(
+    circuit: &Circuit,
+    mut given: Vec<Option<i64>>,
+    operands: &[Option<u32>],
+    span: Span,
+) -> Result<Vec<i64>, Diagnostic> {
+    for (net, width) in circuit.nets.iter().zip(operands) {
+        let kind = net.width.map(|size| circuit.sizes[size.0 as usize].kind);
+        if let (Some(SizeKind::Variable(slot)), Some(width)) = (kind, width) {
+            given[slot as usize].get_or_insert(i64::from(*width));
+        }
+    }
+    let mut values = Vec::new();
+    for (parameter, given) in circuit.parameters.iter().zip(given) {
+        let value = match (given, parameter.default) {
+            (Some(value), _) => value,
+            (None, Some(default)) => size::value(&circuit.sizes, default, &values)?,
+            (None, None) => return Err(untold(circuit, &parameter.name, span)),
+        };
+        values.push(value);
+    }
+    Ok(values)
+}
+
+fn untold(circuit: &Circuit, parameter: &str, span: Span) -> Diagnostic {
+    let message = format!("the parameter `{parameter}` of `{}` cannot be told", circuit.name);
+    let help = format!("give it: `{}[{parameter} = 8]`", circuit.name);
+    Diagnostic::new(Code::UnknownWidth, message, span, "used here").with_help(help)
+}
+
+/// The widths of the output ports of a circuit with these parameters.
+pub(super) fn output_widths(circuit: &Circuit, arguments: &[i64]) -> Option<Vec<u32>> {
+    let ports = &circuit.nets[circuit.inputs..circuit.inputs + circuit.outputs];
+    let width = |net: &crate::model::Net| match net.width {
+        Some(width) => size::value(&circuit.sizes, width, arguments).ok().and_then(|width| u32::try_from(width).ok()),
+        None => Some(1),
+    };
+    ports.iter().map(width).collect()
+}
+
+/// An operand that is not as wide as its port.
+pub(super) fn operand_fault(circuit: &Circuit, port: usize, expected: u32, found: u32, span: Span) -> Diagnostic {
+    let name = &circuit.nets[port].name;
+    fault::width(&format!("the operand `{name}` of `{}`", circuit.name), expected, found, span)
+}

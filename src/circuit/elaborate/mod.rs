@@ -1,0 +1,100 @@
+//! Elaboration: from a checked circuit to a netlist. Each circuit is built once for each choice of its parameters, as a [`Module`]; a
+//! netlist is a module with everything inside it laid flat. What the user wrote keeps its structure: a `not` is a cell, a loop stays
+//! as it is.
+//!
+//! Widths, bits and parameters are known only here, so that their faults are found here too; [`inspect`] looks for them alone.
+
+mod build;
+mod dense;
+mod emit;
+mod fault;
+mod flatten;
+mod frame;
+mod instance;
+mod loops;
+mod module;
+mod size;
+mod table;
+mod width;
+
+use crate::circuit::Netlist;
+use crate::diag::{Code, Diagnostic};
+use crate::model::{CircuitId, Column, Instance, Program};
+
+use build::Builder;
+use module::ModuleId;
+
+/// The most cells of a circuit.
+pub const MAX_CELLS: u64 = 1_000_000;
+
+/// The most statements of a circuit, those in `for` counted once for each turn.
+pub const MAX_STATEMENTS: usize = 500_000;
+
+/// The most bits of a net.
+pub const MAX_WIDTH: i64 = 1 << 20;
+
+/// How deep circuits may be built of circuits.
+pub const MAX_HIERARCHY: usize = 200;
+
+/// The netlist of a circuit.
+///
+/// # Errors
+/// What is wrong with the circuit or with those it is made of: widths, bits, drivers, size.
+pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
+    let mut builder = Builder::new(program);
+    let module = builder.instance(instance);
+    let netlist = module.and_then(|module| match flatten::flatten(&builder, module, &instance.to_string()) {
+        Ok(netlist) => Some(netlist),
+        Err(fault) => {
+            builder.diagnostics.push(fault);
+            None
+        }
+    });
+    match netlist {
+        Some(netlist) if builder.diagnostics.iter().all(|diagnostic| !diagnostic.is_error()) => Ok(netlist),
+        _ => Err(builder.diagnostics.into_iter().filter(Diagnostic::is_error).collect()),
+    }
+}
+
+/// Builds circuits only to find what is wrong with them.
+pub struct Inspector<'a>(Builder<'a>);
+
+impl<'a> Inspector<'a> {
+    /// Nothing looked at yet.
+    pub fn new(program: &'a Program) -> Self {
+        Self(Builder::new(program))
+    }
+
+    /// Looks at a circuit without parameters, or with their defaults.
+    pub fn inspect(&mut self, circuit: CircuitId) {
+        if let Some(module) = self.0.with_defaults(circuit) {
+            self.0.look_for_loops(module);
+        }
+    }
+
+    /// The input and output ports of an instance, if it can be built.
+    pub fn ports(&mut self, instance: &Instance) -> Option<(Vec<Column>, Vec<Column>)> {
+        let module = self.0.instance(instance)?;
+        self.0.look_for_loops(module);
+        Some(self.0.columns(module))
+    }
+
+    /// Everything found, once each.
+    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
+        self.0.diagnostics
+    }
+}
+
+/// A circuit that the program does not declare; a caller's mistake, or a name given on the command line.
+fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
+    let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
+    let fault = Diagnostic::without_place(Code::Unknown, format!("no circuit is called `{}`", instance.circuit));
+    match crate::diag::suggest::help(&instance.circuit, names) {
+        Some(help) => fault.with_help(help),
+        None => fault,
+    }
+}
+
+fn module_id(at: usize) -> ModuleId {
+    ModuleId(u32::try_from(at).expect("fewer than 2^32 modules"))
+}

@@ -1,0 +1,166 @@
+//! What a netlist computes: every cell takes one time step, as every robot takes time, and inputs are held until nothing changes.
+
+use crate::circuit::netlist::{NetId, Netlist, Node};
+use crate::model::Function;
+
+/// A netlist being evaluated.
+pub struct Logic {
+    inputs: Vec<u32>,
+    outputs: Vec<u32>,
+    cells: Vec<Gate>,
+    /// Values of all nets by slot: the inputs, the constants, then the cells.
+    values: Vec<bool>,
+    next: Vec<bool>,
+}
+
+/// A cell with the slots of its pins; of one pin, both are that.
+struct Gate {
+    function: Function,
+    pins: [u32; 2],
+    slot: u32,
+}
+
+/// Inputs under which the outputs go on changing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the circuit does not come to rest")]
+pub struct Restless;
+
+impl Logic {
+    /// A netlist before its first cycle. Cells with a start value have it; the others have what follows from inputs of 0, as far as
+    /// that comes to rest.
+    ///
+    /// # Panics
+    /// When the netlist is not well formed: a pin without a driver, or a wire that drives itself.
+    pub fn new(netlist: &Netlist) -> Self {
+        let slots = netlist.graph().node_indices().map(|id| id.index() as u32 + 1).max().unwrap_or(0);
+        let mut logic = Self {
+            inputs: netlist.inputs().iter().map(|id| id.index() as u32).collect(),
+            outputs: netlist.outputs().iter().map(|&id| driver(netlist, netlist.pins(id)[0])).collect(),
+            cells: Vec::new(),
+            values: vec![false; slots as usize],
+            next: Vec::new(),
+        };
+        let mut held = Vec::new();
+        for id in netlist.ids() {
+            match netlist.node(id) {
+                Node::Constant(value) => logic.values[id.index()] = *value,
+                Node::Cell(cell) => {
+                    let pins = netlist.pins(id);
+                    let pins = [pins[0], pins[pins.len() - 1]].map(|pin| driver(netlist, pin));
+                    logic.cells.push(Gate { function: cell.function, pins, slot: id.index() as u32 });
+                    held.extend(start(netlist, id).map(|start| (id.index(), start)));
+                }
+                _ => {}
+            }
+        }
+        logic.begin(&held);
+        logic
+    }
+
+    /// Lets the cells without a start value come to rest while the others are held.
+    fn begin(&mut self, held: &[(usize, bool)]) {
+        for _ in 0..self.cells.len() + 2 {
+            for &(slot, start) in held {
+                self.values[slot] = start;
+            }
+            let changed = self.step();
+            let moved = held.iter().any(|&(slot, start)| self.values[slot] != start);
+            if !changed || (moved && held.len() == self.cells.len()) {
+                break;
+            }
+        }
+        for &(slot, start) in held {
+            self.values[slot] = start;
+        }
+    }
+
+    /// One time step of every cell; whether any output changed.
+    fn step(&mut self) -> bool {
+        self.next.clear();
+        let value = |slot: u32| self.values[slot as usize];
+        self.next.extend(self.cells.iter().map(|gate| gate.function.output(value(gate.pins[0]), value(gate.pins[1]))));
+        let mut changed = false;
+        for (gate, &next) in self.cells.iter().zip(&self.next) {
+            changed |= std::mem::replace(&mut self.values[gate.slot as usize], next) != next;
+        }
+        changed
+    }
+
+    /// Holds the inputs, in order of the ports, until nothing changes, and returns the outputs.
+    ///
+    /// # Errors
+    /// When it never comes to rest; the values are then those after as many steps as any circuit of this size that does needs.
+    ///
+    /// # Panics
+    /// When there are not as many values as inputs.
+    pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Restless> {
+        assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
+        for (&slot, &value) in self.inputs.iter().zip(inputs) {
+            self.values[slot as usize] = value;
+        }
+        // Without loops the longest path is the limit; loops that come to rest do so after a few turns.
+        let limit = 16 * self.cells.len() + 16;
+        let rests = (0..limit).any(|_| !self.step());
+        let outputs = self.outputs.iter().map(|&slot| self.values[slot as usize]).collect();
+        if rests { Ok(outputs) } else { Err(Restless) }
+    }
+}
+
+/// The slot of the cell, input or constant behind wires.
+fn driver(netlist: &Netlist, id: NetId) -> u32 {
+    let mut at = id;
+    let mut steps = 0;
+    while let Node::Wire { .. } = netlist.node(at) {
+        at = netlist.pins(at)[0];
+        steps += 1;
+        assert!(steps <= netlist.graph().node_count(), "a wire does not drive itself");
+    }
+    at.index() as u32
+}
+
+/// The start value of a cell: its own, or that of a wire it drives.
+fn start(netlist: &Netlist, id: NetId) -> Option<bool> {
+    let own = netlist.cell(id).and_then(|cell| cell.start);
+    own.or_else(|| {
+        netlist.fanout(id).into_iter().find_map(|(listener, _)| match netlist.node(listener) {
+            Node::Wire { start, .. } => *start,
+            _ => None,
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set_reset() -> Netlist {
+        let mut netlist = Netlist::new("latch");
+        let set = netlist.add_input("s");
+        let reset = netlist.add_input("r");
+        let wire = netlist.add_wire("nq", Some(true), None);
+        let q = netlist.add_gate(Function::NAND, &[set, wire]);
+        let nq = netlist.add_gate(Function::NAND, &[reset, q]);
+        netlist.drive(wire, 0, nq);
+        netlist.add_output("q", q);
+        netlist
+    }
+
+    #[test]
+    fn a_latch_remembers() {
+        let mut logic = Logic::new(&set_reset());
+        let rows = [([true, true], false), ([false, true], true), ([true, true], true), ([true, false], false)];
+        for (inputs, expected) in rows {
+            assert_eq!(logic.settle(&inputs), Ok(vec![expected]), "after {inputs:?}");
+        }
+    }
+
+    #[test]
+    fn a_ring_does_not_come_to_rest() {
+        let mut netlist = Netlist::new("ring");
+        let wire = netlist.add_wire("q", Some(false), None);
+        let gate = netlist.add_gate(Function::NOT, &[wire]);
+        netlist.drive(wire, 0, gate);
+        netlist.add_output("q", gate);
+        assert_eq!(Logic::new(&netlist).settle(&[]), Err(Restless));
+    }
+}

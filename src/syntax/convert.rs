@@ -1,0 +1,143 @@
+//! Pest's pairs to the tree: what all kinds of declarations share. Slips that the grammar knows become diagnostics here.
+
+use pest::iterators::{Pair, Pairs};
+
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Span};
+use crate::syntax::grammar::Rule;
+use crate::syntax::tree::{
+    Circuit, Declaration, DeclarationKind, Name, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
+};
+
+/// Turns the pairs of one declaration into a tree.
+pub(crate) struct Converter {
+    pub(crate) file: FileId,
+    /// Where the declaration's text begins in the file.
+    pub(crate) offset: usize,
+    pub(crate) errors: Vec<Diagnostic>,
+}
+
+impl Converter {
+    /// The declaration that the pairs of a parse hold, unless it is a slip.
+    pub(crate) fn declaration(&mut self, pairs: Pairs<Rule>) -> Option<Declaration> {
+        let pair = solid(pairs).next().expect("a parsed declaration has a pair");
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::use_file => DeclarationKind::Use(self.text(parts(pair).next().expect("a path"))),
+            Rule::stimulus => DeclarationKind::Stimulus(parts(pair).map(|name| self.name(&name)).collect()),
+            Rule::material => self.record_declaration(RecordKeyword::Material, pair),
+            Rule::evolution => self.record_declaration(RecordKeyword::Evolution, pair),
+            Rule::library => self.record_declaration(RecordKeyword::Library, pair),
+            Rule::swarm => self.record_declaration(RecordKeyword::Swarm, pair),
+            Rule::schedule => DeclarationKind::Schedule(self.schedule(pair)),
+            Rule::simulate => DeclarationKind::Simulate(self.simulate(pair)),
+            Rule::circuit => DeclarationKind::Circuit(self.circuit(pair)),
+            Rule::test => DeclarationKind::Test(self.test(pair)),
+            Rule::slip_declaration => {
+                self.slip_declaration(pair);
+                return None;
+            }
+            rule => unreachable!("a declaration is not {rule:?}"),
+        };
+        Some(Declaration { span, kind })
+    }
+
+    fn slip_declaration(&mut self, pair: Pair<Rule>) {
+        let word = pair.as_str().split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default().to_owned();
+        let start = self.span(&pair).start as usize;
+        let span = Span::new(self.file, start, start + word.len());
+        self.errors.push(
+            Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected `circuit`")
+                .with_help("write `circuit name(inputs) -> (outputs) { … }`"),
+        );
+    }
+
+    fn record_declaration(&mut self, keyword: RecordKeyword, pair: Pair<Rule>) -> DeclarationKind {
+        let mut parts = parts(pair);
+        let name = self.name(&parts.next().expect("a name"));
+        let record = self.record(parts.next().expect("a record"));
+        DeclarationKind::Record(RecordDeclaration { keyword, name, record })
+    }
+
+    fn circuit(&mut self, pair: Pair<Rule>) -> Circuit {
+        let mut arena = crate::syntax::convert_circuit::Arena::default();
+        let mut parts = parts(pair).peekable();
+        let name = self.name(&parts.next().expect("a name"));
+        let parameters = match parts.peek().map(Pair::as_rule) {
+            Some(Rule::parameters) => self.parameters(parts.next().expect("parameters"), &mut arena),
+            _ => Vec::new(),
+        };
+        let inputs = self.ports(parts.next().expect("inputs"), &mut arena);
+        let outputs = self.ports(parts.next().expect("outputs"), &mut arena);
+        let statements = self.statements(parts.next().expect("a body"), &mut arena);
+        Circuit { name, parameters, inputs, outputs, body: arena.body(statements) }
+    }
+
+    /// A diagnostic about the grammar.
+    pub(crate) fn syntax(&mut self, message: impl Into<String>, span: Span, label: &str, help: impl Into<String>) {
+        self.errors.push(Diagnostic::new(Code::Syntax, message, span, label).with_help(help));
+    }
+
+    pub(crate) fn span(&self, pair: &Pair<Rule>) -> Span {
+        let span = pair.as_span();
+        Span::new(self.file, self.offset + span.start(), self.offset + span.end())
+    }
+
+    pub(crate) fn name(&self, pair: &Pair<Rule>) -> Name {
+        Name { text: pair.as_str().to_owned(), span: self.span(pair) }
+    }
+
+    pub(crate) fn number(&self, pair: &Pair<Rule>) -> Number {
+        Number { text: pair.as_str().to_owned(), span: self.span(pair) }
+    }
+
+    pub(crate) fn text(&self, pair: Pair<Rule>) -> Text {
+        let span = self.span(&pair);
+        Text { text: parts(pair).map(|part| part.as_str().to_owned()).collect(), span }
+    }
+
+    pub(crate) fn quantity(&self, pair: Pair<Rule>) -> Quantity {
+        let mut parts = parts(pair);
+        let number = self.number(&parts.next().expect("a number"));
+        Quantity { number, unit: parts.next().map(|unit| self.name(&unit)) }
+    }
+}
+
+/// The pairs inside a pair that carry meaning: no comments, no keywords whose presence is already known.
+pub(crate) fn parts(pair: Pair<Rule>) -> impl Iterator<Item = Pair<Rule>> {
+    solid(pair.into_inner())
+}
+
+fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
+    pairs.filter(|pair| {
+        !matches!(
+            pair.as_rule(),
+            Rule::EOI
+                | Rule::COMMENT
+                | Rule::circuit_word
+                | Rule::test_word
+                | Rule::simulate_word
+                | Rule::schedule_word
+                | Rule::stimulus_word
+                | Rule::use_word
+                | Rule::material_word
+                | Rule::evolution_word
+                | Rule::library_word
+                | Rule::swarm_word
+                | Rule::with_word
+                | Rule::times_word
+                | Rule::in_word
+                | Rule::bins_word
+                | Rule::for_word
+                | Rule::all_word
+                | Rule::inputs_word
+                | Rule::against_word
+                | Rule::init_word
+                | Rule::net_word
+                | Rule::if_word
+                | Rule::then_word
+                | Rule::table_word
+                | Rule::log2_word
+        )
+    })
+}

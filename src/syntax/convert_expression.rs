@@ -1,0 +1,241 @@
+//! Pest's pairs to the tree: expressions, arranged by precedence with a stack of operators.
+
+use pest::iterators::Pair;
+
+use crate::diag::{Code, Diagnostic};
+use crate::model::Operator;
+use crate::source::Span;
+use crate::syntax::convert::{Converter, parts};
+use crate::syntax::convert_circuit::Arena;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tree::{ExpressionId, ExpressionKind, Index, Infix, SizeId, SizeKind, TableRow};
+
+/// Operands and operators of an expression that are not yet put together.
+#[derive(Default)]
+struct Stacks {
+    values: Vec<ExpressionId>,
+    waiting: Vec<Waiting>,
+}
+
+#[derive(Clone, Copy)]
+enum Waiting {
+    Not(Span),
+    Infix(Infix, Span),
+}
+
+impl Waiting {
+    fn precedence(self) -> u8 {
+        match self {
+            Self::Not(_) => u8::MAX,
+            Self::Infix(infix, _) => infix.precedence(),
+        }
+    }
+}
+
+impl Converter {
+    pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
+        let mut stacks = Stacks::default();
+        for part in parts(pair) {
+            let span = self.span(&part);
+            match part.as_rule() {
+                Rule::prefix => stacks.waiting.push(Waiting::Not(span)),
+                Rule::operator | Rule::sum | Rule::comparison | Rule::slip_infix => {
+                    let infix = self.infix(&part);
+                    self.push_infix(infix, span, &mut stacks, arena);
+                }
+                _ => {
+                    let value = self.operand(part, arena);
+                    stacks.values.push(value);
+                }
+            }
+        }
+        while !stacks.waiting.is_empty() {
+            stacks.reduce(arena);
+        }
+        stacks.values.pop().expect("an expression has an operand")
+    }
+
+    fn push_infix(&mut self, infix: Infix, place: Span, stacks: &mut Stacks, arena: &mut Arena) {
+        while let Some(&top) = stacks.waiting.last().filter(|top| top.precedence() >= infix.precedence()) {
+            if let Waiting::Infix(before, before_place) = top
+                && before.precedence() == infix.precedence()
+                && !infix.chains_after(before)
+            {
+                self.errors.push(ambiguous(before, before_place, infix, place));
+            }
+            stacks.reduce(arena);
+        }
+        stacks.waiting.push(Waiting::Infix(infix, place));
+    }
+
+    fn infix(&mut self, pair: &Pair<Rule>) -> Infix {
+        let word = pair.as_str();
+        if pair.as_rule() == Rule::slip_infix {
+            let operator = if word.starts_with('&') {
+                Operator::And
+            } else if word.starts_with('|') {
+                Operator::Or
+            } else {
+                Operator::Xor
+            };
+            let label = format!("expected `{operator}`");
+            self.syntax(format!("unexpected `{word}`"), self.span(pair), &label, format!("write `{operator}`"));
+            return Infix::Bitwise(operator);
+        }
+        let sign = Infix::SIGNS.iter().find(|(_, sign)| *sign == word).map(|(infix, _)| *infix);
+        sign.unwrap_or_else(|| Infix::Bitwise(Operator::parse(word).expect("the grammar knows the operators")))
+    }
+
+    fn operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::choice => self.choice(pair, arena),
+            Rule::table => self.table(pair, arena),
+            Rule::operation => self.operation(pair, arena),
+            Rule::constant => self.constant(pair, arena),
+            Rule::reference => self.reference(pair, arena),
+            Rule::group => ExpressionKind::Group(self.expression(parts(pair).next().expect("an expression"), arena)),
+            Rule::concatenation => ExpressionKind::Concatenation(self.expressions(pair, arena)),
+            Rule::repetition => self.repetition(pair, arena),
+            Rule::slip_value => return self.slip_value(pair, arena),
+            rule => unreachable!("an operand is not {rule:?}"),
+        };
+        arena.expression(kind, span)
+    }
+
+    fn slip_value(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
+        let span = self.span(&pair);
+        let sign = &pair.as_str()[..1];
+        let place = Span::new(span.file, span.start as usize, span.start as usize + 1);
+        self.syntax(format!("unexpected `{sign}`"), place, "expected `not`", "write `not`");
+        let mut value = None;
+        for part in parts(pair).filter(|part| part.as_rule() != Rule::prefix) {
+            value = Some(self.operand(part, arena));
+        }
+        arena.expression(ExpressionKind::Not(value.expect("an operand")), span)
+    }
+
+    fn expressions(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ExpressionId> {
+        parts(pair).map(|expression| self.expression(expression, arena)).collect()
+    }
+
+    fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let mut branches = parts(pair).filter(|part| part.as_rule() == Rule::expression);
+        let mut next = |converter: &mut Self| converter.expression(branches.next().expect("a branch"), arena);
+        ExpressionKind::Choice { condition: next(self), then: next(self), otherwise: next(self) }
+    }
+
+    fn operation(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let mut parts = parts(pair);
+        let operator =
+            Operator::parse(parts.next().expect("an operator").as_str()).expect("the grammar knows the operators");
+        ExpressionKind::Operation { operator, operands: self.expressions(parts.next().expect("operands"), arena) }
+    }
+
+    fn repetition(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let mut parts = parts(pair);
+        let count = self.size_operand(parts.next().expect("a count"), arena);
+        ExpressionKind::Repetition { count, values: parts.map(|value| self.expression(value, arena)).collect() }
+    }
+
+    fn constant(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let mut parts = parts(pair);
+        let first = parts.next().expect("digits");
+        let Some(base) = parts.next() else { return ExpressionKind::Digits(first.as_str().to_owned()) };
+        let width = match first.as_rule() {
+            Rule::digits => SizeKind::Literal(first.as_str().to_owned()),
+            _ => SizeKind::Name(first.as_str().to_owned()),
+        };
+        let width = arena.size(width, self.span(&first));
+        let base = base.as_str().chars().next().expect("a base");
+        let value = parts.next().expect("a value");
+        if value.as_rule() == Rule::computed {
+            return self.computed(width, base, value, arena);
+        }
+        let digits = value.as_str().to_owned();
+        ExpressionKind::Constant { width, base, digits }
+    }
+
+    fn computed(&mut self, width: SizeId, base: char, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let span = self.span(&pair);
+        if base != 'd' {
+            let label = "expected `d` before a computed value";
+            self.syntax(format!("unexpected `{base}`"), span, label, "write `'d(…)`");
+        }
+        ExpressionKind::Computed { width, value: self.size(parts(pair).next().expect("a size"), arena) }
+    }
+
+    fn reference(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let mut parts = parts(pair).peekable();
+        let name = self.name(&parts.next().expect("a name"));
+        let brackets = parts.next_if(|part| matches!(part.as_rule(), Rule::index | Rule::arguments));
+        let Some(operands) = parts.next() else {
+            let index = brackets.and_then(|brackets| self.index_of_net(brackets, arena));
+            return ExpressionKind::Net { name, index };
+        };
+        let arguments = brackets.map_or(Vec::new(), |brackets| self.arguments_of_call(brackets, arena));
+        ExpressionKind::Call { name, arguments, operands: self.expressions(operands, arena) }
+    }
+
+    fn index_of_net(&mut self, brackets: Pair<Rule>, arena: &mut Arena) -> Option<Index> {
+        if brackets.as_rule() == Rule::index {
+            return Some(self.index(brackets, arena));
+        }
+        let help =
+            "a bit is `a[3]`, a slice `a[7..4]`; a circuit's parameters stand before its operands, `add[8](a, b)`";
+        self.syntax("unexpected parameters", self.span(&brackets), "expected a bit or a slice", help);
+        None
+    }
+
+    fn arguments_of_call(&mut self, brackets: Pair<Rule>, arena: &mut Arena) -> Vec<crate::syntax::tree::Argument> {
+        if brackets.as_rule() == Rule::arguments {
+            return self.arguments(brackets, arena);
+        }
+        let index = self.index(brackets, arena);
+        if index.low.is_some() {
+            let help = "a circuit's parameters are separated by commas, `register[4, 0](d, clk)`";
+            self.syntax("unexpected `..`", index.span, "expected parameters", help);
+        }
+        let span = arena.sizes[index.high.0 as usize].span;
+        vec![crate::syntax::tree::Argument { name: None, value: index.high, span }]
+    }
+
+    fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+        let mut parts = parts(pair);
+        let inputs = self.expressions(parts.next().expect("operands"), arena);
+        ExpressionKind::Table { inputs, rows: parts.map(|row| self.table_row(row)).collect() }
+    }
+
+    fn table_row(&mut self, pair: Pair<Rule>) -> TableRow {
+        let span = self.span(&pair);
+        let mut parts = parts(pair);
+        let pattern = parts.next().expect("a pattern");
+        let pattern = (pattern.as_rule() == Rule::pattern).then(|| self.name(&pattern));
+        TableRow { pattern, output: self.name(&parts.next().expect("an output")), span }
+    }
+}
+
+impl Stacks {
+    /// Puts the topmost operator together with its operands.
+    fn reduce(&mut self, arena: &mut Arena) {
+        let right = self.values.pop().expect("an operand");
+        let value = match self.waiting.pop().expect("an operator") {
+            Waiting::Not(place) => arena.expression(ExpressionKind::Not(right), place.to(arena.span(right))),
+            Waiting::Infix(operator, place) => {
+                let left = self.values.pop().expect("a left operand");
+                let span = arena.span(left).to(arena.span(right));
+                arena.expression(ExpressionKind::Infix { operator, place, left, right }, span)
+            }
+        };
+        self.values.push(value);
+    }
+}
+
+fn ambiguous(before: Infix, before_place: Span, infix: Infix, place: Span) -> Diagnostic {
+    let (before, after) = (before.word(), infix.word());
+    let message = format!("`{before}` and `{after}` side by side may be read in two ways");
+    let help = format!("write `(a {before} b) {after} c` or `a {before} (b {after} c)`");
+    Diagnostic::new(Code::Ambiguous, message, place, "this one, or")
+        .with_label(before_place, "this one first?")
+        .with_help(help)
+}

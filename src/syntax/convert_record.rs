@@ -1,0 +1,63 @@
+//! Pest's pairs to the tree: records and their values.
+
+use pest::iterators::Pair;
+
+use crate::syntax::convert::{Converter, parts};
+use crate::syntax::convert_circuit::Arena;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tree::{Field, Instance, Record, Value, ValueKind};
+
+impl Converter {
+    pub(crate) fn record(&mut self, pair: Pair<Rule>) -> Record {
+        let span = self.span(&pair);
+        Record { fields: parts(pair).map(|field| self.field(field)).collect(), span }
+    }
+
+    fn field(&mut self, pair: Pair<Rule>) -> Field {
+        let mut parts = parts(pair).peekable();
+        let name = self.name(&parts.next().expect("a name"));
+        if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_equals) {
+            let help = format!("write `{}: …`", name.text);
+            self.syntax("unexpected `=`", self.span(&slip), "expected `:`", help);
+        }
+        Field { name, value: self.value(parts.next().expect("a value")) }
+    }
+
+    fn value(&mut self, pair: Pair<Rule>) -> Value {
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::record => ValueKind::Record(self.record(pair)),
+            Rule::list => ValueKind::List(parts(pair).map(|value| self.value(value)).collect()),
+            Rule::text => ValueKind::Text(self.text(pair).text),
+            Rule::quantity => ValueKind::Quantity(self.quantity(pair)),
+            Rule::instance => ValueKind::Instance(self.instance(pair)),
+            rule => self.pair_of_values(rule, pair),
+        };
+        Value { kind, span }
+    }
+
+    fn pair_of_values(&mut self, rule: Rule, pair: Pair<Rule>) -> ValueKind {
+        let mut parts = parts(pair);
+        let first = parts.next().expect("a first value");
+        match rule {
+            Rule::product => {
+                ValueKind::Product(self.number(&first), self.number(&parts.next().expect("a second number")))
+            }
+            Rule::bins => ValueKind::Bins(self.name(&first), self.number(&parts.next().expect("a number of bins"))),
+            Rule::applied => ValueKind::Applied(self.name(&first), parts.map(|value| self.value(value)).collect()),
+            Rule::range => {
+                let low = self.quantity(first);
+                ValueKind::Range(low, self.quantity(parts.next().expect("an end")))
+            }
+            rule => unreachable!("a value is not {rule:?}"),
+        }
+    }
+
+    pub(crate) fn instance(&mut self, pair: Pair<Rule>) -> Instance {
+        let mut arena = Arena::default();
+        let mut parts = parts(pair);
+        let name = self.name(&parts.next().expect("a name"));
+        let arguments = parts.next().map_or(Vec::new(), |arguments| self.arguments(arguments, &mut arena));
+        Instance { name, arguments, sizes: arena.sizes }
+    }
+}

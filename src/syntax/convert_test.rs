@@ -1,0 +1,97 @@
+//! Pest's pairs to the tree: schedules, simulations and tests.
+
+use pest::iterators::Pair;
+
+use crate::syntax::convert::{Converter, parts};
+use crate::syntax::convert_circuit::Arena;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tree::{Name, Schedule, Simulate, Spell, Test, TestKind, TestRow, TestTable, With};
+
+impl Converter {
+    pub(crate) fn schedule(&mut self, pair: Pair<Rule>) -> Schedule {
+        let mut parts = parts(pair);
+        let name = self.name(&parts.next().expect("a name"));
+        let columns = self.names(parts.next().expect("columns"));
+        Schedule { name, columns, spells: self.spells(parts.next().expect("spells")) }
+    }
+
+    pub(crate) fn simulate(&mut self, pair: Pair<Rule>) -> Simulate {
+        let mut parts = parts(pair);
+        let swarm = self.name(&parts.next().expect("a name"));
+        let what = parts.next().expect("a schedule");
+        let with = match what.as_rule() {
+            Rule::name => With::Named(self.name(&what)),
+            _ => With::Spells { columns: self.names(what), spells: self.spells(parts.next().expect("spells")) },
+        };
+        Simulate { swarm, with }
+    }
+
+    fn names(&self, pair: Pair<Rule>) -> Vec<Name> {
+        parts(pair).map(|name| self.name(&name)).collect()
+    }
+
+    fn spells(&self, pair: Pair<Rule>) -> Vec<Spell> {
+        parts(pair).map(|spell| self.spell(spell)).collect()
+    }
+
+    fn spell(&self, pair: Pair<Rule>) -> Spell {
+        let span = self.span(&pair);
+        let (cells, rest): (Vec<_>, Vec<_>) = parts(pair).partition(|part| part.as_rule() == Rule::cell);
+        let length = self.quantity(rest.into_iter().next().expect("a length"));
+        Spell { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
+    }
+
+    pub(crate) fn test(&mut self, pair: Pair<Rule>) -> Test {
+        let mut parts = parts(pair).peekable();
+        let circuit = self.instance(parts.next().expect("a circuit"));
+        let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.text(title));
+        let what = parts.next().expect("a table or `for all inputs`");
+        let kind = match what.as_rule() {
+            Rule::test_table => TestKind::Table(self.test_table(what)),
+            _ => self.for_all(what),
+        };
+        Test { circuit, title, kind }
+    }
+
+    fn for_all(&mut self, pair: Pair<Rule>) -> TestKind {
+        let reference = parts(pair).next().expect("a reference");
+        match reference.as_rule() {
+            Rule::instance => TestKind::Against(self.instance(reference)),
+            _ => {
+                let mut arena = Arena::default();
+                let statements = self.statements(reference, &mut arena);
+                TestKind::Reference(Box::new(arena.body(statements)))
+            }
+        }
+    }
+
+    fn test_table(&self, pair: Pair<Rule>) -> TestTable {
+        let mut parts = parts(pair);
+        let header = parts.next().expect("a header");
+        let span = self.span(&header);
+        let (inputs, _, outputs) = self.columns_of(header);
+        TestTable { inputs, outputs, rows: parts.map(|row| self.test_row(row)).collect(), header: span }
+    }
+
+    fn test_row(&self, pair: Pair<Rule>) -> TestRow {
+        let span = self.span(&pair);
+        let hold = parts(pair.clone()).find(|part| part.as_rule() == Rule::held);
+        let hold = hold.map(|held| self.quantity(parts(held).next().expect("a quantity")));
+        let (inputs, bars, outputs) = self.columns_of(pair);
+        TestRow { inputs, bars, outputs, hold, span }
+    }
+
+    /// What stands before the first bar, the bars, and what stands after it.
+    fn columns_of(&self, pair: Pair<Rule>) -> (Vec<Name>, Vec<crate::source::Span>, Vec<Name>) {
+        let (mut before, mut bars, mut after) = (Vec::new(), Vec::new(), Vec::new());
+        for part in parts(pair) {
+            match part.as_rule() {
+                Rule::bar => bars.push(self.span(&part)),
+                Rule::held => {}
+                _ if bars.is_empty() => before.push(self.name(&part)),
+                _ => after.push(self.name(&part)),
+            }
+        }
+        (before, bars, after)
+    }
+}

@@ -1,0 +1,123 @@
+//! A parse error of pest's in the words of the language: what was found, what was expected.
+
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::source::{FileId, Span};
+use crate::syntax::grammar::Rule;
+use crate::syntax::split::{KEYWORDS, Piece};
+
+/// The diagnostic for a declaration that does not follow the grammar.
+pub(crate) fn diagnostic(text: &str, file: FileId, piece: &Piece, error: &Error<Rule>) -> Diagnostic {
+    let at = piece.range.start
+        + match error.location {
+            InputLocation::Pos(at) => at,
+            InputLocation::Span((at, _)) => at,
+        };
+    let found = found(&text[at..piece.range.end]);
+    let span = Span::new(file, at, at + found.len());
+    if found.is_empty() {
+        return unexpected_end(file, piece, error);
+    }
+    if at == piece.range.start {
+        return no_declaration(found, span);
+    }
+    if let ErrorVariant::CustomError { .. } = error.variant {
+        return Diagnostic::new(Code::Nesting, "text is nested too deep", span, "here")
+            .with_help("give inner parts names: `t = …`");
+    }
+    Diagnostic::new(Code::Syntax, format!("unexpected `{found}`"), span, expected(error))
+}
+
+fn unexpected_end(file: FileId, piece: &Piece, error: &Error<Rule>) -> Diagnostic {
+    let end = Span::new(file, piece.range.end, piece.range.end);
+    match piece.unclosed.last() {
+        Some(&open) => Diagnostic::new(
+            Code::Syntax,
+            "a bracket is never closed",
+            Span::new(file, open, open + 1),
+            "opened here, and still open at the end of the declaration",
+        )
+        .with_help("close it; a declaration that begins in the first column ends the one before"),
+        None => Diagnostic::new(Code::Syntax, "the declaration ends too early", end, expected(error)),
+    }
+}
+
+fn no_declaration(found: &str, span: Span) -> Diagnostic {
+    let help = suggest::nearest(found, KEYWORDS).map_or_else(
+        || format!("declarations begin with {}", suggest::alternatives(&KEYWORDS, "or")),
+        |near| format!("did you mean `{near}`?"),
+    );
+    Diagnostic::new(Code::Syntax, format!("unexpected `{found}`"), span, "expected a declaration").with_help(help)
+}
+
+/// The word or sign that a text begins with; a long one is cut.
+fn found(rest: &str) -> &str {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let first = rest.chars().next();
+    let end = match first {
+        Some(c) if is_word(c) => {
+            rest.char_indices().take(40).find(|(_, c)| !is_word(*c)).map_or(rest.len(), |(at, _)| at)
+        }
+        Some(c) => c.len_utf8(),
+        None => 0,
+    };
+    &rest[..rest.floor_char_boundary(end.min(40))]
+}
+
+fn expected(error: &Error<Rule>) -> String {
+    let ErrorVariant::ParsingError { positives, .. } = &error.variant else { return "here".to_owned() };
+    let mut words: Vec<&str> = positives.iter().filter_map(|rule| word(*rule)).collect();
+    words.sort_unstable();
+    words.dedup();
+    match words[..] {
+        [] => "not expected here".to_owned(),
+        _ => format!("expected {}", suggest::join(&words, "or")),
+    }
+}
+
+/// What a rule is called in messages; `None` for what nobody should be told to write.
+fn word(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
+        Rule::EOI => "the end of the declaration",
+        Rule::name => "a name",
+        Rule::text => "a text in quotes",
+        Rule::number | Rule::digits => "a number",
+        Rule::unit => "a unit",
+        Rule::quantity => "a number with its unit",
+        Rule::record => "`{`",
+        Rule::field => "a field",
+        Rule::list | Rule::product | Rule::range | Rule::bins | Rule::applied | Rule::instance => "a value",
+        Rule::columns | Rule::inputs | Rule::outputs | Rule::operands => "`(`",
+        Rule::spells | Rule::body | Rule::test_table => "`{`",
+        Rule::spell | Rule::row | Rule::cell => "a row",
+        Rule::header => "the names of the columns",
+        Rule::bar => "`|`",
+        Rule::parameters | Rule::arguments | Rule::index => "`[`",
+        Rule::parameter | Rule::argument => "a parameter",
+        Rule::port => "a port",
+        Rule::loop_ | Rule::nets | Rule::drive => "a statement",
+        Rule::targets | Rule::target => "a net",
+        Rule::expression | Rule::choice | Rule::operation | Rule::constant | Rule::reference | Rule::group => {
+            "an expression"
+        }
+        Rule::table | Rule::repetition | Rule::concatenation | Rule::prefix => "an expression",
+        Rule::operator | Rule::sum | Rule::comparison => "an operator",
+        Rule::base => "`b`, `d` or `h`",
+        Rule::pattern | Rule::table_row | Rule::pattern_digits => "a pattern of `0`, `1` and `-`",
+        Rule::size | Rule::size_group | Rule::log2 => "a number",
+        Rule::size_infix => "an operator",
+        Rule::with_word => "`with`",
+        Rule::times_word => "`x`",
+        Rule::in_word => "`in`",
+        Rule::bins_word => "`bins`",
+        Rule::for_word | Rule::for_all => "`for`",
+        Rule::all_word => "`all`",
+        Rule::inputs_word => "`inputs`",
+        Rule::against_word => "`against`",
+        Rule::then_word => "`then`",
+        Rule::else_word => "`else`",
+        Rule::schedule_word => "`schedule`",
+        _ => return None,
+    })
+}

@@ -1,0 +1,9 @@
+//! The parser that pest makes of `grammar/nb.pest`.
+#![allow(missing_docs, reason = "pest names one rule for each of the grammar's")]
+
+use pest_derive::Parser;
+
+/// The parser of single declarations.
+#[derive(Parser)]
+#[grammar = "../grammar/nb.pest"]
+pub struct NbParser;

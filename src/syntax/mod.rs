@@ -1,0 +1,15 @@
+//! nb text to tree and back: the grammar, the parser, the formatter. Names are not looked up here.
+
+mod convert;
+mod convert_circuit;
+mod convert_expression;
+mod convert_record;
+mod convert_test;
+mod expected;
+mod grammar;
+mod parse;
+mod split;
+pub mod tree;
+
+pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, Parsed, parse};
+pub use split::KEYWORDS;

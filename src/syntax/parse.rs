@@ -1,0 +1,89 @@
+//! Text to tree, declaration by declaration; never fails.
+
+use pest::Parser;
+
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Sources, Span};
+use crate::syntax::convert::Converter;
+use crate::syntax::expected;
+use crate::syntax::grammar::{NbParser, Rule};
+use crate::syntax::split::{Piece, split};
+use crate::syntax::tree::{Declaration, Tree};
+
+/// The largest source text, in bytes.
+pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
+
+/// How deep brackets may nest.
+pub const MAX_NESTING: usize = 256;
+
+/// The stack that one level of nesting may take, in bytes, with room to spare.
+const STACK_PER_LEVEL: usize = 32 << 10;
+
+/// What a text holds, and what is wrong with it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parsed {
+    /// Everything that could be parsed.
+    pub tree: Tree,
+    /// What could not.
+    pub errors: Vec<Diagnostic>,
+}
+
+/// Parses a file of `sources`.
+pub fn parse(sources: &Sources, file: FileId) -> Parsed {
+    let text = &sources.file(file).text;
+    if text.len() as u64 > MAX_SOURCE_BYTES {
+        return Parsed { errors: vec![too_large(text, file)], ..Parsed::default() };
+    }
+    let split = split(text);
+    let mut parsed = Parsed::default();
+    parsed.tree.comments =
+        split.comments.into_iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
+    for piece in &split.pieces {
+        let (declaration, errors) = parse_piece(text, file, piece);
+        parsed.tree.declarations.extend(declaration);
+        parsed.errors.extend(errors);
+    }
+    parsed
+}
+
+fn too_large(text: &str, file: FileId) -> Diagnostic {
+    let message = format!("source text of {} MB", text.len() >> 20);
+    let label = format!("more than {} MB", MAX_SOURCE_BYTES >> 20);
+    Diagnostic::new(Code::Unreadable, message, Span::new(file, 0, 0), label)
+        .with_help("split it into files, or say with `for` and circuits what repeats")
+}
+
+fn parse_piece(text: &str, file: FileId, piece: &Piece) -> (Option<Declaration>, Vec<Diagnostic>) {
+    if piece.depth > MAX_NESTING {
+        return (None, vec![too_deep(file, piece)]);
+    }
+    let source = &text[piece.range.clone()];
+    let mut converter = Converter { file, offset: piece.range.start, errors: Vec::new() };
+    let declaration = on_a_stack_for(piece.depth, || match NbParser::parse(Rule::declaration, source) {
+        Ok(pairs) => converter.declaration(pairs),
+        Err(error) => {
+            converter.errors.push(expected::diagnostic(text, file, piece, &error));
+            None
+        }
+    });
+    (declaration, converter.errors)
+}
+
+/// Runs `work` where brackets may nest `depth` deep: nearly always right here, else on a thread with a stack to match.
+fn on_a_stack_for<T: Send>(depth: usize, work: impl FnOnce() -> T + Send) -> T {
+    const HERE: usize = 24;
+    if depth <= HERE {
+        return work();
+    }
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size((depth + HERE) * STACK_PER_LEVEL).spawn_scoped(scope, work);
+        thread.expect("a thread can be started").join().expect("parsing does not panic")
+    })
+}
+
+fn too_deep(file: FileId, piece: &Piece) -> Diagnostic {
+    let span = Span::new(file, piece.range.start, piece.range.start + 1);
+    let message = format!("brackets nest {} deep", piece.depth);
+    Diagnostic::new(Code::Nesting, message, span, format!("in this declaration; at most {MAX_NESTING} is allowed"))
+        .with_help("give inner parts names: `t = …`")
+}

@@ -1,0 +1,596 @@
+//! The syntax tree: declarations as written, names not yet looked up. Expressions and sizes lie in arenas, children before parents,
+//! so that no depth of nesting needs a deep stack.
+
+use crate::source::Span;
+
+/// A file's declarations and its comments, both in order of text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tree {
+    /// The declarations that could be parsed.
+    pub declarations: Vec<Declaration>,
+    /// The places of all comments, each from its `//` to the end of its line.
+    pub comments: Vec<Span>,
+}
+
+/// A declaration with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declaration {
+    /// From its keyword to its last character.
+    pub span: Span,
+    /// What it declares.
+    pub kind: DeclarationKind,
+}
+
+/// What a declaration declares.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DeclarationKind {
+    /// `use "file.nb"`
+    Use(Text),
+    /// `stimulus s1, s2`
+    Stimulus(Vec<Name>),
+    /// `material`, `evolution`, `library`, `swarm`: a name and a record.
+    Record(RecordDeclaration),
+    /// `schedule`
+    Schedule(Schedule),
+    /// `simulate`
+    Simulate(Simulate),
+    /// `circuit`
+    Circuit(Circuit),
+    /// `test`
+    Test(Test),
+}
+
+/// A name with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The name.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A text in quotes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Text {
+    /// What stands between the quotes.
+    pub text: String,
+    /// The place, quotes included.
+    pub span: Span,
+}
+
+/// The keyword of a declaration that is a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RecordKeyword {
+    /// `material`
+    Material,
+    /// `evolution`
+    Evolution,
+    /// `library`
+    Library,
+    /// `swarm`
+    Swarm,
+}
+
+impl RecordKeyword {
+    /// The keyword.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Evolution => "evolution",
+            Self::Library => "library",
+            Self::Swarm => "swarm",
+        }
+    }
+}
+
+/// A declaration that is a name and a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordDeclaration {
+    /// What it declares.
+    pub keyword: RecordKeyword,
+    /// The name.
+    pub name: Name,
+    /// The fields.
+    pub record: Record,
+}
+
+/// Fields in braces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The fields in order of text.
+    pub fields: Vec<Field>,
+    /// The place, braces included.
+    pub span: Span,
+}
+
+/// A field of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The name.
+    pub name: Name,
+    /// The value.
+    pub value: Value,
+}
+
+/// A value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    /// What it is.
+    pub kind: ValueKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What a value is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueKind {
+    /// `{ name: value, … }`
+    Record(Record),
+    /// `[value, …]`
+    List(Vec<Value>),
+    /// `"text"`
+    Text(String),
+    /// `84 steps`
+    Quantity(Quantity),
+    /// `0.6..1.6`
+    Range(Quantity, Quantity),
+    /// `5 x 5`
+    Product(Number, Number),
+    /// `voxels in 4 bins`
+    Bins(Name, Number),
+    /// `pareto(8)`
+    Applied(Name, Vec<Value>),
+    /// A word, or a circuit with its parameters.
+    Instance(Instance),
+}
+
+/// A number as written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Number {
+    /// The digits, with sign and point.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A number with its unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// The number.
+    pub number: Number,
+    /// The unit, where there is one.
+    pub unit: Option<Name>,
+}
+
+impl Quantity {
+    /// The place of the number and its unit.
+    pub fn span(&self) -> Span {
+        self.unit.as_ref().map_or(self.number.span, |unit| self.number.span.to(unit.span))
+    }
+}
+
+/// A circuit's name with values for its parameters, which are sizes of the surrounding arena.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    /// The name.
+    pub name: Name,
+    /// The parameters given.
+    pub arguments: Vec<Argument>,
+    /// The sizes that the parameters speak of, where no circuit surrounds them.
+    pub sizes: Vec<Size>,
+}
+
+/// `schedule sweep(s1, s2) { … }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Schedule {
+    /// The name.
+    pub name: Name,
+    /// The stimuli.
+    pub columns: Vec<Name>,
+    /// The spells in order of time.
+    pub spells: Vec<Spell>,
+}
+
+/// `0 1 for 10 cycles`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spell {
+    /// The values, one for each column.
+    pub cells: Vec<Name>,
+    /// How long.
+    pub length: Quantity,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// `simulate latch with …`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulate {
+    /// The swarm.
+    pub swarm: Name,
+    /// Its inputs over time.
+    pub with: With,
+}
+
+/// The inputs of a simulation over time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum With {
+    /// `with sweep`
+    Named(Name),
+    /// `with schedule (d, e) { … }`
+    Spells {
+        /// The input ports.
+        columns: Vec<Name>,
+        /// The spells in order of time.
+        spells: Vec<Spell>,
+    },
+}
+
+/// `test latch "…" …`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Test {
+    /// What is tested.
+    pub circuit: Instance,
+    /// The words that say what it shows.
+    pub title: Option<Text>,
+    /// What is tried.
+    pub kind: TestKind,
+}
+
+/// What a test tries.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TestKind {
+    /// A table of rows.
+    Table(TestTable),
+    /// `for all inputs against other`
+    Against(Instance),
+    /// `for all inputs { … }`
+    Reference(Box<Body>),
+}
+
+/// The rows of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestTable {
+    /// The input columns.
+    pub inputs: Vec<Name>,
+    /// The output columns.
+    pub outputs: Vec<Name>,
+    /// The rows in order of time.
+    pub rows: Vec<TestRow>,
+    /// Where the header stands.
+    pub header: Span,
+}
+
+/// One row of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestRow {
+    /// The values before the bar.
+    pub inputs: Vec<Name>,
+    /// The bars; a row in order has one.
+    pub bars: Vec<Span>,
+    /// The values after the bar.
+    pub outputs: Vec<Name>,
+    /// How long it is held, where it says so.
+    pub hold: Option<Quantity>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// `circuit half_adder(a, b) -> (s, c) { … }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Circuit {
+    /// The name.
+    pub name: Name,
+    /// The width parameters.
+    pub parameters: Vec<Parameter>,
+    /// The input ports.
+    pub inputs: Vec<Port>,
+    /// The output ports.
+    pub outputs: Vec<Port>,
+    /// The body, with the sizes of the ports too.
+    pub body: Body,
+}
+
+/// Statements and the arenas they point into.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Body {
+    /// The statements in order of text.
+    pub statements: Vec<Statement>,
+    /// The expressions, children before parents.
+    pub expressions: Vec<Expression>,
+    /// The sizes, children before parents.
+    pub sizes: Vec<Size>,
+}
+
+/// A place in [`Body::expressions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExpressionId(pub u32);
+
+/// A place in [`Body::sizes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SizeId(pub u32);
+
+/// `n` or `start = 0` in a circuit's parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// The name.
+    pub name: Name,
+    /// The value where a use gives none.
+    pub default: Option<SizeId>,
+}
+
+/// `a` or `a[8]`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    /// The name.
+    pub name: Name,
+    /// The width in bits, where one is written.
+    pub width: Option<SizeId>,
+}
+
+/// A statement with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statement {
+    /// What it is.
+    pub kind: StatementKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What a statement is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StatementKind {
+    /// `q init 0 = nand(s, nq)`
+    Drive {
+        /// What is driven.
+        targets: Vec<Target>,
+        /// Whether the targets stand in parentheses.
+        grouped: bool,
+        /// What drives it.
+        value: ExpressionId,
+    },
+    /// `net c[9]`
+    Nets(Vec<Port>),
+    /// `for i in 0..8 { … }`
+    For {
+        /// The variable.
+        variable: Name,
+        /// Its first value.
+        from: SizeId,
+        /// One more than its last value.
+        to: SizeId,
+        /// What is repeated.
+        statements: Vec<Statement>,
+    },
+}
+
+/// The left side of a drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// The net.
+    pub name: Name,
+    /// The bits, where not the whole net is meant.
+    pub index: Option<Index>,
+    /// The value before the first cycle.
+    pub start: Option<SizeId>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// `[3]` or `[3..0]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Index {
+    /// The bit, or the highest of them.
+    pub high: SizeId,
+    /// The lowest bit, where a slice is meant.
+    pub low: Option<SizeId>,
+    /// Where it stands, brackets included.
+    pub span: Span,
+}
+
+/// An integer with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Size {
+    /// What it is.
+    pub kind: SizeKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What an integer is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SizeKind {
+    /// Digits.
+    Literal(String),
+    /// A parameter or loop variable.
+    Name(String),
+    /// `log2(n)`
+    Log2(SizeId),
+    /// `(n)`
+    Group(SizeId),
+    /// `n + 1`
+    Binary(crate::model::SizeOperator, SizeId, SizeId),
+}
+
+/// A parameter given to a circuit: `8` or `start = 1`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Argument {
+    /// The parameter's name, where it is said.
+    pub name: Option<Name>,
+    /// The value.
+    pub value: SizeId,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// An expression with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    /// What it is.
+    pub kind: ExpressionKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What an expression is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExpressionKind {
+    /// Digits without a width.
+    Digits(String),
+    /// `4'b1010`
+    Constant {
+        /// The width: a literal or a parameter.
+        width: SizeId,
+        /// `b`, `d` or `h`.
+        base: char,
+        /// The digits in that base.
+        digits: String,
+    },
+    /// `n'd(i + 1)`
+    Computed {
+        /// The width: a literal or a parameter.
+        width: SizeId,
+        /// The value.
+        value: SizeId,
+    },
+    /// `a`, `a[3]`, `a[3..0]`
+    Net {
+        /// The name.
+        name: Name,
+        /// The bits, where not the whole net is meant.
+        index: Option<Index>,
+    },
+    /// `add[8](a, b)`
+    Call {
+        /// The circuit.
+        name: Name,
+        /// The parameters given.
+        arguments: Vec<Argument>,
+        /// The operands.
+        operands: Vec<ExpressionId>,
+    },
+    /// `(a)`
+    Group(ExpressionId),
+    /// `{a, b}`
+    Concatenation(Vec<ExpressionId>),
+    /// `{4{a, b}}`
+    Repetition {
+        /// How often.
+        count: SizeId,
+        /// What.
+        values: Vec<ExpressionId>,
+    },
+    /// `not a`
+    Not(ExpressionId),
+    /// `a and b`
+    Infix {
+        /// What stands between.
+        operator: Infix,
+        /// Where the operator stands.
+        place: Span,
+        /// The left operand.
+        left: ExpressionId,
+        /// The right operand.
+        right: ExpressionId,
+    },
+    /// `nand(a, b, c)`
+    Operation {
+        /// Which.
+        operator: crate::model::Operator,
+        /// The operands.
+        operands: Vec<ExpressionId>,
+    },
+    /// `if c then a else b`
+    Choice {
+        /// The bit.
+        condition: ExpressionId,
+        /// The value at 1.
+        then: ExpressionId,
+        /// The value at 0.
+        otherwise: ExpressionId,
+    },
+    /// `table(a, b) { 00: 1, else: 0 }`
+    Table {
+        /// The inputs.
+        inputs: Vec<ExpressionId>,
+        /// The rows in order of text.
+        rows: Vec<TableRow>,
+    },
+}
+
+/// `0-1: 1` or `else: 0`
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableRow {
+    /// The pattern; `None` is `else`.
+    pub pattern: Option<Name>,
+    /// The output.
+    pub output: Name,
+    /// Where the row stands.
+    pub span: Span,
+}
+
+/// What stands between two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Infix {
+    /// A bitwise operation.
+    Bitwise(crate::model::Operator),
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `<`
+    Less,
+    /// `>`
+    Greater,
+    /// `<=`
+    AtMost,
+    /// `>=`
+    AtLeast,
+}
+
+impl Infix {
+    /// The operators written with signs.
+    pub const SIGNS: [(Self, &'static str); 8] = [
+        (Self::Add, "+"),
+        (Self::Subtract, "-"),
+        (Self::Equal, "=="),
+        (Self::NotEqual, "!="),
+        (Self::Less, "<"),
+        (Self::Greater, ">"),
+        (Self::AtMost, "<="),
+        (Self::AtLeast, ">="),
+    ];
+
+    /// As it is written.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Bitwise(operator) => operator.word(),
+            _ => Self::SIGNS.iter().find(|(infix, _)| *infix == self).expect("every sign has its word").1,
+        }
+    }
+
+    /// How tightly it binds: 1 loosest.
+    pub fn precedence(self) -> u8 {
+        use crate::model::Operator;
+        match self {
+            Self::Bitwise(Operator::Or | Operator::Nor) => 1,
+            Self::Bitwise(Operator::Xor | Operator::Xnor) => 2,
+            Self::Bitwise(_) => 3,
+            Self::Add | Self::Subtract => 5,
+            _ => 4,
+        }
+    }
+
+    /// Whether `a op b op c` has one meaning when it follows `before` of the same precedence.
+    pub fn chains_after(self, before: Self) -> bool {
+        use crate::model::Operator;
+        match self {
+            Self::Add | Self::Subtract => true,
+            Self::Bitwise(Operator::And | Operator::Or | Operator::Xor) => self == before,
+            _ => false,
+        }
+    }
+}

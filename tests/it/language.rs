@@ -1,0 +1,87 @@
+//! The language from outside: the prelude, the gallery, the manual.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use nbc::check::{self, Checked};
+use nbc::circuit::{Logic, elaborate};
+use nbc::diag::render;
+use nbc::model::{CircuitTest, Palette, Program, Stimulation};
+use nbc::source::{MemoryWorld, Sources};
+use nbc::store::DiskWorld;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Every .nb file in a folder of the repository.
+pub(crate) fn programs(folder: &str) -> Vec<PathBuf> {
+    let mut paths: Vec<_> = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "nb"));
+    paths.sort();
+    assert!(!paths.is_empty(), "{folder} holds programs");
+    paths
+}
+
+/// Checks a text that uses no files, and fails on any diagnostic.
+pub(crate) fn sound(name: &str, text: &str) -> Program {
+    let mut sources = Sources::default();
+    let file = sources.add(name, text);
+    let Checked { program, diagnostics } = check::check(&MemoryWorld::default(), &mut sources, file);
+    assert!(diagnostics.is_empty(), "{}", render::text(&diagnostics, &sources, false));
+    program
+}
+
+/// Runs a program's test at the level of logic, and fails at the first row that is wrong.
+pub(crate) fn passes(program: &Program, test: &CircuitTest) {
+    let mut logic = Logic::new(&elaborate(program, &test.circuit).unwrap());
+    match &test.stimulation {
+        Stimulation::Rows(rows) => {
+            for (at, row) in rows.iter().enumerate() {
+                let found = logic.settle(&row.inputs).unwrap();
+                let fits =
+                    row.expected.iter().zip(&found).all(|(expected, found)| expected.is_none_or(|e| e == *found));
+                assert!(
+                    fits,
+                    "{} {:?}, row {at}: expected {:?}, found {found:?}",
+                    test.circuit, test.title, row.expected
+                );
+            }
+        }
+        Stimulation::All { reference } => {
+            let mut expected = Logic::new(&elaborate(program, reference).unwrap());
+            let bits = test.inputs.iter().map(|column| column.width).sum::<usize>();
+            for pattern in 0..1u32 << bits {
+                let inputs: Vec<_> = (0..bits).map(|bit| pattern >> bit & 1 == 1).collect();
+                assert_eq!(
+                    logic.settle(&inputs),
+                    expected.settle(&inputs),
+                    "{} {:?} at {inputs:?}",
+                    test.circuit,
+                    test.title
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_prelude_holds_the_papers_palette() {
+    let program = sound("a.nb", "circuit inverter(a) -> (q) { q = not a }");
+    assert_eq!(program.evolution("gates").unwrap().palette, Palette::paper());
+    assert_eq!(program.stimuli, ["s1", "s2"]);
+}
+
+#[test]
+fn every_test_of_the_gallery_passes_at_the_level_of_logic() {
+    for path in programs("circuits") {
+        let mut sources = Sources::default();
+        let file = check::open(&DiskWorld, path.to_str().unwrap(), &mut sources).unwrap();
+        let checked = check::check(&DiskWorld, &mut sources, file);
+        assert!(checked.diagnostics.is_empty(), "{}", render::text(&checked.diagnostics, &sources, false));
+        assert!(!checked.program.tests.is_empty(), "{} has tests", path.display());
+        for test in &checked.program.tests {
+            passes(&checked.program, test);
+        }
+    }
+}
