@@ -14,6 +14,7 @@ pub mod network;
 pub mod passes;
 pub mod proof;
 pub mod recipes;
+pub mod registers;
 pub mod synth;
 pub mod timing;
 

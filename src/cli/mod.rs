@@ -11,6 +11,7 @@ mod progress;
 mod schedule;
 mod simulate;
 mod status;
+mod synth;
 
 use std::process::ExitCode;
 
@@ -43,6 +44,7 @@ commands! {
     Completions in completions,
     Library in library,
     Simulate in simulate,
+    Synth in synth,
 }
 
 const EXAMPLES: &str = "\

@@ -80,8 +80,11 @@ pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Netwo
     let mut made: Vec<Signal> = (0..2 + network.inputs as Signal).collect();
     for gate in &swept.gates {
         let signal = graph.compose(gate.function, gate.pins.map(|pin| made[pin as usize])).ok_or(gate.function)?;
+        // Held, because nothing listens to it yet.
+        graph.hold(signal);
         made.push(signal);
     }
+    made[2 + network.inputs..].iter().for_each(|&signal| graph.let_go(signal));
     Ok(graph.finish(swept.outputs.iter().map(|&output| made[output as usize])))
 }
 

@@ -1,0 +1,194 @@
+//! Registers made of cells: forms whose every loop is safe, however long each robot takes (docs/compiler.md, "Registers").
+
+use std::collections::BTreeMap;
+
+use crate::circuit::formats::{Design, Register, RegisterKind};
+use crate::circuit::{Cell, NetId, Netlist, Node};
+use crate::model::Function;
+
+/// The circuit of a design with a latch or a flip-flop of NAND cells for each register.
+///
+/// Clocks that are no input of the design become inputs after its own.
+pub fn expand(design: &Design) -> Netlist {
+    let mut netlist = Netlist::new(&design.logic.name);
+    let logic = &design.logic;
+    let mut net: BTreeMap<NetId, NetId> = BTreeMap::new();
+    let (ports, states) = logic.inputs().split_at(design.inputs());
+    let (outputs, nexts) = logic.outputs().split_at(design.outputs());
+    for &id in ports {
+        net.insert(id, netlist.add_input(logic.net_name(id)));
+    }
+    for (&id, register) in states.iter().zip(&design.registers) {
+        net.insert(id, netlist.add_wire(&register.name, Some(register.start.unwrap_or(false)), None));
+    }
+    copy(logic, &mut netlist, &mut net);
+    let mut clocks = Clocks { by_name: BTreeMap::new() };
+    for id in logic.ids() {
+        if !matches!(logic.node(id), Node::Output(_) | Node::Constant(_)) {
+            clocks.by_name.entry(logic.net_name(id)).or_insert(net[&id]);
+        }
+    }
+    for ((&state, &next), register) in states.iter().zip(nexts).zip(&design.registers) {
+        let clock = clocks.net(&mut netlist, register);
+        let data = net[&logic.pins(next)[0]];
+        let start = register.start.unwrap_or(false);
+        let q = match register.kind {
+            RegisterKind::High | RegisterKind::Low => latch(&mut netlist, &register.name, data, clock, start),
+            RegisterKind::Rising | RegisterKind::Falling => flip_flop(&mut netlist, &register.name, data, clock, start),
+        };
+        netlist.drive(net[&state], 0, q);
+    }
+    for &id in outputs {
+        netlist.add_output(logic.net_name(id), net[&logic.pins(id)[0]]);
+    }
+    netlist
+}
+
+/// Copies the cells and constants of a netlist without loops.
+fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>) {
+    let loops = crate::circuit::Loops::of(logic);
+    for &id in loops.order() {
+        match logic.node(id) {
+            Node::Constant(value) => {
+                net.insert(id, netlist.add_constant(*value));
+            }
+            Node::Cell(cell) => {
+                let pins: Vec<_> = logic.pins(id).iter().map(|pin| net[pin]).collect();
+                net.insert(id, netlist.add_cell(cell.clone(), &pins));
+            }
+            Node::Input(_) | Node::Output(_) | Node::Wire { .. } => {}
+        }
+    }
+}
+
+/// Clock nets by name, inverted where a register wants them so.
+struct Clocks {
+    by_name: BTreeMap<String, NetId>,
+}
+
+impl Clocks {
+    fn net(&mut self, netlist: &mut Netlist, register: &Register) -> NetId {
+        let name = register.clock.clone().unwrap_or_else(|| "clk".to_owned());
+        let clock = *self.by_name.entry(name.clone()).or_insert_with(|| netlist.add_input(name));
+        match register.kind {
+            RegisterKind::Rising | RegisterKind::High => clock,
+            RegisterKind::Falling | RegisterKind::Low => netlist.add_gate(Function::NOT, &[clock]),
+        }
+    }
+}
+
+/// A D latch of four NAND cells: transparent while `enable` is 1. The reset branch hears the set branch, so that no inverter races it.
+pub fn latch(netlist: &mut Netlist, name: &str, data: NetId, enable: NetId, start: bool) -> NetId {
+    let set = netlist.add_gate(Function::NAND, &[data, enable]);
+    let reset = netlist.add_gate(Function::NAND, &[set, enable]);
+    pair(netlist, name, set, reset, start)
+}
+
+/// Two cross-coupled NAND cells; gives the one that `set` pulls up.
+fn pair(netlist: &mut Netlist, name: &str, set: NetId, reset: NetId, start: bool) -> NetId {
+    let q = core_cell(netlist, name.to_owned(), start, [set, set]);
+    let nq = core_cell(netlist, format!("{name}.n"), !start, [reset, q]);
+    netlist.drive(q, 1, nq);
+    q
+}
+
+fn core_cell(netlist: &mut Netlist, name: String, start: bool, pins: [NetId; 2]) -> NetId {
+    netlist.add_cell(Cell { function: Function::NAND, name: Some(name), start: Some(start), span: None }, &pins)
+}
+
+/// A flip-flop of two latches, which takes `data` when `clock` rises: the first is open while the clock is 0, the second while it is 1.
+pub fn flip_flop(netlist: &mut Netlist, name: &str, data: NetId, clock: NetId, start: bool) -> NetId {
+    let low = netlist.add_gate(Function::NOT, &[clock]);
+    let held = latch(netlist, &format!("{name}.held"), data, low, start);
+    latch(netlist, name, held, clock, start)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::*;
+    use crate::circuit::passes::{DissolveWires, Pass, Sweep};
+
+    /// A netlist whose cells each answer after their own number of cycles.
+    struct Delayed {
+        netlist: Netlist,
+        delay: BTreeMap<NetId, usize>,
+        /// The values of all nets, the latest last.
+        past: Vec<BTreeMap<NetId, bool>>,
+    }
+
+    impl Delayed {
+        fn run(&mut self, inputs: &[bool], cycles: usize) -> bool {
+            for _ in 0..cycles {
+                let mut now: BTreeMap<NetId, bool> = BTreeMap::new();
+                for id in self.netlist.ids() {
+                    let ago = |cycles: usize, id: &NetId| self.past[self.past.len().saturating_sub(cycles)][id];
+                    let value = match self.netlist.node(id) {
+                        Node::Input(_) => inputs[self.netlist.inputs().iter().position(|&input| input == id).unwrap()],
+                        Node::Cell(cell) => {
+                            let pins = self.netlist.pins(id);
+                            let a = ago(self.delay[&id], &pins[0]);
+                            cell.function.output(a, pins.get(1).map_or(a, |pin| ago(self.delay[&id], pin)))
+                        }
+                        _ => ago(1, &self.netlist.pins(id)[0]),
+                    };
+                    now.insert(id, value);
+                }
+                self.past.push(now);
+            }
+            self.past[self.past.len() - 1][&self.netlist.outputs()[0]]
+        }
+    }
+
+    /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` says what q must be.
+    fn check(
+        build: impl Fn(&mut Netlist, NetId, NetId) -> NetId,
+        cells: usize,
+        mut model: impl FnMut(bool, bool, bool, bool) -> bool,
+    ) {
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..100 {
+            let mut netlist = Netlist::new("register");
+            let data = netlist.add_input("d");
+            let clock = netlist.add_input("clk");
+            let q = build(&mut netlist, data, clock);
+            netlist.add_output("q", q);
+            DissolveWires.run_on(&mut netlist).unwrap();
+            Sweep.run(&mut netlist).unwrap();
+            assert_eq!(netlist.cells().count(), cells);
+            let mut draw = |bound: u32| (rand::Rng::next_u32(&mut random) % bound) as usize;
+            let delay = netlist.cells().map(|(id, _)| (id, 1 + draw(3))).collect();
+            let start = netlist.ids().map(|id| (id, netlist.cell(id).and_then(|cell| cell.start).unwrap_or(false)));
+            let past = vec![start.collect()];
+            let mut delayed = Delayed { netlist, delay, past };
+            let (mut data, mut clock) = (false, false);
+            delayed.run(&[data, clock], 40);
+            // The start value may be any once the circuit has settled; a first full row sets it.
+            delayed.run(&[data, true], 40);
+            let mut q = delayed.run(&[data, clock], 40);
+            for _ in 0..30 {
+                let before = clock;
+                // One input changes at a time: that is what set-up and hold times are for.
+                if draw(2) == 0 {
+                    data = !data
+                } else {
+                    clock = !clock
+                }
+                q = model(q, data, before, clock);
+                assert_eq!(delayed.run(&[data, clock], 40), q);
+            }
+        }
+    }
+
+    #[test]
+    fn the_latch_is_right_whatever_the_delays() {
+        check(|netlist, d, e| latch(netlist, "q", d, e, false), 4, |q, data, _, enable| if enable { data } else { q });
+    }
+
+    #[test]
+    fn the_flip_flop_is_right_whatever_the_delays() {
+        let model = |q: bool, data: bool, before: bool, clock: bool| if clock && !before { data } else { q };
+        check(|netlist, d, clk| flip_flop(netlist, "q", d, clk, false), 9, model);
+    }
+}
