@@ -200,13 +200,13 @@ impl<'p, 'r> Walk<'p, 'r> {
 
     /// Finds signals and functions of two signals that are 1 on `on` and 0 on `off`, `outer` being applied to them.
     fn find_candidates(&mut self, on: &[u64], off: &[u64], outer: Option<(Function, Signal)>) {
+        self.ands.clear();
+        self.ors.clear();
         if on.iter().all(|&word| word == 0) || off.iter().all(|&word| word == 0) {
             let constant = Signal::from(on.iter().any(|&word| word != 0));
             self.push_signal(constant, outer);
             return;
         }
-        self.ands.clear();
-        self.ors.clear();
         for i in 0..self.divisors.len() {
             let signal = self.divisors[i];
             let fits = fits(self.graph.values(signal), on, off);
