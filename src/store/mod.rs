@@ -1,6 +1,7 @@
 //! Files: the disk as a [`crate::source::World`], whole-or-nothing writing, robot files, the library in the program. The only user of YAML.
 
 mod atomic;
+mod checkpoint;
 mod disk;
 mod library;
 mod robot;
@@ -8,6 +9,7 @@ mod shape;
 mod yaml;
 
 pub use atomic::{create_folder, write};
+pub use checkpoint::Checkpoint;
 pub use disk::DiskWorld;
 pub use library::{best_first, shipped_library};
 pub use robot::{FORMAT, print_robot, read_robot};

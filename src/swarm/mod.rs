@@ -2,10 +2,18 @@
 
 mod assemble;
 mod cells;
+mod characterise;
+mod evaluate;
+mod gate;
+mod holds;
 mod judge;
+mod simulate;
 mod trace;
 
 pub use assemble::{AssembleError, Assembly, Member, Signal, assemble};
 pub use cells::cells;
+pub use characterise::{characterise, screen};
+pub use evaluate::{Work, evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, Lapse, RowVerdict, TestVerdict, judge};
+pub use simulate::{Exposure, simulate};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};

@@ -1,0 +1,225 @@
+//! `nbc evolve`: evolution runs, resumable.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::cli::{Context, Failure, Format, Interrupt, Progress, Status};
+use crate::diag::{Code, Diagnostic};
+use crate::evolve::Search;
+use crate::model::Evolution;
+use crate::report::{EvolutionLine, evolution_table};
+use crate::store::{self, Checkpoint};
+use crate::swarm::{self, Work};
+
+/// The file in a run's folder that it is resumed from.
+pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
+/// The file in a run's folder with a line for each generation.
+const PROGRESS: &str = "progress.jsonl";
+
+/// Evolve robots by the evolution declarations of a file
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  nbc evolve                                the prelude's `gates`, into out/gates
+  nbc evolve library/evolve.nb --run npn5   one run of a file
+  nbc evolve library/evolve.nb --resume     go on after an interruption
+
+Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
+pub struct Arguments {
+    /// The file with the declarations; the prelude's `gates` without it
+    file: Option<PathBuf>,
+    /// Only the declaration of this name
+    #[arg(long, value_name = "NAME")]
+    run: Option<String>,
+    /// This seed instead of the declared ones
+    #[arg(long)]
+    seed: Option<u64>,
+    /// That many generations instead of the declared ones
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    generations: Option<u32>,
+    /// The folder for results
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Go on from the checkpoints in the folder; start what has none
+    #[arg(long)]
+    resume: bool,
+    /// Seconds between checkpoints, 0 for one each generation
+    #[arg(long, value_name = "SECONDS", default_value_t = 10)]
+    checkpoint_every: u64,
+}
+
+/// How one run ended.
+#[derive(Serialize)]
+struct Ended {
+    run: String,
+    seed: u64,
+    folder: PathBuf,
+    finished: bool,
+    seconds: f64,
+    #[serde(flatten)]
+    line: EvolutionLine,
+}
+
+impl Arguments {
+    /// Makes the runs, one after another.
+    ///
+    /// # Errors
+    /// When the file has errors, a checkpoint is refused, or results cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let interrupt = Interrupt::watch()?;
+        let mut ended = Vec::new();
+        for evolution in self.declared()? {
+            for &seed in &evolution.seeds {
+                let mut run = Run::open(&self, &evolution, seed)?;
+                let finished = run.make(&interrupt)?;
+                ended.push(run.ended(finished));
+                if context.format == Format::Text {
+                    context.print(run.summary(finished))?;
+                    context.flush()?;
+                }
+                if !finished {
+                    return end(context, &ended, Status::Interrupted);
+                }
+            }
+        }
+        end(context, &ended, Status::Done)
+    }
+}
+
+fn end(context: &mut Context, ended: &[Ended], status: Status) -> Result<Status, Failure> {
+    if context.format == Format::Json {
+        context.print_json(&ended)?;
+    }
+    Ok(status)
+}
+
+/// One declaration with one seed, in its folder.
+struct Run {
+    search: Search,
+    work: Work,
+    folder: PathBuf,
+    checkpoint_every: Duration,
+    started: Instant,
+    /// Evaluations made before this program took over.
+    evaluations_before: u64,
+}
+
+impl Run {
+    fn open(arguments: &Arguments, evolution: &Evolution, seed: u64) -> Result<Self, Failure> {
+        let folder = arguments.out.join(&evolution.name).join(format!("seed-{seed}"));
+        store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
+        let path = folder.join(CHECKPOINT);
+        let (search, work) = match read_checkpoint(&path)? {
+            None => (Search::new(evolution, seed), Work::default()),
+            Some(_) if !arguments.resume => return Err(would_overwrite(&path)),
+            Some(checkpoint) => {
+                let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
+                let resumed = checkpoint.resume(&path.display().to_string(), evolution, seed);
+                (resumed.map_err(Failure::plain)?, work)
+            }
+        };
+        let evaluations_before = search.counts().evaluations;
+        let run = Self {
+            search,
+            work,
+            folder,
+            checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
+            started: Instant::now(),
+            evaluations_before,
+        };
+        run.trim_progress()?;
+        Ok(run)
+    }
+
+    /// Makes the generations that are left; whether it got to the end.
+    fn make(&mut self, interrupt: &Interrupt) -> Result<bool, Failure> {
+        let generations = u64::from(self.search.evolution().generations);
+        let bar = Progress::with_template(generations, "{bar:24} {pos}/{len} generations, {msg}, {eta} left");
+        let mut saved = Instant::now();
+        while !self.search.is_done() && !interrupt.is_raised() {
+            self.work = self.work.plus(swarm::evolve_generation(&mut self.search));
+            let line = EvolutionLine::of(&self.search, self.work);
+            self.append(&line)?;
+            bar.set(u64::from(line.generation));
+            bar.set_message(self.message(&line));
+            if saved.elapsed() >= self.checkpoint_every {
+                self.save()?;
+                saved = Instant::now();
+            }
+        }
+        self.save()?;
+        Ok(self.search.is_done())
+    }
+
+    fn save(&self) -> Result<(), Failure> {
+        let path = self.folder.join(CHECKPOINT);
+        let bytes = Checkpoint::of(&self.search, self.work.env_steps, self.work.left_out).print();
+        store::write(&path, &bytes).map_err(|error| Failure::unwritable(&path, &error))
+    }
+
+    fn append(&self, line: &EvolutionLine) -> Result<(), Failure> {
+        let path = self.folder.join(PROGRESS);
+        let text = serde_json::to_string(line).expect("a line has nothing that JSON cannot say") + "\n";
+        let open = fs::OpenOptions::new().create(true).append(true).open(&path);
+        open.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| Failure::unwritable(&path, &error))
+    }
+
+    /// Drops the lines of generations that come after the checkpoint and will be made again.
+    fn trim_progress(&self) -> Result<(), Failure> {
+        let path = self.folder.join(PROGRESS);
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        let kept = text.lines().take(self.search.generation() as usize);
+        let kept: String = kept.flat_map(|line| [line, "\n"]).collect();
+        store::write(&path, kept.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))
+    }
+
+    fn message(&self, line: &EvolutionLine) -> String {
+        let made = (line.counts.evaluations - self.evaluations_before) as f64;
+        let rate = made / self.started.elapsed().as_secs_f64().max(1e-9);
+        let behaviors = line.behaviors;
+        format!("{rate:.1} evaluations/s, {behaviors} behaviors, {:.1} % of niches", 100.0 * line.coverage)
+    }
+
+    fn ended(&self, finished: bool) -> Ended {
+        Ended {
+            run: self.search.evolution().name.clone(),
+            seed: self.search.seed(),
+            folder: self.folder.clone(),
+            finished,
+            seconds: self.started.elapsed().as_secs_f64(),
+            line: EvolutionLine::of(&self.search, self.work),
+        }
+    }
+
+    fn summary(&self, finished: bool) -> String {
+        let Ended { run, seed, folder, seconds, line, .. } = self.ended(finished);
+        let rate = (line.counts.evaluations - self.evaluations_before) as f64 / seconds.max(1e-9);
+        let table = evolution_table(&self.search, self.work);
+        let left = if finished { "" } else { "interrupted; `--resume` goes on\n" };
+        let folder = folder.display();
+        format!("{run}, seed {seed}\n{table}{seconds:.1} s, {rate:.1} evaluations/s; results in {folder}\n{left}\n")
+    }
+}
+
+/// The checkpoint at a path, if there is one.
+pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {
+    match fs::read(path) {
+        Ok(bytes) => Checkpoint::read(&path.display().to_string(), &bytes).map(Some).map_err(Failure::plain),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => {
+            let message = format!("cannot read `{}`: {}", path.display(), error.to_string().to_lowercase());
+            Err(Failure::plain(Diagnostic::without_place(Code::Unreadable, message)))
+        }
+    }
+}
+
+fn would_overwrite(path: &Path) -> Failure {
+    let message = format!("`{}` holds a run already", path.display());
+    let help = "`--resume` goes on with it; another `--out` starts afresh";
+    Failure::plain(Diagnostic::without_place(Code::Checkpoint, message).with_help(help))
+}

@@ -1,0 +1,202 @@
+//! The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::model::{Behavior, Body, Character, Direction, Fault, Pattern, Setting, Transition, Trial};
+use crate::sim::run_trials;
+use crate::swarm::holds::{Hold, HoldPlan, holds};
+
+/// Seed of the random sequences.
+const SEED: u64 = 0x6e62_6373;
+/// Clocks tried, from the shortest on, in cycles.
+const CLOCKS: std::ops::RangeInclusive<u32> = 1..=8;
+/// Cycles that a hold of a random sequence may be longer than the clock: the output must stay right, not only get there.
+const SLACK: u32 = 3;
+/// Ground columns by which starts differ: each gives other roundings in the first contacts (docs/physics.md 12).
+const STARTS: [usize; 2] = [0, 1];
+/// Random sequences from each start.
+const LANES: usize = 8;
+/// Switches of a random sequence; the first hold is a start.
+const SWITCHES: usize = 64;
+/// Switches of the cheaper sequences that come first.
+const FIRST_SWITCHES: usize = 8;
+/// Cycles before a switch whose settle time is measured; several, so that a switch comes at several moments.
+const SETTLE_BEFORE: [u32; 2] = [6, 9];
+/// Cycles after it. A settle time of one more means that the output was wrong to the end.
+const SETTLE_AFTER: u32 = 12;
+/// Ground voxels: room to walk for the longest sequence in both directions.
+const WORLD: usize = 4000;
+/// A body whose height in a pattern falls below this share of what it was at its first hold has toppled.
+const TOPPLED: f64 = 0.7;
+
+/// Measures how a body does as a gate with that behavior.
+///
+/// The clock is the least number of cycles (of 1 to 8) such that in 1,024 random switches, held for that many to three cycles more, no
+/// output was wrong from that cycle of a hold on; when there is none, the one with the smallest share of wrong holds.
+///
+/// # Errors
+/// The fault of a simulation that could not go on.
+pub fn characterise(setting: &Setting, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
+    let probe = Probe::new(setting, body, behavior);
+    let tally = probe.best_clock()?;
+    let (settle, toppled) = probe.settle()?;
+    Ok(Character {
+        clock: tally.clock,
+        switches: tally.switches,
+        error_rate: tally.error_rate(),
+        glitch_rate: f64::from(tally.glitches) / f64::from(tally.quiet.max(1)),
+        margin: tally.margin,
+        topples: tally.toppled || toppled,
+        settle,
+    })
+}
+
+/// The least clock of at most `most` cycles whose first, cheap sequences are free of errors, with the margin they show.
+///
+/// # Errors
+/// The fault of a simulation that could not go on.
+pub fn screen(setting: &Setting, body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
+    let probe = Probe::new(setting, body, behavior);
+    for clock in 1..=most {
+        let tally = probe.random(clock, FIRST_SWITCHES)?;
+        if tally.wrong == 0 {
+            return Ok(Some((clock, tally.margin)));
+        }
+    }
+    Ok(None)
+}
+
+/// A body being asked.
+struct Probe<'a> {
+    setting: Setting,
+    body: &'a Body,
+    behavior: Behavior,
+}
+
+/// What random sequences at one clock gave.
+#[derive(Clone, Debug, PartialEq)]
+struct Tally {
+    clock: u32,
+    switches: u32,
+    /// Holds after a switch with a wrong output in the clock's cycle or later.
+    wrong: u32,
+    /// Cycles of holds whose right output is that of the hold before.
+    quiet: u32,
+    /// Wrong ones among them.
+    glitches: u32,
+    margin: f64,
+    toppled: bool,
+}
+
+impl Tally {
+    fn error_rate(&self) -> f64 {
+        f64::from(self.wrong) / f64::from(self.switches.max(1))
+    }
+
+    fn count(&mut self, hold: &Hold, behavior: Behavior) {
+        let Some(before) = hold.before else { return };
+        let right = behavior.direction(hold.pattern);
+        let is_wrong = |displacement: &&f64| Direction::of(**displacement) != right;
+        let asked = &hold.cycles[self.clock as usize - 1..];
+        self.switches += 1;
+        self.wrong += u32::from(asked.iter().any(|displacement| is_wrong(&displacement)));
+        self.margin = hold.rightward(behavior).skip(self.clock as usize - 1).fold(self.margin, f64::min);
+        if behavior.direction(before) == right {
+            self.quiet += hold.cycles.len() as u32;
+            self.glitches += hold.cycles.iter().filter(is_wrong).count() as u32;
+        }
+    }
+}
+
+impl<'a> Probe<'a> {
+    fn new(setting: &Setting, body: &'a Body, behavior: Behavior) -> Self {
+        let start_x = Some(WORLD / 2 - body.width() / 2);
+        Self { setting: Setting { palette: setting.palette.clone(), world_width: WORLD, start_x }, body, behavior }
+    }
+
+    /// Runs plans from each start.
+    fn run(&self, plans: &[HoldPlan]) -> Result<Vec<Vec<Hold>>, Fault> {
+        let trials: Vec<Trial> =
+            plans.iter().map(|plan| Trial { body: self.body.clone(), schedule: plan.schedule() }).collect();
+        let mut found = Vec::with_capacity(plans.len() * STARTS.len());
+        for shift in STARTS {
+            let setting = Setting { start_x: self.setting.start_x.map(|x| x + shift), ..self.setting.clone() };
+            for (plan, trajectory) in plans.iter().zip(run_trials(&setting, &trials)) {
+                match trajectory.fault {
+                    Some(fault) => return Err(fault),
+                    None => found.push(holds(plan, &trajectory)),
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Random sequences at the least clock without errors, or at that with the fewest. A clock that fails in short sequences is not
+    /// tried in long ones unless all fail.
+    fn best_clock(&self) -> Result<Tally, Fault> {
+        let mut best: Option<Tally> = None;
+        for clock in CLOCKS {
+            let mut tally = self.random(clock, FIRST_SWITCHES)?;
+            if tally.wrong == 0 {
+                tally = self.random(clock, SWITCHES)?;
+            }
+            if tally.wrong == 0 {
+                return Ok(tally);
+            }
+            if best.as_ref().is_none_or(|best| tally.error_rate() < best.error_rate()) {
+                best = Some(tally);
+            }
+        }
+        let best = best.expect("there are clocks");
+        if best.switches as usize >= SWITCHES * LANES { Ok(best) } else { self.random(best.clock, SWITCHES) }
+    }
+
+    /// Random sequences at a clock.
+    fn random(&self, clock: u32, switches: usize) -> Result<Tally, Fault> {
+        let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+        rng.set_stream(u64::from(clock));
+        let plans: Vec<HoldPlan> =
+            (0..LANES).map(|_| HoldPlan::random(switches + 1, clock..=clock + SLACK, &mut rng)).collect();
+        let (margin, toppled) = (f64::INFINITY, false);
+        let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
+        for holds in self.run(&plans)? {
+            holds.iter().for_each(|hold| tally.count(hold, self.behavior));
+            tally.toppled |= has_toppled(&holds);
+        }
+        Ok(tally)
+    }
+
+    /// The settle times of the twelve transitions, the largest over all starts, and whether the body fell over in one.
+    fn settle(&self) -> Result<(Vec<Transition>, bool), Fault> {
+        let pairs: Vec<(Pattern, Pattern)> = Pattern::PAIRS
+            .iter()
+            .flat_map(|&from| Pattern::PAIRS.iter().map(move |&to| (from, to)))
+            .filter(|(from, to)| from != to)
+            .collect();
+        let plan = |&(from, to): &_, before| HoldPlan(vec![(from, before), (to, SETTLE_AFTER)]);
+        let plans: Vec<HoldPlan> =
+            SETTLE_BEFORE.iter().flat_map(|&before| pairs.iter().map(move |pair| plan(pair, before))).collect();
+        let runs = self.run(&plans)?;
+        let cycles =
+            |place: usize| runs.iter().skip(place).step_by(pairs.len()).map(|holds| self.settled(&holds[1])).max();
+        let transition =
+            |(place, &(from, to)): (usize, &_)| Transition { from, to, cycles: cycles(place).unwrap_or(0) };
+        Ok((pairs.iter().enumerate().map(transition).collect(), runs.iter().any(|holds| has_toppled(holds))))
+    }
+
+    /// The cycle from which on the output is right.
+    fn settled(&self, hold: &Hold) -> u32 {
+        let right = self.behavior.direction(hold.pattern);
+        let last_wrong = hold.cycles.iter().rposition(|&displacement| Direction::of(displacement) != right);
+        last_wrong.map_or(1, |cycle| cycle as u32 + 2)
+    }
+}
+
+/// Whether the last hold of some pattern finds the body far lower than its first hold did.
+fn has_toppled(holds: &[Hold]) -> bool {
+    Pattern::PAIRS.iter().any(|&pattern| {
+        let mut heights = holds.iter().filter(|hold| hold.pattern == pattern).map(|hold| hold.height);
+        heights.next().is_some_and(|first| heights.next_back().is_some_and(|last| last < TOPPLED * first))
+    })
+}

@@ -1,0 +1,131 @@
+//! Evaluation of candidates by the paper's protocol, and the loop of asking, evaluating and telling (paper, Methods;
+//! docs/physics.md 10).
+
+use serde::Serialize;
+
+use crate::evolve::{Candidate, Outcome, Scores, Search};
+use crate::model::{Behavior, Direction, Evolution, Objective, Pattern, Schedule, Setting, Trajectory, Trial};
+use crate::sim::run_trials;
+use crate::swarm::gate;
+
+/// How much was simulated, and how much a full evaluation of everything would have taken on top.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Env steps simulated.
+    pub env_steps: u64,
+    /// Env steps left out because their result could not have mattered.
+    pub left_out: u64,
+}
+
+impl Work {
+    /// Both together.
+    pub fn plus(self, other: Self) -> Self {
+        Self { env_steps: self.env_steps + other.env_steps, left_out: self.left_out + other.left_out }
+    }
+}
+
+/// Brings a search one generation further: asks, evaluates in parallel, tells.
+pub fn evolve_generation(search: &mut Search) -> Work {
+    let candidates = search.ask();
+    let (outcomes, work) = evaluate(search, &candidates);
+    search.tell(&candidates, &outcomes);
+    work
+}
+
+/// The outcome of each candidate, judged against the archive as it is now.
+pub fn evaluate(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+    match search.evolution().objective {
+        Objective::Distance => distance(search, candidates),
+        Objective::Gate => gate::evaluate(search, candidates),
+    }
+}
+
+/// The place where a run's bodies are tried: the paper's world with the run's materials.
+pub(crate) fn setting(evolution: &Evolution) -> Setting {
+    Setting { palette: evolution.palette.clone(), ..Setting::paper() }
+}
+
+/// Displacements under the four constant patterns, in voxels, or what ended a simulation early.
+///
+/// # Errors
+/// The first fault.
+pub fn fixed_displacements(trajectories: &[Trajectory; 4]) -> Result<[f64; 4], crate::model::Fault> {
+    if let Some(fault) = trajectories.iter().find_map(|trajectory| trajectory.fault) {
+        return Err(fault);
+    }
+    Ok([0, 1, 2, 3].map(|i| displacement(&trajectories[i].com_x, 0, trajectories[i].com_x.len() - 1)))
+}
+
+/// The trials of a body under the four constant patterns.
+pub fn fixed_trials(body: &crate::model::Body, steps: u32) -> [Trial; 4] {
+    Pattern::PAIRS.map(|pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, steps) })
+}
+
+/// The paper's two objectives: four fixed simulations, then the variable one for those whose fixed fitness can still win a niche.
+fn distance(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+    let evolution = search.evolution();
+    let setting = setting(evolution);
+    let trials: Vec<Trial> =
+        candidates.iter().flat_map(|candidate| fixed_trials(&candidate.body, evolution.fixed_steps)).collect();
+    let mut work = Work { env_steps: steps(&trials), left_out: 0 };
+    let trajectories = run_trials(&setting, &trials);
+    let first: Vec<Result<Scores, Outcome>> = candidates
+        .iter()
+        .zip(trajectories.chunks_exact(4))
+        .map(|(candidate, four)| fixed_scores(search, candidate, four))
+        .collect();
+    let variable = |candidate: &Candidate| Trial { body: candidate.body.clone(), schedule: evolution.variable.clone() };
+    let remaining: Vec<Trial> = candidates
+        .iter()
+        .zip(&first)
+        .filter(|(_, scores)| scores.is_ok())
+        .map(|(candidate, _)| variable(candidate))
+        .collect();
+    work.env_steps += steps(&remaining);
+    work.left_out += u64::from(evolution.variable.steps()) * (candidates.len() - remaining.len()) as u64;
+    let mut long = run_trials(&setting, &remaining).into_iter();
+    let outcomes = first
+        .into_iter()
+        .map(|scores| match scores {
+            Ok(scores) => variable_outcome(&evolution.variable, scores, &long.next().expect("one for each remaining")),
+            Err(outcome) => outcome,
+        })
+        .collect();
+    (outcomes, work)
+}
+
+/// The scores as far as the fixed simulations give them, with a first fitness that nothing exceeds.
+fn fixed_scores(search: &Search, candidate: &Candidate, four: &[Trajectory]) -> Result<Scores, Outcome> {
+    let four = four.first_chunk::<4>().expect("four trials for each candidate");
+    let displacement = fixed_displacements(four).map_err(Outcome::Faulty)?;
+    let least = displacement.iter().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
+    let scores = Scores { fitness: [f64::INFINITY, least], behavior: Behavior::of(&displacement), displacement };
+    if search.could_take(&candidate.body, &scores) { Ok(scores) } else { Err(Outcome::Surpassed) }
+}
+
+/// What the variable simulation adds: the sum of distances, and whether each spell's direction is that of the fixed simulations.
+fn variable_outcome(schedule: &Schedule, scores: Scores, trajectory: &Trajectory) -> Outcome {
+    if let Some(fault) = trajectory.fault {
+        return Outcome::Faulty(fault);
+    }
+    let (mut at, mut sum) = (0, 0.0);
+    for spell in &schedule.spells {
+        let end = at + spell.steps as usize;
+        let moved = displacement(&trajectory.com_x, at, end);
+        if Direction::of(moved) != scores.behavior.direction(spell.pattern) {
+            return Outcome::Inconsistent;
+        }
+        sum += moved.abs();
+        at = end;
+    }
+    Outcome::Measured(Scores { fitness: [sum, scores.fitness[1]], ..scores })
+}
+
+fn displacement(com_x: &[f64], from: usize, to: usize) -> f64 {
+    com_x[to] - com_x[from]
+}
+
+/// Env steps that trials take.
+pub(crate) fn steps(trials: &[Trial]) -> u64 {
+    trials.iter().map(|trial| u64::from(trial.schedule.steps())).sum()
+}

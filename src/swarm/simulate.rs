@@ -1,0 +1,107 @@
+//! A swarm in full physics: every robot in its own simulation, hearing in each cycle what the others did in the cycle before.
+
+use crate::model::{Body, Pattern, Setting};
+use crate::sim::Flock;
+use crate::swarm::{Assembly, CycleTrace, Member, RobotTrace, Signal, SwarmTrace};
+
+/// Samples of a robot's path that a trace keeps of each cycle.
+const SAMPLES_PER_CYCLE: u32 = 12;
+
+/// What a swarm is exposed to, and how its motion is read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exposure {
+    /// The input ports' bits in each cycle.
+    pub inputs: Vec<Vec<bool>>,
+    /// Env steps in a cycle.
+    pub cycle_steps: u32,
+    /// Cycles over which a displacement is taken; its sign is the output. The paper's is one.
+    pub window: usize,
+}
+
+/// Simulates a swarm through an exposure, calling `observe` with the number of finished cycles after each.
+///
+/// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the last `window` cycles, else 0; that bit is
+/// the stimulus of the robots it feeds during the next cycle (paper, section 4).
+///
+/// # Panics
+/// When a cycle's inputs are not as many as the assembly's, or the window is empty.
+pub fn simulate(
+    setting: &Setting,
+    assembly: &Assembly,
+    exposure: &Exposure,
+    observe: &mut dyn FnMut(usize),
+) -> SwarmTrace {
+    assert!(exposure.window > 0, "an output is read over one cycle at least");
+    let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
+    let mut flock = Flock::new(setting, &bodies);
+    let mut trace = begin(assembly, &flock);
+    let mut bits: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
+    for inputs in &exposure.inputs {
+        assert_eq!(inputs.len(), assembly.inputs.len(), "a bit for each input port");
+        let sensed: Vec<[bool; 2]> =
+            assembly.members.iter().map(|member| member.senses.map(|signal| read(signal, inputs, &bits))).collect();
+        advance_cycle(&mut flock, &sensed, exposure.cycle_steps, &mut trace.robots);
+        bits = trace.robots.iter().map(|robot| moved_right(robot, exposure.window)).collect();
+        let outputs = assembly.outputs.iter().map(|&(_, signal)| read(signal, inputs, &bits)).collect();
+        trace.cycles.push(CycleTrace { inputs: inputs.clone(), sensed, bits: bits.clone(), outputs });
+        observe(trace.cycles.len());
+    }
+    for (i, robot) in trace.robots.iter_mut().enumerate() {
+        robot.fault = flock.fault(i);
+    }
+    trace
+}
+
+fn read(signal: Signal, inputs: &[bool], bits: &[bool]) -> bool {
+    match signal {
+        Signal::Input(i) => inputs[i],
+        Signal::Robot(i) => bits[i],
+        Signal::Constant(value) => value,
+    }
+}
+
+/// The trace before the first cycle.
+fn begin(assembly: &Assembly, flock: &Flock) -> SwarmTrace {
+    let net_name = |signal| match signal {
+        Signal::Input(i) => assembly.inputs[i].clone(),
+        Signal::Robot(i) => assembly.members[i].net.clone(),
+        Signal::Constant(value) => u8::from(value).to_string(),
+    };
+    let robot = |(i, member): (usize, &Member)| RobotTrace {
+        net: member.net.clone(),
+        function: member.robot.function(),
+        robot: member.robot.name.clone(),
+        senses: member.senses,
+        sensed_nets: member.senses.map(net_name),
+        com_x: vec![flock.com(i)[0]],
+        fault: None,
+    };
+    SwarmTrace {
+        circuit: assembly.circuit.clone(),
+        inputs: assembly.inputs.clone(),
+        outputs: assembly.outputs.iter().map(|(name, _)| name.clone()).collect(),
+        shown: assembly.outputs.iter().map(|&(_, signal)| signal).collect(),
+        samples_per_cycle: SAMPLES_PER_CYCLE as usize,
+        robots: assembly.members.iter().enumerate().map(robot).collect(),
+        cycles: Vec::new(),
+    }
+}
+
+/// One cycle of all robots under what they sense, in as many parts as the trace keeps samples.
+fn advance_cycle(flock: &mut Flock, sensed: &[[bool; 2]], cycle_steps: u32, robots: &mut [RobotTrace]) {
+    let patterns: Vec<Pattern> = sensed.iter().map(|bits| Pattern::new(bits)).collect();
+    let steps_until = |sample: u32| cycle_steps * sample / SAMPLES_PER_CYCLE;
+    for sample in 0..SAMPLES_PER_CYCLE {
+        flock.advance(&patterns, steps_until(sample + 1) - steps_until(sample));
+        for (i, robot) in robots.iter_mut().enumerate() {
+            robot.com_x.push(flock.com(i)[0]);
+        }
+    }
+}
+
+/// Whether a robot moved in +x over its last `window` cycles, or over all of them while there are fewer.
+fn moved_right(robot: &RobotTrace, window: usize) -> bool {
+    let last = robot.com_x.len() - 1;
+    let before = last.saturating_sub(window * SAMPLES_PER_CYCLE as usize);
+    robot.com_x[last] > robot.com_x[before]
+}
