@@ -7,6 +7,7 @@ pub mod cli;
 pub mod diag;
 pub mod evolve;
 pub mod model;
+pub mod pipeline;
 pub mod report;
 pub mod sim;
 pub mod source;

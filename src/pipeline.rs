@@ -6,7 +6,7 @@ use crate::circuit::timing::Delays;
 use crate::circuit::{Netlist, Proof, Timing, elaborate, map, prove};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitTest, Hold, Instance, Library, Program, Setting, Stimulation, TestRow};
-use crate::source::{Sources, Span, World};
+use crate::source::{MemoryWorld, Sources, Span, World};
 use crate::swarm::{self, Assembly, Demand, Exposure, SwarmTrace, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
@@ -69,6 +69,13 @@ pub fn load(world: &dyn World, path: &str) -> Loaded {
     Loaded { sources, checked }
 }
 
+/// The program of the prelude alone.
+pub fn prelude() -> Program {
+    let mut sources = Sources::default();
+    let nothing = sources.add("nothing", "");
+    check::check(&MemoryWorld::default(), &mut sources, nothing).program
+}
+
 /// Compiles a circuit of a program without errors to a swarm of a library's robots: elaborate, map, prove, time, assemble.
 ///
 /// # Errors
@@ -103,7 +110,8 @@ pub fn compile(
 /// The protocol of a test: that of the first swarm declared for its circuit, else automatic holds and the paper's window.
 pub fn protocol(program: &Program, test: &CircuitTest) -> Protocol {
     let declared = program.swarms.iter().find(|swarm| swarm.circuit == test.circuit);
-    declared.map_or(Protocol { hold: Hold::Auto, window: 1 }, |swarm| Protocol { hold: swarm.hold, window: swarm.window })
+    declared
+        .map_or(Protocol { hold: Hold::Auto, window: 1 }, |swarm| Protocol { hold: swarm.hold, window: swarm.window })
 }
 
 /// The rows of a test. Those of a test over all inputs come from its reference, which a program without errors can be asked for.
@@ -117,7 +125,8 @@ pub fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<D
     };
     let bits = test.input_bits().len();
     if bits > MAX_EXHAUSTIVE_BITS {
-        let message = format!("{bits} input bits are too many to try all patterns, expected at most {MAX_EXHAUSTIVE_BITS}");
+        let message =
+            format!("{bits} input bits are too many to try all patterns, expected at most {MAX_EXHAUSTIVE_BITS}");
         return Err(vec![Diagnostic::new(Code::BadValue, message, test.span, "in this test")]);
     }
     let mut logic = Logic::new(&elaborate(program, reference)?);

@@ -12,8 +12,9 @@ use crate::cli::{Context, Failure, Format, Interrupt, Progress, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::Search;
 use crate::model::Evolution;
+use crate::pipeline;
 use crate::report::{EvolutionLine, evolution_table};
-use crate::store::{self, Checkpoint};
+use crate::store::{self, Checkpoint, DiskWorld};
 use crate::swarm::{self, Work};
 
 /// The file in a run's folder that it is resumed from.
@@ -88,6 +89,52 @@ impl Arguments {
             }
         }
         end(context, &ended, Status::Done)
+    }
+}
+
+impl Arguments {
+    /// The runs to make, with what the command line changes.
+    fn declared(&self) -> Result<Vec<Evolution>, Failure> {
+        let mut evolutions = self.chosen()?;
+        for evolution in &mut evolutions {
+            if let Some(seed) = self.seed {
+                evolution.seeds = vec![seed];
+            }
+            if let Some(generations) = self.generations {
+                evolution.generations = generations;
+            }
+        }
+        Ok(evolutions)
+    }
+
+    /// The file's own runs, or the prelude's, or the one that is asked for by name.
+    fn chosen(&self) -> Result<Vec<Evolution>, Failure> {
+        let prelude = pipeline::prelude().evolutions;
+        let Some(path) = &self.file else { return self.named(prelude.clone(), prelude) };
+        let loaded = pipeline::load(&DiskWorld, &path.to_string_lossy());
+        if loaded.checked.has_errors() {
+            return Err(Failure::input(loaded.checked.diagnostics, loaded.sources));
+        }
+        let all = loaded.checked.program.evolutions;
+        let own: Vec<Evolution> = all.iter().filter(|evolution| !prelude.contains(evolution)).cloned().collect();
+        if own.is_empty() && self.run.is_none() {
+            let message = format!("`{}` declares no evolution", path.display());
+            let help = "without a file, the prelude's `gates` is run";
+            return Err(Failure::plain(Diagnostic::without_place(Code::Unknown, message).with_help(help)));
+        }
+        self.named(own, all)
+    }
+
+    fn named(&self, usual: Vec<Evolution>, all: Vec<Evolution>) -> Result<Vec<Evolution>, Failure> {
+        let Some(name) = &self.run else { return Ok(usual) };
+        let names: Vec<String> = all.iter().map(|evolution| format!("`{}`", evolution.name)).collect();
+        let found: Vec<Evolution> = all.into_iter().filter(|evolution| evolution.name == *name).collect();
+        if found.is_empty() {
+            let message = format!("no evolution is called `{name}`");
+            let help = format!("there are {}", names.join(", "));
+            return Err(Failure::plain(Diagnostic::without_place(Code::Unknown, message).with_help(help)));
+        }
+        Ok(found)
     }
 }
 

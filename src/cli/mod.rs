@@ -4,6 +4,7 @@
 
 mod completions;
 mod context;
+mod evolve;
 mod failure;
 mod interrupt;
 mod library;
@@ -42,6 +43,7 @@ macro_rules! commands {
 
 commands! {
     Completions in completions,
+    Evolve in evolve,
     Library in library,
     Simulate in simulate,
     Synth in synth,

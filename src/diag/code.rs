@@ -47,6 +47,7 @@ codes! {
     Ambiguous = "ambiguous", Error: "Operators side by side that may be read in more than one way.";
     BadSchedule = "bad-schedule", Error: "A schedule on the command line that is none.";
     BadValue = "bad-value", Error: "An option's value that makes no sense.";
+    Checkpoint = "checkpoint", Error: "A checkpoint that is damaged, none, or of another run.";
     CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what cannot be built.";
     CircularUse = "circular-use", Error: "Files that use each other in a circle.";
     Duplicate = "duplicate", Error: "A name that is declared twice.";

@@ -79,6 +79,10 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
         stats.qd_score,
     );
     let share = 100.0 * work.left_out as f64 / (work.env_steps + work.left_out).max(1) as f64;
-    let _ = writeln!(text, "{} env steps simulated; {share:.0} % of the protocol left out as it could not matter", work.env_steps);
+    let _ = writeln!(
+        text,
+        "{} env steps simulated; {share:.0} % of the protocol left out as it could not matter",
+        work.env_steps
+    );
     text
 }

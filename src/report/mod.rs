@@ -2,9 +2,9 @@
 
 mod chart;
 mod color;
+mod evolution;
 mod film;
 mod layers;
-mod evolution;
 mod listing;
 mod page;
 mod raster;
@@ -23,8 +23,8 @@ mod verdict;
 
 pub use chart::{Panel, Scale, range_of, tick_label};
 pub use color::Color;
-pub use film::{Film, STRIDE, write_apng, write_gif};
 pub use evolution::{EvolutionLine, evolution_table};
+pub use film::{Film, STRIDE, write_apng, write_gif};
 pub use listing::{Listing, describe_robot};
 pub use page::{PageTest, draw_page};
 pub use raster::{png, rasterize};

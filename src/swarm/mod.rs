@@ -7,6 +7,7 @@ mod evaluate;
 mod gate;
 mod holds;
 mod judge;
+mod measure;
 mod simulate;
 mod trace;
 
@@ -15,5 +16,6 @@ pub use cells::cells;
 pub use characterise::{characterise, screen};
 pub use evaluate::{Work, evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, Lapse, RowVerdict, TestVerdict, judge};
+pub use measure::{Measurement, measure};
 pub use simulate::{Exposure, simulate};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};

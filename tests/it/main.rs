@@ -3,8 +3,8 @@
 mod cli;
 mod determinism;
 mod films;
-mod page;
 mod language;
+mod page;
 mod physics;
 mod pictures;
 mod tidy;

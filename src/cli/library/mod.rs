@@ -1,5 +1,8 @@
 //! `nbc library`: the robots that circuits are made of.
 
+mod add;
+mod verify;
+
 use clap::{Args, Subcommand};
 
 use crate::cli::{Context, Failure, Format, Status};
@@ -8,7 +11,7 @@ use crate::model::{Function, Library, Robot};
 use crate::report::{self, Listing};
 use crate::store;
 
-/// List, show or verify the robots that circuits are made of
+/// List, show, verify or add the robots that circuits are made of
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc library show nand")]
 pub struct Arguments {
@@ -18,6 +21,7 @@ pub struct Arguments {
 
 #[derive(Subcommand)]
 enum Action {
+    Add(add::Arguments),
     /// List all robots, best first within each function
     List,
     /// Show one robot
@@ -25,6 +29,8 @@ enum Action {
         /// The robot's name, or a function such as `nand` for its best robot
         name: String,
     },
+    /// Simulate every robot again and compare it with its file
+    Verify,
 }
 
 impl Arguments {
@@ -35,8 +41,10 @@ impl Arguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let library = store::shipped_library();
         match self.action {
+            Action::Add(arguments) => arguments.run(context),
             Action::List => list(library, context),
             Action::Show { name } => show(find(library, &name)?, context),
+            Action::Verify => verify::verify(library, context),
         }
     }
 }

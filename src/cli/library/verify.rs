@@ -1,0 +1,57 @@
+//! `nbc library verify`: every robot simulated again and compared with its file.
+
+use serde::Serialize;
+
+use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::model::{Library, Robot, Setting};
+use crate::swarm::{self, Measurement};
+
+/// What came of one robot.
+#[derive(Serialize)]
+struct Finding<'a> {
+    name: &'a str,
+    verified: bool,
+    /// What differs from the file.
+    differs: Vec<&'static str>,
+}
+
+/// Measures every robot again; a robot whose file says anything else fails.
+///
+/// # Errors
+/// When the output cannot be written.
+pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failure> {
+    let bar = Progress::new("verifying", library.robots.len() as u64);
+    let mut findings = Vec::new();
+    for robot in &library.robots {
+        let differs = differences(robot);
+        findings.push(Finding { name: &robot.name, verified: differs.is_empty(), differs });
+        bar.add(1);
+    }
+    drop(bar);
+    let failed = findings.iter().filter(|finding| !finding.verified).count();
+    match context.format {
+        Format::Json => context.print_json(&findings)?,
+        Format::Text => {
+            for finding in &findings {
+                let verdict =
+                    if finding.verified { "ok".to_owned() } else { format!("differs: {}", finding.differs.join(", ")) };
+                context.print(format_args!("{:<24} {verdict}\n", finding.name))?;
+            }
+            context.print(format_args!("{} robots, {failed} differ from their files\n", findings.len()))?;
+        }
+    }
+    Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
+}
+
+/// What a new measurement says otherwise than the file.
+fn differences(robot: &Robot) -> Vec<&'static str> {
+    let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&Setting::paper(), &robot.body) else {
+        return vec!["the simulation has a fault"];
+    };
+    let same = [
+        ("displacement", displacement == robot.displacement),
+        ("behavior", behavior == robot.behavior),
+        ("character", character == robot.character),
+    ];
+    same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name).collect()
+}

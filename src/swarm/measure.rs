@@ -1,0 +1,32 @@
+//! Everything that a robot file says of a body's motion, measured.
+
+use crate::model::{Behavior, Body, CYCLE_STEPS, Character, Fault, Setting};
+use crate::sim::run_trials;
+use crate::swarm::characterise::characterise;
+use crate::swarm::evaluate::{fixed_displacements, fixed_trials};
+
+/// Env steps of the paper's fixed simulations (docs/physics.md 10).
+const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
+
+/// What was measured of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// Displacement in voxels over the paper's fixed simulations, patterns 00, 01, 10, 11.
+    pub displacement: [f64; 4],
+    /// Which way it walks in them.
+    pub behavior: Behavior,
+    /// How it does as a gate of that behavior.
+    pub character: Character,
+}
+
+/// Measures a body by the paper's fixed simulations and as a gate.
+///
+/// # Errors
+/// The fault of a simulation that could not go on.
+pub fn measure(setting: &Setting, body: &Body) -> Result<Measurement, Fault> {
+    let trajectories = run_trials(setting, &fixed_trials(body, FIXED_STEPS));
+    let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
+    let displacement = fixed_displacements(four)?;
+    let behavior = Behavior::of(&displacement);
+    Ok(Measurement { displacement, behavior, character: characterise(setting, body, behavior)? })
+}
