@@ -14,3 +14,5 @@ pub mod source;
 pub mod store;
 pub mod swarm;
 pub mod syntax;
+
+pub use pipeline::{Options, RunError, RunReport, run_file};

@@ -1,12 +1,16 @@
 //! Every stage in order, from source text to verdict.
 
+use std::path::Path;
+
 use crate::check::{self, Checked};
 use crate::circuit::logic::Logic;
 use crate::circuit::timing::Delays;
 use crate::circuit::{Netlist, Proof, Timing, elaborate, map, prove};
-use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitTest, Hold, Instance, Library, Program, Setting, Stimulation, TestRow};
+use crate::diag::{Code, Diagnostic, render};
+use crate::model::{CYCLE_STEPS, CircuitTest, Hold, Instance, Library, Origin, Program, Setting, Stimulation, TestRow};
+use crate::report;
 use crate::source::{MemoryWorld, Sources, Span, World};
+use crate::store::{self, DiskWorld};
 use crate::swarm::{self, Assembly, Demand, Exposure, SwarmTrace, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
@@ -57,6 +61,15 @@ pub struct TestRun {
     pub trace: SwarmTrace,
     /// Whether it did what was asked.
     pub verdict: TestVerdict,
+    /// What is legal and surely not meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// How tests are run.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// These robots instead of those that the file asks for.
+    pub library: Option<Library>,
 }
 
 /// Reads and checks a file. What cannot be read is a diagnostic like any other.
@@ -154,32 +167,99 @@ pub fn demands(rows: &[TestRow], protocol: Protocol, timing: &Timing) -> Vec<Dem
 /// Runs a test in full physics, calling `observe` with the cycles done and the cycles in all after each.
 ///
 /// # Errors
-/// As [`compile`] and [`rows`].
+/// As [`compile`] and [`rows`], and when the robots cannot be read.
 pub fn run_test(
     program: &Program,
     test: &CircuitTest,
-    library: &Library,
+    options: &Options,
     observe: &mut dyn FnMut(usize, usize),
 ) -> Result<TestRun, Vec<Diagnostic>> {
-    let compiled = compile(program, &test.circuit, library, test.span)?;
+    let library = library(program, test, options)?;
+    let compiled = compile(program, &test.circuit, &library, test.span)?;
     let protocol = protocol(program, test);
     let rows = rows(program, test)?;
     let demands = demands(&rows, protocol, &compiled.timing);
-    let inputs = rows.iter().zip(&demands);
-    let exposure = Exposure {
-        inputs: inputs.flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold)).collect(),
-        cycle_steps: crate::model::CYCLE_STEPS,
-        window: protocol.window as usize,
-    };
+    let warnings = short_holds(test, &rows, &demands, &compiled);
+    let held = rows.iter().zip(&demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+    let exposure = Exposure { inputs: held.collect(), cycle_steps: CYCLE_STEPS, window: protocol.window as usize };
     let cycles = exposure.inputs.len();
     let trace = swarm::simulate(&Setting::paper(), &compiled.assembly, &exposure, &mut |done| observe(done, cycles));
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
     let verdict = swarm::judge(&test.title, &trace, &demands, &clocks);
-    Ok(TestRun { compiled, trace, verdict })
+    Ok(TestRun { compiled, trace, verdict, warnings })
 }
 
+/// The robots for a test: those of the options, else of the library that the circuit's swarm names, else those of the program.
+fn library(program: &Program, test: &CircuitTest, options: &Options) -> Result<Library, Vec<Diagnostic>> {
+    if let Some(library) = &options.library {
+        return Ok(library.clone());
+    }
+    let swarm = program.swarms.iter().find(|swarm| swarm.circuit == test.circuit);
+    let Some(declared) = swarm.and_then(|swarm| program.library(&swarm.library)) else {
+        return Ok(store::shipped_library().clone());
+    };
+    let mut library = match &declared.from {
+        Origin::Shipped => store::shipped_library().clone(),
+        Origin::Folder(folder) => store::read_library(folder)?,
+        Origin::Evolution(name) => store::read_library(&format!("out/{name}/robots")).map_err(|faults| {
+            let help = format!(
+                "`nbc evolve --run {name}` and then `nbc library add out/{name}/seed-1 --into out/{name}/robots`"
+            );
+            faults.into_iter().map(|fault| fault.with_help(help.clone())).collect::<Vec<_>>()
+        })?,
+    };
+    if let Some(behaviors) = &declared.behaviors {
+        library.robots.retain(|robot| behaviors.contains(&robot.behavior));
+    }
+    Ok(library)
+}
+
+/// Reads, checks, compiles, simulates and tests a file of the disk.
+///
+/// # Errors
+/// When the file has errors or its circuits cannot be built; a test that fails is no error.
+pub fn run_file(path: impl AsRef<Path>, options: &Options) -> Result<RunReport, RunError> {
+    let Loaded { sources, checked } = load(&DiskWorld, &path.as_ref().to_string_lossy());
+    let fail = |diagnostics: Vec<Diagnostic>| RunError(render::text(&diagnostics, &sources, false));
+    if checked.has_errors() {
+        return Err(fail(checked.diagnostics));
+    }
+    let run = |test| run_test(&checked.program, test, options, &mut |_, _| {});
+    let tests = checked.program.tests.iter().map(run).collect::<Result<Vec<_>, _>>().map_err(fail)?;
+    Ok(RunReport { tests })
+}
+
+/// What came of a file's tests.
+#[derive(Clone, Debug)]
+pub struct RunReport {
+    /// The tests in order.
+    pub tests: Vec<TestRun>,
+}
+
+impl RunReport {
+    /// Whether every test passed.
+    pub fn passed(&self) -> bool {
+        self.tests.iter().all(|test| test.verdict.passed)
+    }
+
+    /// Asserts that every test passed.
+    ///
+    /// # Panics
+    /// With the truth tables of the tests that failed.
+    pub fn assert_passed(&self) {
+        let failed = self.tests.iter().filter(|test| !test.verdict.passed);
+        let tables: String = failed.map(|test| report::describe_test(&test.verdict)).collect();
+        assert!(tables.is_empty(), "tests of the swarm failed\n{tables}");
+    }
+}
+
+/// Why a file could not be run: its diagnostics as text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct RunError(String);
+
 /// Warns where a row is held for fewer cycles than the slowest path needs; names the path.
-pub fn short_holds(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Vec<Diagnostic> {
+fn short_holds(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Vec<Diagnostic> {
     let needed = compiled.timing.hold as usize;
     let path: Vec<String> = compiled.timing.critical_path.iter().map(|&net| compiled.mapped.net_name(net)).collect();
     let short = rows.iter().zip(demands).find(|(_, demand)| demand.hold < needed);

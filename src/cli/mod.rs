@@ -9,6 +9,7 @@ mod failure;
 mod interrupt;
 mod library;
 mod progress;
+mod run;
 mod schedule;
 mod simulate;
 mod status;
@@ -45,6 +46,7 @@ commands! {
     Completions in completions,
     Evolve in evolve,
     Library in library,
+    Run in run,
     Simulate in simulate,
     Synth in synth,
 }

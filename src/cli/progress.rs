@@ -34,6 +34,11 @@ impl Progress {
         self.0.set_position(done);
     }
 
+    /// Says how much there is to do.
+    pub fn set_total(&self, total: u64) {
+        self.0.set_length(total);
+    }
+
     /// Says that `more` is done.
     pub fn add(&self, more: u64) {
         self.0.inc(more);

@@ -5,9 +5,10 @@ use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
+use crate::diag::{Code, Diagnostic};
 use crate::model::{Library, Robot};
-use crate::source::Sources;
-use crate::store::read_robot;
+use crate::source::{Sources, World};
+use crate::store::{DiskWorld, read_robot};
 
 static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
 
@@ -28,6 +29,36 @@ static SHIPPED: LazyLock<Library> = LazyLock::new(|| {
 /// The robots that come with the program, best first within each function; read when first asked for.
 pub fn shipped_library() -> &'static Library {
     &SHIPPED
+}
+
+/// The robots of a folder's `.yaml` files, best first within each function.
+///
+/// # Errors
+/// What is wrong with the folder or its files; several faults where several files are wrong.
+pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
+    let unreadable = |error: std::io::Error| {
+        let message = format!("cannot read the library `{folder}`: {}", error.to_string().to_lowercase());
+        vec![Diagnostic::without_place(Code::Unreadable, message)]
+    };
+    let entries = std::fs::read_dir(folder).and_then(|entries| entries.collect::<Result<Vec<_>, _>>());
+    let mut paths: Vec<_> = entries.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    paths.sort();
+    let (mut robots, mut faults) = (Vec::new(), Vec::new());
+    for path in paths {
+        let name = path.display().to_string();
+        let mut sources = Sources::default();
+        let robot = DiskWorld.read(&name).map_err(|error| Diagnostic::unreadable(&name, &error)).and_then(|text| {
+            let id = sources.add(&name, text);
+            // The caller knows other texts, so a place in this one would mean nothing to it.
+            read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
+        });
+        match robot {
+            Ok(robot) => robots.push(robot),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if faults.is_empty() { Ok(best_first(robots)) } else { Err(faults) }
 }
 
 /// A library of robots in order of their functions' bits, and within a function the most reliable first, then the shortest clock, then

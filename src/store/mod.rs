@@ -11,6 +11,6 @@ mod yaml;
 pub use atomic::{create_folder, write};
 pub use checkpoint::Checkpoint;
 pub use disk::DiskWorld;
-pub use library::{best_first, shipped_library};
+pub use library::{best_first, read_library, shipped_library};
 pub use robot::{FORMAT, print_robot, read_robot};
 pub use shape::read_body;

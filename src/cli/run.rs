@@ -1,0 +1,179 @@
+//! `nbc run`: compile a file's circuits, simulate their swarms, test them, and draw what happened.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::diag::{Code, Diagnostic, render};
+use crate::model::{CircuitTest, Robot, Setting};
+use crate::pipeline::{self, Loaded, Options, TestRun};
+use crate::report::{self, PageTest, Recording, RunResult, Scheme, Stage, Svg, TestResult};
+use crate::store::{self, DiskWorld};
+
+/// Compile, simulate and test the circuits of a file
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  nbc run circuits/latch.nb
+  nbc run circuits/latch.nb --out /tmp/latch --format json
+
+Every robot is simulated voxel by voxel. Pictures, waveforms, a report page and result.json are written to `out/` and the file's name.
+Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
+pub struct Arguments {
+    /// The source file
+    file: PathBuf,
+    /// The folder for pictures and results [default: out/ and the file's name]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Leave out the report page
+    #[arg(long)]
+    no_report: bool,
+}
+
+/// A test's run with its drawings.
+struct Drawn<'a> {
+    run: &'a TestRun,
+    spacetime: Svg,
+    schematic: Svg,
+    files: Vec<String>,
+}
+
+impl Arguments {
+    /// Runs the file's tests and writes what came of them.
+    ///
+    /// # Errors
+    /// When the file has errors, or results cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.file.to_string_lossy());
+        if checked.has_errors() {
+            return Err(Failure::input(checked.diagnostics, sources));
+        }
+        if checked.program.tests.is_empty() {
+            let message = format!("`{}` declares no test, so there is nothing to run", self.file.display());
+            let help =
+                "declare one: `test my_circuit { a b | q` and a row for each input pattern; `nbc check` only checks";
+            return Err(Failure::plain(Diagnostic::without_place(Code::Empty, message).with_help(help)));
+        }
+        let folder = self.folder();
+        store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
+        let mut warnings = checked.diagnostics;
+        let mut runs = Vec::new();
+        for test in &checked.program.tests {
+            match simulate(&checked.program, test) {
+                Ok(run) => {
+                    warnings.extend(run.warnings.iter().cloned());
+                    runs.push(run);
+                }
+                Err(faults) => return Err(Failure::input(faults, sources)),
+            }
+        }
+        context.log(&render::text(&warnings, &sources, context.color));
+        self.report(&runs, &folder, context)
+    }
+
+    fn folder(&self) -> PathBuf {
+        let stem = self.file.file_stem().unwrap_or(self.file.as_os_str());
+        self.out.clone().unwrap_or_else(|| Path::new("out").join(stem))
+    }
+
+    /// Writes pictures and results, then prints the verdict.
+    fn report(&self, runs: &[TestRun], folder: &Path, context: &mut Context) -> Result<Status, Failure> {
+        let drawn =
+            runs.iter().enumerate().map(|(i, run)| draw(run, &stem(runs, i), folder)).collect::<Result<Vec<_>, _>>()?;
+        let source = self.file.to_string_lossy();
+        let tests =
+            drawn.iter().map(|drawn| TestResult::new(&drawn.run.verdict, &drawn.run.trace, drawn.files.clone()));
+        let result = RunResult::new(&source, tests.collect());
+        let json = serde_json::to_string_pretty(&result).expect("a result has nothing that JSON cannot say") + "\n";
+        write(&folder.join("result.json"), json.as_bytes())?;
+        let page = folder.join("report.html");
+        if !self.no_report {
+            let tests: Vec<PageTest<'_>> = drawn.iter().map(page_test).collect();
+            write(&page, report::draw_page(&source, &tests, Scheme::default()).as_bytes())?;
+        }
+        match context.format {
+            Format::Json => context.print_json(&result)?,
+            Format::Text => {
+                for drawn in &drawn {
+                    context.print(describe(drawn))?;
+                }
+                let page = if self.no_report { String::new() } else { format!("report   {}\n", page.display()) };
+                let verdict = if result.passed { "pass" } else { "FAIL" };
+                context.print(format_args!("{page}results  {}\n{verdict}\n", folder.join("result.json").display()))?;
+            }
+        }
+        Ok(if result.passed { Status::Done } else { Status::TestFailed })
+    }
+}
+
+fn simulate(program: &crate::model::Program, test: &CircuitTest) -> Result<TestRun, Vec<Diagnostic>> {
+    let bar = Progress::new("simulating", 0);
+    pipeline::run_test(program, test, &Options::default(), &mut |done, all| {
+        bar.set_total(all as u64);
+        bar.set(done as u64);
+    })
+}
+
+/// The name of a test's files: the circuit's, with a number where a circuit has several tests.
+fn stem(runs: &[TestRun], i: usize) -> String {
+    let circuit = &runs[i].verdict.circuit;
+    let before = runs[..i].iter().filter(|run| run.verdict.circuit == *circuit).count();
+    let several = runs.iter().filter(|run| run.verdict.circuit == *circuit).count() > 1;
+    if several { format!("{circuit}-{}", before + 1) } else { circuit.clone() }
+}
+
+/// Draws a test's run and writes the drawings and waveforms.
+fn draw<'a>(run: &'a TestRun, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
+    let compiled = &run.compiled;
+    let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
+    let spacetime = report::draw_swarm(&run.trace);
+    let schematic =
+        report::draw_schematic(&compiled.mapped, &robots, &compiled.timing.critical_path, Scheme::default());
+    let files = [
+        ("spacetime.svg", spacetime.finish().into_bytes()),
+        ("spacetime.png", report::png(&spacetime)),
+        ("schematic.svg", schematic.finish().into_bytes()),
+        ("schematic.png", report::png(&schematic)),
+        ("waves.vcd", report::vcd(&run.trace).into_bytes()),
+    ];
+    let mut written = Vec::new();
+    for (kind, bytes) in files {
+        let path = folder.join(format!("{stem}-{kind}"));
+        write(&path, &bytes)?;
+        written.push(path.display().to_string());
+    }
+    Ok(Drawn { run, spacetime, schematic, files: written })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
+}
+
+fn page_test<'a>(drawn: &'a Drawn<'a>) -> PageTest<'a> {
+    let run = drawn.run;
+    let (assembly, trace) = (&run.compiled.assembly, &run.trace);
+    PageTest {
+        verdict: &run.verdict,
+        trace,
+        assembly,
+        recording: record(run),
+        schematic: drawn.schematic.clone(),
+        spacetime: drawn.spacetime.clone(),
+    }
+}
+
+/// The film of a swarm, as far as a page has room for it.
+fn record(run: &TestRun) -> Recording {
+    let (setting, assembly, trace) = (Setting::paper(), &run.compiled.assembly, &run.trace);
+    let probe = Stage::of_swarm(&setting, assembly, trace, crate::model::CYCLE_STEPS);
+    let points: Vec<usize> = (0..probe.robots()).map(|i| probe.points(i).len()).collect();
+    let (stride, robots) = Recording::room(&points, trace.cycles.len());
+    Recording::of(Stage::of_swarm(&setting, assembly, trace, stride), robots)
+}
+
+fn describe(drawn: &Drawn<'_>) -> String {
+    let (trace, verdict) = (&drawn.run.trace, &drawn.run.verdict);
+    let files: String = drawn.files.iter().map(|file| format!("picture  {file}\n")).collect();
+    format!("{}: {}\n\n{}\n{files}", trace.circuit, report::describe_swarm(trace), report::describe_test(verdict))
+}
