@@ -1,12 +1,16 @@
 //! Reports: what was found, as text, pictures and data. Everything here is text or bytes; who writes them where is decided above.
 
+mod champions;
 mod chart;
 mod color;
+mod comparison;
 mod evolution;
 mod film;
+mod heatmap;
 mod layers;
 mod listing;
 mod page;
+mod progress;
 mod raster;
 mod recording;
 mod result;
@@ -21,12 +25,16 @@ mod table;
 mod vcd;
 mod verdict;
 
+pub use champions::{Champions, draw_champions};
 pub use chart::{Panel, Scale, range_of, tick_label};
 pub use color::Color;
+pub use comparison::{Group, draw_comparison};
 pub use evolution::{EvolutionLine, evolution_table};
 pub use film::{Film, STRIDE, write_apng, write_gif};
+pub use heatmap::{draw_heatmap, heat};
 pub use listing::{Listing, describe_robot};
 pub use page::{PageTest, draw_page};
+pub use progress::{Course, draw_progress};
 pub use raster::{png, rasterize};
 pub use recording::{Recorded, Recording};
 pub use result::{RobotResult, RunResult, TestResult};
