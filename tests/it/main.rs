@@ -7,5 +7,6 @@ mod language;
 mod page;
 mod physics;
 mod pictures;
+mod plots;
 mod tidy;
 mod waves;

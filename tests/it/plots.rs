@@ -1,0 +1,136 @@
+//! Plots of evolution: heat maps, progress, champions, comparisons.
+
+use nbc::evolve::{Archive, Elite};
+use nbc::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
+use nbc::report::{self, Champions, Course, Group};
+use roxmltree::{Document, Node};
+
+fn group<'a>(document: &'a Document<'a>, id: &str) -> Node<'a, 'a> {
+    document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap_or_else(|| panic!("no group {id}"))
+}
+
+fn fills(node: Node<'_, '_>, tag: &str) -> Vec<String> {
+    node.descendants().filter(|n| n.has_tag_name(tag)).map(|n| n.attribute("fill").unwrap().to_owned()).collect()
+}
+
+fn has_text(svg: &str, wanted: &str) -> bool {
+    Document::parse(svg).unwrap().descendants().any(|node| node.has_tag_name("text") && node.text() == Some(wanted))
+}
+
+fn elite(rows: &[&str], behavior: &str, fitness: f64) -> Elite {
+    Elite {
+        fitness: [fitness, fitness],
+        behavior: behavior.parse().unwrap(),
+        displacement: [1.0; 4],
+        body: Body::parse(rows, 8).unwrap(),
+        genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+        generation: 0,
+        evaluations: 0,
+    }
+}
+
+fn axes() -> Vec<Axis> {
+    let count = |of| Axis::Count { of, bins: 4 };
+    vec![count(Count::Voxels), count(Count::Active), count(Count::Sensory), Axis::Behavior]
+}
+
+#[test]
+fn a_heat_map_colors_the_niches_that_are_filled() {
+    let evolution = nbc::model::Evolution { descriptors: axes(), ..evolution() };
+    let mut archive = Archive::new(&evolution);
+    archive.add(elite(&["333", "300", "000"], "RRRL", 1.0));
+    archive.add(elite(&["333", "333", "333"], "RRRL", 5.0));
+    let svg = report::draw_heatmap("gates", &archive, &axes(), 0, 1).finish();
+    let document = Document::parse(&svg).unwrap();
+    let cells = |word: &str| fills(group(&document, &format!("map-{word}")), "rect");
+    let colored = |word: &str| cells(word).into_iter().filter(|fill| fill != "#ffffff").collect::<Vec<_>>();
+    assert_eq!(cells("RRRL").len(), 16);
+    assert_eq!(colored("RRRL").len(), 2);
+    assert!(colored("RRRL").contains(&report::heat(0.0).to_string()));
+    assert!(colored("RRRL").contains(&report::heat(1.0).to_string()));
+    assert_eq!(colored("LLLL").len(), 0);
+    assert!(has_text(&svg, "active voxels (bin)") && has_text(&svg, "fitness (voxels)"));
+    report::png(&report::draw_heatmap("empty", &Archive::new(&evolution), &axes(), 3, 1));
+}
+
+fn evolution() -> nbc::model::Evolution {
+    use nbc::model::{Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Symmetry};
+    Evolution {
+        name: "gates".to_owned(),
+        width: 3,
+        height: 3,
+        palette: Palette::paper(),
+        mutation: MutationWeights::default(),
+        variable: Schedule::default(),
+        fixed_steps: 840,
+        descriptors: axes(),
+        batch: 16,
+        newcomers: 0,
+        generations: 1,
+        seeds: vec![1],
+        rules: Rules::Paper,
+        objective: Objective::Distance,
+        symmetry: Symmetry::None,
+        niche: Niche::Dominance,
+    }
+}
+
+#[test]
+fn progress_shows_every_seed_the_median_and_the_band() {
+    let run = |high: f64| (0..10).map(|i| (f64::from(i), high * f64::from(i))).collect();
+    let course =
+        Course { title: "coverage".to_owned(), unit: "niches".to_owned(), runs: vec![run(1.0), run(3.0), run(2.0)] };
+    let svg = report::draw_progress("gates", "generation", &[course]).finish();
+    let document = Document::parse(&svg).unwrap();
+    let plot = group(&document, "course-0");
+    let lines: Vec<&str> =
+        plot.descendants().filter(|n| n.has_tag_name("polyline")).map(|n| n.attribute("points").unwrap()).collect();
+    assert_eq!(lines.len(), 3 + 1);
+    assert_eq!(lines[3], lines[2], "the median of three is the middle one");
+    assert_eq!(plot.descendants().filter(|n| n.has_tag_name("polygon")).count(), 1);
+    report::png(&report::draw_progress(
+        "none",
+        "generation",
+        &[Course { title: String::new(), unit: String::new(), runs: vec![vec![]] }],
+    ));
+}
+
+#[test]
+fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
+    let made = |name: &str, stimuli, values: &[f64], apart| Group {
+        name: name.to_owned(),
+        stimuli,
+        values: values.to_vec(),
+        apart,
+    };
+    let groups =
+        [made("XXXX", 0, &[9.0, 8.0, 10.0], false), made("XXYY", 1, &[5.0, 4.0], true), made("XYXY", 1, &[], false)];
+    let svg = report::draw_comparison("groups", "distance (voxels)", "Mann-Whitney U", &groups).finish();
+    let document = Document::parse(&svg).unwrap();
+    let middle = |name: &str| {
+        let label = group(&document, &format!("group-{name}"))
+            .descendants()
+            .find(|n| n.text() == Some(name) && n.has_tag_name("text"))
+            .unwrap();
+        label.attribute("x").unwrap().parse::<f64>().unwrap()
+    };
+    assert_eq!(fills(group(&document, "group-XXXX"), "circle").len(), 3);
+    assert_eq!(fills(group(&document, "group-XXYY"), "circle").len(), 2);
+    let (first, second) = (middle("XXYY") - middle("XXXX"), middle("XYXY") - middle("XXYY"));
+    assert!((first - 2.0 * second).abs() < 0.1, "{first} is twice {second}");
+}
+
+#[test]
+fn champions_are_drawn_in_body_lengths() {
+    let com_x: Vec<f64> = (0..=3360).map(|i| 248.0 + f64::from(i) / 336.0).collect();
+    let path = Trajectory { com_x, com_y: Vec::new(), fault: None };
+    let behavior: Behavior = "RRRL".parse().unwrap();
+    let champions = [Champions { behavior, paths: vec![(path.clone(), 5), (path, 5)] }];
+    let svg = report::draw_champions("champions", &champions, &[10.0, 20.0, 30.0]).finish();
+    let document = Document::parse(&svg).unwrap();
+    let panel = group(&document, "champions-RRRL");
+    assert_eq!(panel.descendants().filter(|n| n.has_tag_name("polyline")).count(), 2);
+    assert_eq!(panel.descendants().filter(|n| n.has_attribute("stroke-dasharray")).count(), 3);
+    // Ten voxels of a body of five columns are two lengths.
+    assert!(has_text(&svg, "2.0") && has_text(&svg, "body lengths"));
+}
