@@ -1,4 +1,4 @@
-//! `nbc draw`: one picture of a robot.
+//! `nbc draw`: one picture, film or waveform of a robot or of a circuit's swarm.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -7,27 +7,30 @@ use clap::{Args, ValueEnum};
 
 use crate::cli::{Context, Failure, Progress, Status, schedule, simulate};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{Body, Palette, Schedule, Setting, Trial};
+use crate::model::{Body, Palette, Robot, Schedule, Setting, Trial};
+use crate::pipeline::{self, Loaded, Options, TestRun};
 use crate::report::{self, Film, STRIDE, Scheme, Stage, Svg};
 use crate::sim;
 use crate::source::Sources;
-use crate::store;
+use crate::store::{self, DiskWorld};
 
-/// Draw a robot as a picture or a film
+/// Draw a robot, or the swarm of a file's first test, as one picture, film or waveform
 #[derive(Args)]
-#[command(after_help = "Examples:
+#[command(after_help = "\
+Examples:
   nbc draw nand --as gif --schedule '00*4 11*4' -o nand.gif
-  nbc draw body.yaml --as strip -o gait.svg")]
+  nbc draw body.yaml --as strip -o gait.svg
+  nbc draw circuits/latch.nb --as schematic -o latch.svg")]
 pub struct Arguments {
-    /// A file with a body, or the name of a robot of the library
-    robot: String,
+    /// A file with a body, the name of a robot of the library, or a source file (.nb)
+    what: String,
     /// What to draw
     #[arg(long = "as", value_enum)]
     kind: Kind,
-    /// The file to write: `.svg` or `.png` for pictures, `.gif`, or `.png` for an APNG
+    /// The file to write: `.svg` or `.png` for pictures, `.gif`, `.png` or `.apng` for films, `.vcd`
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The stimuli over time, as for `nbc simulate`
+    /// The stimuli of a robot over time, as for `nbc simulate`
     #[arg(long, default_value = "00*10 01*10 10*10 11*10")]
     schedule: String,
     /// Colors that people with any color vision can tell apart
@@ -38,59 +41,156 @@ pub struct Arguments {
 /// Kinds of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Kind {
-    /// A film that moves in PNG viewers
+    /// A film in a PNG file
     Apng,
     /// A film
     Gif,
-    /// The path over time
+    /// A circuit's cells with their robots
+    Schematic,
+    /// Paths over time
     Spacetime,
-    /// The body with its materials
+    /// A robot's body with its materials
     Sprite,
-    /// Snapshots of the gait under each pattern
+    /// Snapshots of a robot's gait under each pattern
     Strip,
+    /// A swarm's waveforms
+    Vcd,
 }
 
-/// Kinds of files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Gif,
-    Png,
-    Svg,
+impl Kind {
+    /// The extensions of the files that hold such a picture.
+    fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Apng => &["png", "apng"],
+            Self::Gif => &["gif"],
+            Self::Vcd => &["vcd"],
+            Self::Schematic | Self::Spacetime | Self::Sprite | Self::Strip => &["svg", "png"],
+        }
+    }
 }
 
 impl Arguments {
     /// Draws and writes.
     ///
     /// # Errors
-    /// When the robot, the schedule or the file's extension makes no sense, or the file cannot be written.
+    /// When what is to be drawn makes no sense, is not to be had of a robot or of a swarm, or cannot be written.
     pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
-        let format = file_format(self.kind, &self.output).map_err(Failure::plain)?;
-        let schedule = read_schedule(&self.schedule)?;
-        let body = simulate::read_body(&self.robot, Palette::paper().materials().len())?;
-        let scheme = if self.safe_colors { Scheme::Safe } else { Scheme::Paper };
-        let name = Path::new(&self.robot).file_stem().map_or(self.robot.clone(), |stem| stem.to_string_lossy().into_owned());
-        match self.kind {
-            Kind::Apng | Kind::Gif => self.write_film(&name, &body, &schedule, scheme)?,
-            Kind::Spacetime => {
-                let trial = Trial { body, schedule };
-                let trajectory = sim::run_trials(&Setting::paper(), std::slice::from_ref(&trial)).remove(0);
-                write_picture(&self.output, format, &report::draw_robot(&name, &trial.schedule, &trajectory))?;
-            }
-            Kind::Sprite => write_picture(&self.output, format, &report::draw_portrait(&name, &body, scheme))?,
-            Kind::Strip => write_picture(&self.output, format, &report::draw_strip(&name, &body, &schedule, scheme))?,
+        self.check_extension().map_err(Failure::plain)?;
+        if self.what.ends_with(".nb") {
+            self.draw_swarm()?
+        } else {
+            self.draw_robot()?
         }
         Ok(Status::Done)
     }
 
-    fn write_film(&self, name: &str, body: &Body, schedule: &Schedule, scheme: Scheme) -> Result<(), Failure> {
-        let largest = body.width().max(body.height());
-        let film = Film { title: name.to_owned(), lanes: vec![String::new()], scheme, largest };
-        let stage = Stage::of_trial(&Setting::paper(), body, schedule, STRIDE);
-        let progress = Progress::new("drawing", stage.moments() as u64);
-        let stage = stage.watched(|done| progress.set(done as u64));
+    fn scheme(&self) -> Scheme {
+        if self.safe_colors { Scheme::Safe } else { Scheme::Paper }
+    }
+
+    fn extension(&self) -> String {
+        self.output.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+    }
+
+    fn check_extension(&self) -> Result<(), Diagnostic> {
+        let known = self.kind.extensions();
+        if known.contains(&self.extension().as_str()) {
+            return Ok(());
+        }
+        let wanted: Vec<String> = known.iter().map(|extension| format!("`.{extension}`")).collect();
+        let wanted = wanted.join(" or ");
+        let message = format!(
+            "cannot tell the kind of file of `{}`, expected a name that ends in {wanted}",
+            self.output.display()
+        );
+        Err(Diagnostic::without_place(Code::BadValue, message))
+    }
+
+    fn draw_robot(&self) -> Result<(), Failure> {
+        let schedule = read_schedule(&self.schedule)?;
+        let body = simulate::read_body(&self.what, Palette::paper().materials().len())?;
+        let stem = Path::new(&self.what).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let name = stem.unwrap_or_else(|| self.what.clone());
+        match self.kind {
+            Kind::Apng | Kind::Gif => {
+                let largest = body.width().max(body.height());
+                let film = Film { title: name, lanes: vec![String::new()], scheme: self.scheme(), largest };
+                self.write_film(&film, Stage::of_trial(&Setting::paper(), &body, &schedule, STRIDE))
+            }
+            Kind::Spacetime => self.write_picture(&robot_diagram(&name, body, schedule)),
+            Kind::Sprite => self.write_picture(&report::draw_portrait(&name, &body, self.scheme())),
+            Kind::Strip => self.write_picture(&report::draw_strip(&name, &body, &schedule, self.scheme())),
+            Kind::Schematic | Kind::Vcd => Err(self.not_of("a robot", "a source file (.nb)")),
+        }
+    }
+
+    fn draw_swarm(&self) -> Result<(), Failure> {
+        match self.kind {
+            Kind::Sprite | Kind::Strip => Err(self.not_of("a source file", "a robot")),
+            _ => self.draw_run(&self.run_first_test()?),
+        }
+    }
+
+    fn draw_run(&self, run: &TestRun) -> Result<(), Failure> {
+        let assembly = &run.compiled.assembly;
+        let robots: Vec<&Robot> = assembly.members.iter().map(|member| &member.robot).collect();
+        match self.kind {
+            Kind::Schematic => {
+                let (netlist, path) = (&run.compiled.mapped, &run.compiled.timing.critical_path);
+                self.write_picture(&report::draw_schematic(netlist, &robots, path, self.scheme()))
+            }
+            Kind::Vcd => self.write_bytes(report::vcd(&run.trace).as_bytes()),
+            Kind::Apng | Kind::Gif => {
+                let largest = robots.iter().map(|robot| robot.body.width().max(robot.body.height())).max().unwrap_or(1);
+                let lanes =
+                    assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
+                let title = assembly.circuit.clone();
+                let film = Film { title, lanes: lanes.collect(), scheme: self.scheme(), largest };
+                self.write_film(&film, Stage::of_swarm(&Setting::paper(), assembly, &run.trace, STRIDE))
+            }
+            _ => self.write_picture(&report::draw_swarm(&run.trace)),
+        }
+    }
+
+    /// The file's first test, run in full physics.
+    fn run_first_test(&self) -> Result<TestRun, Failure> {
+        let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.what);
+        if checked.has_errors() {
+            return Err(Failure::input(checked.diagnostics, sources));
+        }
+        let Some(test) = checked.program.tests.first() else {
+            let message = format!("`{}` declares no test, so there is no swarm to draw", self.what);
+            return Err(Failure::plain(Diagnostic::without_place(Code::Empty, message)));
+        };
+        let bar = Progress::new("simulating", 0);
+        pipeline::run_test(&checked.program, test, &Options::default(), &mut |done, all| {
+            bar.set_total(all as u64);
+            bar.set(done as u64);
+        })
+        .map_err(|faults| Failure::input(faults, sources))
+    }
+
+    fn not_of(&self, given: &str, wanted: &str) -> Failure {
+        let kind = self.kind.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned());
+        let message = format!("`{}` is {given}, expected {wanted} for `--as {kind}`", self.what);
+        Failure::plain(Diagnostic::without_place(Code::BadValue, message))
+    }
+
+    fn write_picture(&self, svg: &Svg) -> Result<(), Failure> {
+        let bytes = if self.extension() == "svg" { svg.finish().into_bytes() } else { report::png(svg) };
+        self.write_bytes(&bytes)
+    }
+
+    fn write_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
+        store::write(&self.output, bytes).map_err(|error| Failure::unwritable(&self.output, &error))
+    }
+
+    fn write_film(&self, film: &Film, stage: Stage) -> Result<(), Failure> {
+        let bar = Progress::new("drawing", stage.moments() as u64);
+        let mut observe = |done| bar.set(done as u64);
         let write = |out: &mut dyn Write| match self.kind {
-            Kind::Apng => report::write_apng(&film, stage, out),
-            _ => report::write_gif(&film, stage, out),
+            Kind::Apng => report::write_apng(film, stage, out, &mut observe),
+            _ => report::write_gif(film, stage, out, &mut observe),
         };
         store::write_with(&self.output, write).map_err(|error| Failure::unwritable(&self.output, &error))
     }
@@ -102,25 +202,8 @@ fn read_schedule(text: &str) -> Result<Schedule, Failure> {
     schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
 }
 
-/// The kind of file that a path asks for, if the picture can be one.
-fn file_format(kind: Kind, path: &Path) -> Result<Format, Diagnostic> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let (wanted, format) = match (kind, extension.as_str()) {
-        (Kind::Gif, "gif") => ("", Some(Format::Gif)),
-        (Kind::Gif, _) => ("`.gif`", None),
-        (Kind::Apng, "png" | "apng") => ("", Some(Format::Png)),
-        (Kind::Apng, _) => ("`.png` or `.apng`", None),
-        (_, "svg") => ("", Some(Format::Svg)),
-        (_, "png") => ("", Some(Format::Png)),
-        _ => ("`.svg` or `.png`", None),
-    };
-    format.ok_or_else(|| {
-        let message = format!("`{}` does not say which kind of file, expected a name that ends in {wanted}", path.display());
-        Diagnostic::without_place(Code::BadValue, message)
-    })
-}
-
-fn write_picture(path: &Path, format: Format, svg: &Svg) -> Result<(), Failure> {
-    let bytes = if format == Format::Svg { svg.finish().into_bytes() } else { report::png(svg) };
-    store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))
+fn robot_diagram(name: &str, body: Body, schedule: Schedule) -> Svg {
+    let trial = Trial { body, schedule };
+    let trajectory = sim::run_trials(&Setting::paper(), std::slice::from_ref(&trial)).remove(0);
+    report::draw_robot(name, &trial.schedule, &trajectory)
 }

@@ -4,6 +4,7 @@
 
 mod completions;
 mod context;
+mod draw;
 mod evolve;
 mod failure;
 mod interrupt;
@@ -44,6 +45,7 @@ macro_rules! commands {
 
 commands! {
     Completions in completions,
+    Draw in draw,
     Evolve in evolve,
     Library in library,
     Run in run,

@@ -202,11 +202,11 @@ fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
     Patch { left: left as u32, top: top as u32, width: wide, height: high, pixels }
 }
 
-/// Writes an endless GIF of the robots on a stage.
+/// Writes an endless GIF of the robots on a stage, calling `observe` with the number of frames done after each.
 ///
 /// # Errors
 /// When `out` cannot be written.
-pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
     let mut painter = Painter::new(film);
     let (width, height) = painter.size();
     let last = stage.moments().saturating_sub(1).max(1) as f64;
@@ -226,15 +226,16 @@ pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write) -> io::Result<(
             ..gif::Frame::default()
         };
         encoder.write_frame(&frame).map_err(io_error)?;
+        observe(i + 1);
     }
     Ok(())
 }
 
-/// Writes an endless APNG of the robots on a stage.
+/// Writes an endless APNG of the robots on a stage, calling `observe` with the number of frames done after each.
 ///
 /// # Errors
 /// When `out` cannot be written.
-pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
     let mut painter = Painter::new(film);
     let (width, height) = painter.size();
     let moments = stage.moments();
@@ -251,6 +252,7 @@ pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write) -> io::Result<
         writer.set_frame_dimension(patch.width, patch.height).map_err(io::Error::other)?;
         writer.set_frame_position(patch.left, patch.top).map_err(io::Error::other)?;
         writer.write_image_data(&patch.pixels).map_err(io::Error::other)?;
+        observe(i + 1);
     }
     writer.finish().map_err(io::Error::other)
 }

@@ -1,7 +1,7 @@
 //! Writing files whole or not at all.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::Builder;
@@ -12,16 +12,24 @@ use tempfile::Builder;
 /// # Errors
 /// When the folder is missing or read-only, or the disk is full; the path is then as it was.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_with(path, |out| out.write_all(bytes))
+}
+
+/// Like [`write`], for content that is made piece by piece.
+///
+/// # Errors
+/// As [`write`], and when `content` fails.
+pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     // A link keeps pointing where it points, and a device such as /dev/null stays one.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     match fs::metadata(&target) {
         Ok(about) if about.is_dir() => Err(io::Error::other("it is a folder")),
-        Ok(about) if !about.is_file() => fs::OpenOptions::new().write(true).open(&target)?.write_all(bytes),
-        _ => replace(&target, bytes),
+        Ok(about) if !about.is_file() => content(&mut fs::OpenOptions::new().write(true).open(&target)?),
+        _ => replace(&target, content),
     }
 }
 
-fn replace(target: &Path, bytes: &[u8]) -> io::Result<()> {
+fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let folder = match target.parent() {
         Some(folder) if folder != Path::new("") => folder.to_owned(),
         _ => PathBuf::from("."),
@@ -35,7 +43,10 @@ fn replace(target: &Path, bytes: &[u8]) -> io::Result<()> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.tempfile_in(&folder)?;
-    file.write_all(bytes)?;
+    let mut buffer = BufWriter::new(file.as_file_mut());
+    content(&mut buffer)?;
+    buffer.flush()?;
+    drop(buffer);
     file.as_file().sync_all()?;
     file.persist(target).map_err(|error| error.error)?;
     fs::File::open(&folder)?.sync_all()
@@ -69,6 +80,20 @@ mod tests {
         assert!(write(&folder.path().join("none/result.json"), b"new").is_err());
         assert!(write(folder.path(), b"new").is_err());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn content_that_fails_leaves_what_was_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("film.gif");
+        write(&path, b"old").unwrap();
+        let broken = write_with(&path, |out| {
+            out.write_all(b"half")?;
+            Err(io::Error::other("no more"))
+        });
+        assert_eq!(broken.unwrap_err().to_string(), "no more");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod robot;
 mod shape;
 mod yaml;
 
-pub use atomic::{create_folder, write};
+pub use atomic::{create_folder, write, write_with};
 pub use checkpoint::Checkpoint;
 pub use disk::DiskWorld;
 pub use library::{best_first, read_library, shipped_library};

@@ -254,3 +254,36 @@ fn bytes_from_a_pipe_are_read_too() {
     child.stdin.take().unwrap().write_all(WALKER.as_bytes()).unwrap();
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(0));
 }
+
+#[track_caller]
+fn check_drawing(kind: &str, file: &str, start: &[u8]) {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    let ran = bench.run(&["draw", "walker.yaml", "--as", kind, "-o", file, "--schedule", "00*1 11*1"]);
+    assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{}", ran.err);
+    assert!(std::fs::read(bench.path().join(file)).unwrap().starts_with(start));
+}
+
+#[test]
+fn a_robot_is_drawn_in_every_way() {
+    let png = b"\x89PNG";
+    check_drawing("sprite", "a.svg", b"<svg");
+    check_drawing("sprite", "a.png", png);
+    check_drawing("strip", "a.svg", b"<svg");
+    check_drawing("spacetime", "a.PNG", png);
+    check_drawing("gif", "a.gif", b"GIF89a");
+    check_drawing("apng", "a.png", png);
+}
+
+#[test]
+fn drawings_that_cannot_be_are_refused_and_leave_nothing() {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    let draw = |what: &str, kind: &str, file: &str| bench.run(&["draw", what, "--as", kind, "-o", file]);
+    draw("walker.yaml", "gif", "a.jpg").expect_fault(&["`a.jpg`", "ends in `.gif`"]);
+    draw("walker.yaml", "sprite", "a").expect_fault(&["`.svg` or `.png`"]);
+    draw("walker.yaml", "vcd", "a.vcd").expect_fault(&["`walker.yaml` is a robot", "`--as vcd`"]);
+    draw("none.nb", "vcd", "a.vcd").expect_fault(&["none.nb"]);
+    draw("walker.yaml", "sprite", "no/such/folder/a.svg").expect_fault(&["cannot write `no/such/folder/a.svg`"]);
+    assert_eq!(std::fs::read_dir(bench.path()).unwrap().count(), 1);
+}

@@ -18,7 +18,7 @@ fn film(body: &Body, cycles: u32) -> (Film, Stage) {
 fn gif_bytes(body: &Body, cycles: u32) -> Vec<u8> {
     let (film, stage) = film(body, cycles);
     let mut bytes = Vec::new();
-    report::write_gif(&film, stage, &mut bytes).unwrap();
+    report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
     bytes
 }
 
@@ -60,7 +60,7 @@ fn an_apng_shows_the_same_film() {
     let body = Body::parse(&WALKER, 8).unwrap();
     let (film, stage) = film(&body, 1);
     let mut bytes = Vec::new();
-    report::write_apng(&film, stage, &mut bytes).unwrap();
+    report::write_apng(&film, stage, &mut bytes, &mut |_| ()).unwrap();
     let (pictures, palette) = decode_gif(&gif_bytes(&body, 1));
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::IDENTITY);
@@ -93,7 +93,7 @@ fn a_fault_stops_the_robot_and_not_the_film() {
     assert_eq!(broken, 72usize.div_ceil(7));
     assert_eq!(moments[broken].poses, moments.last().unwrap().poses);
     let (film, _) = film(&body, 1);
-    report::write_gif(&film, Stage::of_trial(&setting, &body, &schedule, 7), &mut Vec::new()).unwrap();
+    report::write_gif(&film, Stage::of_trial(&setting, &body, &schedule, 7), &mut Vec::new(), &mut |_| ()).unwrap();
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn no_time_at_all_is_one_frame() {
     let (film, _) = film(&body, 1);
     let stage = Stage::of_trial(&Setting::paper(), &body, &Schedule::default(), STRIDE);
     let mut bytes = Vec::new();
-    report::write_gif(&film, stage, &mut bytes).unwrap();
+    report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
     assert_eq!(decode_gif(&bytes).0.len(), 1);
 }
 
