@@ -1,8 +1,9 @@
-//! Feedback loops: the strongly connected parts of a netlist. What lies on a loop is state and stays as written.
+//! Feedback loops: the strongly connected parts of a netlist, and the memory elements in them, which are state and stay as written.
 
 use std::collections::BTreeMap;
 
 use petgraph::algo::tarjan_scc;
+use petgraph::visit::NodeFiltered;
 
 use crate::circuit::{NetId, Netlist, Node};
 
@@ -29,6 +30,24 @@ impl Loops {
                 loops.cores.push(component);
             }
         }
+        loops
+    }
+
+    /// The memory elements alone: of each loop the cells that drive each other directly, in a pair or by themselves, and what still
+    /// lies on a loop when those are cut open. The logic between the registers of a state machine is not among them.
+    ///
+    /// In [`Loops::order`] nothing waits for a memory element here.
+    pub fn memory(netlist: &Netlist) -> Self {
+        let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
+        for core in Self::of(netlist).cores {
+            let kept = memory_of(netlist, &core);
+            loops.core_of.extend(kept.iter().map(|&id| (id, loops.cores.len())));
+            loops.cores.push(kept);
+        }
+        let open = NodeFiltered::from_fn(netlist.graph(), |id| !loops.core_of.contains_key(&id));
+        let components = tarjan_scc(&open);
+        loops.order = loops.cores.concat();
+        loops.order.extend(components.into_iter().rev().flatten());
         loops
     }
 
@@ -66,6 +85,20 @@ impl Loops {
     }
 }
 
+/// The cells of a strongly connected part that are memory.
+fn memory_of(netlist: &Netlist, core: &[NetId]) -> Vec<NetId> {
+    let inside = |id: &NetId| core.binary_search(id).is_ok();
+    let listeners = |id: NetId| netlist.fanout(id).into_iter().map(|(listener, _)| listener);
+    let paired = |id: &NetId| listeners(*id).any(|listener| listener == *id || netlist.pins(*id).contains(&listener));
+    let mut kept: Vec<NetId> = core.iter().copied().filter(paired).collect();
+    let rest = NodeFiltered::from_fn(netlist.graph(), |id| inside(&id) && kept.binary_search(&id).is_err());
+    let cyclic = |part: &Vec<NetId>| part.len() > 1;
+    let still: Vec<NetId> = tarjan_scc(&rest).into_iter().filter(cyclic).flatten().collect();
+    kept.extend(still);
+    kept.sort_unstable();
+    kept
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,5 +123,20 @@ mod tests {
         netlist.drive(cell, 1, cell);
         netlist.add_output("q", cell);
         assert_eq!(Loops::of(&netlist).cores(), [vec![cell]]);
+    }
+
+    #[test]
+    fn the_logic_between_registers_is_no_memory() {
+        let mut netlist = Netlist::new("toggle");
+        let clock = netlist.add_input("clk");
+        let q = netlist.add_wire("q", Some(false), None);
+        let next = netlist.add_gate(crate::model::Function::NOT, &[q]);
+        let state = crate::circuit::registers::flip_flop(&mut netlist, "q", next, clock, false);
+        netlist.drive(q, 0, state);
+        netlist.add_output("q", q);
+        crate::circuit::passes::DissolveWires.run_on(&mut netlist).unwrap();
+        assert_eq!(Loops::of(&netlist).cores().concat().len(), 9);
+        assert_eq!(Loops::memory(&netlist).cores().concat().len(), 4);
+        assert_eq!(Loops::memory(&netlist).order().len(), netlist.ids().count());
     }
 }

@@ -82,7 +82,7 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
     map_with(netlist, library, MapOptions::default())
 }
 
-/// Maps a netlist onto a library. Loop cores and their guards stay as written, split into cells function by function; the logic
+/// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by function; the logic
 /// around them is synthesized anew.
 ///
 /// # Errors
@@ -125,7 +125,7 @@ struct Mapper<'a> {
 
 impl<'a> Mapper<'a> {
     fn new(source: &'a Netlist, library: &'a CellLibrary) -> Self {
-        let loops = Loops::of(source);
+        let loops = Loops::memory(source);
         let guards = loops.guards(source);
         let kept =
             |id: &NetId| matches!(source.node(*id), Node::Cell(_)) && (loops.contains(*id) || guards.contains(id));
@@ -184,8 +184,9 @@ impl<'a> Mapper<'a> {
     /// For each input of the logic, how many kept cells lie before it: no cell may come to depend on a later one.
     fn stages(&self) -> Vec<u32> {
         let mut stages: BTreeMap<NetId, u32> = BTreeMap::new();
-        for &id in self.loops.order() {
-            let members = self.loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &self.loops.cores()[core]);
+        let loops = Loops::of(self.source);
+        for &id in loops.order() {
+            let members = loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &loops.cores()[core]);
             let pins = members.iter().flat_map(|&member| self.source.pins(member)).filter(|pin| !members.contains(pin));
             let latest = pins.map(|pin| stages.get(&pin).copied().unwrap_or(0)).max().unwrap_or(0);
             stages.insert(id, latest + u32::from(self.kept.contains(&id)));

@@ -5,7 +5,7 @@ use crate::circuit::passes::Pass;
 use crate::circuit::{Cell, NetId, Netlist, NetlistError, Node};
 use crate::model::Function;
 
-/// Cells outside loops that constants or repeated pins decide become constants, inverters or nothing.
+/// Cells outside memory that constants or repeated pins decide become constants, inverters or nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldConstants;
 
@@ -22,11 +22,11 @@ impl Pass for FoldConstants {
     }
 
     fn description(&self) -> &'static str {
-        "simplify cells whose pins are constant, equal or ignored, and double inversion, outside loops"
+        "simplify cells whose pins are constant, equal or ignored, and double inversion, outside memory"
     }
 
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        let loops = Loops::of(netlist);
+        let loops = Loops::memory(netlist);
         for &id in loops.order() {
             let Some(cell) = netlist.cell(id).filter(|_| !loops.contains(id)) else {
                 continue;

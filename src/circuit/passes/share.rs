@@ -7,7 +7,7 @@ use crate::circuit::passes::Pass;
 use crate::circuit::{NetId, Netlist, NetlistError, Node};
 use crate::model::Function;
 
-/// Structural hashing outside loop cores.
+/// Structural hashing outside memory elements.
 #[derive(Clone, Copy, Debug)]
 pub struct Share;
 
@@ -17,11 +17,11 @@ impl Pass for Share {
     }
 
     fn description(&self) -> &'static str {
-        "merge cells that compute the same function of the same nets, outside loops"
+        "merge cells that compute the same function of the same nets, outside memory"
     }
 
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        let loops = Loops::of(netlist);
+        let loops = Loops::memory(netlist);
         let mut known = BTreeMap::new();
         for &id in loops.order() {
             let Some(key) = key(netlist, id).filter(|_| !loops.contains(id)) else {

@@ -76,7 +76,7 @@ pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
     let mut source = source.clone();
     passes::run(&mut source)?;
     same_ports(&source, mapped)?;
-    let names = core_names(&source, &Loops::of(&source));
+    let names = core_names(&source, &Loops::memory(&source));
     let named: BTreeMap<_, _> = mapped.cells().filter_map(|(id, cell)| Some((cell.name.clone()?, id))).collect();
     let namesake = |name: &String| named.get(name).copied().ok_or_else(|| ProofError::MissingCut(name.clone()));
     let cuts: Vec<_> = names.keys().copied().collect();
