@@ -1,4 +1,11 @@
 //! Circuits made of soft robots: a declarative language, a compiler to swarms of brainless robots, and their physics.
+//!
+//! A circuit with its tests, run in full physics:
+//!
+//! ```
+//! nbc::run_file("circuits/half_adder.nb", &nbc::Options::default())?.assert_passed();
+//! # Ok::<(), nbc::RunError>(())
+//! ```
 #![deny(missing_docs)]
 
 pub mod check;

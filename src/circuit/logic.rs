@@ -148,7 +148,8 @@ mod tests {
     #[test]
     fn a_latch_remembers() {
         let mut logic = Logic::new(&set_reset());
-        let rows = [([true, true], false), ([false, true], true), ([true, true], true), ([true, false], false)];
+        let reset = ([true, false], false);
+        let rows = [reset, ([true, true], false), ([false, true], true), ([true, true], true), reset];
         for (inputs, expected) in rows {
             assert_eq!(logic.settle(&inputs), Ok(vec![expected]), "after {inputs:?}");
         }
