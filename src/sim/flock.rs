@@ -40,6 +40,16 @@ impl Flock {
         self.runs.is_empty()
     }
 
+    /// Keeps robot `i` where `keep[i]` is true, in their order, and forgets the others.
+    ///
+    /// # Panics
+    /// When there is not one word for each robot.
+    pub fn retain(&mut self, keep: &[bool]) {
+        assert_eq!(keep.len(), self.runs.len(), "each robot is kept or not");
+        let mut keep = keep.iter();
+        self.runs.retain(|_| keep.next().is_some_and(|&keep| keep));
+    }
+
     /// Goes on for `env_steps` env steps, robot `i` under `patterns[i]`. The actuation clock goes on from call to call. A robot that
     /// cannot go on stays where it was at the end of its last whole env step.
     ///

@@ -5,98 +5,148 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::{Candidate, Outcome, Scores, Search};
-use crate::model::{Behavior, Pattern, Schedule, Trajectory, Trial};
-use crate::sim::run_trials;
+use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern};
+use crate::sim::Flock;
 use crate::swarm::evaluate::{self, Work};
-use crate::swarm::holds::{Hold, HoldPlan, holds};
+use crate::swarm::holds::{Hold, HoldPlan};
 
-/// Cycles of each hold in the first two stages.
-const HOLD: u32 = 4;
+/// Cycles of each hold of the walks.
+const HOLD: usize = 4;
 /// The cycles of a hold from which on the output is asked to be right; each is scored by itself.
 const CLOCKS: [usize; 3] = [2, 3, 4];
 /// Four walks from four fresh starts that make each of the twelve switches once.
 const WALKS: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1, 3, 0]];
-/// Random sequences of the third stage, and the holds of each.
+/// Random sequences that follow the walks, and the cycles of each.
 const RANDOM_LANES: usize = 4;
-const RANDOM_HOLDS: usize = 12;
-/// The seed of the third stage's sequences: the same for every candidate, other than those of `characterise`.
+const RANDOM_CYCLES: usize = 36;
+/// The seed of the random sequences: the same for every candidate, other than that of `characterise`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 /// The margin, in voxels a cycle, that is worth half of what an endless one is.
 const HALF_MARGIN: f64 = 0.05;
+/// A first fitness below this is given up at once, even where the niche is empty.
+const HOPELESS: f64 = 0.25;
+/// Cycles of a fresh start after which a body that goes both ways can be told.
+const FIRST_LOOK: usize = 3;
 
-/// A stage: the plans of a candidate's trials.
-type Stage = Vec<HoldPlan>;
+/// The patterns of one simulation, cycle by cycle.
+type Lane = Vec<Pattern>;
 
-/// The three stages: fresh starts under constant patterns; all switches; random sequences. Each is run only by candidates which a
-/// niche could still take.
-fn stages() -> [Stage; 3] {
-    let pairs = |walk: &[usize]| walk.iter().map(|&i| (Pattern::PAIRS[i], HOLD)).collect();
-    let starts = WALKS.map(|walk| HoldPlan(pairs(&walk[..1])));
-    let walks = WALKS.map(|walk| HoldPlan(pairs(&walk)));
+/// The walks: every switch once.
+fn walks() -> Vec<Lane> {
+    WALKS.map(|walk| walk.iter().flat_map(|&i| [Pattern::PAIRS[i]; HOLD]).collect()).into()
+}
+
+/// The random sequences, with holds of two to four cycles.
+fn random_sequences() -> Vec<Lane> {
     let mut rng = ChaCha8Rng::seed_from_u64(RANDOM_SEED);
-    let random = (0..RANDOM_LANES).map(|_| HoldPlan::random(RANDOM_HOLDS, 2..=4, &mut rng));
-    [starts.into(), walks.into(), random.collect()]
+    let mut lane = || {
+        let HoldPlan(holds) = HoldPlan::random(RANDOM_CYCLES / 2, 2..=4, &mut rng);
+        let cycles = holds.into_iter().flat_map(|(pattern, cycles)| std::iter::repeat_n(pattern, cycles as usize));
+        cycles.take(RANDOM_CYCLES).collect()
+    };
+    (0..RANDOM_LANES).map(|_| lane()).collect()
 }
 
-/// A candidate on its way through the stages.
-struct Progress {
-    holds: Vec<Hold>,
-    outcome: Option<Outcome>,
-    scores: Scores,
-}
-
-/// The outcome of each candidate by the gate objective.
+/// The outcome of each candidate by the gate objective: the walks, then the random sequences. After each cycle those are dropped that
+/// no niche could take any more; their scores can only fall.
 pub(crate) fn evaluate(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
-    let setting = evaluate::setting(search.evolution());
-    let nothing = Scores { fitness: [1.0; 2], behavior: Behavior::of(&[0.0; 4]), displacement: [0.0; 4] };
-    let mut progress: Vec<Progress> =
-        candidates.iter().map(|_| Progress { holds: Vec::new(), outcome: None, scores: nothing }).collect();
+    let mut attempts: Vec<Attempt> = candidates.iter().map(Attempt::new).collect();
     let mut work = Work::default();
-    for stage in stages() {
-        let open: Vec<usize> = (0..candidates.len()).filter(|&i| progress[i].outcome.is_none()).collect();
-        let trial = |i: usize, plan: &HoldPlan| Trial { body: candidates[i].body.clone(), schedule: plan.schedule() };
-        let trials: Vec<Trial> = open
-            .iter()
-            .flat_map(|&i| stage.iter().map(move |plan| (i, plan)))
-            .map(|(i, plan)| trial(i, plan))
-            .collect();
-        let steps: u64 = stage.iter().map(|plan| u64::from(Schedule::steps(&plan.schedule()))).sum();
-        work.env_steps += steps * open.len() as u64;
-        work.left_out += steps * (candidates.len() - open.len()) as u64;
-        let trajectories = run_trials(&setting, &trials);
-        for (&i, group) in open.iter().zip(trajectories.chunks_exact(stage.len())) {
-            progress[i].add(&stage, group);
-            if progress[i].outcome.is_none() && !search.could_take(&candidates[i].body, &progress[i].scores) {
-                progress[i].outcome = Some(Outcome::Surpassed);
+    for (stage, lanes) in [walks(), random_sequences()].iter().enumerate() {
+        for attempt in &mut attempts {
+            attempt.holds.resize(attempt.holds.len() + lanes.len(), Vec::new());
+        }
+        work = work.plus(try_lanes(search, &mut attempts, lanes, stage * WALKS.len()));
+    }
+    (attempts.into_iter().map(Attempt::end).collect(), work)
+}
+
+/// Carries the attempts that are still open through some lanes, whose holds are kept from place `first` on.
+fn try_lanes(search: &Search, attempts: &mut [Attempt], lanes: &[Lane], first: usize) -> Work {
+    let all = (attempts.len() * lanes.len()) as u64;
+    let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
+    let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![attempt.candidate.body.clone(); lanes.len()]).collect();
+    let mut flock = Flock::new(&evaluate::setting(search.evolution()), &bodies);
+    let cycles = lanes[0].len();
+    let mut work = Work::default();
+    for cycle in 0..cycles {
+        work.env_steps += flock.len() as u64 * u64::from(CYCLE_STEPS);
+        let before: Vec<f64> = (0..flock.len()).map(|i| flock.com(i)[0]).collect();
+        let patterns: Vec<Pattern> = open.iter().flat_map(|_| lanes.iter().map(|lane| lane[cycle])).collect();
+        flock.advance(&patterns, CYCLE_STEPS);
+        for (i, attempt) in open.iter_mut().enumerate() {
+            for (lane, place) in (i * lanes.len()..).take(lanes.len()).enumerate() {
+                attempt.push(first + lane, patterns[place], flock.com(place)[0] - before[place]);
+                attempt.fail(flock.fault(place));
             }
+            attempt.look(search);
+        }
+        let keep: Vec<bool> = open.iter().flat_map(|attempt| vec![attempt.outcome.is_none(); lanes.len()]).collect();
+        flock.retain(&keep);
+        open.retain(|attempt| attempt.outcome.is_none());
+    }
+    work.left_out = all * cycles as u64 * u64::from(CYCLE_STEPS) - work.env_steps;
+    work
+}
+
+/// A candidate on its way.
+struct Attempt<'a> {
+    candidate: &'a Candidate,
+    /// The holds of each lane so far.
+    holds: Vec<Vec<Hold>>,
+    scores: Scores,
+    outcome: Option<Outcome>,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(candidate: &'a Candidate) -> Self {
+        let scores = Scores { fitness: [1.0; 2], behavior: Behavior::of(&[0.0; 4]), displacement: [0.0; 4] };
+        Self { candidate, holds: Vec::new(), scores, outcome: None }
+    }
+
+    /// Notes what a lane did in one more cycle.
+    fn push(&mut self, lane: usize, pattern: Pattern, displacement: f64) {
+        let holds = &mut self.holds[lane];
+        let before = holds.last().map(|hold| hold.pattern);
+        match holds.last_mut() {
+            Some(hold) if hold.pattern == pattern => hold.cycles.push(displacement),
+            _ => holds.push(Hold { before, pattern, cycles: vec![displacement], height: 0.0 }),
         }
     }
-    (progress.into_iter().map(|done| done.outcome.unwrap_or(Outcome::Measured(done.scores))).collect(), work)
-}
 
-impl Progress {
-    /// Takes the trajectories of one more stage. The scores can only fall.
-    fn add(&mut self, stage: &Stage, trajectories: &[Trajectory]) {
-        if let Some(fault) = trajectories.iter().find_map(|trajectory| trajectory.fault) {
-            self.outcome = Some(Outcome::Faulty(fault));
+    fn fail(&mut self, fault: Option<crate::model::Fault>) {
+        if self.outcome.is_none() {
+            self.outcome = fault.map(Outcome::Faulty);
+        }
+    }
+
+    /// Scores what is known, and decides whether to go on.
+    fn look(&mut self, search: &Search) {
+        let cycles = self.holds[0][0].cycles.len();
+        if self.outcome.is_some() || cycles < FIRST_LOOK {
             return;
         }
-        let is_first = self.holds.is_empty();
-        for (plan, trajectory) in stage.iter().zip(trajectories) {
-            self.holds.extend(holds(plan, trajectory));
-        }
-        if is_first {
-            self.scores.displacement = settled_displacement(&self.holds);
+        if self.holds[0].len() == 1 {
+            self.scores.displacement = settled_displacement(&self.holds[..WALKS.len()]);
             self.scores.behavior = Behavior::of(&self.scores.displacement);
         }
-        self.scores.fitness = fitness(self.scores.behavior, &self.holds);
+        self.scores.fitness = fitness(self.scores.behavior, self.holds.iter().flatten());
+        if self.scores.fitness[0] < HOPELESS {
+            self.outcome = Some(Outcome::Inconsistent);
+        } else if cycles >= HOLD && !search.could_take(&self.candidate.body, &self.scores) {
+            self.outcome = Some(Outcome::Surpassed);
+        }
+    }
+
+    fn end(self) -> Outcome {
+        self.outcome.unwrap_or(Outcome::Measured(self.scores))
     }
 }
 
-/// Displacement under each pattern without the first cycle, in which the body finds its shape.
-fn settled_displacement(holds: &[Hold]) -> [f64; 4] {
+/// Displacement under each pattern at the fresh starts of the walks, without the first cycle, in which the body finds its shape.
+fn settled_displacement(walks: &[Vec<Hold>]) -> [f64; 4] {
     let mut displacement = [0.0; 4];
-    for hold in holds {
+    for hold in walks.iter().filter_map(|holds| holds.first()) {
         displacement[hold.pattern.pair_index()] = hold.cycles[1..].iter().sum();
     }
     displacement
@@ -104,15 +154,14 @@ fn settled_displacement(holds: &[Hold]) -> [f64; 4] {
 
 /// Two fitnesses between 0 and 1, one half where the worst cycle stands still: how right the output is from the second, third and
 /// fourth cycle of a hold on, and how right it is in every cycle of holds that ought not to change it.
-pub(crate) fn fitness(behavior: Behavior, holds: &[Hold]) -> [f64; 2] {
-    let settled =
-        CLOCKS.map(|clock| worth(least(holds.iter().flat_map(|hold| hold.rightward(behavior).skip(clock - 1)))));
-    let stays =
+fn fitness<'a>(behavior: Behavior, holds: impl Iterator<Item = &'a Hold> + Clone) -> [f64; 2] {
+    let from = |clock: usize| holds.clone().flat_map(move |hold| hold.rightward(behavior).skip(clock - 1));
+    let settled = CLOCKS.map(|clock| worth(least(from(clock))));
+    let is_static =
         |hold: &&Hold| hold.before.is_none_or(|before| behavior.direction(before) == behavior.direction(hold.pattern));
     // A fresh start is no switch: its first cycle counts for nothing.
-    let unchanged =
-        holds.iter().filter(stays).flat_map(|hold| hold.rightward(behavior).skip(usize::from(hold.before.is_none())));
-    [settled.iter().sum::<f64>() / CLOCKS.len() as f64, worth(least(unchanged))]
+    let cycles = |hold: &'a Hold| hold.rightward(behavior).skip(usize::from(hold.before.is_none()));
+    [settled.iter().sum::<f64>() / CLOCKS.len() as f64, worth(least(holds.clone().filter(is_static).flat_map(cycles)))]
 }
 
 fn least(values: impl Iterator<Item = f64>) -> f64 {
@@ -122,4 +171,44 @@ fn least(values: impl Iterator<Item = f64>) -> f64 {
 /// A margin as a number between 0 and 1.
 fn worth(margin: f64) -> f64 {
     if margin.is_infinite() { 1.0 } else { 0.5 + 0.5 * margin / (margin.abs() + HALF_MARGIN) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_walks_make_every_switch_once() {
+        let mut switches: Vec<(usize, usize)> =
+            WALKS.iter().flat_map(|walk| walk.windows(2).map(|w| (w[0], w[1]))).collect();
+        switches.sort_unstable();
+        switches.dedup();
+        assert_eq!(switches.len(), 12);
+        assert!(switches.iter().all(|(from, to)| from != to));
+        assert!(random_sequences().iter().all(|lane| lane.len() == RANDOM_CYCLES));
+    }
+
+    fn hold(before: Option<usize>, pattern: usize, cycles: &[f64]) -> Hold {
+        let pairs = Pattern::PAIRS;
+        Hold { before: before.map(|i| pairs[i]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 0.0 }
+    }
+
+    #[test]
+    fn a_wrong_first_cycle_counts_only_where_the_output_ought_to_stay() {
+        let nand: Behavior = "RRRL".parse().unwrap();
+        let start = hold(None, 0, &[-9.0, 0.05, 0.05, 0.05]);
+        let switch = hold(Some(0), 3, &[9.0, -0.05, -0.05, -0.05]);
+        let quiet = hold(Some(0), 1, &[-0.05, 0.05, 0.05, 0.05]);
+        assert_eq!(fitness(nand, [start.clone(), switch.clone()].iter()), [0.75, 0.75]);
+        assert_eq!(fitness(nand, [start, switch, quiet].iter()), [0.75, 0.25]);
+    }
+
+    #[test]
+    fn more_holds_never_raise_the_fitness() {
+        let nand: Behavior = "RRRL".parse().unwrap();
+        let holds: Vec<Hold> =
+            (0..40).map(|i| hold((i > 0).then_some((i + 1) % 4), i % 4, &[0.3, 0.1 - 0.01 * i as f64, 0.2])).collect();
+        let fitnesses: Vec<[f64; 2]> = (1..40).map(|n| fitness(nand, holds[..n].iter())).collect();
+        assert!(fitnesses.windows(2).all(|two| two[1][0] <= two[0][0] && two[1][1] <= two[0][1]));
+    }
 }
