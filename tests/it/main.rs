@@ -2,6 +2,7 @@
 
 mod cli;
 mod determinism;
+mod examples;
 mod films;
 mod language;
 mod page;

@@ -174,3 +174,83 @@ fn published_robots_walk_as_published() {
         assert!((least - robot.min_displacement).abs() < 1e-5, "{}: {least}", robot.name);
     }
 }
+
+/// A constant by its name, to be changed.
+type Knob = (&'static str, fn(&mut Constants) -> &mut f64);
+
+/// Every constant that is no tie-breaker between degenerate shapes (`parallel`, `shortest`, `nowhere`) nor a whole number (`substeps`).
+const KNOBS: &[Knob] = &[
+    ("cell", |c| &mut c.cell),
+    ("substep", |c| &mut c.substep),
+    ("gravity", |c| &mut c.gravity),
+    ("drag", |c| &mut c.drag),
+    ("rigid_stiffness", |c| &mut c.rigid_stiffness),
+    ("active_stiffness", |c| &mut c.active_stiffness),
+    ("soft_stiffness", |c| &mut c.soft_stiffness),
+    ("rigid_diagonal", |c| &mut c.rigid_diagonal),
+    ("active_diagonal", |c| &mut c.active_diagonal),
+    ("soft_diagonal", |c| &mut c.soft_diagonal),
+    ("least_target", |c| &mut c.least_target),
+    ("greatest_target", |c| &mut c.greatest_target),
+    ("approach", |c| &mut c.approach),
+    ("contact_stiffness", |c| &mut c.contact_stiffness),
+    ("contact_depth", |c| &mut c.contact_depth),
+    ("point_damping", |c| &mut c.point_damping),
+    ("edge_damping", |c| &mut c.edge_damping),
+    ("friction", |c| &mut c.friction),
+    ("friction_range", |c| &mut c.friction_range),
+    ("longest", |c| &mut c.longest),
+    ("tightest", |c| &mut c.tightest),
+    ("correction", |c| &mut c.correction),
+    ("rigid_longest", |c| &mut c.rigid_longest),
+    ("rigid_tightest", |c| &mut c.rigid_tightest),
+    ("rigid_correction", |c| &mut c.rigid_correction),
+];
+
+/// Constants that only a robot below the ground meets.
+const PLANE_KNOBS: &[Knob] = &[
+    ("plane_stiffness", |c| &mut c.plane_stiffness),
+    ("plane_friction", |c| &mut c.plane_friction),
+    ("plane_slope", |c| &mut c.plane_slope),
+];
+
+fn changed(knob: &Knob, factor: f64) -> Constants {
+    let mut constants = Constants::default();
+    *knob.1(&mut constants) *= factor;
+    constants
+}
+
+#[test]
+fn a_change_of_any_constant_by_one_percent_is_seen() {
+    let cases = traces();
+    for knob in KNOBS {
+        for factor in [0.99, 1.01] {
+            let constants = changed(knob, factor);
+            let seen = cases.iter().any(|case| case.difference(&simulate(case, &constants)) > TOLERANCE);
+            assert!(seen || is_clipped(knob, factor), "{} times {factor} changes no reference trajectory", knob.0);
+        }
+    }
+}
+
+/// A wider range of targets is not seen, since no material asks for more than the range there is.
+fn is_clipped(knob: &Knob, factor: f64) -> bool {
+    matches!((knob.0, factor < 1.0), ("least_target", true) | ("greatest_target", false))
+}
+
+#[test]
+fn a_robot_beyond_the_ground_comes_to_rest_on_the_plane() {
+    let body = Body::parse(&["333", "303"], 8).unwrap();
+    let case = Trial { body, schedule: Schedule::constant(Pattern::PAIRS[0], 3 * CYCLE) };
+    let fall = |constants: Constants| {
+        let simulator = Simulator { constants, ..Simulator::default() };
+        simulator.run_trials(&setting(20, 10), std::slice::from_ref(&case)).remove(0)
+    };
+    let usual = fall(Constants::default());
+    assert_eq!(usual.fault, None);
+    let last = *usual.com_y.last().unwrap();
+    assert!((0.5..2.0).contains(&last), "it stands on the plane y = 0, and its center is {last} voxels high");
+    for knob in PLANE_KNOBS {
+        let other = fall(changed(knob, 1.01));
+        assert!(other.com_x != usual.com_x || other.com_y != usual.com_y, "{} changes nothing on the plane", knob.0);
+    }
+}
