@@ -5,15 +5,21 @@
 //! computes what it would compute alone.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use crate::sim::constants::Constants;
-use crate::sim::lattice::{CORNERS, Lattice, LatticePoint};
+use crate::sim::lattice::{CORNERS, DrivenEdge, Edge, Lattice, LatticePoint};
 use crate::sim::proximity::{Inside, Proximity};
 use crate::sim::real::{Mask, Real};
 use crate::sim::state::State;
+use crate::sim::stiffness::Stiffness;
 
-/// Where a lane keeps the points it has not: so many metres up.
+/// Where a lane keeps the points it has not: so many metres up, at rest.
 const AWAY: f64 = 1000.0;
+
+/// The aims of springs that nothing drives: of main edges, of diagonals.
+pub const MAIN: usize = 0;
+pub const DIAGONAL: usize = 1;
 
 /// A point's coordinates in every lane.
 pub type Place<R> = [R; 2];
@@ -23,11 +29,9 @@ pub type Place<R> = [R; 2];
 pub struct Mass<R> {
     /// Position at the start of the substep.
     pub at: Place<R>,
-    /// Position at the start of the substep before.
-    pub before: Place<R>,
     /// Velocity of the integrator.
     pub velocity: Place<R>,
-    /// Position in the current Runge-Kutta stage.
+    /// Position in the current Runge-Kutta stage; after the last, the correction by the length limits so far.
     pub stage: Place<R>,
     /// Velocity in the current Runge-Kutta stage.
     pub pace: Place<R>,
@@ -35,26 +39,39 @@ pub struct Mass<R> {
     pub sum: Place<R>,
     /// Force so far in the current stage.
     pub force: Place<R>,
-    /// What acts in all four stages: gravity and contact.
-    pub load: Place<R>,
-    /// Correction by the length limits so far.
-    pub shift: Place<R>,
 }
 
-/// A spring from the mass that owns it to a later one.
+/// The four springs that a voxel does not leave to others: top, left, falling diagonal, rising diagonal.
 #[derive(Clone, Copy, Debug)]
-pub struct Spring<R> {
-    /// The other end.
-    pub to: u32,
-    /// Built length in metres.
-    pub rest: f64,
-    /// Stiffness; zero in lanes without this spring.
-    pub stiffness: R,
-    /// Stiffness times approach times goal length: the goal's part of the frozen rest length (docs/physics.md 5).
-    pub goal: R,
-    /// Stiffness times frozen rest length.
-    pub frozen: R,
+pub struct Frame {
+    /// Its masses: top left, top right, bottom right, bottom left.
+    pub corners: [u32; CORNERS],
+    /// The top spring's place in [`Batch::aims`].
+    pub aim: u32,
 }
+
+impl Frame {
+    /// The corners as places in a list of masses.
+    #[inline(always)]
+    pub fn indices(&self) -> [usize; CORNERS] {
+        let [a, b, c, d] = self.corners;
+        [a as usize, b as usize, c as usize, d as usize]
+    }
+}
+
+/// A bottom or right side without a voxel beyond that has it as its top or left.
+#[derive(Clone, Copy, Debug)]
+pub struct Rim {
+    /// The earlier mass.
+    pub from: u32,
+    /// The later mass.
+    pub to: u32,
+    /// Its place in [`Batch::aims`].
+    pub aim: u32,
+}
+
+/// The springs' places in a frame: between which corners each runs, the earlier mass first.
+pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 /// A voxel of any lane.
 #[derive(Clone, Debug)]
@@ -80,8 +97,21 @@ pub struct Occupant {
     pub at_mass: Vec<Vec<(usize, usize)>>,
     /// Whether it can be unstable.
     pub active: bool,
-    /// Its driven edges: the spring and the codes of one or two owners.
-    pub driven: Vec<(usize, u8, Option<u8>)>,
+    /// Its driven springs.
+    pub driven: Vec<Driven>,
+}
+
+/// A driven spring of one lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Driven {
+    /// Its place in [`Batch::aims`].
+    pub aim: usize,
+    /// Built length in metres.
+    pub rest: f64,
+    /// The material code of its first active owner.
+    pub first: u8,
+    /// The code of the second, if both are active.
+    pub second: Option<u8>,
 }
 
 /// A surface voxel of one lane.
@@ -95,27 +125,46 @@ pub struct SurfaceVoxel {
 
 /// Robots side by side, one a lane.
 #[derive(Clone, Debug)]
-pub struct Batch<R: Real> {
+pub struct Batch<R: Real, K: Stiffness<R>> {
     /// The physics' numbers.
     pub constants: Constants,
     /// Ground voxels.
     pub world_width: usize,
     /// The masses, in order of their places row by row.
     pub masses: Vec<Mass<R>>,
-    /// Gravity on each mass: zero in lanes that have it not.
-    pub weight: Vec<R>,
-    /// The springs, in order of their owners.
-    pub springs: Vec<Spring<R>>,
-    /// Where each mass's springs begin in `springs`; one more than there are masses.
-    pub first: Vec<usize>,
+    /// Where each mass was a substep ago.
+    pub before: Vec<Place<R>>,
+    /// What acts on each mass in all four stages: a place in `loads`.
+    pub load: Vec<u32>,
+    /// Gravity in the lanes that have a mass, for each set of lanes that occurs; then, in this substep, gravity and contact of each mass
+    /// in contact.
+    pub loads: Vec<Place<R>>,
+    /// How many of `loads` are gravity alone.
+    pub weights: usize,
+    /// Masses in contact, with their load before.
+    pub loaded: Vec<(usize, u32)>,
+    /// The frames in reading order; then an idle one, because frames are measured one ahead.
+    pub frames: Vec<Frame>,
+    /// The stiffness of their springs.
+    pub frame_stiffness: Vec<[K; 4]>,
+    /// Their springs' stiffness times frozen rest length (docs/physics.md 5).
+    pub frame_frozen: Vec<[R; 4]>,
+    /// The rims, in order of their masses.
+    pub rims: Vec<Rim>,
+    /// Their stiffness.
+    pub rim_stiffness: Vec<K>,
+    /// Their stiffness times frozen rest length.
+    pub rim_frozen: Vec<R>,
+    /// Goal lengths times the approach (docs/physics.md 5): of springs that nothing drives, and of each driven one.
+    pub aims: Vec<R>,
+    /// The rows of the lattice, upper first.
+    pub rows: Vec<Row>,
     /// The tiles with rigid material in some lane.
     pub rigid: Vec<Tile<R>>,
     /// The robots.
     pub occupants: Vec<Occupant>,
     /// What is near what.
     pub proximity: Proximity<R>,
-    /// Masses whose load is more than their weight.
-    pub loaded: Vec<usize>,
     /// Lanes that went unstable, as bits.
     pub unstable: u32,
     /// Surface voxels of each lane, zero in lanes that cannot be unstable.
@@ -130,14 +179,36 @@ pub struct Batch<R: Real> {
     saved: Vec<Place<R>>,
 }
 
+/// One row of the lattice.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its masses.
+    pub masses: Range<usize>,
+    /// The frames whose upper masses are in it.
+    pub frames: Range<usize>,
+}
+
 /// A mass's place in the box: row, column, twin.
 type Key = (usize, usize, bool);
+
+/// What tells frames apart: row and column of the voxel, its masses.
+type FrameKey = ([usize; 2], [usize; CORNERS]);
+
+/// What tells rims apart: the earlier mass and the later.
+type RimKey = (usize, usize);
+
+/// The places that a lane's edges have found.
+#[derive(Clone, Copy, Debug)]
+enum Spring {
+    Frame(FrameKey, usize),
+    Rim(RimKey),
+}
 
 fn key(point: LatticePoint) -> Key {
     (point.row, point.column, point.twin)
 }
 
-impl<R: Real> Batch<R> {
+impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Lays out robots of one box, one a lane.
     ///
     /// # Panics
@@ -145,27 +216,30 @@ impl<R: Real> Batch<R> {
     pub fn new(robots: &[(&Lattice, &State)], world_width: usize, constants: &Constants) -> Self {
         assert!((1..=R::LANES).contains(&robots.len()), "a batch has a robot for each lane at most");
         let places: BTreeSet<Key> = robots.iter().flat_map(|(body, _)| body.points().iter().map(|&p| key(p))).collect();
+        let places: Vec<Key> = places.into_iter().collect();
         let numbers: BTreeMap<Key, usize> = places.iter().enumerate().map(|(mass, &key)| (key, mass)).collect();
         let masses_of = |body: &Lattice| body.points().iter().map(|&p| numbers[&key(p)]).collect::<Vec<_>>();
         let maps: Vec<Vec<usize>> = robots.iter().map(|(body, _)| masses_of(body)).collect();
-        let (springs, first, numbers_of) = lay_springs::<R>(robots, &maps, places.len(), constants);
-        let occupants = robots
-            .iter()
-            .zip(maps)
-            .enumerate()
-            .map(|(lane, ((body, _), masses))| Occupant::new(body, masses, places.len(), &numbers_of[lane]))
-            .collect();
         let mut batch = Self {
             constants: *constants,
             world_width,
-            masses: scatter(&places, constants),
-            weight: vec![R::splat(0.0); places.len()],
-            springs,
-            first,
-            rigid: Vec::new(),
-            occupants,
-            proximity: Proximity::default(),
+            masses: places.iter().map(|&place| far_away(place, constants)).collect(),
+            before: vec![[R::splat(0.0); 2]; places.len()],
+            load: vec![0; places.len()],
+            loads: Vec::new(),
+            weights: 0,
             loaded: Vec::new(),
+            frames: Vec::new(),
+            frame_stiffness: Vec::new(),
+            frame_frozen: Vec::new(),
+            rims: Vec::new(),
+            rim_stiffness: Vec::new(),
+            rim_frozen: Vec::new(),
+            aims: Vec::new(),
+            rows: Vec::new(),
+            rigid: Vec::new(),
+            occupants: Vec::new(),
+            proximity: Proximity::default(),
             unstable: 0,
             countable: Vec::new(),
             low: Vec::new(),
@@ -173,38 +247,125 @@ impl<R: Real> Batch<R> {
             voxels: Vec::new(),
             saved: Vec::new(),
         };
-        batch.lay_tiles(robots);
-        for (lane, (_, state)) in robots.iter().enumerate() {
-            batch.load(lane, state);
+        let driven = batch.lay_springs(robots, &maps, &places);
+        for (((body, state), masses), driven) in robots.iter().zip(maps).zip(driven) {
+            batch.board(Occupant::new(body, masses, places.len(), driven), state);
         }
-        let countable = |occupant: &Occupant| if occupant.active { occupant.surface.len() as u32 } else { 0 };
-        batch.countable = batch.occupants.iter().map(countable).collect();
+        batch.lay_tiles(robots);
+        batch.hang_weights();
         batch.save();
         batch
     }
 
-    /// Puts a robot's state into a lane.
-    fn load(&mut self, lane: usize, state: &State) {
-        let gravity = -self.constants.gravity * self.constants.per_substep_squared();
-        for (point, &mass) in self.occupants[lane].masses.iter().enumerate() {
-            self.weight[mass].set_lane(lane, gravity);
-            let mass = &mut self.masses[mass];
+    /// Puts a robot into the next lane.
+    fn board(&mut self, occupant: Occupant, state: &State) {
+        let lane = self.occupants.len();
+        for (point, &mass) in occupant.masses.iter().enumerate() {
             for axis in 0..2 {
-                mass.at[axis].set_lane(lane, state.position[point][axis]);
-                mass.before[axis].set_lane(lane, state.previous[point][axis]);
-                mass.velocity[axis].set_lane(lane, state.velocity[point][axis]);
+                self.masses[mass].at[axis].set_lane(lane, state.position[point][axis]);
+                self.masses[mass].velocity[axis].set_lane(lane, state.velocity[point][axis]);
+                self.before[mass][axis].set_lane(lane, state.previous[point][axis]);
             }
-            mass.load[1].set_lane(lane, gravity);
-            mass.force[1].set_lane(lane, gravity);
         }
+        self.countable.push(if occupant.active { occupant.surface.len() as u32 } else { 0 });
+        self.occupants.push(occupant);
+    }
+
+    /// Gives each mass its weight in the lanes that have it.
+    fn hang_weights(&mut self) {
+        let mut lanes = vec![0u32; self.masses.len()];
+        for (lane, occupant) in self.occupants.iter().enumerate() {
+            for &mass in &occupant.masses {
+                lanes[mass] |= 1 << lane;
+            }
+        }
+        let gravity = R::splat(-self.constants.gravity * self.constants.per_substep_squared());
+        let kinds: BTreeSet<u32> = lanes.iter().copied().collect();
+        let kinds: Vec<u32> = kinds.into_iter().collect();
+        let zero = R::splat(0.0);
+        let weight = |&kind: &u32| [zero, R::select(R::Mask::from_bits(kind), gravity, zero)];
+        self.loads = kinds.iter().map(weight).collect();
+        self.weights = kinds.len();
+        for (mass, lanes) in lanes.iter().enumerate() {
+            let kind = kinds.binary_search(lanes).expect("each set of lanes is listed");
+            self.load[mass] = kind as u32;
+            self.masses[mass].force = self.loads[kind];
+        }
+    }
+
+    /// Lays the union of the robots' springs. Gives each lane's driven springs.
+    fn lay_springs(&mut self, robots: &[(&Lattice, &State)], maps: &[Vec<usize>], places: &[Key]) -> Vec<Vec<Driven>> {
+        let lanes: Vec<Vec<Spring>> =
+            robots.iter().zip(maps).map(|((body, _), masses)| springs(body, masses)).collect();
+        let mut frames: BTreeMap<FrameKey, [K; 4]> = BTreeMap::new();
+        let mut rims: BTreeMap<RimKey, K> = BTreeMap::new();
+        for (lane, ((body, _), springs)) in robots.iter().zip(&lanes).enumerate() {
+            for (edge, spring) in body.edges().iter().zip(springs) {
+                let stiffness = match *spring {
+                    Spring::Frame(key, place) => &mut frames.entry(key).or_insert([K::none(); 4])[place],
+                    Spring::Rim(key) => rims.entry(key).or_insert(K::none()),
+                };
+                stiffness.set_lane(lane, edge.stiffness * self.constants.per_substep_squared());
+            }
+        }
+        self.aims = [MAIN, DIAGONAL].map(|kind| R::splat(self.constants.approach * self.rest(kind))).to_vec();
+        for (&(_, corners), &stiffness) in &frames {
+            self.frames.push(Frame { corners: corners.map(|mass| mass as u32), aim: MAIN as u32 });
+            self.frame_stiffness.push(stiffness);
+        }
+        self.frame_frozen = vec![[R::splat(0.0); 4]; frames.len()];
+        for (&(from, to), &stiffness) in &rims {
+            self.rims.push(Rim { from: from as u32, to: to as u32, aim: MAIN as u32 });
+            self.rim_stiffness.push(stiffness);
+        }
+        self.rim_frozen = vec![R::splat(0.0); rims.len()];
+        let frames: BTreeMap<FrameKey, usize> = frames.into_keys().zip(0..).collect();
+        let rims: BTreeMap<RimKey, usize> = rims.into_keys().zip(0..).collect();
+        let mut driven: Vec<Vec<Driven>> = Vec::with_capacity(robots.len());
+        for ((body, _), springs) in robots.iter().zip(&lanes) {
+            let drive = |edge: &DrivenEdge| {
+                let aim = match springs[edge.edge] {
+                    Spring::Frame(key, _) => &mut self.frames[frames[&key]].aim,
+                    Spring::Rim(key) => &mut self.rims[rims[&key]].aim,
+                };
+                if *aim as usize == MAIN {
+                    *aim = self.aims.len() as u32;
+                    self.aims.push(self.aims[MAIN]);
+                }
+                let rest = body.edges()[edge.edge].rest;
+                Driven { aim: *aim as usize, rest, first: edge.first, second: edge.second }
+            };
+            driven.push(body.driven().iter().map(drive).collect());
+        }
+        self.rule_rows(places);
+        driven
+    }
+
+    /// Built length of a kind of spring in metres.
+    pub fn rest(&self, kind: usize) -> f64 {
+        let cell = self.constants.cell;
+        if kind == MAIN { cell } else { (cell * cell + cell * cell).sqrt() }
+    }
+
+    /// Says where each row's masses and frames are.
+    fn rule_rows(&mut self, places: &[Key]) {
+        let (mut mass, mut frame) = (0, 0);
+        while mass < places.len() {
+            let row = places[mass].0;
+            let masses = mass..places.partition_point(|place| place.0 <= row);
+            let frames = frame..self.frames.partition_point(|frame| (frame.corners[0] as usize) < masses.end);
+            (mass, frame) = (masses.end, frames.end);
+            self.rows.push(Row { masses, frames });
+        }
+        self.frames.push(self.frames[0]);
     }
 
     /// Takes a lane's state out.
     pub fn unload(&self, lane: usize, state: &mut State) {
         for (point, &mass) in self.occupants[lane].masses.iter().enumerate() {
-            let mass = &self.masses[mass];
+            let (mass, before) = (&self.masses[mass], &self.before[mass]);
             state.position[point] = mass.at.map(|axis| axis.lane(lane));
-            state.previous[point] = mass.before.map(|axis| axis.lane(lane));
+            state.previous[point] = before.map(|axis| axis.lane(lane));
             state.velocity[point] = mass.velocity.map(|axis| axis.lane(lane));
         }
     }
@@ -234,15 +395,13 @@ impl<R: Real> Batch<R> {
 
     /// Sets what a lane's materials ask for: `targets[code]` as a share of the width at rest (docs/physics.md 4).
     pub fn set_targets(&mut self, lane: usize, targets: &[f64]) {
-        for &(spring, first, second) in &self.occupants[lane].driven {
-            let spring = &mut self.springs[spring];
-            let first = targets[usize::from(first)];
-            let goal = match second {
-                Some(second) => (first + targets[usize::from(second)]) * (spring.rest / 2.0),
-                None => first * spring.rest,
+        for driven in &self.occupants[lane].driven {
+            let first = targets[usize::from(driven.first)];
+            let goal = match driven.second {
+                Some(second) => (first + targets[usize::from(second)]) * (driven.rest / 2.0),
+                None => first * driven.rest,
             };
-            let pull = spring.stiffness.lane(lane) * self.constants.approach;
-            spring.goal.set_lane(lane, pull * goal);
+            self.aims[driven.aim].set_lane(lane, self.constants.approach * goal);
         }
     }
 
@@ -270,8 +429,26 @@ impl<R: Real> Batch<R> {
     }
 }
 
+/// Where each edge of a robot goes: into the frame of the voxel whose top, left or diagonal it is, or among the rims.
+fn springs(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
+    let mut found: BTreeMap<RimKey, Spring> = BTreeMap::new();
+    for voxel in body.voxels() {
+        let corners = voxel.corners.map(|point| masses[point]);
+        for (place, [a, b]) in FRAME.into_iter().enumerate() {
+            let spring = Spring::Frame(([voxel.row, voxel.column], corners), place);
+            found.insert((corners[a], corners[b]), spring);
+        }
+    }
+    let spring = |edge: &Edge| {
+        let (a, b) = (masses[edge.a], masses[edge.b]);
+        let ends = (a.min(b), a.max(b));
+        found.get(&ends).copied().unwrap_or(Spring::Rim(ends))
+    };
+    body.edges().iter().map(spring).collect()
+}
+
 impl Occupant {
-    fn new(body: &Lattice, masses: Vec<usize>, count: usize, springs: &[usize]) -> Self {
+    fn new(body: &Lattice, masses: Vec<usize>, count: usize, driven: Vec<Driven>) -> Self {
         let mut at_mass = vec![Vec::new(); count];
         let mut surface = Vec::new();
         for voxel in body.voxels().iter().filter(|voxel| voxel.is_surface()) {
@@ -281,56 +458,13 @@ impl Occupant {
             }
             surface.push(SurfaceVoxel { corners, sides: voxel.surface });
         }
-        let driven = body.driven().iter().map(|edge| (springs[edge.edge], edge.first, edge.second)).collect();
         Self { masses, surface, at_mass, active: body.is_active(), driven }
     }
 }
 
-/// All masses at rest where no robot has them, pairwise apart.
-fn scatter<R: Real>(places: &BTreeSet<Key>, constants: &Constants) -> Vec<Mass<R>> {
+/// A mass at rest where no robot has it.
+fn far_away<R: Real>((row, column, _): Key, constants: &Constants) -> Mass<R> {
     let zero = [R::splat(0.0); 2];
-    let away = |&(row, column, twin): &Key| {
-        let x = (2 * column + usize::from(twin)) as f64 * constants.cell;
-        let at = [R::splat(x), R::splat(AWAY - row as f64 * constants.cell)];
-        Mass { at, before: at, velocity: zero, stage: at, pace: zero, sum: zero, force: zero, load: zero, shift: zero }
-    };
-    places.iter().map(away).collect()
-}
-
-/// The union of the robots' springs, where each mass's springs begin, and for each lane the spring of each of its edges.
-fn lay_springs<R: Real>(
-    robots: &[(&Lattice, &State)],
-    maps: &[Vec<usize>],
-    masses: usize,
-    constants: &Constants,
-) -> (Vec<Spring<R>>, Vec<usize>, Vec<Vec<usize>>) {
-    let ends = |lane: usize, a: usize, b: usize| {
-        let (a, b) = (maps[lane][a], maps[lane][b]);
-        (a.min(b), a.max(b))
-    };
-    let mut union: BTreeMap<(usize, usize), Spring<R>> = BTreeMap::new();
-    let zero = R::splat(0.0);
-    for (lane, (body, _)) in robots.iter().enumerate() {
-        for edge in body.edges() {
-            let ends = ends(lane, edge.a, edge.b);
-            let fresh = Spring { to: ends.1 as u32, rest: edge.rest, stiffness: zero, goal: zero, frozen: zero };
-            let spring = union.entry(ends).or_insert(fresh);
-            let stiffness = edge.stiffness * constants.per_substep_squared();
-            spring.stiffness.set_lane(lane, stiffness);
-            spring.goal.set_lane(lane, stiffness * constants.approach * edge.rest);
-        }
-    }
-    let numbers: BTreeMap<(usize, usize), usize> = union.keys().enumerate().map(|(n, &ends)| (ends, n)).collect();
-    let spring_of = |(lane, (body, _)): (usize, &(&Lattice, &State))| {
-        body.edges().iter().map(|edge| numbers[&ends(lane, edge.a, edge.b)]).collect()
-    };
-    let springs_of = robots.iter().enumerate().map(spring_of).collect();
-    let mut first = vec![0; masses + 1];
-    for &(owner, _) in union.keys() {
-        first[owner + 1] += 1;
-    }
-    for mass in 0..masses {
-        first[mass + 1] += first[mass];
-    }
-    (union.into_values().collect(), first, springs_of)
+    let at = [R::splat(column as f64 * constants.cell), R::splat(AWAY - row as f64 * constants.cell)];
+    Mass { at, velocity: zero, stage: zero, pace: zero, sum: zero, force: zero }
 }

@@ -7,6 +7,7 @@
 use crate::sim::lanes::Lanes;
 use crate::sim::run::{Run, World, carry};
 use crate::sim::step::env_step;
+use crate::sim::stiffness::{Common, Own};
 
 /// A set of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,16 +105,25 @@ impl Kernel {
     /// Carries at most [`Kernel::lanes`] runs of one box forward until the first of them is done, in no more lanes than they need.
     pub(crate) fn carry(self, runs: &mut [&mut Run], world: &World) {
         assert!(runs.len() <= self.lanes, "a run for each lane at most");
-        match (self.set, runs.len()) {
-            (_, 1) => carry::<f64>(runs, world, env_step),
+        let alike = runs.iter().all(|run| run.body == runs[0].body);
+        match (self.set, runs.len(), alike) {
+            (_, 1, _) => carry::<f64, Common>(runs, world, env_step),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4) => x86::carry_avx2_4(runs, world),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, true) => x86::avx2_4::<Common>(runs, world),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512, _) => x86::carry_avx512_8(runs, world),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, false) => x86::avx2_4::<Own<_>>(runs, world),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx2, _) => x86::carry_avx2_8(runs, world),
-            (_, ..=4) => carry::<Lanes<4>>(runs, world, env_step),
-            _ => carry::<Lanes<8>>(runs, world, env_step),
+            (InstructionSet::Avx2, _, true) => x86::avx2_8::<Common>(runs, world),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx2, _, false) => x86::avx2_8::<Own<_>>(runs, world),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512, _, true) => x86::avx512_8::<Common>(runs, world),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512, _, false) => x86::avx512_8::<Own<_>>(runs, world),
+            (_, ..=4, true) => carry::<Lanes<4>, Common>(runs, world, env_step),
+            (_, ..=4, false) => carry::<Lanes<4>, Own<_>>(runs, world, env_step),
+            (_, _, true) => carry::<Lanes<8>, Common>(runs, world, env_step),
+            (_, _, false) => carry::<Lanes<8>, Own<_>>(runs, world, env_step),
         }
     }
 }
@@ -125,9 +135,10 @@ mod x86 {
     use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
     use crate::sim::batch::Batch;
-    use crate::sim::real::{Mask, Real, cubic_step};
+    use crate::sim::real::{Mask, Real};
     use crate::sim::run::{Run, World, carry};
     use crate::sim::step::env_step;
+    use crate::sim::stiffness::Stiffness;
 
     /// Eight lanes of AVX-512.
     #[derive(Clone, Copy, Debug)]
@@ -148,33 +159,33 @@ mod x86 {
     pub struct Pair<T>(T, T);
 
     /// Eight lanes with the instructions of AVX-512, which must be there.
-    pub fn carry_avx512_8(runs: &mut [&mut Run], world: &World) {
+    pub fn avx512_8<K: Stiffness<Avx512>>(runs: &mut [&mut Run], world: &World) {
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
-        fn step(batch: &mut Batch<Avx512>) {
+        fn step<K: Stiffness<Avx512>>(batch: &mut Batch<Avx512, K>) {
             env_step(batch);
         }
         // SAFETY: a kernel of this set is made only where the processor has it.
-        carry::<Avx512>(runs, world, |batch| unsafe { step(batch) });
+        carry::<Avx512, K>(runs, world, |batch| unsafe { step(batch) });
     }
 
     /// Four lanes with the instructions of AVX2, which must be there.
-    pub fn carry_avx2_4(runs: &mut [&mut Run], world: &World) {
+    pub fn avx2_4<K: Stiffness<Avx2>>(runs: &mut [&mut Run], world: &World) {
         #[target_feature(enable = "avx2")]
-        fn step(batch: &mut Batch<Avx2>) {
+        fn step<K: Stiffness<Avx2>>(batch: &mut Batch<Avx2, K>) {
             env_step(batch);
         }
         // SAFETY: a kernel of this set is made only where the processor has it.
-        carry::<Avx2>(runs, world, |batch| unsafe { step(batch) });
+        carry::<Avx2, K>(runs, world, |batch| unsafe { step(batch) });
     }
 
     /// Eight lanes with the instructions of AVX2, which must be there.
-    pub fn carry_avx2_8(runs: &mut [&mut Run], world: &World) {
+    pub fn avx2_8<K: Stiffness<Pair<Avx2>>>(runs: &mut [&mut Run], world: &World) {
         #[target_feature(enable = "avx2")]
-        fn step(batch: &mut Batch<Pair<Avx2>>) {
+        fn step<K: Stiffness<Pair<Avx2>>>(batch: &mut Batch<Pair<Avx2>, K>) {
             env_step(batch);
         }
         // SAFETY: a kernel of this set is made only where the processor has it.
-        carry::<Pair<Avx2>>(runs, world, |batch| unsafe { step(batch) });
+        carry::<Pair<Avx2>, K>(runs, world, |batch| unsafe { step(batch) });
     }
 
     macro_rules! arithmetic {
@@ -310,12 +321,11 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn recip_sqrt(self) -> Self {
-            let seed = unsafe {
+        fn recip_sqrt_seed(self) -> Self {
+            Self(unsafe {
                 let root = _mm256_sqrt_ps(_mm512_cvtpd_ps(self.0));
                 _mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1.0), root))
-            };
-            cubic_step(self, Self(seed))
+            })
         }
     }
 
@@ -385,12 +395,11 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn recip_sqrt(self) -> Self {
-            let seed = unsafe {
+        fn recip_sqrt_seed(self) -> Self {
+            Self(unsafe {
                 let root = _mm_sqrt_ps(_mm256_cvtpd_ps(self.0));
                 _mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0), root))
-            };
-            cubic_step(self, Self(seed))
+            })
         }
     }
 
@@ -513,8 +522,8 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn recip_sqrt(self) -> Self {
-            Self(self.0.recip_sqrt(), self.1.recip_sqrt())
+        fn recip_sqrt_seed(self) -> Self {
+            Self(self.0.recip_sqrt_seed(), self.1.recip_sqrt_seed())
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
-use crate::sim::real::{Mask, Real, cubic_step};
+use crate::sim::real::{Mask, Real};
 
 /// `N` numbers side by side.
 #[derive(Clone, Copy, Debug)]
@@ -140,7 +140,7 @@ impl<const N: usize> Real for Lanes<N> {
     }
 
     #[inline(always)]
-    fn recip_sqrt(self) -> Self {
-        cubic_step(self, Self(from_fn(|i| f64::from(1.0 / (self.0[i] as f32).sqrt()))))
+    fn recip_sqrt_seed(self) -> Self {
+        Self(from_fn(|i| f64::from(1.0 / (self.0[i] as f32).sqrt())))
     }
 }

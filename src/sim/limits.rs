@@ -1,42 +1,56 @@
 //! Length limits: after the integrator, edges that are too long or too short are moved back a part of the way (docs/physics.md 8).
 
-use crate::sim::batch::Batch;
+use crate::sim::batch::{Batch, DIAGONAL, FRAME, MAIN, Mass, Place, Row};
+use crate::sim::constants::Constants;
 use crate::sim::real::{Mask, Real};
+use crate::sim::step::square;
+use crate::sim::stiffness::Stiffness;
 
-impl<R: Real> Batch<R> {
-    /// First pass, all edges at once: an edge of length d beyond its bound moves its ends by 0.8 r excess / (2 d).
+impl<R: Real, K: Stiffness<R>> Batch<R, K> {
+    /// First pass, all edges at once: an edge of length d beyond its bound moves its ends by 0.8 r excess / (2 d). A row's masses move
+    /// when the springs of the row are done, because then all edges at them have been measured.
     ///
-    /// Squares of lengths are compared, so that a root is needed only where a limit bites. A mass can be moved when its turn has come,
-    /// because all its edges have then been measured.
+    /// Squares of lengths are compared, so that a root is needed only where a limit bites.
     #[inline(always)]
     pub fn limit_lengths(&mut self) {
-        let (longest, tightest) = (self.constants.longest, self.constants.tightest);
-        let share = R::splat(self.constants.correction / 2.0);
-        let zero = R::splat(0.0);
-        for owner in 0..self.masses.len() {
-            let here = self.masses[owner].at;
-            let mut shift = self.masses[owner].shift;
-            for spring in &self.springs[self.first[owner]..self.first[owner + 1]] {
-                let other = &mut self.masses[spring.to as usize];
-                let r = [here[0] - other.at[0], here[1] - other.at[1]];
-                let square = r[0] * r[0] + r[1] * r[1];
-                let (long, short) = (spring.rest * longest, spring.rest * tightest);
-                let too_long = R::splat(long * long).below(square);
-                let bites = too_long.or(square.below(R::splat(short * short))).and(zero.below(spring.stiffness));
-                if bites.any() {
-                    let inverse = square.recip_sqrt();
-                    let excess = square * inverse - R::select(too_long, R::splat(long), R::splat(short));
-                    let factor = R::select(bites, share * excess * inverse, zero);
-                    for axis in 0..2 {
-                        other.shift[axis] += r[axis] * factor;
-                        shift[axis] -= r[axis] * factor;
+        let main = Bounds::<R>::new(self.rest(MAIN), &self.constants);
+        let diagonal = Bounds::<R>::new(self.rest(DIAGONAL), &self.constants);
+        let (all, share) = (self.masses.as_mut_slice(), self.constants.correction);
+        for (rim, stiffness) in self.rims.iter().zip(&self.rim_stiffness) {
+            let ends = [rim.from as usize, rim.to as usize];
+            let r = between(all[ends[0]].at, all[ends[1]].at);
+            let bites = stiffness.mask(main.broken(square(r)));
+            if bites.any() {
+                pull_back(all, ends, &main, bites, share);
+            }
+        }
+        for row in 0..self.rows.len() {
+            let Row { masses, frames } = self.rows[row].clone();
+            for (n, stiffness) in frames.clone().zip(&self.frame_stiffness[frames]) {
+                let corners = self.frames[n].indices();
+                let [a, b, c, d] = corners;
+                let (top_left, top_right) = (all[a].at, all[b].at);
+                let (bottom_right, bottom_left) = (all[c].at, all[d].at);
+                let bites = [
+                    stiffness[0].mask(main.broken(square(between(top_left, top_right)))),
+                    stiffness[1].mask(main.broken(square(between(top_left, bottom_left)))),
+                    stiffness[2].mask(diagonal.broken(square(between(top_left, bottom_right)))),
+                    stiffness[3].mask(diagonal.broken(square(between(top_right, bottom_left)))),
+                ];
+                if bites[0].or(bites[1]).or(bites[2].or(bites[3])).any() {
+                    for spring in 0..4 {
+                        let ends = [corners[FRAME[spring][0]], corners[FRAME[spring][1]]];
+                        let bounds = if spring < 2 { &main } else { &diagonal };
+                        if bites[spring].any() {
+                            pull_back(all, ends, bounds, bites[spring], share);
+                        }
                     }
                 }
             }
-            let mass = &mut self.masses[owner];
-            for axis in 0..2 {
-                mass.at[axis] += shift[axis];
-                mass.shift[axis] = zero;
+            for mass in &mut all[masses] {
+                for axis in 0..2 {
+                    mass.at[axis] += mass.stage[axis];
+                }
             }
         }
     }
@@ -47,20 +61,17 @@ impl<R: Real> Batch<R> {
     pub fn limit_rigid(&mut self) {
         let (long, short) =
             (self.constants.cell * self.constants.rigid_longest, self.constants.cell * self.constants.rigid_tightest);
-        let share = R::splat(self.constants.rigid_correction / 2.0);
-        let zero = R::splat(0.0);
         for tile in &self.rigid {
             for side in 0..4 {
                 let (a, b) = (tile.corners[side], tile.corners[(side + 1) % 4]);
                 let (here, there) = (self.masses[a].at, self.masses[b].at);
                 let r = [here[0] - there[0], here[1] - there[1]];
-                let square = r[0] * r[0] + r[1] * r[1];
+                let square = square(r);
                 let too_long = R::splat(long * long).at_most(square);
                 let bites = too_long.or(square.at_most(R::splat(short * short))).and(tile.rigid);
                 if bites.any() {
-                    let inverse = square.recip_sqrt();
-                    let excess = square * inverse - R::select(too_long, R::splat(long), R::splat(short));
-                    let factor = R::select(bites, share * excess * inverse, zero);
+                    let bound = R::select(too_long, R::splat(long), R::splat(short));
+                    let factor = correction(square, bound, self.constants.rigid_correction, bites);
                     for axis in 0..2 {
                         self.masses[a].at[axis] -= r[axis] * factor;
                         self.masses[b].at[axis] += r[axis] * factor;
@@ -69,4 +80,54 @@ impl<R: Real> Batch<R> {
             }
         }
     }
+}
+
+/// How long a spring may be.
+#[derive(Clone, Copy)]
+struct Bounds<R> {
+    most: R,
+    least: R,
+    most_squared: R,
+    least_squared: R,
+}
+
+impl<R: Real> Bounds<R> {
+    #[inline(always)]
+    fn new(rest: f64, constants: &Constants) -> Self {
+        let (most, least) = (rest * constants.longest, rest * constants.tightest);
+        let (most_squared, least_squared) = (R::splat(most * most), R::splat(least * least));
+        Self { most: R::splat(most), least: R::splat(least), most_squared, least_squared }
+    }
+
+    /// Whether a length, squared, is beyond them.
+    #[inline(always)]
+    fn broken(&self, square: R) -> R::Mask {
+        self.most_squared.below(square).or(square.below(self.least_squared))
+    }
+}
+
+#[inline(always)]
+fn between<R: Real>(here: Place<R>, there: Place<R>) -> Place<R> {
+    [here[0] - there[0], here[1] - there[1]]
+}
+
+/// Notes how far a spring's ends are to be moved where its length is beyond its bounds.
+#[inline(always)]
+fn pull_back<R: Real>(masses: &mut [Mass<R>], ends: [usize; 2], bounds: &Bounds<R>, bites: R::Mask, share: f64) {
+    let r = between(masses[ends[0]].at, masses[ends[1]].at);
+    let square = square(r);
+    let bound = R::select(bounds.most_squared.below(square), bounds.most, bounds.least);
+    let factor = correction(square, bound, share, bites);
+    for axis in 0..2 {
+        masses[ends[0]].stage[axis] -= r[axis] * factor;
+        masses[ends[1]].stage[axis] += r[axis] * factor;
+    }
+}
+
+/// The factor by which an edge's vector moves its ends where a limit bites: share (d - bound) / (2 d), from d².
+#[inline(always)]
+fn correction<R: Real>(square: R, bound: R, share: f64, bites: R::Mask) -> R {
+    let inverse = square.recip_sqrt();
+    let excess = square * inverse - bound;
+    R::select(bites, R::splat(share / 2.0) * excess * inverse, R::splat(0.0))
 }

@@ -20,6 +20,7 @@ mod signal;
 mod simulator;
 mod state;
 mod step;
+mod stiffness;
 mod trials;
 
 pub use constants::Constants;

@@ -49,9 +49,22 @@ pub trait Real:
     /// `yes` where the mask says so, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// 1/sqrt(x) for positive x of single precision's range, to a unit in the last place, in exactly rounded steps: the root and
-    /// quotient in single precision, then one cubic step in double: y + y e (1/2 + 3/8 e) with e = 1 - x y².
-    fn recip_sqrt(self) -> Self;
+    /// 1/sqrt(x) for positive x of single precision's range, root and quotient rounded to single precision.
+    fn recip_sqrt_seed(self) -> Self;
+
+    /// 1/sqrt(x) to a unit in the last place from its seed, by one cubic step: y + y e (1/2 + 3/8 e) with e = 1 - x y². Every step is
+    /// exactly rounded, so the bits are the same on every machine.
+    #[inline(always)]
+    fn recip_sqrt_from(self, seed: Self) -> Self {
+        let error = Self::splat(1.0) - self * (seed * seed);
+        seed + (seed * error) * (Self::splat(0.5) + Self::splat(0.375) * error)
+    }
+
+    /// 1/sqrt(x): the seed and the step.
+    #[inline(always)]
+    fn recip_sqrt(self) -> Self {
+        self.recip_sqrt_from(self.recip_sqrt_seed())
+    }
 }
 
 /// Yes or no in each lane.
@@ -73,13 +86,6 @@ pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn any(self) -> bool {
         self.bits() != 0
     }
-}
-
-/// The second half of [`Real::recip_sqrt`]: the cubic step from a seed good to single precision.
-#[inline(always)]
-pub fn cubic_step<R: Real>(x: R, seed: R) -> R {
-    let error = R::splat(1.0) - x * (seed * seed);
-    seed + seed * (error * (R::splat(0.5) + R::splat(0.375) * error))
 }
 
 impl Mask for bool {
@@ -155,8 +161,8 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn recip_sqrt(self) -> Self {
-        cubic_step(self, f64::from(1.0 / (self as f32).sqrt()))
+    fn recip_sqrt_seed(self) -> Self {
+        f64::from(1.0 / (self as f32).sqrt())
     }
 }
 

@@ -7,8 +7,9 @@ use crate::sim::contact::{Hit, Quad};
 use crate::sim::lattice::CORNERS;
 use crate::sim::proximity::Inside;
 use crate::sim::real::Real;
+use crate::sim::stiffness::Stiffness;
 
-impl<R: Real> Batch<R> {
+impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Contact forces and the instability test, both from the positions at the start of the substep.
     #[inline(always)]
     pub fn meet(&mut self) {
@@ -36,11 +37,11 @@ impl<R: Real> Batch<R> {
     /// Takes last substep's contact forces off.
     #[inline(always)]
     fn unburden(&mut self) {
-        for mass in self.loaded.drain(..) {
-            let weight = [R::splat(0.0), self.weight[mass]];
-            self.masses[mass].load = weight;
-            self.masses[mass].force = weight;
+        for (mass, weight) in self.loaded.drain(..) {
+            self.load[mass] = weight;
+            self.masses[mass].force = self.loads[weight as usize];
         }
+        self.loads.truncate(self.weights);
     }
 
     /// Contact between each robot's low voxels and the ground, each way once.
@@ -142,18 +143,23 @@ impl<R: Real> Batch<R> {
     /// Adds a force in newtons to a lane's mass for this substep.
     fn burden(&mut self, lane: usize, mass: usize, force: Vector2<f64>) {
         let scale = self.constants.per_substep_squared();
-        for axis in 0..2 {
-            let load = self.masses[mass].load[axis].lane(lane) + force[axis] * scale;
-            self.masses[mass].load[axis].set_lane(lane, load);
-            self.masses[mass].force[axis].set_lane(lane, load);
+        let weight = self.load[mass];
+        if (weight as usize) < self.weights {
+            self.load[mass] = self.loads.len() as u32;
+            self.loads.push(self.loads[weight as usize]);
+            self.loaded.push((mass, weight));
         }
-        self.loaded.push(mass);
+        let load = &mut self.loads[self.load[mass] as usize];
+        for axis in 0..2 {
+            load[axis].set_lane(lane, load[axis].lane(lane) + force[axis] * scale);
+        }
+        self.masses[mass].force = *load;
     }
 
     /// The velocity over the last substep, corrections included, in metres per second (docs/physics.md 5).
     fn true_velocity(&self, lane: usize, mass: usize) -> Vector2<f64> {
-        let mass = &self.masses[mass];
-        let speed = |axis: usize| (mass.at[axis].lane(lane) - mass.before[axis].lane(lane)) / self.constants.substep;
+        let (now, before) = (&self.masses[mass].at, &self.before[mass]);
+        let speed = |axis: usize| (now[axis].lane(lane) - before[axis].lane(lane)) / self.constants.substep;
         Vector2::new(speed(0), speed(1))
     }
 

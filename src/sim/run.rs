@@ -10,6 +10,7 @@ use crate::sim::lattice::Lattice;
 use crate::sim::real::Real;
 use crate::sim::signal::Signals;
 use crate::sim::state::State;
+use crate::sim::stiffness::Stiffness;
 
 /// What all simulations of a setting share.
 #[derive(Clone, Debug)]
@@ -96,10 +97,10 @@ pub fn runs<'a>(world: &World, setting: &Setting, bodies: impl IntoIterator<Item
 
 /// Carries runs of one box forward side by side, until the first of them is done.
 ///
-/// `env_step` is the kernel compiled for `R`.
-pub fn carry<R: Real>(runs: &mut [&mut Run], world: &World, env_step: impl Fn(&mut Batch<R>)) {
+/// `env_step` is the kernel compiled for `R`; `K` is for one body or for different ones.
+pub fn carry<R: Real, K: Stiffness<R>>(runs: &mut [&mut Run], world: &World, env_step: impl Fn(&mut Batch<R, K>)) {
     let robots: Vec<_> = runs.iter().map(|run| (&*run.lattice, &run.state)).collect();
-    let mut batch = Batch::<R>::new(&robots, world.width, &world.constants);
+    let mut batch = Batch::<R, K>::new(&robots, world.width, &world.constants);
     let mut targets = Vec::new();
     while !runs.iter().any(|run| run.is_done()) {
         for (lane, run) in runs.iter().enumerate() {
@@ -124,7 +125,7 @@ pub fn carry<R: Real>(runs: &mut [&mut Run], world: &World, env_step: impl Fn(&m
 }
 
 /// Books an env step of one lane: its center of mass, or its fault.
-fn finish_env_step<R: Real>(lane: usize, run: &mut Run, batch: &Batch<R>) {
+fn finish_env_step<R: Real, K: Stiffness<R>>(lane: usize, run: &mut Run, batch: &Batch<R, K>) {
     let center = batch.center(lane);
     let fault = |kind| Some(Fault { env_step: run.clock + 1, kind });
     if batch.unstable >> lane & 1 == 1 {

@@ -1,134 +1,223 @@
 //! One substep, written once for one robot and for many side by side (docs/physics.md 5 and 6).
 //!
-//! Springs and integration share one sweep over the masses for each Runge-Kutta stage. Springs belong to the earlier of their two masses,
-//! so when a mass's turn has come all force on it is known after its own springs, it can go on to the next stage at once, and nobody
-//! asks for its old place any more.
+//! Each voxel's frame of four springs is computed together. The rims come first; when the frames of a row are done all force on its masses is known,
+//! they can go on to the next Runge-Kutta stage at once, and nobody asks for their old places any more. Frames are measured one ahead of
+//! where their forces are wanted, so that the long chain of root and quotient is behind the processor by then.
 
-use crate::sim::batch::{Batch, Mass, Place, Spring};
+use std::ops::Range;
+
+use crate::sim::batch::{Batch, DIAGONAL, Frame, MAIN, Mass, Place, Row};
+use crate::sim::constants::Constants;
 use crate::sim::real::{Mask, Real};
+use crate::sim::stiffness::Stiffness;
 
 /// One env step: substeps with the targets as they are (docs/physics.md 4).
 #[inline(always)]
-pub fn env_step<R: Real>(batch: &mut Batch<R>) {
+pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
     for _ in 0..batch.constants.substeps {
-        substep(batch);
+        batch.meet();
+        batch.sweep::<1>();
+        batch.sweep::<2>();
+        batch.sweep::<3>();
+        batch.sweep::<4>();
+        batch.limit_lengths();
+        batch.limit_rigid();
     }
 }
 
-/// One substep, in the order of docs/physics.md 5.
-#[inline(always)]
-fn substep<R: Real>(batch: &mut Batch<R>) {
-    batch.meet();
-    sweep::<R, 1>(batch);
-    sweep::<R, 2>(batch);
-    sweep::<R, 3>(batch);
-    sweep::<R, 4>(batch);
-    batch.limit_lengths();
-    batch.limit_rigid();
+/// A spring's vector from its later to its earlier end, its length squared, and a first estimate of one over its length.
+#[derive(Clone, Copy)]
+struct Measure<R> {
+    r: Place<R>,
+    square: R,
+    seed: R,
 }
 
-/// One stage: spring forces at the stage's positions, then each mass on to the next stage.
-#[inline(always)]
-fn sweep<R: Real, const STAGE: u8>(batch: &mut Batch<R>) {
-    let approach = R::splat(batch.constants.approach);
-    let rest = R::splat(1.0 - batch.constants.approach);
-    let drag = R::splat(batch.constants.drag * batch.constants.substep);
-    let masses = &mut batch.masses[..];
-    let mut springs = &mut batch.springs[..];
-    for owner in 0..masses.len() {
-        let (own, later) = springs.split_at_mut(batch.first[owner + 1] - batch.first[owner]);
-        springs = later;
-        let here = place::<R, STAGE>(&masses[owner]);
-        let mut force = masses[owner].force;
-        for spring in own {
-            let other = &mut masses[spring.to as usize];
-            let there = place::<R, STAGE>(other);
-            let pull = pull::<R, STAGE>(spring, here, there, approach, rest);
+impl<R: Real, K: Stiffness<R>> Batch<R, K> {
+    /// One Runge-Kutta stage: spring forces at the stage's positions, then each mass on to the next stage, row by row.
+    #[inline(always)]
+    fn sweep<const STAGE: u8>(&mut self) {
+        self.pull_rims::<STAGE>();
+        let mut next = measure_frame::<R, STAGE>(&self.frames[0], &self.masses);
+        for row in 0..self.rows.len() {
+            let Row { masses, frames } = self.rows[row].clone();
+            self.pull_frames::<STAGE>(frames, &mut next);
+            self.go_on::<STAGE>(masses);
+        }
+    }
+
+    /// Adds the forces of the rims to their masses.
+    #[inline(always)]
+    fn pull_rims<const STAGE: u8>(&mut self) {
+        let law = Law::<R>::new(&self.constants);
+        let (masses, aims) = (self.masses.as_mut_slice(), self.aims.as_slice());
+        let kept = self.rim_stiffness.iter().zip(&mut self.rim_frozen);
+        for (rim, (stiffness, frozen)) in self.rims.iter().zip(kept) {
+            let measure = measure::<R, STAGE>(masses, rim.from, rim.to);
+            let pull = law.pull::<STAGE>(measure, stiffness.value(), aims[rim.aim as usize], frozen);
             for axis in 0..2 {
-                force[axis] -= pull[axis];
-                other.force[axis] += pull[axis];
+                masses[rim.from as usize].force[axis] -= pull[axis];
+                masses[rim.to as usize].force[axis] += pull[axis];
             }
         }
-        let mass = &mut masses[owner];
-        for axis in 0..2 {
-            force[axis] -= drag * pace::<R, STAGE>(mass)[axis];
+    }
+
+    /// Adds the forces of some frames to their masses, the first of which are measured, and measures the one after.
+    #[inline(always)]
+    fn pull_frames<const STAGE: u8>(&mut self, frames: Range<usize>, next: &mut [Measure<R>; 4]) {
+        let law = Law::<R>::new(&self.constants);
+        let (masses, aims) = (self.masses.as_mut_slice(), self.aims.as_slice());
+        let (main, diagonal) = (aims[MAIN], aims[DIAGONAL]);
+        let ahead = &self.frames[frames.start + 1..frames.end + 1];
+        let kept = self.frame_stiffness[frames.clone()].iter().zip(&mut self.frame_frozen[frames.clone()]);
+        for ((frame, ahead), (stiffness, frozen)) in self.frames[frames].iter().zip(ahead).zip(kept) {
+            let now = *next;
+            *next = measure_frame::<R, STAGE>(ahead, masses);
+            let own = aims[frame.aim as usize];
+            let top = law.pull::<STAGE>(now[0], stiffness[0].value(), own, &mut frozen[0]);
+            let left = law.pull::<STAGE>(now[1], stiffness[1].value(), main, &mut frozen[1]);
+            let falling = law.pull::<STAGE>(now[2], stiffness[2].value(), diagonal, &mut frozen[2]);
+            let rising = law.pull::<STAGE>(now[3], stiffness[3].value(), diagonal, &mut frozen[3]);
+            let corners = frame.indices();
+            for axis in 0..2 {
+                masses[corners[0]].force[axis] -= (top[axis] + left[axis]) + falling[axis];
+                masses[corners[1]].force[axis] += top[axis] - rising[axis];
+                masses[corners[2]].force[axis] += falling[axis];
+                masses[corners[3]].force[axis] += left[axis] + rising[axis];
+            }
         }
-        if place::<R, STAGE>(mass)[1].below(R::splat(0.0)).any() {
-            let (at, pace) = (place::<R, STAGE>(mass), pace::<R, STAGE>(mass));
-            plane(&batch.constants, at, pace, &mut force);
+    }
+
+    /// The rest of a stage for some masses: drag and the plane, then on to the next stage.
+    #[inline(always)]
+    fn go_on<const STAGE: u8>(&mut self, masses: Range<usize>) {
+        let drag = R::splat(self.constants.drag * self.constants.substep);
+        let kept = self.load[masses.clone()].iter().zip(&mut self.before[masses.clone()]);
+        for (mass, (&load, before)) in self.masses[masses].iter_mut().zip(kept) {
+            if mass.place::<STAGE>()[1].below(R::splat(0.0)).any() {
+                plane::<R, STAGE>(&self.constants, mass);
+            }
+            let pace = mass.pace::<STAGE>();
+            let acceleration = [mass.force[0] - drag * pace[0], mass.force[1] - drag * pace[1]];
+            mass.force = self.loads[load as usize];
+            mass.advance::<STAGE>(acceleration, before);
         }
-        advance::<R, STAGE>(mass, force);
     }
 }
 
-#[inline(always)]
-fn place<R: Real, const STAGE: u8>(mass: &Mass<R>) -> Place<R> {
-    if STAGE == 1 { mass.at } else { mass.stage }
-}
-
-#[inline(always)]
-fn pace<R: Real, const STAGE: u8>(mass: &Mass<R>) -> Place<R> {
-    if STAGE == 1 { mass.velocity } else { mass.pace }
-}
-
-/// The force of a spring on its far end, r (d - l) k / d (docs/physics.md 6).
-///
-/// In the first stage d is also the length from which the frozen rest length l = d + 0.006 (goal - d) comes, so there the force is
-/// r (0.006 k - 0.006 k goal / d), and k l is kept for the other stages, where it is r (k - k l / d).
-#[inline(always)]
-fn pull<R: Real, const STAGE: u8>(
-    spring: &mut Spring<R>,
-    here: Place<R>,
-    there: Place<R>,
+/// How springs pull.
+#[derive(Clone, Copy)]
+struct Law<R> {
     approach: R,
     rest: R,
-) -> Place<R> {
-    let r = [here[0] - there[0], here[1] - there[1]];
-    let square = r[0] * r[0] + r[1] * r[1];
-    let inverse = square.recip_sqrt();
-    let factor = if STAGE == 1 {
-        spring.frozen = spring.stiffness * rest * (square * inverse) + spring.goal;
-        spring.stiffness * approach - spring.goal * inverse
-    } else {
-        spring.stiffness - spring.frozen * inverse
-    };
-    [r[0] * factor, r[1] * factor]
 }
 
-/// Takes a mass to the next stage, its acceleration in this one being known.
-///
-/// With u the velocity, a_s the acceleration and u_s the velocity in stage s, all counted in substeps, the classical scheme is
-/// x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2, u_4 = u + a_3, and ends with
-/// x + (u + 2 u_2 + 2 u_3 + u_4)/6 and u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 + a_3) + a_4)/6.
+impl<R: Real> Law<R> {
+    #[inline(always)]
+    fn new(constants: &Constants) -> Self {
+        Self { approach: R::splat(constants.approach), rest: R::splat(1.0 - constants.approach) }
+    }
+
+    /// The force of a spring on its later end.
+    ///
+    /// It is r f with f = (d - l) k / d and the frozen rest length l (docs/physics.md 6). In the first stage d is also the length from
+    /// which l = d + 0.006 (goal - d) comes, so there f is k (0.006 - 0.006 goal / d), and k l is kept for the other stages.
+    #[inline(always)]
+    fn pull<const STAGE: u8>(self, measure: Measure<R>, stiffness: R, aim: R, frozen: &mut R) -> Place<R> {
+        let Measure { r, square, seed } = measure;
+        let inverse = square.recip_sqrt_from(seed);
+        let factor = if STAGE == 1 {
+            *frozen = stiffness * (self.rest * (square * inverse) + aim);
+            stiffness * (self.approach - aim * inverse)
+        } else {
+            stiffness - *frozen * inverse
+        };
+        [r[0] * factor, r[1] * factor]
+    }
+}
+
+/// Measures the springs of a frame.
 #[inline(always)]
-fn advance<R: Real, const STAGE: u8>(mass: &mut Mass<R>, acceleration: Place<R>) {
-    let (half, two, sixth) = (R::splat(0.5), R::splat(2.0), R::splat(1.0 / 6.0));
-    mass.force = mass.load;
-    for axis in 0..2 {
-        let a = acceleration[axis];
-        let u = mass.velocity[axis];
-        match STAGE {
-            1 => {
-                mass.stage[axis] = mass.at[axis] + half * u;
-                mass.pace[axis] = u + half * a;
+fn measure_frame<R: Real, const STAGE: u8>(frame: &Frame, masses: &[Mass<R>]) -> [Measure<R>; 4] {
+    let [a, b, c, d] = frame.indices();
+    let (top_left, top_right) = (masses[a].place::<STAGE>(), masses[b].place::<STAGE>());
+    let (bottom_right, bottom_left) = (masses[c].place::<STAGE>(), masses[d].place::<STAGE>());
+    [
+        Measure::between(top_left, top_right),
+        Measure::between(top_left, bottom_left),
+        Measure::between(top_left, bottom_right),
+        Measure::between(top_right, bottom_left),
+    ]
+}
+
+/// Measures a spring at a stage's positions.
+#[inline(always)]
+fn measure<R: Real, const STAGE: u8>(masses: &[Mass<R>], from: u32, to: u32) -> Measure<R> {
+    Measure::between(masses[from as usize].place::<STAGE>(), masses[to as usize].place::<STAGE>())
+}
+
+impl<R: Real> Measure<R> {
+    #[inline(always)]
+    fn between(here: Place<R>, there: Place<R>) -> Self {
+        let r = [here[0] - there[0], here[1] - there[1]];
+        let square = square(r);
+        Self { r, square, seed: square.recip_sqrt_seed() }
+    }
+}
+
+/// The square of a vector's length.
+#[inline(always)]
+pub fn square<R: Real>(r: Place<R>) -> R {
+    r[0] * r[0] + r[1] * r[1]
+}
+
+impl<R: Real> Mass<R> {
+    #[inline(always)]
+    fn place<const STAGE: u8>(&self) -> Place<R> {
+        if STAGE == 1 { self.at } else { self.stage }
+    }
+
+    #[inline(always)]
+    fn pace<const STAGE: u8>(&self) -> Place<R> {
+        if STAGE == 1 { self.velocity } else { self.pace }
+    }
+
+    /// Goes on to the next stage, the acceleration in this one being known.
+    ///
+    /// With u the velocity, a_s the acceleration and u_s the velocity in stage s, all counted in substeps, the classical scheme is
+    /// x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2, u_4 = u + a_3, and ends with
+    /// x + (u + 2 u_2 + 2 u_3 + u_4)/6 and u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 + a_3) + a_4)/6.
+    #[inline(always)]
+    fn advance<const STAGE: u8>(&mut self, acceleration: Place<R>, before: &mut Place<R>) {
+        let (half, two, sixth) = (R::splat(0.5), R::splat(2.0), R::splat(1.0 / 6.0));
+        for axis in 0..2 {
+            let a = acceleration[axis];
+            let u = self.velocity[axis];
+            let pace = self.pace[axis];
+            let at = self.at[axis];
+            match STAGE {
+                1 => {
+                    self.stage[axis] = at + half * u;
+                    self.pace[axis] = u + half * a;
+                }
+                2 => {
+                    self.stage[axis] = at + half * pace;
+                    self.pace[axis] = u + half * a;
+                    self.sum[axis] = pace + self.pace[axis];
+                }
+                3 => {
+                    let last = u + a;
+                    self.stage[axis] = at + pace;
+                    self.pace[axis] = last;
+                    before[axis] = at;
+                    self.at[axis] = at + sixth * ((u + last) + two * self.sum[axis]);
+                    self.sum[axis] = (self.sum[axis] + pace) + a;
+                }
+                _ => {
+                    self.velocity[axis] = sixth * (two * self.sum[axis] + a);
+                    self.stage[axis] = R::splat(0.0);
+                }
             }
-            2 => {
-                let second = mass.pace[axis];
-                mass.stage[axis] = mass.at[axis] + half * second;
-                mass.pace[axis] = u + half * a;
-                mass.sum[axis] = second + mass.pace[axis];
-            }
-            3 => {
-                let third = mass.pace[axis];
-                let start = mass.at[axis];
-                let fourth = u + a;
-                mass.stage[axis] = start + third;
-                mass.pace[axis] = fourth;
-                mass.before[axis] = start;
-                mass.at[axis] = start + sixth * ((u + fourth) + two * mass.sum[axis]);
-                mass.sum[axis] = mass.sum[axis] + third + a;
-            }
-            _ => mass.velocity[axis] = sixth * (two * mass.sum[axis] + a),
         }
     }
 }
@@ -136,7 +225,8 @@ fn advance<R: Real, const STAGE: u8>(mass: &mut Mass<R>, acceleration: Place<R>)
 /// The plane y = 0 under the ground, for the lanes that are below it (docs/physics.md 6).
 #[cold]
 #[inline(never)]
-fn plane<R: Real>(constants: &crate::sim::constants::Constants, at: Place<R>, pace: Place<R>, force: &mut Place<R>) {
+fn plane<R: Real, const STAGE: u8>(constants: &Constants, mass: &mut Mass<R>) {
+    let (at, pace) = (mass.place::<STAGE>(), mass.pace::<STAGE>());
     for lane in 0..R::LANES {
         let depth = -at[1].lane(lane);
         if depth > 0.0 {
@@ -144,8 +234,9 @@ fn plane<R: Real>(constants: &crate::sim::constants::Constants, at: Place<R>, pa
             let speed = pace[0].lane(lane) / constants.substep;
             let friction = constants.plane_friction * normal * libm::tanh(constants.plane_slope * normal * speed);
             let scale = constants.per_substep_squared();
-            force[0].set_lane(lane, force[0].lane(lane) - friction * scale);
-            force[1].set_lane(lane, force[1].lane(lane) + normal * scale);
+            let [x, y] = mass.force.map(|axis| axis.lane(lane));
+            mass.force[0].set_lane(lane, x - friction * scale);
+            mass.force[1].set_lane(lane, y + normal * scale);
         }
     }
 }
