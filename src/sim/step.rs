@@ -80,7 +80,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             let rising = law.pull::<STAGE>(now[3], stiffness[3].value(), diagonal, &mut frozen[3]);
             let corners = frame.indices();
             for axis in 0..2 {
-                masses[corners[0]].force[axis] -= (top[axis] + left[axis]) + falling[axis];
+                masses[corners[0]].force[axis] -= top[axis] + (left[axis] + falling[axis]);
                 masses[corners[1]].force[axis] += top[axis] - rising[axis];
                 masses[corners[2]].force[axis] += falling[axis];
                 masses[corners[3]].force[axis] += left[axis] + rising[axis];
