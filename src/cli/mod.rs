@@ -2,6 +2,7 @@
 //!
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 
+mod build;
 mod completions;
 mod context;
 mod draw;
@@ -44,6 +45,7 @@ macro_rules! commands {
 }
 
 commands! {
+    Build in build,
     Completions in completions,
     Draw in draw,
     Evolve in evolve,

@@ -1,5 +1,6 @@
 //! Integration tests, in one binary.
 
+mod circuit;
 mod cli;
 mod determinism;
 mod examples;
@@ -9,5 +10,6 @@ mod page;
 mod physics;
 mod pictures;
 mod plots;
+mod synth;
 mod tidy;
 mod waves;

@@ -1,0 +1,83 @@
+//! Laws of the compiler: every function is found at its optimum, and no damaged file makes a reader panic.
+
+use nbc::circuit::formats::{Design, aiger, bench, blif};
+use nbc::circuit::network::Network;
+use nbc::circuit::synth::reduce;
+use nbc::circuit::{CellLibrary, Effort, MapOptions, Netlist};
+use nbc::model::Function;
+use nbc::source::FileId;
+
+/// A network of AND and OR cells for the three-input function with these outputs.
+fn sum_of_products(truth: u8) -> Network {
+    let mut network = Network::new(3);
+    let mut sum = 0;
+    for minterm in (0..8u8).filter(|minterm| truth >> minterm & 1 == 1) {
+        let mut product = 1;
+        for i in 0..3 {
+            let function = if minterm >> i & 1 == 1 { Function::AND } else { Function::AND.with_input_inverted(1) };
+            product = network.add(function, [product, network.input(i)]);
+        }
+        sum = network.add(Function::OR, [sum, product]);
+    }
+    network.outputs = vec![sum];
+    network
+}
+
+/// The cells that all functions of three inputs take together.
+fn total(library: &CellLibrary) -> usize {
+    let options = MapOptions { effort: Effort::Normal, ..MapOptions::default() };
+    let cells = |truth| reduce(&sum_of_products(truth), &[], library, options).unwrap().gates.len();
+    (1..=254).map(cells).sum()
+}
+
+/// Run with `cargo test --release --test it three_input -- --ignored`.
+#[test]
+#[ignore = "takes a minute"]
+fn all_three_input_functions_reach_the_optimum() {
+    assert_eq!(total(&CellLibrary::uniform([Function::NAND, Function::NOT])), 1318);
+    let all = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
+    assert_eq!(total(&CellLibrary::uniform(all)), 597);
+}
+
+/// A circuit with a register and a constant.
+fn sample() -> Design {
+    let text = "INPUT(a)\nINPUT(b)\nOUTPUT(y)\nOUTPUT(z)\nq = DFF(n)\nn = XOR(q, a)\ny = NAND(q, b)\nz = NOT(n)\n";
+    bench::read(text, FileId(0), None).unwrap()
+}
+
+#[test]
+fn damaged_files_make_no_reader_panic() {
+    let design = sample();
+    let files = [aiger::write(&design, true), aiger::write(&design, false), blif::write(&design).into_bytes()];
+    for bytes in files {
+        for at in 0..bytes.len() {
+            read_all(&bytes[..at]);
+            for wrong in [0u8, b' ', b'\n', b'9', b'.', 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[at] = wrong;
+                read_all(&damaged);
+            }
+        }
+    }
+}
+
+/// Reads bytes as each format; the results do not matter.
+fn read_all(bytes: &[u8]) {
+    let _ = aiger::read(bytes, None);
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        let _ = blif::read(text, FileId(0), None);
+        let _ = bench::read(text, FileId(0), None);
+    }
+}
+
+#[test]
+fn what_is_written_reads_back() {
+    let design = sample();
+    let ports = |netlist: &Netlist| (netlist.inputs().len(), netlist.outputs().len());
+    let again = blif::read(&blif::write(&design), FileId(0), None).unwrap();
+    assert_eq!((ports(&again.logic), again.registers), (ports(&design.logic), design.registers.clone()));
+    for binary in [false, true] {
+        let again = aiger::read(&aiger::write(&design, binary), None).unwrap();
+        assert_eq!((ports(&again.logic), &again.registers), (ports(&design.logic), &design.registers));
+    }
+}

@@ -1,0 +1,131 @@
+//! `nbc synth` and `nbc build` through the real program: what they read, write, prove and refuse.
+
+use std::process::Command;
+
+use crate::cli::Bench;
+
+const FULL_ADDER: &str = "\
+.model fa
+.inputs a b c
+.outputs s co
+.names a b c s
+100 1
+010 1
+001 1
+111 1
+.names a b c co
+11- 1
+1-1 1
+-11 1
+.end
+";
+
+/// Two bits that count, with one clock.
+const COUNTER: &str = "\
+INPUT(en)
+OUTPUT(q1)
+q0 = DFF(n0)
+q1 = DFF(n1)
+n0 = XOR(q0, en)
+c = AND(q0, en)
+n1 = XOR(q1, c)
+";
+
+#[test]
+fn a_full_adder_takes_nine_nand_cells() {
+    let bench = Bench::new();
+    bench.file("fa.blif", FULL_ADDER);
+    let ran = bench.run(&["synth", "fa.blif", "-o", "out.blif", "--cells", "nand,not", "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let report: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!((&report["cells"], &report["proved"]), (&9.into(), &true.into()));
+    assert_eq!((&report["inputs"], &report["outputs"], &report["latches"]), (&3.into(), &2.into(), &0.into()));
+}
+
+#[test]
+fn what_is_written_reads_back_in_every_format() {
+    let bench = Bench::new();
+    bench.file("fa.blif", FULL_ADDER);
+    for ending in ["blif", "aig", "aag"] {
+        let out = format!("out.{ending}");
+        assert_eq!(bench.run(&["synth", "fa.blif", "-o", &out, "--cells", "all"]).status, 0);
+        let again = bench.run(&["synth", &out, "--cells", "all", "--format", "json"]);
+        let report: serde_json::Value = serde_json::from_str(&again.out).unwrap();
+        assert_eq!(report["cells"], 5, "{ending}");
+        equivalent(&bench, "fa.blif", &out);
+    }
+    for ending in ["v", "dot", "nb"] {
+        assert_eq!(bench.run(&["synth", "fa.blif", "-o", &format!("out.{ending}"), "--cells", "all"]).status, 0);
+    }
+    assert_eq!(bench.run(&["build", "out.nb", "--cells", "nand,not", "--emit", "blif", "-o", "again.blif"]).status, 0);
+    equivalent(&bench, "fa.blif", "again.blif");
+}
+
+#[test]
+fn registers_are_kept_or_made_of_cells() {
+    let bench = Bench::new();
+    bench.file("counter.bench", COUNTER);
+    let ran = bench.run(&["synth", "counter.bench", "-o", "kept.blif", "--cells", "nand,not", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(report["latches"], 2);
+    equivalent(&bench, "counter.bench", "kept.blif");
+    let ran = bench.run(&["synth", "counter.bench", "-o", "cells.nb", "--cells", "nand,not", "--format", "json"]);
+    let expanded: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    // Eight cells a flip-flop, and one inverter for the clock of both.
+    assert_eq!(expanded["cells"].as_u64().unwrap(), report["cells"].as_u64().unwrap() + 17);
+    assert_eq!(bench.run(&["build", "cells.nb", "--cells", "nand,not"]).status, 0);
+}
+
+#[test]
+fn a_missing_gate_is_valued() {
+    let bench = Bench::new();
+    bench.file("fa.blif", FULL_ADDER);
+    let ran = bench.run(&["synth", "fa.blif", "--cells", "nand,not", "--what-if", "xor", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(report["what_if"]["xor"], 4);
+}
+
+/// Runs `nbc synth` on a text that is at fault, and compares the first line of the message.
+fn refused(name: &str, text: &str, expected: &str) {
+    let bench = Bench::new();
+    bench.file(name, text);
+    let ran = bench.run(&["synth", name, "-o", "out.blif", "--cells", "nand"]);
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert!(ran.err.contains(expected), "expected `{expected}`, found\n{}", ran.err);
+    assert!(!bench.path().join("out.blif").exists());
+}
+
+#[test]
+fn damaged_files_are_refused_with_a_reason() {
+    refused("a.blif", "", "no `.model` in this BLIF file");
+    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names z y\n1 1\n", "`z` is used and not defined");
+    refused("a.blif", ".model a\n.outputs y\n.names y y\n1 1\n", "`y` depends on itself");
+    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names x y\n11 1\n", "a row of the wrong width");
+    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.subckt gone a=x b=y\n", "model `gone` is missing");
+    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.latch x y 0\n", "latch `y` has no clock");
+    refused("a.bench", "OUTPUT(y)\ny = MUX(a, b)\n", "`MUX` of 2 nets is no gate of .bench");
+    refused("a.aag", "aag 1 1 0 1", "the file ends too early");
+    refused("a.aag", "aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "depends on itself");
+    refused("a.aig", "aig 9 1 0 1 8\n2\n", "the file ends too early");
+}
+
+#[test]
+fn an_incomplete_library_says_what_would_complete_it() {
+    let bench = Bench::new();
+    bench.file("fa.blif", FULL_ADDER);
+    let ran = bench.run(&["synth", "fa.blif", "--cells", "xor,not"]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("cannot be made of `not` and `xor`"), "{}", ran.err);
+}
+
+/// Lets ABC prove two files equal, where it is installed; under CI it must be.
+fn equivalent(bench: &Bench, one: &str, two: &str) {
+    let script = format!("cec {one} {two}");
+    let Ok(output) = Command::new("berkeley-abc").args(["-c", &script]).current_dir(bench.path()).output() else {
+        assert!(std::env::var_os("CI").is_none(), "CI must have berkeley-abc");
+        eprintln!("berkeley-abc is not installed, so {two} is not compared by it");
+        return;
+    };
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("Networks are equivalent"), "{said}");
+}
