@@ -342,8 +342,8 @@ impl<'m, 't> Flat<'m, 't> {
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| name.replace(|c: char| c.is_whitespace() || c == '#' || c == '\\' || c == '=', "_");
-    let names = names(netlist, legal);
-    let stand_ins = stand_ins(netlist);
+    let names = names(netlist, design.registers.len(), legal);
+    let stand_ins = stand_ins(netlist, design.registers.len());
     let name = |id: NetId| match netlist.node(id) {
         Node::Constant(value) => constant(*value),
         _ => names[stand_ins.get(&id).unwrap_or(&id)].as_str(),
@@ -369,7 +369,7 @@ pub fn write(design: &Design) -> String {
         };
         let clock = register.clock.as_ref().map_or(String::new(), |clock| format!(" {kind} {}", legal(clock)));
         let start = register.start.map_or(2, u8::from);
-        let _ = writeln!(text, ".latch {} {}{clock} {start}", names[next], names[state]);
+        let _ = writeln!(text, ".latch {} {}{clock} {start}", names[next], name(*state));
     }
     for id in cells_in_order(netlist) {
         write_cell(&mut text, netlist, id, &name);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::circuit::formats::names::{cells_in_order, names};
+use crate::circuit::formats::names::{cells_in_order, names, stand_ins};
 use crate::circuit::{Loops, NetId, Netlist, Node};
 
 /// Words of the language that no net may be called.
@@ -39,10 +39,11 @@ const RESERVED: &[&str] = &[
 /// Writes a netlist; feedback keeps its start values.
 pub fn write(netlist: &Netlist) -> String {
     let loops = Loops::of(netlist);
-    let names = names(netlist, word);
+    let names = names(netlist, 0, word);
+    let stand_ins = stand_ins(netlist, 0);
     let net = |id: NetId| match netlist.node(id) {
         Node::Constant(value) => u8::from(*value).to_string(),
-        _ => names[&id].clone(),
+        _ => names[stand_ins.get(&id).unwrap_or(&id)].clone(),
     };
     let ports = |ids: &[NetId]| ids.iter().map(|id| names[id].clone()).collect::<Vec<_>>().join(", ");
     let title = if netlist.name.is_empty() { "main".to_owned() } else { word(&netlist.name) };
@@ -54,10 +55,13 @@ pub fn write(netlist: &Netlist) -> String {
             .start
             .filter(|_| loops.contains(id))
             .map_or(String::new(), |start| format!(" init {}", u8::from(start)));
-        let _ = writeln!(text, "    {}{start} = {}", names[&id], expression(cell.function.bits(), &pins));
+        let _ = writeln!(text, "    {}{start} = {}", net(id), expression(cell.function.bits(), &pins));
     }
     for &id in netlist.outputs() {
-        let _ = writeln!(text, "    {} = {}", names[&id], net(netlist.pins(id)[0]));
+        let driver = netlist.pins(id)[0];
+        if stand_ins.get(&driver) != Some(&id) {
+            let _ = writeln!(text, "    {} = {}", names[&id], net(driver));
+        }
     }
     text.push_str("}\n");
     text

@@ -9,7 +9,7 @@ use crate::circuit::{NetId, Netlist, Node};
 /// Writes a design.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
-    let names = names(netlist, escaped);
+    let names = names(netlist, design.registers.len(), escaped);
     let (inputs, states) = netlist.inputs().split_at(design.inputs());
     let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
     let known: Vec<_> = inputs.iter().map(|&id| netlist.net_name(id)).collect();
