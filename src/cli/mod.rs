@@ -3,11 +3,13 @@
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 
 mod build;
+mod check;
 mod completions;
 mod context;
 mod draw;
 mod evolve;
 mod failure;
+mod fmt;
 mod interrupt;
 mod library;
 mod progress;
@@ -46,9 +48,11 @@ macro_rules! commands {
 
 commands! {
     Build in build,
+    Check in check,
     Completions in completions,
     Draw in draw,
     Evolve in evolve,
+    Fmt in fmt,
     Library in library,
     Run in run,
     Simulate in simulate,

@@ -47,7 +47,8 @@ fn distance(a: &str, b: &str, limit: usize) -> Option<usize> {
             rows[i][j] = edits(&rows, &a, &b, i, j);
         }
     }
-    Some(rows[a.len()][b.len()]).filter(|&edits| edits <= limit)
+    // Where every letter changes, nothing tells that the name was meant.
+    Some(rows[a.len()][b.len()]).filter(|&edits| edits <= limit && edits < a.len().max(b.len()))
 }
 
 fn edits(rows: &[Vec<usize>], a: &[char], b: &[char], i: usize, j: usize) -> usize {
@@ -70,6 +71,7 @@ mod tests {
         assert_eq!(nearest("cicruit", ["circuit", "stimulus"]), Some("circuit"));
         assert_eq!(nearest("q", ["nq", "d"]), Some("nq"));
         assert_eq!(nearest("carry", ["sum", "out"]), None);
+        assert_eq!(nearest("c", ["a", "b"]), None);
         assert_eq!(help("carry", ["sum", "out"]).unwrap(), "known here: `sum` and `out`");
     }
 }

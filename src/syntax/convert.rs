@@ -1,5 +1,7 @@
 //! Pest's pairs to the tree: what all kinds of declarations share. Slips that the grammar knows become diagnostics here.
 
+use std::ops::Range;
+
 use pest::iterators::{Pair, Pairs};
 
 use crate::diag::{Code, Diagnostic};
@@ -10,20 +12,23 @@ use crate::syntax::tree::{
 };
 
 /// Turns the pairs of one declaration into a tree.
-pub(crate) struct Converter {
+pub(crate) struct Converter<'a> {
     pub(crate) file: FileId,
+    /// The file's text and all its comments.
+    pub(crate) text: &'a str,
+    pub(crate) comments: &'a [Range<usize>],
     /// Where the declaration's text begins in the file.
     pub(crate) offset: usize,
     pub(crate) errors: Vec<Diagnostic>,
 }
 
-impl Converter {
+impl Converter<'_> {
     /// The declaration that the pairs of a parse hold, unless it is a slip.
     pub(crate) fn declaration(&mut self, pairs: Pairs<Rule>) -> Option<Declaration> {
         let pair = solid(pairs).next().expect("a parsed declaration has a pair");
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
-            Rule::use_file => DeclarationKind::Use(self.text(parts(pair).next().expect("a path"))),
+            Rule::use_file => DeclarationKind::Use(self.quoted(parts(pair).next().expect("a path"))),
             Rule::stimulus => DeclarationKind::Stimulus(parts(pair).map(|name| self.name(&name)).collect()),
             Rule::material => self.record_declaration(RecordKeyword::Material, pair),
             Rule::evolution => self.record_declaration(RecordKeyword::Evolution, pair),
@@ -80,7 +85,20 @@ impl Converter {
 
     pub(crate) fn span(&self, pair: &Pair<Rule>) -> Span {
         let span = pair.as_span();
-        Span::new(self.file, self.offset + span.start(), self.offset + span.end())
+        let start = self.offset + span.start();
+        Span::new(self.file, start, self.solid_end(start, self.offset + span.end()))
+    }
+
+    /// Where a stretch of text ends without the blanks and comments behind it, which pest counts in.
+    fn solid_end(&self, start: usize, mut end: usize) -> usize {
+        loop {
+            end = start + self.text[start..end].trim_end().len();
+            let after = self.comments.partition_point(|comment| comment.start < end);
+            match after.checked_sub(1).map(|last| &self.comments[last]) {
+                Some(last) if last.start > start && last.end >= end => end = last.start,
+                _ => return end,
+            }
+        }
     }
 
     pub(crate) fn name(&self, pair: &Pair<Rule>) -> Name {
@@ -91,7 +109,7 @@ impl Converter {
         Number { text: pair.as_str().to_owned(), span: self.span(pair) }
     }
 
-    pub(crate) fn text(&self, pair: Pair<Rule>) -> Text {
+    pub(crate) fn quoted(&self, pair: Pair<Rule>) -> Text {
         let span = self.span(&pair);
         Text { text: parts(pair).map(|part| part.as_str().to_owned()).collect(), span }
     }

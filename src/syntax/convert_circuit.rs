@@ -38,7 +38,7 @@ impl Arena {
     }
 }
 
-impl Converter {
+impl Converter<'_> {
     pub(crate) fn parameters(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Parameter> {
         parts(pair)
             .map(|parameter| {

@@ -32,7 +32,7 @@ impl Waiting {
     }
 }
 
-impl Converter {
+impl Converter<'_> {
     pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
         let mut stacks = Stacks::default();
         for part in parts(pair) {

@@ -7,7 +7,7 @@ use crate::syntax::convert_circuit::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{Field, Instance, Record, Value, ValueKind};
 
-impl Converter {
+impl Converter<'_> {
     pub(crate) fn record(&mut self, pair: Pair<Rule>) -> Record {
         let span = self.span(&pair);
         Record { fields: parts(pair).map(|field| self.field(field)).collect(), span }
@@ -28,7 +28,7 @@ impl Converter {
         let kind = match pair.as_rule() {
             Rule::record => ValueKind::Record(self.record(pair)),
             Rule::list => ValueKind::List(parts(pair).map(|value| self.value(value)).collect()),
-            Rule::text => ValueKind::Text(self.text(pair).text),
+            Rule::text => ValueKind::Text(self.quoted(pair).text),
             Rule::quantity => ValueKind::Quantity(self.quantity(pair)),
             Rule::instance => ValueKind::Instance(self.instance(pair)),
             rule => self.pair_of_values(rule, pair),

@@ -7,7 +7,7 @@ use crate::syntax::convert_circuit::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{Name, Schedule, Simulate, Spell, Test, TestKind, TestRow, TestTable, With};
 
-impl Converter {
+impl Converter<'_> {
     pub(crate) fn schedule(&mut self, pair: Pair<Rule>) -> Schedule {
         let mut parts = parts(pair);
         let name = self.name(&parts.next().expect("a name"));
@@ -44,7 +44,7 @@ impl Converter {
     pub(crate) fn test(&mut self, pair: Pair<Rule>) -> Test {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
-        let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.text(title));
+        let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
         let what = parts.next().expect("a table or `for all inputs`");
         let kind = match what.as_rule() {
             Rule::test_table => TestKind::Table(self.test_table(what)),

@@ -6,10 +6,12 @@ mod convert_expression;
 mod convert_record;
 mod convert_test;
 mod expected;
+mod format;
 mod grammar;
 mod parse;
 mod split;
 pub mod tree;
 
+pub use format::format;
 pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, Parsed, parse};
 pub use split::KEYWORDS;

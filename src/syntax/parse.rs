@@ -1,5 +1,7 @@
 //! Text to tree, declaration by declaration; never fails.
 
+use std::ops::Range;
+
 use pest::Parser;
 
 use crate::diag::{Code, Diagnostic};
@@ -34,12 +36,15 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     if text.len() as u64 > MAX_SOURCE_BYTES {
         return Parsed { errors: vec![too_large(text, file)], ..Parsed::default() };
     }
+    if let Some(at) = text.find('\0') {
+        return Parsed { errors: vec![no_text(file, at)], ..Parsed::default() };
+    }
     let split = split(text);
     let mut parsed = Parsed::default();
     parsed.tree.comments =
-        split.comments.into_iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
+        split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
     for piece in &split.pieces {
-        let (declaration, errors) = parse_piece(text, file, piece);
+        let (declaration, errors) = parse_piece(text, file, &split.comments, piece);
         parsed.tree.declarations.extend(declaration);
         parsed.errors.extend(errors);
     }
@@ -53,12 +58,22 @@ fn too_large(text: &str, file: FileId) -> Diagnostic {
         .with_help("split it into files, or say with `for` and circuits what repeats")
 }
 
-fn parse_piece(text: &str, file: FileId, piece: &Piece) -> (Option<Declaration>, Vec<Diagnostic>) {
+fn no_text(file: FileId, at: usize) -> Diagnostic {
+    let span = Span::new(file, at, at + 1);
+    Diagnostic::new(Code::Unreadable, "the file is no text", span, "a zero byte").with_help("source files are UTF-8 text")
+}
+
+fn parse_piece(
+    text: &str,
+    file: FileId,
+    comments: &[Range<usize>],
+    piece: &Piece,
+) -> (Option<Declaration>, Vec<Diagnostic>) {
     if piece.depth > MAX_NESTING {
         return (None, vec![too_deep(file, piece)]);
     }
     let source = &text[piece.range.clone()];
-    let mut converter = Converter { file, offset: piece.range.start, errors: Vec::new() };
+    let mut converter = Converter { file, text, comments, offset: piece.range.start, errors: Vec::new() };
     let declaration = on_a_stack_for(piece.depth, || match NbParser::parse(Rule::declaration, source) {
         Ok(pairs) => converter.declaration(pairs),
         Err(error) => {

@@ -215,6 +215,10 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
     }
 
     fn undriven(&mut self) {
+        if self.failed {
+            // What drives them may be what is at fault.
+            return;
+        }
         for net in self.circuit.inputs..self.module.nets.len() {
             let ModuleNet { first, width, name, span } = &self.module.nets[net];
             let bits = *first..first + width.unwrap_or(0);

@@ -1,0 +1,57 @@
+//! `nbc fmt`: programs in their canonical form.
+
+use std::path::Path;
+
+use clap::Args;
+
+use crate::check;
+use crate::cli::{Context, Failure, Status};
+use crate::source::Sources;
+use crate::store::{self, DiskWorld};
+use crate::syntax;
+
+/// Write programs in their one canonical form
+#[derive(Args)]
+#[command(after_help = "Examples:
+  nbc fmt circuits/latch.nb
+  nbc fmt --check circuits/*.nb
+
+Exit status: 0 done, 1 with --check when a file is not in its canonical form, 2 when a file cannot be parsed.")]
+pub struct Arguments {
+    /// The source files
+    #[arg(required = true)]
+    files: Vec<String>,
+    /// Change nothing; name the files that would change
+    #[arg(long)]
+    check: bool,
+}
+
+impl Arguments {
+    /// Formats the files; one that cannot be parsed stays as it is.
+    ///
+    /// # Errors
+    /// When a file cannot be read, parsed or written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let mut status = Status::Done;
+        for path in &self.files {
+            let mut sources = Sources::default();
+            let file = check::open(&DiskWorld, path, &mut sources).map_err(Failure::plain)?;
+            let parsed = syntax::parse(&sources, file);
+            if !parsed.errors.is_empty() {
+                return Err(Failure::input(parsed.errors, sources));
+            }
+            let text = syntax::format(&sources, file, &parsed.tree);
+            if text == sources.file(file).text {
+                continue;
+            }
+            if self.check {
+                context.print(format!("{path}\n"))?;
+                status = Status::TestFailed;
+            } else {
+                let path = Path::new(path);
+                store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
+            }
+        }
+        Ok(status)
+    }
+}

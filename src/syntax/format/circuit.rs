@@ -1,0 +1,115 @@
+//! Circuits and their statements.
+
+use crate::source::Span;
+use crate::syntax::format::expression::{expression, index, size};
+use crate::syntax::format::layout::{Piece, layout};
+use crate::syntax::format::printer::Printer;
+use crate::syntax::tree::{Body, Circuit, Parameter, Port, Size, Statement, StatementKind, Target};
+
+impl Printer<'_> {
+    pub(super) fn circuit(&mut self, circuit: &Circuit, span: Span) {
+        let sizes = &circuit.body.sizes;
+        let mut pieces =
+            vec![Piece::Text(format!("circuit {}{}", circuit.name.text, parameters(sizes, &circuit.parameters)))];
+        ports(sizes, &circuit.inputs, &mut pieces);
+        pieces.push(Piece::Text(" -> ".to_owned()));
+        ports(sizes, &circuit.outputs, &mut pieces);
+        let head = layout(&pieces, self.column(), self.indent);
+        self.write(&head);
+        self.write(" ");
+        self.block(span.end, |printer| printer.statements(&circuit.body, &circuit.body.statements));
+    }
+
+    pub(super) fn statements(&mut self, body: &Body, statements: &[Statement]) {
+        let mut at = 0;
+        while at < statements.len() {
+            let run = self.aligned_run(&statements[at..]);
+            let lefts: Vec<_> = statements[at..at + run].iter().map(|statement| left(body, statement)).collect();
+            let width = lefts.iter().map(|left| left.chars().count()).max().unwrap_or(0);
+            for (statement, left) in statements[at..at + run].iter().zip(&lefts) {
+                self.statement(body, statement, left, width);
+            }
+            at += run;
+        }
+    }
+
+    /// How many statements at the start have their `=` aligned: drives of one target, line by line.
+    fn aligned_run(&self, statements: &[Statement]) -> usize {
+        let plain = |statement: &Statement| matches!(statement.kind, StatementKind::Drive { grouped: false, .. });
+        let follows = |pair: &&[Statement]| {
+            plain(&pair[0])
+                && plain(&pair[1])
+                && self.adjacent(pair[0].span, pair[1].span)
+                && !self.has_comment_inside(pair[1].span)
+        };
+        1 + statements.windows(2).take_while(follows).count()
+    }
+
+    fn statement(&mut self, body: &Body, statement: &Statement, left: &str, width: usize) {
+        let head = match &statement.kind {
+            StatementKind::For { statements, .. } => {
+                statements.first().map_or(statement.span.end, |first| first.span.start)
+            }
+            _ => statement.span.end,
+        };
+        self.item_with_inside(statement.span, head, |printer| match &statement.kind {
+            StatementKind::Nets(_) => printer.write(left),
+            StatementKind::For { statements, .. } => {
+                printer.write(left);
+                printer.block(statement.span.end, |printer| printer.statements(body, statements));
+            }
+            StatementKind::Drive { value, .. } => {
+                printer.write(&format!("{left:width$} = "));
+                let text = layout(&expression(body, *value), printer.column(), printer.indent);
+                printer.write(&text);
+            }
+        });
+    }
+}
+
+/// What stands before the `=` or the block of a statement.
+fn left(body: &Body, statement: &Statement) -> String {
+    let sizes = &body.sizes;
+    match &statement.kind {
+        StatementKind::Nets(nets) => {
+            format!("net {}", nets.iter().map(|net| port(sizes, net)).collect::<Vec<_>>().join(", "))
+        }
+        StatementKind::For { variable, from, to, .. } => {
+            format!("for {} in {}..{} ", variable.text, size(sizes, *from), size(sizes, *to))
+        }
+        StatementKind::Drive { targets, grouped, .. } => {
+            let targets = targets.iter().map(|one| target(sizes, one)).collect::<Vec<_>>().join(", ");
+            if *grouped { format!("({targets})") } else { targets }
+        }
+    }
+}
+
+fn target(sizes: &[Size], target: &Target) -> String {
+    let start = target.start.map_or(String::new(), |start| format!(" init {}", size(sizes, start)));
+    format!("{}{}{start}", target.name.text, index(sizes, target.index.as_ref()))
+}
+
+fn port(sizes: &[Size], port: &Port) -> String {
+    let width = port.width.map_or(String::new(), |width| format!("[{}]", size(sizes, width)));
+    format!("{}{width}", port.name.text)
+}
+
+fn parameters(sizes: &[Size], parameters: &[Parameter]) -> String {
+    let one = |parameter: &Parameter| {
+        let default = parameter.default.map_or(String::new(), |default| format!(" = {}", size(sizes, default)));
+        format!("{}{default}", parameter.name.text)
+    };
+    match parameters {
+        [] => String::new(),
+        _ => format!("[{}]", parameters.iter().map(one).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+fn ports(sizes: &[Size], list: &[Port], pieces: &mut Vec<Piece>) {
+    pieces.extend([Piece::Text("(".to_owned()), Piece::Open]);
+    for (at, one) in list.iter().enumerate() {
+        pieces.push(Piece::Break(if at == 0 { "" } else { ", " }));
+        pieces.push(Piece::Text(port(sizes, one)));
+    }
+    pieces.extend([Piece::EndBreak(""), Piece::Close, Piece::Text(")".to_owned())]);
+}
