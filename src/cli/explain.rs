@@ -1,0 +1,78 @@
+//! `nbc explain`: the page of a diagnostic's code.
+
+use clap::Args;
+use include_dir::{Dir, include_dir};
+
+use crate::cli::{Context, Failure, Format, Status};
+use crate::diag::{Code, Diagnostic, suggest};
+
+/// The pages, one for each code.
+static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
+
+/// Explain the code of a message
+#[derive(Args)]
+#[command(after_help = "Examples:
+  nbc explain width
+  nbc explain")]
+pub struct Arguments {
+    /// The code, as the message shows it; all codes are listed without it
+    code: Option<String>,
+}
+
+impl Arguments {
+    /// Prints the page of a code, or the list of codes.
+    ///
+    /// # Errors
+    /// When no code has that name, or the output cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let Some(word) = self.code else { return list(context) };
+        let Some(code) = Code::ALL.iter().find(|code| code.word() == word) else {
+            let fault = Diagnostic::without_place(Code::BadValue, format!("no message has the code `{word}`"));
+            let near = suggest::nearest(&word, Code::ALL.iter().map(|code| code.word()));
+            let help = near.map_or_else(|| "`nbc explain` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
+            return Err(Failure::plain(fault.with_help(help)));
+        };
+        let page = page(*code);
+        match context.format {
+            Format::Json => context.print_json(&serde_json::json!({
+                "code": code, "severity": code.severity(), "meaning": code.meaning(), "page": page,
+            }))?,
+            Format::Text => context.print(page)?,
+        }
+        Ok(Status::Done)
+    }
+}
+
+fn page(code: Code) -> &'static str {
+    let file = PAGES.get_file(format!("{code}.md")).expect("every code has its page");
+    file.contents_utf8().expect("pages are text")
+}
+
+fn list(context: &mut Context) -> Result<Status, Failure> {
+    if context.format == Format::Json {
+        let codes: Vec<_> = Code::ALL
+            .iter()
+            .map(|code| serde_json::json!({ "code": code, "severity": code.severity(), "meaning": code.meaning() }))
+            .collect();
+        context.print_json(&codes)?;
+        return Ok(Status::Done);
+    }
+    let width = Code::ALL.iter().map(|code| code.word().len()).max().unwrap_or(0);
+    for code in Code::ALL {
+        context.print(format_args!("{code:width$}  {}\n", code.meaning()))?;
+    }
+    Ok(Status::Done)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_has_its_page_and_every_page_its_code() {
+        for code in Code::ALL {
+            assert!(page(*code).starts_with(&format!("# `{code}`\n")), "the page of `{code}` begins with its name");
+        }
+        assert_eq!(PAGES.files().count(), Code::ALL.len(), "pages without a code");
+    }
+}
