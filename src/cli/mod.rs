@@ -8,6 +8,7 @@ mod completions;
 mod context;
 mod draw;
 mod evolve;
+mod explain;
 mod failure;
 mod fmt;
 mod interrupt;
@@ -18,6 +19,7 @@ mod schedule;
 mod simulate;
 mod status;
 mod synth;
+mod test;
 
 use std::process::ExitCode;
 
@@ -52,11 +54,13 @@ commands! {
     Completions in completions,
     Draw in draw,
     Evolve in evolve,
+    Explain in explain,
     Fmt in fmt,
     Library in library,
     Run in run,
     Simulate in simulate,
     Synth in synth,
+    Test in test,
 }
 
 const EXAMPLES: &str = "\

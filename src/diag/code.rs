@@ -56,7 +56,6 @@ codes! {
     HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the slowest path needs.";
     IncompleteLibrary = "incomplete-library", Error: "A cell library that does not hold enough functions.";
     LoopWithoutStart = "loop-without-start", Warning: "A feedback loop without a start value.";
-    MissingBehavior = "missing-behavior", Error: "A behavior that the library does not hold.";
     MissingField = "missing-field", Error: "A declaration without a field that it needs.";
     MultipleDrivers = "multiple-drivers", Error: "A net driven more than once.";
     Nesting = "nesting", Error: "Text that is nested too deep.";

@@ -119,10 +119,20 @@ impl Converter<'_> {
         parts(pair).map(|expression| self.expression(expression, arena)).collect()
     }
 
+    /// A choice; those behind its `else` are its siblings in the grammar, and inside it in the tree.
     fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
-        let mut branches = parts(pair).filter(|part| part.as_rule() == Rule::expression);
-        let mut next = |converter: &mut Self| converter.expression(branches.next().expect("a branch"), arena);
-        ExpressionKind::Choice { condition: next(self), then: next(self), otherwise: next(self) }
+        let branches = parts(pair).filter(|part| part.as_rule() == Rule::expression);
+        let mut values: Vec<_> = branches.map(|branch| self.expression(branch, arena)).collect();
+        let mut otherwise = values.pop().expect("a choice has its last branch");
+        loop {
+            let then = values.pop().expect("a choice has a value");
+            let condition = values.pop().expect("a choice has a condition");
+            if values.is_empty() {
+                return ExpressionKind::Choice { condition, then, otherwise };
+            }
+            let span = arena.span(condition).to(arena.span(otherwise));
+            otherwise = arena.expression(ExpressionKind::Choice { condition, then, otherwise }, span);
+        }
     }
 
     fn operation(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {

@@ -34,7 +34,7 @@ pub struct Piece {
 /// Cuts a text into declarations.
 pub fn split(text: &str) -> Split {
     let mut splitter =
-        Splitter { text, split: Split::default(), piece: None, open: Vec::new(), closed: false, line: Some(0) };
+        Splitter { text, split: Split::default(), piece: None, open: Vec::new(), closed: false, line: Some(0), choices: 0 };
     let mut at = 0;
     while at < text.len() {
         at = splitter.token(at);
@@ -52,6 +52,8 @@ struct Splitter<'a> {
     closed: bool,
     /// Where the line began, while nothing but blanks has been seen of it.
     line: Option<usize>,
+    /// The `if` whose `else` has not come.
+    choices: usize,
 }
 
 impl Splitter<'_> {
@@ -74,6 +76,7 @@ impl Splitter<'_> {
             }
             self.extend(at, at + length);
             self.bracket(at, first);
+            self.choice(at, &rest[..length]);
             self.line = None;
         }
         at + length
@@ -116,12 +119,26 @@ impl Splitter<'_> {
         piece.depth = piece.depth.max(self.open.len());
     }
 
+    /// Counts choices inside choices; the `else` of a table has a colon behind it.
+    fn choice(&mut self, at: usize, token: &str) {
+        match token {
+            "if" => self.choices += 1,
+            "else" if !self.text[at + token.len()..].trim_start().starts_with(':') => {
+                self.choices = self.choices.saturating_sub(1);
+            }
+            _ => return,
+        }
+        let piece = self.piece.as_mut().expect("a token belongs to a piece");
+        piece.depth = piece.depth.max(self.open.len() + self.choices);
+    }
+
     fn end_piece(&mut self) {
         if let Some(mut piece) = self.piece.take() {
             piece.unclosed = std::mem::take(&mut self.open);
             self.split.pieces.push(piece);
         }
         self.closed = false;
+        self.choices = 0;
     }
 }
 

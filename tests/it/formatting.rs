@@ -1,0 +1,139 @@
+//! The laws of the formatter: twice is once, comments are kept, the meaning stays.
+
+use std::fs;
+
+use nbc::check;
+use nbc::circuit::elaborate;
+use nbc::source::{MemoryWorld, Sources};
+use nbc::syntax;
+use proptest::prelude::*;
+
+use crate::language::programs;
+
+/// The canonical form of a text without syntax errors.
+fn formatted(text: &str) -> String {
+    let mut sources = Sources::default();
+    let file = sources.add("a.nb", text);
+    let parsed = syntax::parse(&sources, file);
+    assert_eq!(parsed.errors, [], "{text}");
+    syntax::format(&sources, file, &parsed.tree)
+}
+
+/// The words of a text without its layout: no blanks, no commas, which line breaks may stand for; and its comments.
+fn words(text: &str) -> (String, Vec<String>) {
+    let (mut words, mut comments) = (String::new(), Vec::new());
+    for line in text.lines() {
+        let (code, comment) = line.split_at(line.find("//").unwrap_or(line.len()));
+        words.extend(code.chars().filter(|c| !c.is_whitespace() && *c != ','));
+        comments.extend(Some(comment.trim_end().to_owned()).filter(|comment| !comment.is_empty()));
+    }
+    (words, comments)
+}
+
+fn check_laws(text: &str) {
+    let once = formatted(text);
+    assert_eq!(words(&once), words(text), "words and comments stay:\n{text}\n{once}");
+    assert_eq!(formatted(&once), once, "twice is once:\n{text}");
+}
+
+#[test]
+fn every_program_of_the_repository_is_in_its_canonical_form() {
+    let update = std::env::var_os("NBC_UPDATE_UI").is_some();
+    for path in programs("circuits").into_iter().chain(programs("library")) {
+        let text = fs::read_to_string(&path).unwrap();
+        check_laws(&text);
+        let once = formatted(&text);
+        if update {
+            fs::write(&path, once).unwrap();
+        } else {
+            assert_eq!(once, text, "{}: `nbc fmt` writes it otherwise", path.display());
+        }
+    }
+}
+
+/// An expression over the nets `a`, `b` and the bus `v`, one bit wide.
+fn expression() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        Just("a".to_owned()),
+        Just("b".to_owned()),
+        Just("0".to_owned()),
+        (0..4u8).prop_map(|bit| format!("v[{bit}]")),
+        Just("v == 4'b0110".to_owned()).prop_map(|text| format!("({text})")),
+    ];
+    leaf.prop_recursive(5, 40, 4, |inner| {
+        let operator = prop_oneof![Just("and"), Just("or"), Just("xor"), Just("nand"), Just("nor")];
+        prop_oneof![
+            (inner.clone(), operator.clone(), inner.clone()).prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+            (operator, prop::collection::vec(inner.clone(), 2..4)).prop_map(|(op, all)| format!("{op}({})", all.join(" , "))),
+            inner.clone().prop_map(|a| format!("not  {a}")),
+            (inner.clone(), inner.clone(), inner.clone())
+                .prop_map(|(c, a, b)| format!("(if {c} then {a}\n else {b})")),
+            (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("any({{{a},{b}}})")),
+            (inner.clone(), inner).prop_map(|(a, b)| format!("table({a},{b}){{ 0-:1\n 11 :0 ,else:  1}}")),
+        ]
+    })
+}
+
+/// What stands between two lines: nothing, blank lines, comments.
+fn gap() -> impl Strategy<Value = &'static str> {
+    prop_oneof![Just("\n"), Just("\n\n\n"), Just(" // behind\n"), Just("\n  // before\n"), Just("\r\n\t")]
+}
+
+fn program() -> impl Strategy<Value = String> {
+    prop::collection::vec((expression(), gap()), 1..5).prop_map(|lines| {
+        let mut text = "circuit  main(a, b,v[4])->(".to_owned();
+        text += &(0..lines.len()).map(|at| format!("q{at}")).collect::<Vec<_>>().join(",");
+        text += "){ // head\n";
+        for (at, (expression, gap)) in lines.iter().enumerate() {
+            text += &format!(" q{at} init {} ={expression}{gap}", at % 2);
+        }
+        text + "}\n// end"
+    })
+}
+
+/// The netlist of `main`, as text.
+fn netlist(text: &str) -> String {
+    let mut sources = Sources::default();
+    let file = sources.add("a.nb", text);
+    let checked = check::check(&MemoryWorld::default(), &mut sources, file);
+    assert!(!checked.has_errors(), "{text}\n{:?}", checked.diagnostics);
+    elaborate(&checked.program, &"main".into()).unwrap().to_string()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn formatting_changes_neither_words_nor_meaning(text in program()) {
+        check_laws(&text);
+        prop_assert_eq!(netlist(&formatted(&text)), netlist(&text));
+    }
+
+    #[test]
+    fn any_text_is_parsed_without_a_panic(text in "(?s).{0,200}") {
+        let mut sources = Sources::default();
+        let file = sources.add("a.nb", text);
+        check::check(&MemoryWorld::default(), &mut sources, file);
+    }
+
+    #[test]
+    fn any_words_of_the_language_are_parsed_without_a_panic(
+        words in prop::collection::vec(prop::sample::select(WORDS), 0..60),
+    ) {
+        let mut sources = Sources::default();
+        let file = sources.add("a.nb", words.join(" "));
+        let parsed = syntax::parse(&sources, file);
+        if parsed.errors.is_empty() {
+            check_laws(&sources.file(file).text);
+        }
+        check::check(&MemoryWorld::default(), &mut sources, file);
+    }
+}
+
+/// What programs are made of.
+const WORDS: &[&str] = &[
+    "\ncircuit", "f", "(", "a", ",", "b", ")", "->", "{", "}", "=", "nand", "not", "q", "\n", "[", "4", "]", "..", "init", "0", "1",
+    "\ntest", "|", "-", "^", "for", "all", "inputs", "if", "then", "else", "table", ":", "'", "4'd3", "\nmaterial", "kind", "rigid",
+    "10", "cycles", "\nschedule", "s1", "+", "==", "in", "net", "// c\n", "\"t\"", "**", "log2", "\nuse", "\nswarm", "x", "add", "latch",
+    "circuit f(a) -> (q) { q = a }", "\n\ntest f { a | q\n 0 | 1\n}",
+];

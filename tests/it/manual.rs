@@ -1,0 +1,117 @@
+//! The manual and the pages of the codes: every example is executed.
+
+use std::fs;
+use std::path::Path;
+
+use nbc::check;
+use nbc::diag::{Code, Diagnostic, render};
+use nbc::source::{MemoryWorld, Sources};
+
+use crate::cli::Bench;
+use crate::language::passes;
+
+/// A fenced piece of a page: the words after the fence, and the text.
+struct Fence {
+    words: Vec<String>,
+    text: String,
+}
+
+fn fences(page: &str) -> Vec<Fence> {
+    let mut fences = Vec::new();
+    let mut open: Option<Fence> = None;
+    for line in page.lines() {
+        match (line.strip_prefix("```"), &mut open) {
+            (Some(_), Some(_)) => fences.extend(open.take()),
+            (Some(words), None) => {
+                let words = words.split_whitespace().map(str::to_owned).collect();
+                open = Some(Fence { words, text: String::new() });
+            }
+            (None, Some(fence)) => fence.text += &format!("{line}\n"),
+            (None, None) => {}
+        }
+    }
+    assert!(open.is_none(), "every fence is closed");
+    fences
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+/// What the checker says of a program called `main.nb`.
+fn said(text: &str) -> (Vec<Diagnostic>, String) {
+    let mut world = MemoryWorld::default();
+    world.insert("main.nb", text);
+    let mut sources = Sources::default();
+    let file = check::open(&world, "main.nb", &mut sources).unwrap();
+    let diagnostics = check::check(&world, &mut sources, file).diagnostics;
+    let text = render::text(&diagnostics, &sources, false);
+    (diagnostics, text)
+}
+
+/// Runs the command of a fence and checks how it ends.
+fn run_command(bench: &Bench, fence: &Fence, code: Code) {
+    let line = fence.text.trim().strip_prefix("$ nbc ").expect("a command of the program");
+    let arguments: Vec<String> = line.split_whitespace().map(|word| word.trim_matches('\'').to_owned()).collect();
+    let ran = bench.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    if fence.words.contains(&"fails".to_owned()) {
+        assert_eq!(ran.status, 2, "{line}: {}{}", ran.out, ran.err);
+        assert!(ran.err.starts_with(code.word()), "{line} says `{code}`: {}", ran.err);
+    } else {
+        assert_eq!(ran.status, 0, "{line}: {}{}", ran.out, ran.err);
+    }
+}
+
+fn check_page(code: Code) {
+    let bench = Bench::new();
+    let fences = fences(&read(&format!("docs/errors/{code}.md")));
+    let (mut failing, mut mended) = (0, 0);
+    for fence in &fences {
+        let fails = fence.words.contains(&"fails".to_owned());
+        match fence.words[0].as_str() {
+            "file" => {
+                let path = bench.path().join(&fence.words[1]);
+                fs::create_dir_all(path.parent().unwrap()).unwrap();
+                fs::write(path, &fence.text).unwrap();
+                continue;
+            }
+            "console" => run_command(&bench, fence, code),
+            _ => {
+                let (diagnostics, text) = said(&fence.text);
+                let here = diagnostics.iter().any(|diagnostic| diagnostic.code == code);
+                // What depends on the robots of the library is said when the program is run.
+                let when_run = fence.words.contains(&"run".to_owned());
+                assert!(if fails && !when_run { here } else { diagnostics.is_empty() }, "`{code}`: {text}");
+            }
+        }
+        *(if fails { &mut failing } else { &mut mended }) += 1;
+    }
+    assert!(failing == 1 && mended == 1, "the page of `{code}` has a failing and a mended example");
+}
+
+#[test]
+fn every_page_of_a_code_shows_what_fails_and_how_it_is_mended() {
+    for code in Code::ALL {
+        check_page(*code);
+    }
+}
+
+#[test]
+fn every_example_of_the_manual_runs() {
+    for path in ["docs/language.md", "grammar/README.md"] {
+        let examples: Vec<_> = fences(&read(path)).into_iter().filter(|fence| fence.words == ["nb"]).collect();
+        assert!(examples.len() > 5, "{path} has examples");
+        for example in examples {
+            let mut sources = Sources::default();
+            let file = sources.add("main.nb", example.text);
+            let mut world = MemoryWorld::default();
+            world.insert("adders.nb", read("circuits/full_adder.nb"));
+            let checked = check::check(&world, &mut sources, file);
+            let text = render::text(&checked.diagnostics, &sources, false);
+            assert!(checked.diagnostics.is_empty(), "{path}:\n{}\n{text}", sources.file(file).text);
+            for test in &checked.program.tests {
+                passes(&checked.program, test);
+            }
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Messages: each program of `tests/ui` with exactly what the checker says of it, beside it as `.stderr`.
+//!
+//! `NBC_UPDATE_UI=1 cargo test --test it ui` writes what is said now; read it before it is committed.
+
+use std::fs;
+use std::path::Path;
+
+use nbc::check;
+use nbc::diag::{Code, Diagnostic, render};
+use nbc::source::Sources;
+use nbc::store::DiskWorld;
+
+use crate::language::programs;
+
+/// What the checker finds in a file of the repository, by its path from the root.
+fn found(path: &str) -> (Vec<Diagnostic>, String) {
+    let mut sources = Sources::default();
+    let diagnostics = match check::open(&DiskWorld, path, &mut sources) {
+        Ok(file) => check::check(&DiskWorld, &mut sources, file).diagnostics,
+        Err(fault) => vec![fault],
+    };
+    let text = render::text(&diagnostics, &sources, false);
+    (diagnostics, text)
+}
+
+fn name(path: &Path) -> String {
+    format!("tests/ui/{}", path.file_name().unwrap().to_str().unwrap())
+}
+
+#[test]
+fn every_message_is_as_recorded() {
+    let update = std::env::var_os("NBC_UPDATE_UI").is_some();
+    let mut differing = Vec::new();
+    for path in programs("tests/ui") {
+        let (_, said) = found(&name(&path));
+        assert!(!said.is_empty(), "{} has faults", path.display());
+        let recorded = path.with_extension("stderr");
+        if update {
+            fs::write(&recorded, &said).unwrap();
+        } else if fs::read_to_string(&recorded).unwrap_or_default() != said {
+            differing.push(format!("{}\n{said}", recorded.display()));
+        }
+    }
+    assert!(differing.is_empty(), "messages differ from what is recorded:\n{}", differing.join("\n"));
+}
+
+#[test]
+fn every_code_of_the_language_has_a_program() {
+    // These are about the command line and about other files; their programs are on their pages.
+    let elsewhere = [
+        Code::BadSchedule,
+        Code::BadValue,
+        Code::Checkpoint,
+        Code::CircuitFile,
+        Code::ForeignFormat,
+        Code::HoldTooShort,
+        Code::IncompleteLibrary,
+        Code::RobotFile,
+        Code::UnknownRobot,
+        Code::Unwritable,
+    ];
+    for code in Code::ALL.iter().filter(|code| !elsewhere.contains(code)) {
+        let (diagnostics, said) = found(&format!("tests/ui/{code}.nb"));
+        assert!(diagnostics.iter().any(|diagnostic| diagnostic.code == *code), "`{code}` is not said of its program:\n{said}");
+    }
+}
+
+#[test]
+fn messages_are_written_as_messages_are() {
+    for path in programs("tests/ui") {
+        for diagnostic in found(&name(&path)).0 {
+            let help = diagnostic.help.iter();
+            let texts = diagnostic.labels.iter().chain(&diagnostic.related).map(|label| &label.text).chain(help);
+            for text in texts.chain([&diagnostic.message]) {
+                assert!(!text.ends_with('.') && !text.is_empty(), "{text:?} ends without a full stop");
+                assert!(!text.starts_with(char::is_uppercase), "{text:?} begins in lower case");
+            }
+        }
+    }
+}
