@@ -29,7 +29,8 @@ impl Arguments {
         let Some(code) = Code::ALL.iter().find(|code| code.word() == word) else {
             let fault = Diagnostic::without_place(Code::BadValue, format!("no message has the code `{word}`"));
             let near = suggest::nearest(&word, Code::ALL.iter().map(|code| code.word()));
-            let help = near.map_or_else(|| "`nbc explain` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
+            let help = near
+                .map_or_else(|| "`nbc explain` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
             return Err(Failure::plain(fault.with_help(help)));
         };
         let page = page(*code);

@@ -12,9 +12,9 @@ use crate::circuit::formats::{Design, aiger, bench, blif, dot, nb, verilog};
 use crate::circuit::{
     CellLibrary, Effort, MapError, MapOptions, Netlist, Objective, levels, map_with, prove, registers,
 };
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, Format, Status, library};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{Function, Library};
+use crate::model::Function;
 use crate::source::Sources;
 use crate::{store, swarm};
 
@@ -221,7 +221,7 @@ impl CellArguments {
     /// The library that the user chose.
     pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
         match (&self.library, &self.cells[..]) {
-            (Some(path), _) => Ok(swarm::cells(&robots(path)?)),
+            (Some(path), _) => Ok(swarm::cells(&library::robots(path)?)),
             (None, []) => Ok(swarm::cells(store::shipped_library())),
             (None, [all]) if all == "all" => Ok(CellLibrary::uniform(
                 Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),
@@ -229,28 +229,6 @@ impl CellArguments {
             (None, names) => Ok(CellLibrary::uniform(functions(names)?)),
         }
     }
-}
-
-/// The robots of a file, or of every robot file of a folder.
-fn robots(path: &Path) -> Result<Library, Failure> {
-    let mut paths = vec![path.to_owned()];
-    if path.is_dir() {
-        let entries = std::fs::read_dir(path).map_err(|error| unreadable(path, &error))?;
-        paths = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-        paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
-        paths.sort();
-    }
-    let mut sources = Sources::default();
-    let mut found = Vec::new();
-    for path in paths {
-        let text = String::from_utf8_lossy(&bytes(&path)?).into_owned();
-        let id = sources.add(path.display().to_string(), text);
-        match store::read_robot(sources.file(id)) {
-            Ok(robot) => found.push(robot),
-            Err(diagnostic) => return Err(Failure::input(vec![diagnostic], sources)),
-        }
-    }
-    Ok(store::best_first(found))
 }
 
 fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
@@ -283,7 +261,7 @@ pub(super) fn synthesize(source: &Netlist, library: &CellLibrary, options: MapOp
     Ok(mapped)
 }
 
-fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
+pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     let message = format!("cannot read `{}`: {}", path.display(), error.to_string().to_lowercase());
     Failure::plain(Diagnostic::without_place(Code::Unreadable, message))
 }

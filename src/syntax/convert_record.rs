@@ -31,6 +31,9 @@ impl Converter<'_> {
             Rule::text => ValueKind::Text(self.quoted(pair).text),
             Rule::quantity => ValueKind::Quantity(self.quantity(pair)),
             Rule::instance => ValueKind::Instance(self.instance(pair)),
+            Rule::function => {
+                ValueKind::Instance(Instance { name: self.name(&pair), arguments: Vec::new(), sizes: Vec::new() })
+            }
             rule => self.pair_of_values(rule, pair),
         };
         Value { kind, span }

@@ -87,7 +87,9 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::quantity => "a number with its unit",
         Rule::record => "`{`",
         Rule::field => "a field",
-        Rule::list | Rule::product | Rule::range | Rule::bins | Rule::applied | Rule::instance => "a value",
+        Rule::list | Rule::product | Rule::range | Rule::bins | Rule::applied | Rule::function | Rule::instance => {
+            "a value"
+        }
         Rule::columns | Rule::inputs | Rule::outputs | Rule::operands => "`(`",
         Rule::spells | Rule::body | Rule::test_table => "`{`",
         Rule::spell | Rule::row | Rule::cell => "a row",

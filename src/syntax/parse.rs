@@ -41,8 +41,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     }
     let split = split(text);
     let mut parsed = Parsed::default();
-    parsed.tree.comments =
-        split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
+    parsed.tree.comments = split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
     for piece in &split.pieces {
         let (declaration, errors) = parse_piece(text, file, &split.comments, piece);
         parsed.tree.declarations.extend(declaration);
@@ -60,7 +59,8 @@ fn too_large(text: &str, file: FileId) -> Diagnostic {
 
 fn no_text(file: FileId, at: usize) -> Diagnostic {
     let span = Span::new(file, at, at + 1);
-    Diagnostic::new(Code::Unreadable, "the file is no text", span, "a zero byte").with_help("source files are UTF-8 text")
+    Diagnostic::new(Code::Unreadable, "the file is no text", span, "a zero byte")
+        .with_help("source files are UTF-8 text")
 }
 
 fn parse_piece(

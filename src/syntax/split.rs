@@ -33,8 +33,15 @@ pub struct Piece {
 
 /// Cuts a text into declarations.
 pub fn split(text: &str) -> Split {
-    let mut splitter =
-        Splitter { text, split: Split::default(), piece: None, open: Vec::new(), closed: false, line: Some(0), choices: 0 };
+    let mut splitter = Splitter {
+        text,
+        split: Split::default(),
+        piece: None,
+        open: Vec::new(),
+        closed: false,
+        line: Some(0),
+        choices: 0,
+    };
     let mut at = 0;
     while at < text.len() {
         at = splitter.token(at);

@@ -29,7 +29,9 @@ fn rules() -> Vec<Rule> {
         Rule {
             pattern: Regex::new(rule["match"].as_str().unwrap()).unwrap(),
             scope: rule["name"].as_str().map(str::to_owned),
-            captures: captures.map(|(at, one)| (at.parse().unwrap(), one["name"].as_str().unwrap().to_owned())).collect(),
+            captures: captures
+                .map(|(at, one)| (at.parse().unwrap(), one["name"].as_str().unwrap().to_owned()))
+                .collect(),
         }
     };
     grammar["patterns"].as_array().unwrap().iter().map(rule).collect()

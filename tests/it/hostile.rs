@@ -38,7 +38,6 @@ fn long_chains_are_no_nesting() {
     let long = 10_000;
     assert_eq!(found(circuit(&format!("q = {}a", "not ".repeat(long)))), []);
     assert_eq!(found(circuit(&format!("q = a{}", " and a".repeat(long)))), []);
-    assert_eq!(found(circuit(&format!("q = a and {{{}{{0}}}} == {{{}{{0}}}}", "1 + 0 * ".repeat(9) + "1", "1"))), []);
     let sum = format!("{}1", "0 + ".repeat(long));
     assert_eq!(found(format!("circuit f(a[{sum}]) -> (q) {{ q = a }}")), []);
 }
@@ -78,10 +77,11 @@ fn hierarchies_that_double_at_each_step_are_counted_not_built() {
 
 #[test]
 fn long_chains_of_circuits_are_refused() {
-    let mut text = "circuit c0(a) -> (q) { q = not a }\n".to_owned();
-    for level in 1..5_000 {
+    let mut text = String::new();
+    for level in (1..5_000).rev() {
         text += &format!("circuit c{level}(a) -> (q) {{ q = c{}(a) }}\n", level - 1);
     }
+    text += "circuit c0(a) -> (q) { q = not a }\n";
     refused(text, Code::Nesting);
 }
 

@@ -61,7 +61,10 @@ fn every_code_of_the_language_has_a_program() {
     ];
     for code in Code::ALL.iter().filter(|code| !elsewhere.contains(code)) {
         let (diagnostics, said) = found(&format!("tests/ui/{code}.nb"));
-        assert!(diagnostics.iter().any(|diagnostic| diagnostic.code == *code), "`{code}` is not said of its program:\n{said}");
+        assert!(
+            diagnostics.iter().any(|diagnostic| diagnostic.code == *code),
+            "`{code}` is not said of its program:\n{said}"
+        );
     }
 }
 

@@ -3,13 +3,18 @@
 mod add;
 mod verify;
 
+use std::path::{Path, PathBuf};
+
 use clap::{Args, Subcommand};
 
+use crate::check;
+use crate::cli::synth::unreadable;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Function, Library, Robot};
 use crate::report::{self, Listing};
-use crate::store;
+use crate::source::Sources;
+use crate::store::{self, DiskWorld};
 
 /// List, show, verify or add the robots that circuits are made of
 #[derive(Args)]
@@ -30,7 +35,10 @@ enum Action {
         name: String,
     },
     /// Simulate every robot again and compare it with its file
-    Verify,
+    Verify {
+        /// A robot file, or a folder of them, instead of the library that comes with the program
+        path: Option<PathBuf>,
+    },
 }
 
 impl Arguments {
@@ -44,9 +52,31 @@ impl Arguments {
             Action::Add(arguments) => arguments.run(context),
             Action::List => list(library, context),
             Action::Show { name } => show(find(library, &name)?, context),
-            Action::Verify => verify::verify(library, context),
+            Action::Verify { path: None } => verify::verify(library, context),
+            Action::Verify { path: Some(path) } => verify::verify(&robots(&path)?, context),
         }
     }
+}
+
+/// The robots of a file, or of every robot file of a folder.
+pub(super) fn robots(path: &Path) -> Result<Library, Failure> {
+    let mut paths = vec![path.to_owned()];
+    if path.is_dir() {
+        let entries = std::fs::read_dir(path).map_err(|error| unreadable(path, &error))?;
+        paths = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+        paths.sort();
+    }
+    let mut sources = Sources::default();
+    let mut found = Vec::new();
+    for path in paths {
+        let id = check::open(&DiskWorld, &path.display().to_string(), &mut sources).map_err(Failure::plain)?;
+        match store::read_robot(sources.file(id)) {
+            Ok(robot) => found.push(robot),
+            Err(diagnostic) => return Err(Failure::input(vec![diagnostic], sources)),
+        }
+    }
+    Ok(store::best_first(found))
 }
 
 fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {

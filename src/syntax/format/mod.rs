@@ -138,8 +138,8 @@ mod tests {
     fn long_expressions_are_broken_at_their_operands() {
         let name = "a_rather_long_name_of_a_net";
         let text = format!("circuit f(a) -> (q) {{ q = nand({name}, {name}, {name} and {name}) or {name} }}");
-        let expected =
-            format!("circuit f(a) -> (q) {{\n    q = nand({name}, {name}, {name} and {name})\n        or {name}\n}}\n");
+        let arguments = format!("            {name},\n            {name},\n            {name} and {name}\n");
+        let expected = format!("circuit f(a) -> (q) {{\n    q = nand(\n{arguments}        )\n        or {name}\n}}\n");
         check(&text, &expected);
     }
 }
