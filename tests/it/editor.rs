@@ -100,10 +100,11 @@ fn the_extension_holds_together() {
 
 #[test]
 fn every_snippet_is_a_program_or_a_part_of_one() {
+    let holes = Regex::new(r"\$\{\d+:([^}]*)\}|\$0").unwrap();
     for (name, snippet) in read("snippets/nb.json").as_object().unwrap() {
         let lines: Vec<_> = snippet["body"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
         // A placeholder stands for its own text.
-        let text = Regex::new(r"\$\{\d+:([^}]*)\}|\$0").unwrap().replace_all(&lines.join("\n"), "$1").into_owned();
+        let text = holes.replace_all(&lines.join("\n"), "$1").into_owned();
         let program = match name.as_str() {
             "for" => format!("circuit f(a) -> (q) {{\n q = a\n {text}\n}}"),
             "table" => format!("circuit f(a, b) -> (q) {{\n q = {text}\n}}"),
