@@ -5,6 +5,7 @@ mod cli;
 mod determinism;
 mod editor;
 mod examples;
+mod evolution;
 mod films;
 mod formatting;
 mod hostile;
