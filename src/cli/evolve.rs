@@ -10,10 +10,10 @@ use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Interrupt, Progress, Status};
 use crate::diag::{Code, Diagnostic};
-use crate::evolve::Search;
-use crate::model::Evolution;
+use crate::evolve::{ArchiveStats, Search};
+use crate::model::{Evolution, Objective};
 use crate::pipeline;
-use crate::report::{EvolutionLine, evolution_table};
+use crate::report::{EvolutionLine, behavior_groups, compare_groups, describe_groups, evolution_table};
 use crate::store::{self, Checkpoint, DiskWorld};
 use crate::swarm::{self, Work};
 
@@ -22,12 +22,19 @@ pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
 /// The file in a run's folder with a line for each generation.
 const PROGRESS: &str = "progress.jsonl";
 
+/// A run with `--quick`.
+const QUICK_SEEDS: usize = 3;
+const QUICK_GENERATIONS: u32 = 200;
+/// Evaluations from which on it is told how long they will take, and those that are timed for it.
+const LONG: u64 = 20_000;
+const SAMPLE: usize = 8;
+
 /// Evolve robots by the evolution declarations of a file
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   nbc evolve                                the prelude's `gates`, into out/gates
-  nbc evolve library/evolve.nb --run npn5   one run of a file
+  nbc evolve library/evolve.nb --run gates5 one run of a file
   nbc evolve library/evolve.nb --resume     go on after an interruption
 
 Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
@@ -49,6 +56,9 @@ pub struct Arguments {
     /// Go on from the checkpoints in the folder; start what has none
     #[arg(long)]
     resume: bool,
+    /// A small version of the first declaration: three seeds, 200 generations
+    #[arg(long, conflicts_with_all = ["seed", "generations"])]
+    quick: bool,
     /// Seconds between checkpoints, 0 for one each generation
     #[arg(long, value_name = "SECONDS", default_value_t = 10)]
     checkpoint_every: u64,
@@ -74,10 +84,14 @@ impl Arguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut ended = Vec::new();
-        for evolution in self.declared()? {
+        let declared = self.declared()?;
+        self.tell_duration(&declared, context);
+        for evolution in declared {
+            let mut archives = Vec::new();
             for &seed in &evolution.seeds {
                 let mut run = Run::open(&self, &evolution, seed)?;
                 let finished = run.make(&interrupt)?;
+                archives.push(run.search.archive().stats());
                 ended.push(run.ended(finished));
                 if context.format == Format::Text {
                     context.print(run.summary(finished))?;
@@ -86,6 +100,9 @@ impl Arguments {
                 if !finished {
                     return end(context, &ended, Status::Interrupted);
                 }
+            }
+            if context.format == Format::Text && is_comparable(&evolution) {
+                context.print(compare(&evolution, &archives))?;
             }
         }
         end(context, &ended, Status::Done)
@@ -96,15 +113,37 @@ impl Arguments {
     /// The runs to make, with what the command line changes.
     fn declared(&self) -> Result<Vec<Evolution>, Failure> {
         let mut evolutions = self.chosen()?;
+        if self.quick {
+            evolutions.truncate(1);
+        }
         for evolution in &mut evolutions {
             if let Some(seed) = self.seed {
                 evolution.seeds = vec![seed];
             }
-            if let Some(generations) = self.generations {
-                evolution.generations = generations;
+            if self.quick {
+                evolution.seeds.truncate(QUICK_SEEDS);
             }
+            let quick = self.quick.then_some(QUICK_GENERATIONS);
+            evolution.generations = self.generations.or(quick).unwrap_or(evolution.generations);
         }
         Ok(evolutions)
+    }
+
+    /// Says on standard error how long runs of many hours will take here, by the time of a few evaluations.
+    fn tell_duration(&self, evolutions: &[Evolution], context: &Context) {
+        let evaluations = |evolution: &Evolution| {
+            let generation = (evolution.batch + evolution.newcomers) as u64;
+            generation * u64::from(evolution.generations) * evolution.seeds.len() as u64
+        };
+        if evolutions.iter().map(evaluations).sum::<u64>() < LONG {
+            return;
+        }
+        let seconds: f64 =
+            evolutions.iter().map(|evolution| evaluations(evolution) as f64 * seconds_each(evolution)).sum();
+        let hours = seconds / 3600.0;
+        let text =
+            format!("at most about {hours:.1} hours on this machine; what need not be simulated makes it less\n");
+        context.log(&text);
     }
 
     /// The file's own runs, or the prelude's, or the one that is asked for by name.
@@ -136,6 +175,26 @@ impl Arguments {
         }
         Ok(found)
     }
+}
+
+/// Seconds that one evaluation in full takes here.
+fn seconds_each(evolution: &Evolution) -> f64 {
+    let search = Search::new(evolution, 0);
+    let candidates: Vec<_> = search.ask().into_iter().take(SAMPLE).collect();
+    let started = Instant::now();
+    swarm::evaluate(&search, &candidates);
+    started.elapsed().as_secs_f64() / candidates.len().max(1) as f64
+}
+
+/// Whether the paper's comparison of behaviors can be made: several runs by its objective.
+fn is_comparable(evolution: &Evolution) -> bool {
+    evolution.seeds.len() > 1 && evolution.objective == Objective::Distance
+}
+
+fn compare(evolution: &Evolution, archives: &[ArchiveStats]) -> String {
+    let groups = behavior_groups(archives);
+    let comparison = describe_groups(&groups, &compare_groups(&groups));
+    format!("{}, {} runs: {comparison}\n", evolution.name, archives.len())
 }
 
 fn end(context: &mut Context, ended: &[Ended], status: Status) -> Result<Status, Failure> {

@@ -6,6 +6,7 @@ mod determinism;
 mod editor;
 mod examples;
 mod evolution;
+mod examples;
 mod films;
 mod formatting;
 mod hostile;
