@@ -4,7 +4,6 @@ mod circuit;
 mod cli;
 mod determinism;
 mod editor;
-mod examples;
 mod evolution;
 mod examples;
 mod films;
