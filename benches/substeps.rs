@@ -1,39 +1,45 @@
-//! Substeps a second for bodies of the paper's three boxes: one simulation alone, and as many in the lanes as the processor has.
+//! Substeps a second for bodies of the paper's three boxes: one simulation alone, and eight side by side with each set of instructions that
+//! the processor has, of one body or of eight different ones.
 //!
-//! `cargo bench` prints, for each box, elements (lane-substeps) a second.
+//! `cargo bench` prints, for each, elements (lane-substeps) a second of one core.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use nbc::model::{Body, Pattern, Schedule, Setting, Trial};
-use nbc::sim::run_trials;
+use nbc::sim::{Constants, InstructionSet, Kernel, Simulator};
 
 /// Env steps of one trial: a cycle.
 const STEPS: u32 = 84;
 /// Substeps of an env step (docs/physics.md 1).
 const SUBSTEPS: u64 = 30;
 
-/// A body of every material, as large as its box.
-fn body(side: usize) -> Body {
-    let codes = (0..side * side).map(|i| [3, 4, 2, 7, 6, 1, 5, 8, 3][(i + i / side) % 9]).collect();
-    Body::new(side, side, codes)
-}
-
 fn substeps(criterion: &mut Criterion) {
     let setting = Setting::paper();
     // One thread: the figures are those of one core.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
     let mut group = criterion.benchmark_group("substeps");
-    group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(3));
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
+    let wide = InstructionSet::available().into_iter().filter_map(|set| Kernel::new(set, 8));
+    let kernels: Vec<Kernel> = [Kernel::SCALAR].into_iter().chain(wide).collect();
     for side in [5, 7, 10] {
-        for trials in [1, 8] {
-            let trial = Trial { body: body(side), schedule: Schedule::constant(Pattern::PAIRS[1], STEPS) };
-            let batch = vec![trial; trials];
-            group.throughput(Throughput::Elements(trials as u64 * u64::from(STEPS) * SUBSTEPS));
-            group.bench_function(BenchmarkId::new(format!("{side}x{side}"), format!("{trials} at once")), |bencher| {
-                bencher.iter(|| pool.install(|| black_box(run_trials(&setting, &batch))));
-            });
+        for &kernel in &kernels {
+            for bodies in ["one body", "different bodies"] {
+                let shift = |lane| if bodies == "one body" { 0 } else { lane };
+                let schedule = Schedule::constant(Pattern::PAIRS[1], STEPS);
+                let trial = |lane| Trial { body: Body::patchwork(side, shift(lane)), schedule: schedule.clone() };
+                let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
+                if kernel.lanes() == 1 && bodies != "one body" {
+                    continue;
+                }
+                let simulator = Simulator { constants: Constants::default(), kernel };
+                group.throughput(Throughput::Elements(kernel.lanes() as u64 * u64::from(STEPS) * SUBSTEPS));
+                let name = format!("{} lanes, {}, {bodies}", kernel.lanes(), kernel.set().name());
+                group.bench_function(BenchmarkId::new(format!("{side}x{side}"), name), |bencher| {
+                    bencher.iter(|| pool.install(|| black_box(simulator.run_trials(&setting, &trials))));
+                });
+            }
         }
     }
     group.finish();

@@ -2,6 +2,7 @@
 //!
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 
+mod bench;
 mod build;
 mod check;
 mod completions;
@@ -49,6 +50,7 @@ macro_rules! commands {
 }
 
 commands! {
+    Bench in bench,
     Build in build,
     Check in check,
     Completions in completions,

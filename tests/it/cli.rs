@@ -287,3 +287,18 @@ fn drawings_that_cannot_be_are_refused_and_leave_nothing() {
     draw("walker.yaml", "sprite", "no/such/folder/a.svg").expect_fault(&["cannot write `no/such/folder/a.svg`"]);
     assert_eq!(std::fs::read_dir(bench.path()).unwrap().count(), 1);
 }
+
+#[test]
+fn the_machines_speed_is_told_as_data() {
+    let ran = Bench::new().run(&["bench", "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let figures: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    assert!(figures["machine"].is_string() && [4, 8].contains(&figures["width"].as_u64().unwrap()));
+    let boxes: Vec<_> = figures["cases"].as_array().unwrap().iter().map(|case| case["box"].as_str().unwrap()).collect();
+    assert_eq!(boxes, ["5x5", "7x7", "10x10"]);
+    for case in figures["cases"].as_array().unwrap() {
+        let speed = |name: &str| case[name].as_f64().unwrap();
+        assert!(speed("scalar") > 0.0 && speed("lanes") > speed("scalar"), "{case}");
+        assert!((speed("evaluations") * 80.0 * 84.0 * 30.0 / speed("lanes") - 1.0).abs() < 1e-9);
+    }
+}

@@ -10,6 +10,7 @@ mod films;
 mod formatting;
 mod hostile;
 mod language;
+mod library;
 mod manual;
 mod page;
 mod physics;
