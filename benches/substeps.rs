@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use nbc::model::{Body, Pattern, Schedule, Setting, Trial};
-use nbc::sim::{Constants, InstructionSet, Kernel, Simulator};
+use nbc::sim::{InstructionSet, Kernel, Simulator};
 
 /// Env steps of one trial: a cycle.
 const STEPS: u32 = 84;
@@ -33,7 +33,7 @@ fn substeps(criterion: &mut Criterion) {
                 if kernel.lanes() == 1 && bodies != "one body" {
                     continue;
                 }
-                let simulator = Simulator { constants: Constants::default(), kernel };
+                let simulator = Simulator { kernel, ..Simulator::default() };
                 group.throughput(Throughput::Elements(kernel.lanes() as u64 * u64::from(STEPS) * SUBSTEPS));
                 let name = format!("{} lanes, {}, {bodies}", kernel.lanes(), kernel.set().name());
                 group.bench_function(BenchmarkId::new(format!("{side}x{side}"), name), |bencher| {

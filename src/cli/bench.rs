@@ -1,5 +1,7 @@
 //! `nbc bench`: how fast this machine simulates.
 
+use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -8,7 +10,7 @@ use serde::Serialize;
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::report::{Align, Table};
-use crate::sim::{Constants, Kernel, Simulator};
+use crate::sim::{Kernel, Part, Probe, Simulator};
 
 /// Boxes measured: the paper's.
 const SIDES: [usize; 3] = [5, 7, 10];
@@ -22,7 +24,11 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// Measure how fast this machine simulates, on one core
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc bench --format json")]
-pub struct Arguments {}
+pub struct Arguments {
+    /// Tell also which share of the time each part of a substep takes, one body in all lanes
+    #[arg(long)]
+    timings: bool,
+}
 
 /// What one box gave.
 #[derive(Serialize)]
@@ -37,6 +43,24 @@ struct Case {
     different: f64,
     /// Evaluations a second by the paper's protocol, nothing left out.
     evaluations: f64,
+    /// With `--timings`: shares of the time, by name of the part of a substep.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    timings: Option<BTreeMap<&'static str, f64>>,
+}
+
+thread_local! {
+    /// When the last part ended on this thread, and the seconds of each part so far, in order of `Part::ALL`.
+    static WATCH: Cell<(Option<Instant>, [f64; Part::ALL.len()])> = const { Cell::new((None, [0.0; Part::ALL.len()])) };
+}
+
+/// Books the time since the last part ended.
+fn watch(part: Part) {
+    let now = Instant::now();
+    let (last, mut seconds) = WATCH.get();
+    if let Some(last) = last {
+        seconds[part as usize] += (now - last).as_secs_f64();
+    }
+    WATCH.set((Some(now), seconds));
 }
 
 #[derive(Serialize)]
@@ -55,7 +79,7 @@ impl Arguments {
         let kernel = Kernel::default();
         let bar = Progress::new("measuring", SIDES.len() as u64);
         let case = |&side: &usize| {
-            let case = measure(side, kernel);
+            let case = measure(side, kernel, self.timings);
             bar.add(1);
             case
         };
@@ -70,7 +94,7 @@ impl Arguments {
     }
 }
 
-fn measure(side: usize, kernel: Kernel) -> Case {
+fn measure(side: usize, kernel: Kernel, timings: bool) -> Case {
     let lanes = speed(side, kernel, 0);
     Case {
         bounds: format!("{side}x{side}"),
@@ -78,24 +102,48 @@ fn measure(side: usize, kernel: Kernel) -> Case {
         lanes,
         different: speed(side, kernel, 1),
         evaluations: lanes / EVALUATION,
+        timings: timings.then(|| shares(side, kernel)),
     }
 }
 
 /// Lane-substeps a second, the lanes' bodies `shift` apart.
 fn speed(side: usize, kernel: Kernel, shift: usize) -> f64 {
+    race(side, kernel, shift, None).0
+}
+
+/// The share of the time that each part of a substep takes, one body in all lanes.
+fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
+    let (_, seconds) = race(side, kernel, 0, Some(watch));
+    let all: f64 = seconds.iter().sum();
+    Part::ALL.iter().zip(seconds).map(|(part, seconds)| (part.name(), seconds / all)).collect()
+}
+
+/// Lane-substeps a second, the lanes' bodies `shift` apart, and the seconds that the probe booked.
+fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> (f64, [f64; Part::ALL.len()]) {
     let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
     let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
-    let simulator = Simulator { constants: Constants::default(), kernel };
+    let simulator = Simulator { kernel, probe, ..Simulator::default() };
     let setting = Setting::paper();
-    let (start, mut rounds) = (Instant::now(), 0);
-    // As many trials as a kernel has lanes are one batch, so one core does them all.
-    while start.elapsed() < PATIENCE {
-        simulator.run_trials(&setting, &trials);
-        rounds += 1;
-    }
-    let substeps = f64::from(rounds) * trials.len() as f64 * f64::from(CYCLE_STEPS) * SUBSTEPS;
-    substeps / start.elapsed().as_secs_f64()
+    // One thread takes all lanes as one batch.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
+    pool.install(|| {
+        let (start, spent, mut rounds) = (Instant::now(), processor_seconds(), 0);
+        while start.elapsed() < PATIENCE {
+            simulator.run_trials(&setting, &trials);
+            rounds += 1;
+        }
+        let seconds = processor_seconds().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
+        let substeps = f64::from(rounds) * trials.len() as f64 * f64::from(CYCLE_STEPS) * SUBSTEPS;
+        (substeps / seconds, WATCH.get().1)
+    })
+}
+
+/// Seconds that this thread has had a processor for, where the system tells: on Linux. Other programs do not falsify figures by these.
+fn processor_seconds() -> Option<f64> {
+    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
+    (nanoseconds > 0.0).then_some(nanoseconds / 1e9)
 }
 
 /// The processor, as far as the system tells, and its instructions.
@@ -117,5 +165,21 @@ fn describe(figures: &Figures) -> String {
         table.push(vec![case.bounds.clone(), scalar, lanes, different, format!("{:.2}", case.evaluations)]);
     }
     let Figures { machine, width, .. } = figures;
-    format!("{machine}, {width} lanes, one core; substeps a second, and the paper's evaluations a second\n{table}")
+    let parts = describe_timings(figures);
+    format!(
+        "{machine}, {width} lanes, one core; substeps a second, and the paper's evaluations a second\n{table}{parts}"
+    )
+}
+
+/// Shares of the time as a table, empty where they were not measured.
+fn describe_timings(figures: &Figures) -> String {
+    let columns = Part::ALL.map(|part| (part.name(), Align::Right));
+    let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();
+    let mut table = Table::new(&columns);
+    for case in &figures.cases {
+        let Some(timings) = &case.timings else { return String::new() };
+        let shares = Part::ALL.iter().map(|part| format!("{:.0} %", 100.0 * timings[part.name()]));
+        table.push([case.bounds.clone()].into_iter().chain(shares).collect());
+    }
+    format!("\nshare of the time with one body in all lanes\n{table}")
 }

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use crate::sim::constants::Constants;
 use crate::sim::lattice::{CORNERS, DrivenEdge, Edge, Lattice, LatticePoint};
+use crate::sim::probe::Probe;
 use crate::sim::proximity::{Inside, Proximity};
 use crate::sim::real::{Mask, Real};
 use crate::sim::state::State;
@@ -130,6 +131,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub constants: Constants,
     /// Ground voxels.
     pub world_width: usize,
+    /// Told where time goes.
+    pub probe: Option<Probe>,
     /// The masses, in order of their places row by row.
     pub masses: Vec<Mass<R>>,
     /// Where each mass was a substep ago.
@@ -223,6 +226,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let mut batch = Self {
             constants: *constants,
             world_width,
+            probe: None,
             masses: places.iter().map(|&place| far_away(place, constants)).collect(),
             before: vec![[R::splat(0.0); 2]; places.len()],
             load: vec![0; places.len()],

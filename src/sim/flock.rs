@@ -25,7 +25,7 @@ impl Flock {
 
     /// The same in the hands of a simulator.
     pub(crate) fn with(simulator: &Simulator, setting: &Setting, bodies: &[Body]) -> Self {
-        let world = World::new(&simulator.constants, setting);
+        let world = World::new(simulator, setting);
         let runs = runs(&world, setting, bodies);
         Self { world: Arc::new(world), kernel: simulator.kernel, runs }
     }

@@ -7,8 +7,10 @@ use crate::model::{Body, Fault, FaultKind, Pattern, Schedule, Setting};
 use crate::sim::batch::Batch;
 use crate::sim::constants::Constants;
 use crate::sim::lattice::Lattice;
+use crate::sim::probe::Probe;
 use crate::sim::real::Real;
 use crate::sim::signal::Signals;
+use crate::sim::simulator::Simulator;
 use crate::sim::state::State;
 use crate::sim::stiffness::Stiffness;
 
@@ -21,6 +23,8 @@ pub struct World {
     pub signals: Signals,
     /// Ground voxels.
     pub width: usize,
+    /// Told where time goes.
+    pub probe: Option<Probe>,
 }
 
 /// One simulation: a robot, its clock and what it has yet to do.
@@ -77,9 +81,10 @@ impl Run {
 
 impl World {
     /// The world of a setting.
-    pub fn new(constants: &Constants, setting: &Setting) -> Self {
-        let signals = Signals::new(&setting.palette, constants);
-        Self { constants: *constants, signals, width: setting.world_width }
+    pub fn new(simulator: &Simulator, setting: &Setting) -> Self {
+        let constants = simulator.constants;
+        let signals = Signals::new(&setting.palette, &constants);
+        Self { constants, signals, width: setting.world_width, probe: simulator.probe }
     }
 }
 
@@ -101,6 +106,7 @@ pub fn runs<'a>(world: &World, setting: &Setting, bodies: impl IntoIterator<Item
 pub fn carry<R: Real, K: Stiffness<R>>(runs: &mut [&mut Run], world: &World, env_step: impl Fn(&mut Batch<R, K>)) {
     let robots: Vec<_> = runs.iter().map(|run| (&*run.lattice, &run.state)).collect();
     let mut batch = Batch::<R, K>::new(&robots, world.width, &world.constants);
+    batch.probe = world.probe;
     let mut targets = Vec::new();
     while !runs.iter().any(|run| run.is_done()) {
         for (lane, run) in runs.iter().enumerate() {

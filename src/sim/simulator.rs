@@ -4,6 +4,7 @@ use crate::model::{Body, Setting};
 use crate::sim::constants::Constants;
 use crate::sim::flock::Flock;
 use crate::sim::kernel::Kernel;
+use crate::sim::probe::Probe;
 
 /// How to simulate. The default is the physics on the fastest kernel of this processor; results do not depend on the kernel.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +13,8 @@ pub struct Simulator {
     pub constants: Constants,
     /// The kernel.
     pub kernel: Kernel,
+    /// Told where time goes, if anybody asks.
+    pub probe: Option<Probe>,
 }
 
 impl Simulator {

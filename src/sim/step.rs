@@ -8,20 +8,25 @@ use std::ops::Range;
 
 use crate::sim::batch::{Batch, DIAGONAL, Frame, MAIN, Mass, Place, Row};
 use crate::sim::constants::Constants;
+use crate::sim::probe::Part;
 use crate::sim::real::{Mask, Real};
 use crate::sim::stiffness::Stiffness;
 
 /// One env step: substeps with the targets as they are (docs/physics.md 4).
 #[inline(always)]
 pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
+    batch.tell(Part::Books);
     for _ in 0..batch.constants.substeps {
         batch.meet();
+        batch.tell(Part::Contact);
         batch.sweep::<1>();
         batch.sweep::<2>();
         batch.sweep::<3>();
         batch.sweep::<4>();
+        batch.tell(Part::Springs);
         batch.limit_lengths();
         batch.limit_rigid();
+        batch.tell(Part::Limits);
     }
 }
 
@@ -34,6 +39,14 @@ struct Measure<R> {
 }
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
+    /// Tells whoever asks where time goes that a part has ended.
+    #[inline(always)]
+    fn tell(&self, part: Part) {
+        if let Some(probe) = self.probe {
+            probe(part);
+        }
+    }
+
     /// One Runge-Kutta stage: spring forces at the stage's positions, then each mass on to the next stage, row by row.
     #[inline(always)]
     fn sweep<const STAGE: u8>(&mut self) {

@@ -14,7 +14,7 @@ pub fn run_trials(setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
 impl Simulator {
     /// Simulates each trial from a fresh start; see [`run_trials`].
     pub fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
-        let world = World::new(&self.constants, setting);
+        let world = World::new(self, setting);
         let mut runs = runs(&world, setting, trials.iter().map(|trial| &trial.body));
         for (run, trial) in runs.iter_mut().zip(trials) {
             run.centers.push(run.state.center(&world.constants));

@@ -98,3 +98,54 @@ fn a_faulting_lane_leaves_its_neighbors_alone() {
         }
     }
 }
+
+/// Trials of different lengths in the paper's smaller boxes, so that lanes are refilled one after another.
+fn patchwork() -> Vec<Trial> {
+    let trial = |i: usize| Trial {
+        body: Body::patchwork(if i < 10 { 5 } else { 7 }, i / 2),
+        schedule: Schedule::constant(Pattern::PAIRS[i % 4], 20 + 7 * (i as u32 % 5)),
+    };
+    (0..16).map(trial).collect()
+}
+
+/// FNV-1a over all bits of some trajectories.
+fn hash(trajectories: &[Trajectory]) -> u64 {
+    let bytes = trajectories.iter().flat_map(bits).flat_map(u64::to_le_bytes);
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// The hash of the trajectories of `patchwork`, the same on every machine.
+const GOLDEN: u64 = 0xe925_c4e3_f4fa_23dd;
+
+#[test]
+fn golden_hash_on_every_kernel_and_number_of_threads() {
+    let (setting, trials) = (Setting::paper(), patchwork());
+    for kernel in kernels() {
+        assert_eq!(hash(&simulate(kernel, &setting, &trials)), GOLDEN, "{kernel:?}");
+    }
+    for threads in [1, 2, 3, 8] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let found = pool.install(|| simulate(Kernel::default(), &setting, &trials));
+        assert_eq!(hash(&found), GOLDEN, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_swarm_advances_as_its_robots_do_alone() {
+    let setting = Setting::paper();
+    let bodies: Vec<Body> = (0..9).map(|robot| Body::patchwork(5, robot / 6)).collect();
+    let patterns = |turn: usize| (0..bodies.len()).map(|robot| Pattern::PAIRS[(robot + turn) % 4]).collect::<Vec<_>>();
+    let mut swarm = Simulator::default().flock(&setting, &bodies);
+    let alone = Simulator { kernel: Kernel::SCALAR, ..Simulator::default() };
+    let mut robots: Vec<_> = bodies.iter().map(|body| alone.flock(&setting, std::slice::from_ref(body))).collect();
+    for turn in 0..3 {
+        swarm.advance(&patterns(turn), 15);
+        for (robot, pattern) in robots.iter_mut().zip(patterns(turn)) {
+            robot.advance(&[pattern], 15);
+        }
+    }
+    for (i, robot) in robots.iter().enumerate() {
+        let bits = |points: Vec<[f64; 2]>| points.into_iter().map(|at| at.map(f64::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(swarm.points(i)), bits(robot.points(0)), "robot {i}");
+    }
+}

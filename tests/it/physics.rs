@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nbc::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
-use nbc::sim::{Constants, Flock, Simulator, run_trials};
+use nbc::sim::{Constants, Flock, InstructionSet, Kernel, Simulator, run_trials};
 use serde::Deserialize;
 
 /// Largest difference from a reference, in voxels (docs/physics.md 12).
@@ -106,6 +106,67 @@ fn reference_trajectories() {
         let difference = case.difference(&simulate(&case, &Constants::default()));
         assert!(difference < TOLERANCE, "{}: {difference:e} voxels from the reference", case.name);
     }
+}
+
+/// Whether all cases that share a box and a setting are at parity when simulated side by side, three of each case so that lanes hold both equal
+/// and different bodies.
+#[test]
+fn reference_trajectories_in_the_lanes_of_every_kernel() {
+    let mut groups: BTreeMap<_, Vec<Case>> = BTreeMap::new();
+    for case in traces() {
+        groups.entry((case.start_x, case.world_width)).or_default().push(case);
+    }
+    let wide = InstructionSet::available().into_iter().flat_map(|set| [4, 8].map(|lanes| Kernel::new(set, lanes)));
+    for kernel in wide.flatten() {
+        let simulator = Simulator { kernel, ..Simulator::default() };
+        for cases in groups.values() {
+            let copies: Vec<&Case> = cases.iter().flat_map(|case| [case; 3]).collect();
+            let trials: Vec<Trial> =
+                copies.iter().map(|case| Trial { body: case.body(), schedule: case.schedule() }).collect();
+            for (case, found) in copies.iter().zip(simulator.run_trials(&cases[0].setting(), &trials)) {
+                let difference = case.difference(&found);
+                assert!(difference < TOLERANCE, "{}, {kernel:?}: {difference:e} voxels", case.name);
+            }
+        }
+    }
+}
+
+/// Where points are after 1, 2, 3 and 30 substeps of the first env step.
+#[test]
+fn reference_substeps() {
+    let check = |rows: &[&str], start_x: usize, digits: &str, expected: &[(u32, usize, [f64; 2])]| {
+        for &(substeps, point, at) in expected {
+            let simulator =
+                Simulator { constants: Constants { substeps, ..Constants::default() }, ..Simulator::default() };
+            let mut flock = simulator.flock(&setting(start_x, 60), &[Body::parse(rows, 8).unwrap()]);
+            flock.advance(&[pattern(digits)], 1);
+            let found = flock.points(0)[point];
+            let difference = greatest_difference(&at, &found);
+            assert!(difference < TOLERANCE, "{rows:?} substep {substeps} point {point}: {found:?} is not {at:?}");
+        }
+    };
+    let voxel = [
+        (1, 0, [29.99978999603999, 2.000094989240108]),
+        (1, 3, [30.999685005710003, 1.0014690055465718]),
+        (2, 1, [30.999343116055353, 2.000774029620233]),
+        (2, 2, [29.99908189619458, 1.0039069339232953]),
+        (3, 0, [29.998087652732995, 2.0019914065850792]),
+        (3, 3, [30.999287380516716, 1.0057844946557664]),
+        (30, 1, [30.996388239344416, 2.0376011711408233]),
+        (30, 2, [29.972641329456213, 1.0454111123830192]),
+    ];
+    check(&["3"], 30, "00", &voxel);
+    let square = [
+        (1, 0, [28.999831625806706, 2.999991875087243]),
+        (1, 3, [30.000023057830205, 1.9999986204544502]),
+        (1, 7, [29.99999756679128, 0.9999984954764491]),
+        (2, 3, [30.00005213130207, 2.0001066600362396]),
+        (3, 7, [30.0000135717383, 1.0046127776464613]),
+        (30, 0, [28.970043608558587, 3.0087258245297144]),
+        (30, 3, [29.996344832069408, 2.0237153360680744]),
+        (30, 7, [29.99837360009688, 1.0337428029240585]),
+    ];
+    check(&["34", "12"], 29, "01", &square);
 }
 
 #[test]
