@@ -51,9 +51,8 @@ pub(crate) fn evolution(
             as usize,
         generations: fields.read("generations", base.generations, |value| quantity::count(value, 1..=u32::MAX)),
         seeds: fields.read("seed", base.seeds, seeds),
-        rules: fields.read("rules", base.rules, |value| {
-            fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])
-        }),
+        rules: fields
+            .read("as", base.rules, |value| fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])),
         objective: fields.read("objective", base.objective, objective),
         symmetry: fields.read("symmetry", base.symmetry, |value| {
             fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])

@@ -211,8 +211,11 @@ struct Run {
     folder: PathBuf,
     checkpoint_every: Duration,
     started: Instant,
-    /// Evaluations made before this program took over.
+    /// Time spent on asking and telling: parents, mutation, development, the archive.
+    searching: Duration,
+    /// Evaluations and work made before this program took over.
     evaluations_before: u64,
+    work_before: Work,
 }
 
 impl Run {
@@ -236,7 +239,9 @@ impl Run {
             folder,
             checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
             started: Instant::now(),
+            searching: Duration::ZERO,
             evaluations_before,
+            work_before: work,
         };
         run.trim_progress()?;
         Ok(run)
@@ -248,7 +253,7 @@ impl Run {
         let bar = Progress::with_template(generations, "{bar:24} {pos}/{len} generations, {msg}, {eta} left");
         let mut saved = Instant::now();
         while !self.search.is_done() && !interrupt.is_raised() {
-            self.work = self.work.plus(swarm::evolve_generation(&mut self.search));
+            self.advance();
             let line = EvolutionLine::of(&self.search, self.work);
             self.append(&line)?;
             bar.set(u64::from(line.generation));
@@ -260,6 +265,18 @@ impl Run {
         }
         self.save()?;
         Ok(self.search.is_done())
+    }
+
+    /// One generation, with a clock on what is not simulation.
+    fn advance(&mut self) {
+        let asked = Instant::now();
+        let candidates = self.search.ask();
+        self.searching += asked.elapsed();
+        let (outcomes, work) = swarm::evaluate(&self.search, &candidates);
+        let told = Instant::now();
+        self.search.tell(&candidates, &outcomes);
+        self.searching += told.elapsed();
+        self.work = self.work.plus(work);
     }
 
     fn save(&self) -> Result<(), Failure> {
@@ -303,12 +320,27 @@ impl Run {
     }
 
     fn summary(&self, finished: bool) -> String {
-        let Ended { run, seed, folder, seconds, line, .. } = self.ended(finished);
-        let rate = (line.counts.evaluations - self.evaluations_before) as f64 / seconds.max(1e-9);
+        let Ended { run, seed, folder, .. } = self.ended(finished);
         let table = evolution_table(&self.search, self.work);
         let left = if finished { "" } else { "interrupted; `--resume` goes on\n" };
-        let folder = folder.display();
-        format!("{run}, seed {seed}\n{table}{seconds:.1} s, {rate:.1} evaluations/s; results in {folder}\n{left}\n")
+        let (speed, folder) = (self.speed(), folder.display());
+        format!("{run}, seed {seed}\n{table}{speed}results in {folder}\n{left}\n")
+    }
+
+    /// How fast it went since this program took over; nothing when there was nothing left to do.
+    fn speed(&self) -> String {
+        let seconds = self.started.elapsed().as_secs_f64().max(1e-9);
+        let rate = (self.search.counts().evaluations - self.evaluations_before) as f64 / seconds;
+        let simulated = (self.work.env_steps - self.work_before.env_steps) as f64;
+        let left_out = (self.work.left_out - self.work_before.left_out) as f64;
+        if simulated == 0.0 {
+            return String::new();
+        }
+        let in_full = rate * simulated / (simulated + left_out);
+        let search = 100.0 * self.searching.as_secs_f64() / seconds;
+        format!(
+            "{seconds:.1} s, {rate:.1} evaluations/s, what was simulated making {in_full:.1} full ones/s; {search:.2} % of the time for archive, development and mutation\n"
+        )
     }
 }
 

@@ -251,6 +251,35 @@ mod tests {
     }
 
     #[test]
+    fn hidden_nodes_take_four_activations_by_the_text_and_seven_by_the_code() {
+        let drawn = |rules| {
+            let genotypes = (0..20).map(|seed| mutated(rules, seed, 200));
+            let mut found = std::collections::BTreeSet::new();
+            for (_, kind) in genotypes.flat_map(|genotype| genotype.nodes) {
+                if let NodeKind::Hidden(activation) = kind {
+                    found.insert(format!("{activation:?}"));
+                }
+            }
+            found.len()
+        };
+        assert_eq!((drawn(Rules::Paper), drawn(Rules::Code)), (4, 7));
+    }
+
+    #[test]
+    fn adding_a_link_where_none_can_be_added_does_nothing_by_the_text_and_overwrites_by_the_code() {
+        let changed = |rules| {
+            let start = cppn::start(8, rules);
+            (0..20).any(|seed| {
+                let mut genotype = start.clone();
+                add_link(&mut genotype, rules, &mut ChaCha8Rng::seed_from_u64(seed));
+                genotype != start
+            })
+        };
+        assert!(!changed(Rules::Paper));
+        assert!(changed(Rules::Code));
+    }
+
+    #[test]
     fn taking_a_node_out_bridges_it_with_the_product_of_weights() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let mut genotype = cppn::start(8, Rules::Paper);

@@ -9,7 +9,7 @@ use crate::evolve::{
     AddStatus, Archive, Counts, Elite, NicheKey, Outcome, Recoding, Scores, cppn, mirrored, mutate, phenotype,
     recodings, validate,
 };
-use crate::model::{Body, Evolution, Genotype, Rules, Symmetry};
+use crate::model::{Body, Evolution, Genotype, Palette, Rules, Symmetry};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
@@ -238,13 +238,10 @@ impl Search {
         for undeveloped in 0..MOST_ATTEMPTS {
             mutate(&mut genotype, mutation, *rules, &mut rng);
             let body = phenotype(&genotype, *rules, *width, *height);
-            let is_valid = validate(&body, palette).is_ok();
-            match parent {
-                // By the paper's text a failed attempt is undone, and an offspring differs from its parent.
-                Some(_) if *rules == Rules::Paper && !is_valid => genotype.clone_from(&start),
-                Some(elite) if *rules == Rules::Paper && body == elite.body => {}
-                _ if is_valid => return Some(Candidate { index, origin, genotype, body, undeveloped }),
-                _ => {}
+            match judge(*rules, parent.map(|elite| &elite.body), &body, palette) {
+                Attempt::Done => return Some(Candidate { index, origin, genotype, body, undeveloped }),
+                Attempt::GoOn => {}
+                Attempt::Undo => genotype.clone_from(&start),
             }
         }
         None
@@ -261,6 +258,28 @@ impl Search {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(u64::from(self.generation) << 32 | u64::from(index));
         rng
+    }
+}
+
+/// What is done after a mutation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Attempt {
+    /// The body is tried.
+    Done,
+    /// Another mutation is put on top.
+    GoOn,
+    /// All mutations so far are taken back.
+    Undo,
+}
+
+/// By the paper's text a mutation of a parent that gives no body to try is undone, and an offspring differs from its parent. In the
+/// authors' code mutations add up until a body can be tried, were it the parent's again.
+fn judge(rules: Rules, parent: Option<&Body>, body: &Body, palette: &Palette) -> Attempt {
+    match (validate(body, palette), rules, parent) {
+        (Ok(()), Rules::Paper, Some(parent)) if parent == body => Attempt::GoOn,
+        (Ok(()), _, _) => Attempt::Done,
+        (Err(_), Rules::Paper, Some(_)) => Attempt::Undo,
+        (Err(_), _, _) => Attempt::GoOn,
     }
 }
 
@@ -349,6 +368,20 @@ pub(crate) mod tests {
         };
         assert_eq!(run(1), run(1));
         assert_ne!(run(1).archive(), run(2).archive());
+    }
+
+    #[test]
+    fn invalid_mutations_are_undone_by_the_text_and_add_up_by_the_code() {
+        use Attempt::{Done, GoOn, Undo};
+        let [same, other, apart] = ["3330", "3331", "3303"].map(|row| Body::parse(&[row], 8).unwrap());
+        let check = |rules, parent: Option<&Body>, expected: [Attempt; 3]| {
+            let found = [&same, &other, &apart].map(|found| judge(rules, parent, found, &Palette::paper()));
+            assert_eq!(found, expected, "{rules:?}, {parent:?}");
+        };
+        check(Rules::Paper, Some(&same), [GoOn, Done, Undo]);
+        check(Rules::Code, Some(&same), [Done, Done, GoOn]);
+        check(Rules::Paper, None, [Done, Done, GoOn]);
+        check(Rules::Code, None, [Done, Done, GoOn]);
     }
 
     #[test]

@@ -66,12 +66,13 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
     let counts = search.counts();
     let _ = writeln!(
         text,
-        "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults); {} of {} niches ({:.1} %), {} of 16 behaviors, QD-score {:.2}",
+        "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults), {} invalid bodies drawn; {} of {} niches ({:.1} %), {} of 16 behaviors, QD-score {:.2}",
         search.generation(),
         counts.evaluations,
         counts.surpassed,
         counts.inconsistent,
         counts.faults,
+        counts.undeveloped,
         stats.filled,
         stats.niches,
         100.0 * stats.coverage,

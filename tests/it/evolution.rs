@@ -5,9 +5,12 @@ use std::fs;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
-use nbc::evolve::recodings;
-use nbc::model::{Body, Pattern, Schedule, Setting, Spell, Trial};
+use nbc::evolve::{Search, recodings};
+use nbc::model::{Body, Evolution, Pattern, Schedule, Setting, Spell, Trial};
+use nbc::pipeline;
 use nbc::sim::run_trials;
+use nbc::source::MemoryWorld;
+use nbc::swarm::evaluate;
 use proptest::prelude::*;
 
 use crate::cli::Bench;
@@ -33,7 +36,7 @@ evolution turns {
     objective:   gate
     symmetry:    npn
     niche:       pareto(3)
-    rules:       code
+    as:          code
     generations: 5
 }
 ";
@@ -131,6 +134,32 @@ fn a_checkpoint_that_does_not_fit_is_refused_and_left_alone() {
     let foreign = RUNS.replace("batch:       8", "batch:       9");
     bench.file("runs.nb", foreign);
     check(&whole, &resume, "made by another declaration");
+}
+
+fn declared(name: &str) -> Evolution {
+    let mut world = MemoryWorld::default();
+    world.insert("runs.nb", RUNS);
+    let evolutions = pipeline::load(&world, "runs.nb").checked.program.evolutions;
+    evolutions.into_iter().find(|evolution| evolution.name == name).unwrap()
+}
+
+#[test]
+fn what_is_left_out_changes_no_archive() {
+    for name in ["walks", "turns"] {
+        let evolution = declared(name);
+        let empty = Search::new(&evolution, 3);
+        let (mut staged, mut full) = (empty.clone(), empty.clone());
+        for _ in 0..evolution.generations {
+            let candidates = staged.ask();
+            assert_eq!(candidates, full.ask());
+            staged.tell(&candidates, &evaluate(&staged, &candidates).0);
+            // An empty archive could take everything, so nothing is left out.
+            full.tell(&candidates, &evaluate(&empty, &candidates).0);
+            assert_eq!(staged.archive(), full.archive());
+        }
+        assert_eq!(full.counts().surpassed, 0);
+        assert!(staged.counts().surpassed > 0, "something was left out of `{name}`");
+    }
 }
 
 #[test]
