@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::circuit::NetId;
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic, render};
 use crate::model::{CircuitTest, Robot, Setting};
-use crate::pipeline::{self, Loaded, Options, TestRun};
+use crate::pipeline::{self, Compiled, Loaded, Options, TestRun};
 use crate::report::{self, PageTest, Recording, RunResult, Scheme, Stage, Svg, TestResult};
 use crate::store::{self, DiskWorld};
 
@@ -175,5 +176,22 @@ fn record(run: &TestRun) -> Recording {
 fn describe(drawn: &Drawn<'_>) -> String {
     let (trace, verdict) = (&drawn.run.trace, &drawn.run.verdict);
     let files: String = drawn.files.iter().map(|file| format!("picture  {file}\n")).collect();
-    format!("{}: {}\n\n{}\n{files}", trace.circuit, report::describe_swarm(trace), report::describe_test(verdict))
+    let (swarm, test, timing) =
+        (report::describe_swarm(trace), report::describe_test(verdict), describe_timing(drawn.run));
+    format!("{}: {swarm}\n\n{test}\n{files}{timing}", trace.circuit)
+}
+
+/// The slowest path, robot by robot, with the cycles that each takes.
+fn describe_timing(run: &TestRun) -> String {
+    let Compiled { mapped, timing, assembly, .. } = &run.compiled;
+    let robot = |net: &str| assembly.members.iter().find(|member| member.net == net).map(|member| &member.robot);
+    let step = |&id: &NetId| {
+        let net = mapped.net_name(id);
+        match robot(&net) {
+            Some(robot) => format!("{net} ({}, {} cycles)", robot.name, robot.character.clock),
+            None => net,
+        }
+    };
+    let path: Vec<String> = timing.critical_path.iter().map(step).collect();
+    format!("timing   right after {} cycles: {}\n", timing.hold, path.join(" -> "))
 }

@@ -62,7 +62,21 @@ fn describe_lapses(row: &RowVerdict) -> Vec<String> {
         let (net, robot, cycle) = (&lapse.net, &lapse.robot, lapse.cycle + 1);
         format!("    cycle {cycle}: robot {robot} on net {net} output {output} on stimuli {first} {second}\n")
     };
-    row.lapses.iter().map(told).collect()
+    row.lapses.iter().map(told).chain(nearest_fix(row)).collect()
+}
+
+/// What would most likely mend a row: robots that were wrong though they had time are to be replaced, else time was short.
+fn nearest_fix(row: &RowVerdict) -> Option<String> {
+    match row.lapses.first() {
+        _ if row.passed => None,
+        None => Some(format!(
+            "    no robot was wrong for longer than its clock: hold the row for more than {} cycles\n",
+            row.hold
+        )),
+        Some(Lapse { net, robot, .. }) => {
+            Some(format!("    nearest fix: another robot than {robot} on net {net}, or a longer hold\n"))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -101,6 +115,7 @@ mod tests {
     fn a_failure_names_the_robot() {
         let text = describe_test(&verdict(false));
         assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
-        assert!(text.ends_with("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
+        assert!(text.contains("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
+        assert!(text.ends_with("    nearest fix: another robot than nand_1 on net q, or a longer hold\n"), "{text}");
     }
 }

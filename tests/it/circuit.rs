@@ -7,13 +7,13 @@ use nbc::circuit::{CellLibrary, Effort, MapOptions, Netlist};
 use nbc::model::Function;
 use nbc::source::FileId;
 
-/// A network of AND and OR cells for the three-input function with these outputs.
-fn sum_of_products(truth: u8) -> Network {
-    let mut network = Network::new(3);
+/// A network of AND and OR cells for the function with these outputs.
+pub fn sum_of_products(inputs: usize, truth: u32) -> Network {
+    let mut network = Network::new(inputs);
     let mut sum = 0;
-    for minterm in (0..8u8).filter(|minterm| truth >> minterm & 1 == 1) {
+    for minterm in (0..1u32 << inputs).filter(|minterm| truth >> minterm & 1 == 1) {
         let mut product = 1;
-        for i in 0..3 {
+        for i in 0..inputs {
             let function = if minterm >> i & 1 == 1 { Function::AND } else { Function::AND.with_input_inverted(1) };
             product = network.add(function, [product, network.input(i)]);
         }
@@ -25,8 +25,8 @@ fn sum_of_products(truth: u8) -> Network {
 
 /// The cells that all functions of three inputs take together.
 fn total(library: &CellLibrary) -> usize {
-    let options = MapOptions { effort: Effort::Normal, ..MapOptions::default() };
-    let cells = |truth| reduce(&sum_of_products(truth), &[], library, options).unwrap().gates.len();
+    let options = MapOptions { effort: Effort::High, ..MapOptions::default() };
+    let cells = |truth| reduce(&sum_of_products(3, truth), &[], library, options).unwrap().gates.len();
     (1..=254).map(cells).sum()
 }
 

@@ -1,5 +1,6 @@
 //! Integration tests, in one binary.
 
+mod benchmarks;
 mod circuit;
 mod cli;
 mod determinism;

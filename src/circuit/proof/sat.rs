@@ -40,6 +40,8 @@ pub struct Sweep {
     values: Vec<Vec<u64>>,
     /// Signals by their values, those that are 1 in the first pattern turned over.
     classes: BTreeMap<Vec<u64>, Signal>,
+    /// What each gate became, by its function and pins.
+    known: BTreeMap<(u8, [Signal; 2]), (Signal, bool)>,
     /// How often the solver was called.
     pub calls: usize,
 }
@@ -56,6 +58,7 @@ impl Sweep {
             gates: Vec::new(),
             values: Vec::new(),
             classes: BTreeMap::new(),
+            known: BTreeMap::new(),
             calls: 0,
         };
         sweep.values = (0..2 + inputs).map(|signal| sweep.source_values(signal)).collect();
@@ -90,7 +93,11 @@ impl Sweep {
             for (pin, (_, inverted)) in [a, b].into_iter().enumerate() {
                 function = if inverted { function.with_input_inverted(pin) } else { function };
             }
-            made.push(self.gate(function, [a.0, b.0]));
+            let (function, pins) = if a.0 <= b.0 { (function, [a.0, b.0]) } else { (function.swapped(), [b.0, a.0]) };
+            let key = (function.bits(), pins);
+            let known = self.known.get(&key).copied().unwrap_or_else(|| self.gate(function, pins));
+            self.known.insert(key, known);
+            made.push(known);
         }
         made
     }

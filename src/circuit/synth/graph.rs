@@ -18,6 +18,8 @@ pub struct Node {
     pub alive: bool,
     /// The latest loop that it may depend on, counted in topological order.
     pub stage: u32,
+    /// Cycles after which it is right, each cell on the way taking its clock.
+    pub arrival: u32,
 }
 
 /// Gates with their values; places of dead gates are used again.
@@ -36,6 +38,9 @@ pub struct Graph<'p> {
     cost: u32,
     /// The gate that is about to go, which no new gate may listen to.
     leaving: Option<Signal>,
+    /// Room for walks over what goes.
+    pending: Vec<Signal>,
+    touched: Vec<Signal>,
 }
 
 impl<'p> Graph<'p> {
@@ -55,6 +60,8 @@ impl<'p> Graph<'p> {
             free: Vec::new(),
             cost: 0,
             leaving: None,
+            pending: Vec::new(),
+            touched: Vec::new(),
         };
         let zero = vec![0; width];
         let one = vec![!0; width];
@@ -79,7 +86,7 @@ impl<'p> Graph<'p> {
     }
 
     fn source(&mut self, stage: u32, values: &[u64]) {
-        self.nodes.push(Node { function: Function::BUF, pins: [0; 2], refs: 0, alive: false, stage });
+        self.nodes.push(Node { function: Function::BUF, pins: [0; 2], refs: 0, alive: false, stage, arrival: 0 });
         self.values.extend(values);
         self.fanout.push(Vec::new());
     }
@@ -171,7 +178,7 @@ impl<'p> Graph<'p> {
     /// A new gate without looking for an equal one.
     pub fn make_new(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let stage = pins.map(|pin| self.nodes[pin as usize].stage).into_iter().max().unwrap_or(0);
-        let node = Node { function, pins, refs: 0, alive: true, stage };
+        let node = Node { function, pins, refs: 0, alive: true, stage, arrival: self.arrival(function, pins) };
         let signal = match self.free.pop() {
             Some(place) => {
                 self.nodes[place as usize] = node;
@@ -193,6 +200,16 @@ impl<'p> Graph<'p> {
         signal
     }
 
+    fn arrival(&self, function: Function, pins: [Signal; 2]) -> u32 {
+        let latest = pins.map(|pin| self.nodes[pin as usize].arrival).into_iter().max().unwrap_or(0);
+        latest + self.prices.clock(function)
+    }
+
+    /// Cycles after which every output is right.
+    pub fn depth(&self) -> u32 {
+        self.outputs.iter().map(|&output| self.nodes[output as usize].arrival).max().unwrap_or(0)
+    }
+
     /// A function of two signals made of library cells.
     pub fn compose(&mut self, function: Function, pins: [Signal; 2]) -> Option<Signal> {
         let prices = self.prices;
@@ -208,7 +225,7 @@ impl<'p> Graph<'p> {
         }
         let root = read(&made, recipe.result);
         self.hold(root);
-        made.into_iter().for_each(|step| self.release(step));
+        made[..recipe.steps.len()].iter().for_each(|&step| self.release(step));
         self.let_go(root);
         Some(root)
     }
@@ -248,8 +265,8 @@ impl<'p> Graph<'p> {
     /// What would go if nothing listened to `signal` any more.
     pub fn released(&mut self, signal: Signal) -> u32 {
         let mut released = 0;
-        let mut pending = vec![signal];
-        let mut touched = Vec::new();
+        let (mut pending, mut touched) = (std::mem::take(&mut self.pending), std::mem::take(&mut self.touched));
+        pending.push(signal);
         while let Some(gate) = pending.pop() {
             released += self.prices.cell(self.nodes[gate as usize].function);
             for pin in distinct(self.nodes[gate as usize].pins) {
@@ -261,13 +278,18 @@ impl<'p> Graph<'p> {
                 }
             }
         }
-        touched.into_iter().for_each(|pin| self.nodes[pin as usize].refs += 1);
+        touched.drain(..).for_each(|pin| self.nodes[pin as usize].refs += 1);
+        (self.pending, self.touched) = (pending, touched);
         released
     }
 
     /// Takes out a gate without listeners, and what only it needed.
     pub fn release(&mut self, signal: Signal) {
-        let mut pending = vec![signal];
+        if !self.nodes[signal as usize].alive || self.nodes[signal as usize].refs > 0 {
+            return;
+        }
+        let mut pending = std::mem::take(&mut self.pending);
+        pending.push(signal);
         while let Some(gate) = pending.pop() {
             let node = &mut self.nodes[gate as usize];
             if !node.alive || node.refs > 0 {
@@ -281,12 +303,14 @@ impl<'p> Graph<'p> {
             for pin in distinct(pins) {
                 self.nodes[pin as usize].refs -= 1;
                 let listeners = &mut self.fanout[pin as usize];
-                let at = listeners.iter().position(|&listener| listener == gate).expect("a listener is on the list");
+                // Most gates that go were tried a moment ago, and are last on the list.
+                let at = listeners.iter().rposition(|&listener| listener == gate).expect("a listener is on the list");
                 listeners.swap_remove(at);
                 pending.push(pin);
             }
             self.free.push(gate);
         }
+        self.pending = pending;
     }
 
     /// Gives the listeners of `old` to `new`, and takes out `old` and what only it needed.
@@ -355,6 +379,8 @@ impl<'p> Graph<'p> {
             self.simulate(signal);
             let stage = self.nodes[signal as usize].pins.map(|pin| self.nodes[pin as usize].stage);
             self.nodes[signal as usize].stage = stage[0].max(stage[1]);
+            let Node { function, pins, .. } = self.nodes[signal as usize];
+            self.nodes[signal as usize].arrival = self.arrival(function, pins);
         }
     }
 

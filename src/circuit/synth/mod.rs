@@ -3,6 +3,7 @@
 pub mod graph;
 pub mod prices;
 pub mod reduce;
+mod roam;
 pub mod walk;
 pub mod window;
 

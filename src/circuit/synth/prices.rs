@@ -8,17 +8,19 @@ use crate::model::Function;
 #[derive(Clone, Debug)]
 pub struct Prices {
     cells: [u32; 16],
+    clocks: [u32; 16],
     recipes: Recipes,
 }
 
 impl Prices {
     /// The prices of a library's robots.
     pub fn of(library: &CellLibrary) -> Self {
-        let mut cells = [0; 16];
+        let (mut cells, mut clocks) = ([0; 16], [0; 16]);
         for (function, kind) in library.kinds() {
             cells[usize::from(function.bits())] = kind.cost;
+            clocks[usize::from(function.bits())] = kind.clock;
         }
-        Self { cells, recipes: Recipes::of(library) }
+        Self { cells, clocks, recipes: Recipes::of(library) }
     }
 
     /// All functions at two units, exclusive ors at `exclusive` units, inverters free: the first aim for libraries without XOR.
@@ -37,6 +39,11 @@ impl Prices {
     /// What a cell costs.
     pub fn cell(&self, function: Function) -> u32 {
         self.cells[usize::from(function.bits())]
+    }
+
+    /// The cycles that a cell takes.
+    pub fn clock(&self, function: Function) -> u32 {
+        self.clocks[usize::from(function.bits())]
     }
 
     /// The cheapest cells for a function.

@@ -4,11 +4,12 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::circuit::cells::CellLibrary;
-use crate::circuit::map::MapOptions;
+use crate::circuit::map::{MapOptions, Objective};
 use crate::circuit::network::{Network, Signal};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::prices::Prices;
-use crate::circuit::synth::walk::{self, Plan};
+use crate::circuit::synth::roam::roam;
+use crate::circuit::synth::walk::{self, Pace, Plan};
 use crate::circuit::synth::window::{self, Panes};
 use crate::model::Function;
 
@@ -28,6 +29,8 @@ pub enum Effort {
 const WHOLE_INPUTS: usize = 11;
 /// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 500;
+/// The most gates of a network that the walk roams as a whole.
+const MOST_ROAMED: usize = 1_000;
 /// Above so many gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
@@ -50,12 +53,15 @@ pub fn reduce(
     }
     let exclusive = target.cost(Function::XOR).unwrap_or(4);
     let mut best = search(&direct, &target, stages, effort, 2, &mut random);
-    if exclusive > 1 {
+    if exclusive > 1 && (effort == Effort::High || is_narrow(&direct)) {
         // Where an exclusive or is dear, first aim at few gates of any kind, then at cells.
         let ideal = Prices::abstracted(2 * exclusive - 1);
         let few = search(&cover(network, &ideal, stages)?, &ideal, stages, effort, 1, &mut random);
         let mapped = search(&cover(&few, &target, stages)?, &target, stages, effort, 2, &mut random);
         best = cheaper(best, mapped, &target);
+    }
+    if options.objective == Objective::Delay {
+        best = quicken(&best, &target, stages, effort, &mut random);
     }
     Ok(best)
 }
@@ -88,6 +94,11 @@ pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Netwo
     Ok(graph.finish(swept.outputs.iter().map(|&output| made[output as usize])))
 }
 
+/// Whether a network is searched as a whole, over every pattern.
+fn is_narrow(network: &Network) -> bool {
+    network.inputs <= WHOLE_INPUTS && network.gates.len() <= WHOLE_GATES
+}
+
 /// The search that fits a network's width and the effort, `share` being the part of the work that it may take.
 fn search(
     network: &Network,
@@ -97,33 +108,80 @@ fn search(
     share: u64,
     random: &mut ChaCha8Rng,
 ) -> Network {
-    let gates = network.gates.len();
-    if network.inputs <= WHOLE_INPUTS && gates <= WHOLE_GATES {
-        let visits = match effort {
-            Effort::Fast => (8 * gates as u64).min(2_000),
-            Effort::Normal => (60 * gates as u64).clamp(200, 4_000),
-            Effort::High => 400_000,
-        };
-        let plan = Plan { visits: visits * share, climb: 0, patience: u64::MAX };
-        let calm = walk::improve_all(network, prices, stages, plan, random);
-        let plan = Plan { visits: visits * share, climb: 400, patience: visits / 4 };
-        return walk::improve_all(&calm, prices, stages, plan, random);
+    if !is_narrow(network) {
+        return search_wide(network, prices, stages, effort, share, random);
     }
-    let (rounds, visits) = match effort {
-        Effort::Fast => (1, 60),
-        Effort::Normal => (1, 200),
-        Effort::High => (60, 400),
+    let gates = network.gates.len() as u64;
+    let visits = match effort {
+        Effort::Fast => (8 * gates).min(1_000),
+        Effort::Normal => (12 * gates).clamp(150, 500),
+        Effort::High => (1_000 * gates).clamp(10_000, 60_000),
+    };
+    let calm = walk::improve_all(network, prices, stages, Plan::calm(visits * share), random);
+    let plan = Plan { climb: 400, patience: visits / 4, ..Plan::calm(visits * share) };
+    walk::improve_all(&calm, prices, stages, plan, random)
+}
+
+/// Searches in windows and over samples of the patterns, in turns.
+fn search_wide(
+    network: &Network,
+    prices: &Prices,
+    stages: &[u32],
+    effort: Effort,
+    share: u64,
+    random: &mut ChaCha8Rng,
+) -> Network {
+    let (rounds, visits, steps) = match effort {
+        Effort::Fast => (1, 20, 0),
+        Effort::Normal => (2, 50, 2),
+        Effort::High => (3 * share, 400, 16),
     };
     let mut best = network.clone();
-    for round in 0..rounds * share {
-        let windows = best.gates.len().min(3000);
+    for round in 0..rounds {
+        let gates = best.gates.len();
         let (inputs, size) = if effort == Effort::High && round % 2 == 1 { (10, 50) } else { (8, 30) };
-        let panes = Panes { windows, inputs, gates: size, plan: Plan { visits, climb: 0, patience: u64::MAX } };
-        let next = window::improve(&best, prices, stages, panes, random);
-        let next = cover(&next, prices, stages).expect("the network is made of the library's cells");
-        if cost(&next, prices) <= cost(&best, prices) {
-            best = next;
+        let panes = Panes { windows: gates.min(3000), inputs, gates: size, plan: Plan::calm(visits) };
+        best = no_dearer(best, prices, stages, |best| window::improve(best, prices, stages, panes, random));
+        if gates <= MOST_ROAMED {
+            let plan = Plan::calm(steps * gates as u64);
+            best = no_dearer(best, prices, stages, |best| roam(best, prices, stages, plan, random));
         }
     }
     best
+}
+
+/// What a search makes of a network, unless that is dearer.
+fn no_dearer(best: Network, prices: &Prices, stages: &[u32], search: impl FnOnce(&Network) -> Network) -> Network {
+    let next = cover(&search(&best), prices, stages).expect("the network is made of the library's cells");
+    if cost(&next, prices) <= cost(&best, prices) { next } else { best }
+}
+
+/// Makes the slowest path shorter, then the network cheaper without making it longer again, in turns.
+fn quicken(network: &Network, prices: &Prices, stages: &[u32], effort: Effort, random: &mut ChaCha8Rng) -> Network {
+    let rounds = match effort {
+        Effort::Fast => 1,
+        Effort::Normal => 3,
+        Effort::High => 20,
+    };
+    let rank = |network: &Network| (depth(network, prices), cost(network, prices));
+    let mut best = network.clone();
+    let mut now = network.clone();
+    for _ in 0..rounds {
+        for pace in [Pace::Hurry, Pace::Keep] {
+            let plan = Plan { pace, ..Plan::calm((10 * now.gates.len() as u64).min(3_000)) };
+            now = match is_narrow(&now) {
+                true => walk::improve_all(&now, prices, stages, plan, random),
+                false => roam(&now, prices, stages, plan, random),
+            };
+        }
+        if rank(&now) < rank(&best) {
+            best = now.clone();
+        }
+    }
+    best
+}
+
+/// Cycles until every output is right, each cell taking its clock.
+fn depth(network: &Network, prices: &Prices) -> u32 {
+    Graph::new(network, prices, &[], &[]).depth()
 }

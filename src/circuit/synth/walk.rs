@@ -18,6 +18,27 @@ pub struct Plan {
     pub climb: u32,
     /// Visits without a new best after which the best so far is taken up again.
     pub patience: u64,
+    /// Whether time matters, and how.
+    pub pace: Pace,
+}
+
+/// What the walk makes of time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pace {
+    /// Time does not matter.
+    #[default]
+    Any,
+    /// No output may be right later than it is.
+    Keep,
+    /// Gates on the slowest paths are made earlier, whatever that costs.
+    Hurry,
+}
+
+impl Plan {
+    /// A walk that never climbs and never turns back.
+    pub fn calm(visits: u64) -> Self {
+        Self { visits, climb: 0, patience: u64::MAX, pace: Pace::Any }
+    }
 }
 
 /// Searches for a cheaper network of the same function; the patterns must be all that can occur.
@@ -30,7 +51,11 @@ pub fn improve(
     random: &mut ChaCha8Rng,
 ) -> Network {
     let graph = Graph::new(network, prices, stages, patterns);
-    let mut walk = Walk::new(graph, random);
+    let mut walk = Walk::new(graph, plan.pace, random);
+    if plan.pace == Pace::Hurry {
+        (0..plan.visits).for_each(|_| walk.hurry());
+        return walk.graph.network();
+    }
     let mut best = walk.graph.network();
     let mut best_cost = walk.graph.cost();
     let mut best_at = 0;
@@ -70,6 +95,13 @@ type Literal = (Signal, bool);
 /// The state of a walk, with room for its sums.
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
+    pace: Pace,
+    /// When the outputs must be right.
+    deadline: u32,
+    /// The arrival that what takes the visited gate's place may have.
+    limit: u32,
+    /// When each gate must be right.
+    required: Vec<u32>,
     random: &'r mut ChaCha8Rng,
     /// Values with the visited gate turned over, for the signals marked as changed.
     flipped: Vec<u64>,
@@ -88,13 +120,20 @@ struct Walk<'p, 'r> {
 /// At most so many candidates are tried at a visit.
 const TRIES: usize = 24;
 
+/// What making one gate earlier may cost.
+const HURRY_PRICE: u32 = 6;
+
 /// Buckets of the table that finds exclusive ors.
 const BUCKETS: usize = 256;
 
 impl<'p, 'r> Walk<'p, 'r> {
-    fn new(graph: Graph<'p>, random: &'r mut ChaCha8Rng) -> Self {
+    fn new(graph: Graph<'p>, pace: Pace, random: &'r mut ChaCha8Rng) -> Self {
         Self {
+            deadline: graph.depth(),
             graph,
+            pace,
+            limit: u32::MAX,
+            required: Vec::new(),
             random,
             flipped: Vec::new(),
             changed: Vec::new(),
@@ -117,6 +156,42 @@ impl<'p, 'r> Walk<'p, 'r> {
     fn visit(&mut self, slack: u32) -> bool {
         let at = self.below(self.graph.order().len());
         let gate = self.graph.order()[at];
+        if self.pace == Pace::Keep {
+            self.require();
+            self.limit = self.required[gate as usize];
+        }
+        self.change(gate, slack)
+    }
+
+    /// Visits a random gate on a slowest path to make it earlier.
+    fn hurry(&mut self) {
+        self.deadline = self.graph.depth();
+        self.require();
+        let (graph, required) = (&self.graph, &self.required);
+        let late = |&&gate: &&Signal| graph.node(gate).arrival >= required[gate as usize];
+        let critical: Vec<Signal> = graph.order().iter().filter(late).copied().collect();
+        if !critical.is_empty() {
+            let gate = critical[self.below(critical.len())];
+            self.limit = self.graph.node(gate).arrival - 1;
+            self.change(gate, HURRY_PRICE);
+        }
+    }
+
+    /// Works out when each gate must be right.
+    fn require(&mut self) {
+        self.required.clear();
+        self.required.resize(self.graph.places(), self.deadline);
+        for &gate in self.graph.order().iter().rev() {
+            let node = self.graph.node(gate);
+            let before = self.required[gate as usize].saturating_sub(self.graph.prices().clock(node.function));
+            for pin in node.pins {
+                self.required[pin as usize] = self.required[pin as usize].min(before);
+            }
+        }
+    }
+
+    /// Looks for what may take a gate's place at a price of `slack` at most; whether the network changed.
+    fn change(&mut self, gate: Signal, slack: u32) -> bool {
         self.observe(gate);
         self.find_divisors(gate);
         self.candidates.clear();
@@ -389,8 +464,9 @@ impl<'p, 'r> Walk<'p, 'r> {
         let root = self.build(candidate)?;
         let change = i64::from(self.graph.cost()) - before - i64::from(self.hold_and_release(root, gate));
         let same = self.graph.node(root).alive && self.graph.same(root, gate);
+        let late = self.graph.node(root).arrival > self.limit;
         self.graph.release(root);
-        (!same).then_some(change)
+        (!same && !late).then_some(change)
     }
 
     /// What the gate's going would release while `root` stays.

@@ -1,0 +1,67 @@
+//! The walk over a wide network as a whole: it sees samples of the patterns, and SAT proves what it made of them, step by step.
+//! A step that was wrong is undone, and the pattern that shows it joins the samples.
+
+use rand_chacha::ChaCha8Rng;
+
+use crate::circuit::network::Network;
+use crate::circuit::proof::equal;
+use crate::circuit::synth::prices::Prices;
+use crate::circuit::synth::walk::{self, Plan};
+
+/// Words of 64 random patterns to start with.
+const WORDS: usize = 32;
+/// Words of patterns at most.
+const MOST_WORDS: usize = 256;
+/// Visits between two proofs: at first, at least and at most.
+const BATCH: [u64; 3] = [32, 8, 4_000];
+
+/// Searches for a cheaper network in `visits` visits; every network that it passes through is proved equal to the one before.
+pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: Plan, random: &mut ChaCha8Rng) -> Network {
+    let mut samples = Samples::new(network.inputs, random);
+    let [mut batch, least, most] = BATCH;
+    let mut now = network.clone();
+    let mut visits = 0;
+    while visits < plan.visits && !now.gates.is_empty() {
+        let short = Plan { visits: batch, ..plan };
+        let next = walk::improve(&now, prices, stages, &samples.words, short, random);
+        visits += batch;
+        match equal(&now, &next) {
+            Ok(_) => {
+                now = next;
+                batch = (batch + batch / 2).min(most);
+            }
+            Err((_, pattern)) => {
+                samples.learn(&pattern, random);
+                batch = (batch / 2).max(least);
+            }
+        }
+    }
+    now
+}
+
+/// Patterns of the inputs, `words[input][word]`.
+struct Samples {
+    words: Vec<Vec<u64>>,
+    next: usize,
+}
+
+impl Samples {
+    fn new(inputs: usize, random: &mut ChaCha8Rng) -> Self {
+        let mut word = || rand::Rng::next_u64(random);
+        Self { words: (0..inputs).map(|_| (0..WORDS).map(|_| word()).collect()).collect(), next: WORDS }
+    }
+
+    /// Adds a pattern with 63 of its neighbors: where there are many already, in place of the oldest that were not random.
+    fn learn(&mut self, pattern: &[bool], random: &mut ChaCha8Rng) {
+        let at = if self.next < MOST_WORDS { self.next } else { WORDS + self.next % (MOST_WORDS - WORDS) };
+        for (words, &value) in self.words.iter_mut().zip(pattern) {
+            let mut draw = || rand::Rng::next_u64(random);
+            // The first pattern as it is; of the others half are an input in sixteen away from it, half one in four.
+            let near = draw() & draw();
+            let flips = (near & draw() & draw() & 0xffff_ffff | near & !0xffff_ffff) & !1;
+            let word = flips ^ if value { !0 } else { 0 };
+            if at < words.len() { words[at] = word } else { words.push(word) }
+        }
+        self.next += 1;
+    }
+}

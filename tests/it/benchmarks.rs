@@ -1,0 +1,130 @@
+//! The compiler on the benchmark circuits: ABC proves every written BLIF, and a table of robots, levels and seconds.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use nbc::circuit::formats::{Design, aiger, bench, blif};
+use nbc::circuit::synth::reduce;
+use nbc::circuit::{CellKind, CellLibrary, Effort, MapOptions, levels, map_with, prove};
+use nbc::model::Function;
+use nbc::source::FileId;
+
+use crate::circuit::sum_of_products;
+
+fn files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/benchmarks");
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending != "md"));
+    files.sort();
+    files
+}
+
+fn read(path: &Path) -> Design {
+    let bytes = fs::read(path).unwrap();
+    let text = || String::from_utf8(bytes.clone()).unwrap();
+    match path.extension().unwrap().to_str().unwrap() {
+        "blif" => blif::read(&text(), FileId(0), None).unwrap(),
+        "bench" => bench::read(&text(), FileId(0), None).unwrap(),
+        _ => aiger::read(&bytes, None).unwrap(),
+    }
+}
+
+/// The cell libraries of docs/compiler.md: (a), (b) and (c).
+fn libraries() -> [(&'static str, CellLibrary); 3] {
+    let all = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
+    [
+        ("a", CellLibrary::uniform([Function::NAND, Function::NOT])),
+        ("b", CellLibrary::uniform([Function::NAND, Function::AND, Function::NOT])),
+        ("c", CellLibrary::uniform(all)),
+    ]
+}
+
+#[test]
+fn abc_proves_every_written_blif_of_the_benchmarks() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
+    let mut script = String::new();
+    let mut pairs = 0;
+    for path in files() {
+        let design = read(&path);
+        for (name, library) in libraries() {
+            let logic = map_with(&design.logic, &library, options).unwrap();
+            prove(&design.logic, &logic).unwrap();
+            let written = folder.path().join(format!("{}-{name}.blif", path.file_stem().unwrap().display()));
+            fs::write(&written, blif::write(&Design { logic, registers: design.registers.clone() })).unwrap();
+            let command = if design.registers.is_empty() { "cec -n" } else { "dsec" };
+            script.push_str(&format!("{command} {} {}; ", path.display(), written.display()));
+            pairs += 1;
+        }
+    }
+    let Ok(output) = Command::new("berkeley-abc").args(["-c", &script]).current_dir(folder.path()).output() else {
+        assert!(std::env::var_os("CI").is_none(), "CI must have berkeley-abc");
+        eprintln!("berkeley-abc is not installed, so nothing is compared by it");
+        return;
+    };
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(said.matches("Networks are equivalent").count(), pairs, "{said}");
+}
+
+/// Prints the table of docs/compiler.md: robots/levels and seconds, by library. `EFFORT` is `fast`, `normal` or `high`.
+///
+/// Run with `EFFORT=high cargo test --release --test it measure_the_benchmarks -- --ignored --nocapture`.
+#[test]
+#[ignore = "a measurement of minutes"]
+fn measure_the_benchmarks() {
+    let effort = match std::env::var("EFFORT").as_deref() {
+        Ok("high") => Effort::High,
+        Ok("fast") => Effort::Fast,
+        _ => Effort::Normal,
+    };
+    for path in files() {
+        let design = read(&path);
+        let mut row = format!("| {} |", path.file_stem().unwrap().display());
+        for (_, library) in libraries() {
+            let started = Instant::now();
+            let mapped = map_with(&design.logic, &library, MapOptions { effort, ..MapOptions::default() }).unwrap();
+            prove(&design.logic, &mapped).unwrap();
+            let seconds = started.elapsed().as_secs_f64();
+            row.push_str(&format!(" {}/{} {seconds:.2} s |", mapped.cells().count(), levels::depth(&mapped)));
+        }
+        println!("{row}");
+    }
+}
+
+/// The function of four variables with variables exchanged and turned over, in every way.
+fn variants(truth: u16) -> impl Iterator<Item = u16> {
+    let orders = (0..256usize).map(|code| [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6]);
+    let orders = orders.filter(|order| (0..4).all(|i| order.contains(&i)));
+    orders.flat_map(move |order| {
+        (0..32usize).map(move |turned| {
+            let place = |row: usize| (0..4).fold(0, |place, i| place | (row >> order[i] & 1) << i) ^ (turned & 15);
+            (0..16).fold(0u16, |made, row| made | (truth >> place(row) & 1 ^ (turned >> 4) as u16) << row)
+        })
+    })
+}
+
+/// Knuth, The Art of Computer Programming 7.1.2, table 1: how many functions of four variables need 0 to 7 gates.
+///
+/// Run with `cargo test --release --test it four_variables -- --ignored`.
+#[test]
+#[ignore = "takes minutes"]
+fn the_functions_of_four_variables_need_the_gates_that_knuth_counted() {
+    let mut library = libraries()[2].1.clone();
+    library.insert(Function::NOT, CellKind { cost: 0, ..CellKind::uniform(1, 1.0) });
+    let options = MapOptions { effort: Effort::High, ..MapOptions::default() };
+    let mut done = vec![false; 1 << 16];
+    let mut counts = [0usize; 10];
+    for truth in 0..=u16::MAX {
+        if done[usize::from(truth)] {
+            continue;
+        }
+        let network = reduce(&sum_of_products(4, truth.into()), &[], &library, options).unwrap();
+        let gates = network.gates.iter().filter(|gate| gate.function != Function::NOT).count();
+        for variant in variants(truth) {
+            counts[gates] += usize::from(!std::mem::replace(&mut done[usize::from(variant)], true));
+        }
+    }
+    assert_eq!(counts, [10, 60, 456, 2474, 10624, 24184, 25008, 2720, 0, 0]);
+}
