@@ -17,6 +17,7 @@ mod page;
 mod physics;
 mod pictures;
 mod plots;
+mod swarms;
 mod synth;
 mod tidy;
 mod ui;

@@ -88,6 +88,61 @@ fn a_missing_gate_is_valued() {
     assert_eq!(report["what_if"]["xor"], 4);
 }
 
+#[test]
+fn the_delay_objective_makes_fewer_levels() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/benchmarks/pop8.blif");
+    let depth = |objective: &str| {
+        let bench = Bench::new();
+        let source = folder.to_str().unwrap();
+        let ran = bench.run(&["synth", source, "--cells", "nand,not", "--objective", objective, "--format", "json"]);
+        ran.expect_json()["depth"].as_u64().unwrap()
+    };
+    let (area, delay) = (depth("area"), depth("delay"));
+    assert!(delay < area, "{delay} levels by delay, {area} by area");
+}
+
+#[test]
+fn the_same_source_gives_the_same_cells() {
+    let bench = Bench::new();
+    bench.file("fa.blif", FULL_ADDER);
+    for objective in ["area", "delay", "margin"] {
+        let written = ["one.blif", "two.blif"].map(|out| {
+            let ran = bench.run(&["synth", "fa.blif", "-o", out, "--objective", objective]);
+            assert_eq!(ran.status, 0, "{}", ran.err);
+            std::fs::read_to_string(bench.path().join(out)).unwrap()
+        });
+        assert_eq!(written[0], written[1]);
+    }
+}
+
+/// A Yosys that writes `flat.blif`, whatever it is given.
+const FAKE_YOSYS: &str = "#!/bin/sh
+out=$(echo \"$3\" | sed 's/.*write_blif \"\\(.*\\)\"/\\1/')
+cp flat.blif \"$out\"
+";
+
+#[cfg(unix)]
+#[test]
+fn verilog_is_read_through_yosys() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new();
+    bench.file("fa.v", "module fa(input a, b, c, output s, co); assign {co, s} = a + b + c; endmodule\n");
+    bench.file("flat.blif", FULL_ADDER);
+    let synth = |path: String| {
+        let mut command = bench.command(&["synth", "fa.v", "--cells", "all", "--format", "json"]);
+        command.env("PATH", path).output().unwrap()
+    };
+    let missing = synth("/nowhere".to_owned());
+    assert_eq!(missing.status.code(), Some(2));
+    let said = String::from_utf8(missing.stderr).unwrap();
+    assert!(said.contains("not installed") && said.contains("apt-get install yosys"), "{said}");
+    let fake = bench.file("yosys", FAKE_YOSYS);
+    std::fs::set_permissions(fake, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let found = synth(format!("{}:/usr/bin:/bin", bench.path().display()));
+    let report: serde_json::Value = serde_json::from_slice(&found.stdout).expect("a report in JSON");
+    assert_eq!(report["cells"], 5);
+}
+
 /// Runs `nbc synth` on a text that is at fault, and compares the first line of the message.
 fn refused(name: &str, text: &str, expected: &str) {
     let bench = Bench::new();

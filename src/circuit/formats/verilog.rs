@@ -1,5 +1,6 @@
 //! Structural Verilog: an `assign` a cell, an `always` block a register.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, RegisterKind};
@@ -9,7 +10,9 @@ use crate::circuit::{NetId, Netlist, Node};
 /// Writes a design.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
-    let names = names(netlist, design.registers.len(), escaped);
+    // Escaped last: a number behind an escaped name would stand outside of it.
+    let names = names(netlist, design.registers.len(), str::to_owned);
+    let names: BTreeMap<_, _> = names.into_iter().map(|(id, name)| (id, escaped(&name))).collect();
     let (inputs, states) = netlist.inputs().split_at(design.inputs());
     let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
     let known: Vec<_> = inputs.iter().map(|&id| netlist.net_name(id)).collect();
@@ -111,6 +114,15 @@ mod tests {
             "{text}"
         );
         assert!(text.contains(" ^ cin;"), "{text}");
+    }
+
+    #[test]
+    fn a_name_that_two_nets_share_is_numbered_inside_its_escape() {
+        let mut netlist = Netlist::new("one");
+        let a = netlist.add_input("q[0]");
+        netlist.add_output("q[0]", a);
+        let text = write(&Design { logic: netlist, registers: Vec::new() });
+        assert!(text.starts_with("module one(input \\q[0] , output \\q[0]_1 );\n"), "{text}");
     }
 
     #[test]

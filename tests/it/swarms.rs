@@ -1,0 +1,86 @@
+//! Compiled swarms in full physics give the truth tables of their logic, held for as long as static timing says.
+
+use std::fs;
+use std::path::Path;
+
+use nbc::circuit::formats::nb;
+use nbc::circuit::{Delays, Netlist, Timing};
+use nbc::model::Function;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A circuit for the function of three inputs with these outputs, and a test of all its rows.
+fn program(truth: u8) -> String {
+    let mut netlist = Netlist::new("f");
+    let inputs = ["a", "b", "c"].map(|name| netlist.add_input(name));
+    let not = inputs.map(|input| netlist.add_gate(Function::NOT, &[input]));
+    let mut sum = netlist.add_constant(false);
+    for row in (0..8).filter(|row| truth >> row & 1 == 1) {
+        let literal = |i: usize| if row >> (2 - i) & 1 == 1 { inputs[i] } else { not[i] };
+        let pair = netlist.add_gate(Function::AND, &[literal(0), literal(1)]);
+        let product = netlist.add_gate(Function::AND, &[pair, literal(2)]);
+        sum = netlist.add_gate(Function::OR, &[sum, product]);
+    }
+    netlist.add_output("y", sum);
+    let rows: String = (0..8)
+        .map(|row| format!("    {} {} {} | {}\n", row >> 2 & 1, row >> 1 & 1, row & 1, truth >> row & 1))
+        .collect();
+    format!("{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n", nb::write(&netlist))
+}
+
+fn check(truth: u8) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("f.nb");
+    fs::write(&path, program(truth)).unwrap();
+    let report = nbc::run_file(&path, &nbc::Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    report.assert_passed();
+    let compiled = &report.tests[0].compiled;
+    println!("{truth:08b}: {} robots, hold {}", compiled.mapped.cells().count(), compiled.timing.hold);
+}
+
+#[test]
+fn a_multiplexer_of_robots_computes() {
+    check(0b1100_1010);
+}
+
+/// Run with `cargo test --release --test it fifty_random -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes of physics"]
+fn fifty_random_functions_of_three_inputs_compute() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for _ in 0..50 {
+        check((random.next_u32() >> 24) as u8);
+    }
+}
+
+/// Run with `cargo test --release --test it gallery_computes -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes of physics"]
+fn every_circuit_of_the_gallery_computes() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("circuits");
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "nb"));
+    files.sort();
+    let mut failed = String::new();
+    for path in files {
+        let report = nbc::run_file(&path, &nbc::Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        for test in &report.tests {
+            let robots = test.compiled.mapped.cells().count();
+            let (passed, hold) = (test.verdict.passed, test.compiled.timing.hold);
+            println!("{} `{}`: {robots} robots, hold {hold}, passed {passed}", path.display(), test.verdict.title);
+            if robots < 40 && !passed {
+                failed.push_str(&nbc::report::describe_test(&test.verdict));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed}");
+}
+
+#[test]
+fn measured_settle_times_are_within_the_clocks() {
+    let report = nbc::run_file("circuits/half_adder.nb", &nbc::Options::default()).unwrap();
+    let compiled = &report.tests[0].compiled;
+    let cells = nbc::swarm::cells(nbc::store::shipped_library());
+    let measured = Timing::of(&compiled.mapped, &cells, Delays::Transition);
+    assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);
+}
