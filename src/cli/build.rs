@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::circuit::elaborate::elaborate;
 use crate::circuit::formats::{Design, blif, dot, verilog};
-use crate::circuit::{CellLibrary, Delays, MapOptions, Netlist, Timing, levels};
+use crate::circuit::{CellLibrary, Delays, MapOptions, Netlist, Race, Timing, levels, races};
 use crate::cli::synth::{CellArguments, EffortWord, ObjectiveWord, synthesize};
 use crate::cli::{Context, Failure, Status};
 use crate::diag::{Code, Diagnostic};
@@ -138,6 +138,7 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
         })
         .collect();
     let outputs: BTreeMap<_, _> = mapped.outputs().iter().map(|id| (name(id), name(&mapped.pins(*id)[0]))).collect();
+    let race = |race: Race| json!({ "net": name(&race.net), "input": name(&race.input), "rises": race.rises });
     json!({
         "circuit": mapped.name,
         "inputs": mapped.inputs().iter().map(name).collect::<Vec<_>>(),
@@ -148,5 +149,6 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
         "proved": true,
+        "races": races(mapped).map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
     })
 }
