@@ -101,23 +101,26 @@ fn operands(steps: &[(Step, u8)]) -> Vec<(u8, Operand)> {
     START.into_iter().chain(results).collect()
 }
 
-/// Every further cell that makes something new of a set, with its cost.
+/// Every further cell that makes something new of a set, with its cost: of the cells that make the same, the cheapest, then the function's
+/// own, then the first.
 fn extensions(library: &CellLibrary, set: u16, steps: &[(Step, u8)]) -> Vec<(u32, (Step, u8))> {
     let operands = operands(steps);
-    let mut made = set;
-    let mut extensions = Vec::new();
+    let rank = |cost: u32, step: Step, bits: u8| (cost, step.function.bits() != bits);
+    let mut extensions: Vec<(u32, (Step, u8))> = Vec::new();
     for (function, kind) in library.kinds() {
         for &(a_bits, a) in &operands {
             for &(b_bits, b) in &operands {
                 let bits = compose(function, a_bits, b_bits);
-                if made >> bits & 1 == 0 {
-                    made |= 1 << bits;
-                    extensions.push((kind.cost, (Step { function, pins: [a, b] }, bits)));
-                } else if set >> bits & 1 == 0 {
-                    let known = extensions.iter_mut().find(|(_, (_, known))| *known == bits);
-                    if let Some(known) = known.filter(|(cost, _)| *cost > kind.cost) {
-                        *known = (kind.cost, (Step { function, pins: [a, b] }, bits));
+                if set >> bits & 1 == 1 {
+                    continue;
+                }
+                let step = Step { function, pins: [a, b] };
+                match extensions.iter_mut().find(|(_, (_, known))| *known == bits) {
+                    None => extensions.push((kind.cost, (step, bits))),
+                    Some(known) if rank(kind.cost, step, bits) < rank(known.0, known.1.0, bits) => {
+                        *known = (kind.cost, (step, bits))
                     }
+                    Some(_) => {}
                 }
             }
         }
@@ -169,6 +172,16 @@ mod tests {
     #[test]
     fn nand_and_not_make_every_function() {
         assert_eq!(costs("nand not"), [0, 4, 3, 1, 3, 1, 4, 1, 2, 5, 0, 2, 0, 2, 3, 0]);
+    }
+
+    #[test]
+    fn a_function_with_a_cell_of_its_own_is_that_cell() {
+        let recipes = Recipes::of(&CellLibrary::uniform(Function::all()));
+        let own = |function: Function| {
+            recipes.get(function).unwrap().steps.iter().map(|step| step.function).collect::<Vec<_>>()
+        };
+        assert_eq!(own(Function::NOT), [Function::NOT]);
+        assert_eq!(own(Function::NOR), [Function::NOR]);
     }
 
     #[test]

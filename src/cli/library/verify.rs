@@ -1,5 +1,6 @@
 //! `nbc library verify`: every robot simulated again and compared with its file.
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Progress, Status};
@@ -21,13 +22,16 @@ struct Finding<'a> {
 /// When the output cannot be written.
 pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failure> {
     let bar = Progress::new("verifying", library.robots.len() as u64);
-    let mut findings = Vec::new();
-    for robot in &library.robots {
+    let finding = |robot: &'_ Robot| {
         let differs = differences(robot);
-        findings.push(Finding { name: &robot.name, verified: differs.is_empty(), differs });
         bar.add(1);
-    }
+        differs
+    };
+    let differs: Vec<_> = library.robots.par_iter().map(finding).collect();
     drop(bar);
+    let named = library.robots.iter().zip(differs);
+    let findings: Vec<_> =
+        named.map(|(robot, differs)| Finding { name: &robot.name, verified: differs.is_empty(), differs }).collect();
     let failed = findings.iter().filter(|finding| !finding.verified).count();
     match context.format {
         Format::Json => context.print_json(&findings)?,
