@@ -1,0 +1,22 @@
+//! Any text is read as ISCAS .bench or refused, and what is read is the same design after a journey through BLIF.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use nbc::circuit::formats::{bench, blif};
+use nbc::diag::render;
+use nbc::source::Sources;
+
+fuzz_target!(|text: &str| {
+    let mut sources = Sources::default();
+    let file = sources.add("a.bench", text);
+    match bench::read(text, file, Some("clk")) {
+        Ok(design) => {
+            let written = blif::write(&design);
+            let file = sources.add("again.blif", written.clone());
+            nbc_fuzz::same_design(&design, &blif::read(&written, file, None).expect("what is written is read"));
+        }
+        Err(faults) => {
+            render::text(&faults, &sources, false);
+        }
+    }
+});

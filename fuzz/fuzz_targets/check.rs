@@ -1,0 +1,21 @@
+//! Any text is checked without a panic, and what is sound is either elaborated or refused.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use nbc::check;
+use nbc::circuit::elaborate;
+use nbc::diag::{json, render};
+use nbc::source::{MemoryWorld, Sources};
+
+fuzz_target!(|text: &str| {
+    let mut sources = Sources::default();
+    let file = sources.add("main.nb", text);
+    let checked = check::check(&MemoryWorld::default(), &mut sources, file);
+    render::text(&checked.diagnostics, &sources, false);
+    json(&checked.diagnostics, &sources);
+    if !checked.has_errors() {
+        for test in &checked.program.tests {
+            elaborate(&checked.program, &test.circuit).expect("the circuit of a test of a sound program is elaborated");
+        }
+    }
+});

@@ -1,0 +1,20 @@
+//! What has no syntax errors is formatted to a text without syntax errors, and twice is once.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use nbc::source::Sources;
+use nbc::syntax;
+
+/// The canonical form; nothing where the text has syntax errors.
+fn formatted(text: &str) -> Option<String> {
+    let mut sources = Sources::default();
+    let file = sources.add("main.nb", text);
+    let parsed = syntax::parse(&sources, file);
+    parsed.errors.is_empty().then(|| syntax::format(&sources, file, &parsed.tree))
+}
+
+fuzz_target!(|text: &str| {
+    if let Some(once) = formatted(text) {
+        assert_eq!(formatted(&once).as_ref(), Some(&once), "twice is once");
+    }
+});

@@ -1,0 +1,17 @@
+//! Any text is read as a robot or refused, and what is read is printed and read again as the same robot.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use nbc::source::Sources;
+use nbc::store;
+
+fuzz_target!(|text: &str| {
+    let mut sources = Sources::default();
+    let file = sources.add("robot.yaml", text);
+    if let Ok(robot) = store::read_robot(sources.file(file)) {
+        let printed = store::print_robot(&robot);
+        let again = sources.add("again.yaml", printed.clone());
+        let read = store::read_robot(sources.file(again)).expect("a printed robot is read");
+        assert_eq!(store::print_robot(&read), printed, "a robot survives its file");
+    }
+});
