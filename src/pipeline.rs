@@ -174,8 +174,27 @@ pub fn run_test(
     options: &Options,
     observe: &mut dyn FnMut(usize, usize),
 ) -> Result<TestRun, Vec<Diagnostic>> {
-    let library = library(program, test, options)?;
-    let compiled = compile(program, &test.circuit, &library, test.span)?;
+    simulate_test(program, test, compile_test(program, test, options)?, observe)
+}
+
+/// Compiles the circuit of a test onto the robots that it asks for.
+///
+/// # Errors
+/// As [`compile`], and when the robots cannot be read.
+pub fn compile_test(program: &Program, test: &CircuitTest, options: &Options) -> Result<Compiled, Vec<Diagnostic>> {
+    compile(program, &test.circuit, &library(program, test, options)?, test.span)
+}
+
+/// Runs a test whose circuit is compiled, calling `observe` as [`run_test`] does.
+///
+/// # Errors
+/// As [`rows`].
+pub fn simulate_test(
+    program: &Program,
+    test: &CircuitTest,
+    compiled: Compiled,
+    observe: &mut dyn FnMut(usize, usize),
+) -> Result<TestRun, Vec<Diagnostic>> {
     let protocol = protocol(program, test);
     let rows = rows(program, test)?;
     let demands = demands(&rows, protocol, &compiled.timing);
@@ -264,7 +283,8 @@ fn short_holds(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compile
     let path: Vec<String> = compiled.timing.critical_path.iter().map(|&net| compiled.mapped.net_name(net)).collect();
     let short = rows.iter().zip(demands).find(|(_, demand)| demand.hold < needed);
     let warn = |(row, demand): (&TestRow, &Demand)| {
-        let message = format!("a hold of {} cycles is too short, expected {needed} at least", demand.hold);
+        let cycles = if demand.hold == 1 { "cycle" } else { "cycles" };
+        let message = format!("a hold of {} {cycles} is too short, expected {needed} at least", demand.hold);
         let place = if row.hold.is_some() { row.span } else { test.span };
         Diagnostic::new(Code::HoldTooShort, message, place, "held here")
             .with_help(format!("the slowest path is {}; `hold: auto` waits for it", path.join(" -> ")))

@@ -150,6 +150,13 @@ impl<'a> CircuitChecker<'a> {
     fn bind(&mut self, name: &'a tree::Name, binding: Binding) {
         let scope = self.scopes.last_mut().expect("a circuit has a scope");
         if let Some(first) = scope.insert(&name.text, binding) {
+            // That the other of the two has no driver or no listener would say the same again.
+            for net in [first, binding] {
+                if let Binding::Net(slot) = net {
+                    self.used[slot.0 as usize] = true;
+                    self.driven[slot.0 as usize] = true;
+                }
+            }
             let first = match first {
                 Binding::Variable(_, span) => span,
                 Binding::Net(slot) => self.circuit.nets[slot.0 as usize].span,

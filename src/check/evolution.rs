@@ -19,20 +19,56 @@ pub(crate) struct Known<'a> {
     pub(crate) materials: &'a Names,
     pub(crate) schedules: &'a Names,
     pub(crate) evolutions: &'a Names,
+    /// The runs in order of their names' places, as far as they are checked.
+    pub(crate) checked: &'a [State],
 }
 
-/// Checks an evolution run; `place` is its own place among the runs.
+/// How far a run is checked.
+#[derive(Clone, Debug)]
+pub(crate) enum State {
+    /// Not yet; where another run asks for its fields, the two ask for each other's.
+    Open,
+    /// It has faults, which were told.
+    Faulty,
+    /// Sound.
+    Sound(Box<Evolution>),
+}
+
+/// The places of runs in an order in which each comes after the one that it takes its fields from, as far as there is one.
+pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &Names) -> Vec<usize> {
+    let mut taken = vec![false; sources.len()];
+    let mut order = Vec::new();
+    for start in 0..sources.len() {
+        let mut chain = Vec::new();
+        let mut at = Some(start);
+        while let Some(place) = at.filter(|&place| !taken[place]) {
+            taken[place] = true;
+            chain.push(place);
+            let (home, source) = sources[place];
+            let from = source.record.fields.iter().find(|field| field.name.text == "from");
+            let word = from.and_then(|field| fields::word(&field.value, "").ok());
+            at = word.and_then(|name| names.find(&name.text, home));
+        }
+        order.extend(chain.into_iter().rev());
+    }
+    order
+}
+
+/// Checks an evolution run.
 pub(crate) fn evolution(
     source: &RecordDeclaration,
-    place: usize,
     home: Home,
     known: &Known<'_>,
     faults: &mut Vec<Diagnostic>,
-) -> Option<Evolution> {
+) -> State {
     let what = format!("the evolution `{}`", source.name.text);
     let mut fields = Fields::new(what, source.name.span, &source.record);
-    let base = fields.read("from", None, |value| base(value, place, home, known).map(Some));
-    let base = base.unwrap_or_else(|| known.program.evolutions.first().cloned().unwrap_or_else(paper));
+    let base = fields.read("from", &known.checked[0], |value| base(value, home, known));
+    let (base, whole) = match base {
+        State::Sound(base) => (Evolution::clone(base), true),
+        // The prelude's first run is what the others begin with.
+        _ => (paper(), fields.value("from").is_none()),
+    };
     let (width, height) = fields.read("box", (base.width, base.height), area);
     let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
     fields.read("genome", (), |value| fields::choice(value, &[("cppn", ())]));
@@ -60,9 +96,9 @@ pub(crate) fn evolution(
         niche: fields.read("niche", base.niche, niche),
     };
     let found = fields.finish();
-    let sound = found.is_empty();
+    let sound = found.is_empty() && whole;
     faults.extend(found);
-    sound.then_some(evolution)
+    if sound { State::Sound(Box::new(evolution)) } else { State::Faulty }
 }
 
 /// The paper's run without its materials and stimuli, which the prelude declares.
@@ -87,14 +123,15 @@ fn paper() -> Evolution {
     }
 }
 
-fn base(value: &Value, place: usize, home: Home, known: &Known<'_>) -> Result<Evolution, Diagnostic> {
+fn base<'a>(value: &Value, home: Home, known: &Known<'a>) -> Result<&'a State, Diagnostic> {
     let name = fields::word(value, "the name of an evolution")?;
-    let found = known.evolutions.resolve(name, home)?;
-    known.program.evolutions.get(found).filter(|_| found < place).cloned().ok_or_else(|| {
-        let message = format!("`{}` is not declared before", name.text);
-        Diagnostic::new(Code::Unknown, message, name.span, "declared after its use, or with faults")
-            .with_help("declare it first")
-    })
+    let found = &known.checked[known.evolutions.resolve(name, home)?];
+    if matches!(found, State::Open) {
+        let message = format!("the evolution `{}` takes its fields from itself", name.text);
+        let fault = Diagnostic::new(Code::Recursion, message, name.span, "this closes the circle");
+        return Err(fault.with_help("let one of them do without `from`, or take the fields of another"));
+    }
+    Ok(found)
 }
 
 fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {

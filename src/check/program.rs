@@ -1,5 +1,7 @@
 //! The declarations of all files together: first their names, then each kind after those that it speaks of.
 
+use std::collections::BTreeSet;
+
 use crate::check::circuit::{Header, Headers, circuit};
 use crate::check::evolution::{self, evolution};
 use crate::check::instance::instance;
@@ -28,6 +30,7 @@ pub(crate) fn program(trees: &[(Home, Tree)]) -> (Program, Vec<Diagnostic>) {
     let references = assembly.circuits();
     assembly.swarms();
     assembly.build(&references);
+    assembly.forget_redeclared();
     (assembly.program, assembly.faults)
 }
 
@@ -144,20 +147,27 @@ impl<'a> Assembly<'a> {
     }
 
     fn evolutions(&mut self) {
-        for (home, source) in self.records(RecordKeyword::Evolution) {
-            let place = self.program.evolutions.len();
+        let sources = self.records(RecordKeyword::Evolution);
+        for (place, (home, source)) in sources.iter().enumerate() {
+            let declared = self.evolutions.declare(&source.name, place, *home);
+            self.note(declared);
+        }
+        let mut checked = vec![evolution::State::Open; sources.len()];
+        for place in evolution::order(&sources, &self.evolutions) {
+            let (home, source) = sources[place];
             let known = evolution::Known {
                 program: &self.program,
                 materials: &self.materials,
                 schedules: &self.schedules,
                 evolutions: &self.evolutions,
+                checked: &checked,
             };
-            let checked = evolution(source, place, home, &known, &mut self.faults);
-            let index = if checked.is_some() { place } else { usize::MAX };
-            let declared = self.evolutions.declare(&source.name, index, home);
-            self.note(declared);
-            self.program.evolutions.extend(checked);
+            checked[place] = evolution(source, home, &known, &mut self.faults);
         }
+        self.program.evolutions.extend(checked.into_iter().filter_map(|state| match state {
+            evolution::State::Sound(evolution) => Some(*evolution),
+            _ => None,
+        }));
     }
 
     fn libraries(&mut self) {
@@ -205,6 +215,21 @@ impl<'a> Assembly<'a> {
                 self.program.circuits[at].name.clone_from(name);
             }
         }
+    }
+
+    /// Leaves out what a file declares again of the prelude's; those of the prelude come first.
+    fn forget_redeclared(&mut self) {
+        fn keep_last<T>(all: &mut Vec<T>, name: impl Fn(&T) -> &str) {
+            let mut seen = BTreeSet::new();
+            let last: Vec<_> = all.iter().rev().map(|one| seen.insert(name(one).to_owned())).collect();
+            let mut last = last.into_iter().rev();
+            all.retain(|_| last.next().unwrap_or(true));
+        }
+        keep_last(&mut self.program.materials, |material| &material.name);
+        keep_last(&mut self.program.schedules, |schedule| &schedule.name);
+        keep_last(&mut self.program.evolutions, |evolution| &evolution.name);
+        keep_last(&mut self.program.libraries, |library| &library.name);
+        keep_last(&mut self.program.swarms, |swarm| &swarm.name);
     }
 
     fn own_tests(&self) -> impl Iterator<Item = (Span, &'a tree::Test)> + use<'a> {

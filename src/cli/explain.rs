@@ -3,19 +3,22 @@
 use clap::Args;
 use include_dir::{Dir, include_dir};
 
+use crate::check::PRELUDE;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic, suggest};
 
 /// The pages, one for each code.
 static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
 
-/// Explain the code of a message
+/// Explain the code of a message, or show what every program begins with
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc explain width
-  nbc explain")]
+  nbc explain
+  nbc explain prelude > prelude.nb          the paper's materials, stimuli, schedules and evolution
+  nbc explain standard                      the standard circuits")]
 pub struct Arguments {
-    /// The code, as the message shows it; all codes are listed without it
+    /// The code, as the message shows it, or `prelude` or `standard`; all codes are listed without it
     code: Option<String>,
 }
 
@@ -26,6 +29,10 @@ impl Arguments {
     /// When no code has that name, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Some(word) = self.code else { return list(context) };
+        if let Some((_, text)) = PRELUDE.iter().find(|(name, _)| name.strip_suffix(".nb") == Some(&word)) {
+            context.print(text)?;
+            return Ok(Status::Done);
+        }
         let Some(code) = Code::ALL.iter().find(|code| code.word() == word) else {
             let fault = Diagnostic::without_place(Code::BadValue, format!("no message has the code `{word}`"));
             let near = suggest::nearest(&word, Code::ALL.iter().map(|code| code.word()));

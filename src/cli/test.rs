@@ -9,12 +9,15 @@ use crate::circuit::{Logic, Netlist, elaborate};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic, render};
 use crate::model::{CircuitTest, Column, Program, TestRow};
-use crate::pipeline::{self, Loaded, Options};
+use crate::pipeline::{self, Compiled, Loaded, Options};
 use crate::report;
 use crate::store::DiskWorld;
 
-/// Circuits with as many cells or more are tested at the level of logic unless physics is asked for.
+/// Swarms of as many robots or more are tested at the level of logic unless physics is asked for.
 const LARGE: usize = 40;
+
+/// Circuits of as many gates are not compiled to find out: no library makes them of fewer than [`LARGE`] robots.
+const SURELY_LARGE: usize = 10 * LARGE;
 
 /// Test the circuits of a file
 #[derive(Args)]
@@ -24,7 +27,7 @@ const LARGE: usize = 40;
   nbc test circuits/latch.nb --physics
 
 At the level of logic every cell takes one time step, and a row is held until nothing changes. In physics every robot is simulated voxel \
-by voxel. By default circuits of fewer than 40 cells are tested in physics, larger ones at the level of logic.
+by voxel. By default circuits of fewer than 40 robots are tested in physics, larger ones at the level of logic.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
 pub struct Arguments {
     /// The source files
@@ -49,6 +52,8 @@ struct Outcome {
     rows: usize,
     #[serde(skip)]
     failures: String,
+    #[serde(skip)]
+    warnings: Vec<Diagnostic>,
 }
 
 impl Arguments {
@@ -86,35 +91,68 @@ impl Arguments {
             return Err(Failure::plain(fault.with_help(help)));
         }
         context.log(&render::text(&checked.diagnostics, &sources, context.color));
-        let outcomes = checked.program.tests.iter().map(|test| self.test(path, &checked.program, test));
-        outcomes.collect::<Result<_, _>>().map_err(|faults| Failure::input(faults, sources))
+        let mut outcomes = Vec::new();
+        for test in &checked.program.tests {
+            match self.test(path, &checked.program, test) {
+                Ok(outcome) => {
+                    context.log(&render::text(&outcome.warnings, &sources, context.color));
+                    outcomes.push(outcome);
+                }
+                Err(faults) => return Err(Failure::input(faults, sources)),
+            }
+        }
+        Ok(outcomes)
     }
 
     fn test(&self, path: &str, program: &Program, test: &CircuitTest) -> Result<Outcome, Vec<Diagnostic>> {
         let netlist = elaborate(program, &test.circuit)?;
-        let physics = self.physics || (!self.logic && netlist.cells().count() < LARGE);
         let rows = pipeline::rows(program, test)?;
-        let failures = if physics { in_physics(program, test)? } else { in_logic(&netlist, test, &rows) };
+        let swarm = self.swarm(program, test, &netlist)?;
+        let level = if swarm.is_some() { "physics" } else { "logic" };
+        let (failures, warnings) = match swarm {
+            Some(compiled) => in_physics(program, test, compiled)?,
+            None => (in_logic(&netlist, test, &rows), Vec::new()),
+        };
         Ok(Outcome {
             file: path.to_owned(),
             circuit: test.circuit.to_string(),
             title: test.title.clone(),
-            level: if physics { "physics" } else { "logic" },
+            level,
             passed: failures.is_empty(),
             rows: rows.len(),
             failures,
+            warnings,
         })
+    }
+
+    /// The swarm to be tested in physics; nothing where the test is to be at the level of logic.
+    fn swarm(
+        &self,
+        program: &Program,
+        test: &CircuitTest,
+        netlist: &Netlist,
+    ) -> Result<Option<Compiled>, Vec<Diagnostic>> {
+        if self.logic || (!self.physics && netlist.cells().count() >= SURELY_LARGE) {
+            return Ok(None);
+        }
+        let compiled = pipeline::compile_test(program, test, &Options::default())?;
+        Ok(Some(compiled).filter(|compiled| self.physics || compiled.assembly.members.len() < LARGE))
     }
 }
 
-/// What went wrong with the robots; nothing where all went well.
-fn in_physics(program: &Program, test: &CircuitTest) -> Result<String, Vec<Diagnostic>> {
+/// What went wrong with the robots, nothing where all went well; and what is legal and surely not meant.
+fn in_physics(
+    program: &Program,
+    test: &CircuitTest,
+    compiled: Compiled,
+) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
     let bar = Progress::new("simulating", 0);
-    let run = pipeline::run_test(program, test, &Options::default(), &mut |done, all| {
+    let run = pipeline::simulate_test(program, test, compiled, &mut |done, all| {
         bar.set_total(all as u64);
         bar.set(done as u64);
     })?;
-    Ok(if run.verdict.passed { String::new() } else { report::describe_test(&run.verdict) })
+    let failures = if run.verdict.passed { String::new() } else { report::describe_test(&run.verdict) };
+    Ok((failures, run.warnings))
 }
 
 /// The rows whose outputs are wrong, as text.

@@ -61,7 +61,7 @@ codes! {
     Nesting = "nesting", Error: "Text that is nested too deep.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
     OutOfRange = "out-of-range", Error: "A number outside the range that makes sense.";
-    Recursion = "recursion", Error: "A circuit that contains itself.";
+    Recursion = "recursion", Error: "A circuit that contains itself, or an evolution that takes its fields from itself.";
     RobotFile = "robot-file", Error: "A robot file that is damaged, or none.";
     RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";
     Syntax = "syntax", Error: "The text does not follow the grammar.";

@@ -10,7 +10,8 @@ use nbc::model::{CircuitTest, Palette, Program, Stimulation};
 use nbc::source::{MemoryWorld, Sources};
 use nbc::store::DiskWorld;
 
-fn root() -> &'static Path {
+/// The repository.
+pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
@@ -70,6 +71,42 @@ fn the_prelude_holds_the_papers_palette() {
     let program = sound("a.nb", "circuit inverter(a) -> (q) { q = not a }");
     assert_eq!(program.evolution("gates").unwrap().palette, Palette::paper());
     assert_eq!(program.stimuli, ["s1", "s2"]);
+}
+
+#[test]
+fn the_prelude_is_read_extended_and_redeclared() {
+    let read = crate::cli::Bench::new().run(&["explain", "prelude"]);
+    assert!(read.out.contains("material muscle ") && read.out.contains("schedule sweep("), "{}", read.out);
+
+    let extended = sound(
+        "a.nb",
+        "stimulus s3
+         material whisk { kind: sensor, stimulus: s3, absent: 0.6, present: 1.6 }
+         evolution wide { box: 7 x 7, materials: [bone, whisk], seed: 2 }
+         evolution wider { from: wide, box: 9 x 7 }",
+    );
+    assert_eq!(extended.stimuli, ["s1", "s2", "s3"]);
+    let [gates, wide, wider] = ["gates", "wide", "wider"].map(|name| extended.evolution(name).unwrap());
+    assert_eq!((wide.width, wide.palette.materials().len(), wide.generations), (7, 2, gates.generations));
+    assert_eq!((wider.width, wider.height, &wider.seeds), (9, 7, &vec![2]));
+
+    let redeclared = sound(
+        "a.nb",
+        "evolution gates { batch: 4, materials: [bone, muscle] }
+         material muscle { kind: actuator, drive: sine, period: 42 steps, range: 0.8..1.4 }
+         circuit half_adder(a, b) -> (s, c) { s = a or b
+ c = a and b }
+         circuit full(a, b) -> (q, r) { (q, _) = half_adder(a, b)
+ (r, _) = full_adder(a, b, 0) }
+         test full for all inputs { q = a or b
+ r = a xor b }",
+    );
+    let own = redeclared.evolution("gates").unwrap();
+    assert_eq!((own.batch, own.generations, own.palette.materials().len()), (4, 3000, 2));
+    assert_eq!(redeclared.evolutions.len(), 1, "what is declared again replaces the prelude's");
+    assert_eq!(own.palette.materials()[1], *redeclared.materials.last().unwrap());
+    // What the standard circuits are made of stays theirs.
+    passes(&redeclared, &redeclared.tests[0]);
 }
 
 #[test]

@@ -1,10 +1,11 @@
-//! The manual and the pages of the codes: every example is executed.
+//! The manual and the pages of the codes: every example is executed, and what is said of a page's failing one is recorded in
+//! `tests/ui/pages`; `NBC_UPDATE_UI=1 cargo test --test it manual` writes it anew.
 
 use std::fs;
 use std::path::Path;
 
 use nbc::check;
-use nbc::diag::{Code, Diagnostic, render};
+use nbc::diag::{Code, Diagnostic, Severity, render};
 use nbc::source::{MemoryWorld, Sources};
 
 use crate::cli::Bench;
@@ -49,26 +50,28 @@ fn said(text: &str) -> (Vec<Diagnostic>, String) {
     (diagnostics, text)
 }
 
-/// Runs the command of a fence and checks how it ends.
-fn run_command(bench: &Bench, fence: &Fence, code: Code) {
+/// Runs the command of a fence, checks how it ends, and returns what it said.
+fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
     let line = fence.text.trim().strip_prefix("$ nbc ").expect("a command of the program");
     let arguments: Vec<String> = line.split_whitespace().map(|word| word.trim_matches('\'').to_owned()).collect();
     let ran = bench.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
     if fence.words.contains(&"fails".to_owned()) {
-        assert_eq!(ran.status, 2, "{line}: {}{}", ran.out, ran.err);
+        assert_eq!(ran.status == 2, code.severity() == Severity::Error, "{line}: {}{}", ran.out, ran.err);
         assert!(ran.err.starts_with(code.word()), "{line} says `{code}`: {}", ran.err);
     } else {
-        assert_eq!(ran.status, 0, "{line}: {}{}", ran.out, ran.err);
+        assert_eq!((ran.status, ran.err.contains(code.word())), (0, false), "{line}: {}{}", ran.out, ran.err);
     }
+    ran.err
 }
 
-fn check_page(code: Code) {
+/// Executes a page; returns what was said of its failing example.
+fn check_page(code: Code) -> String {
     let bench = Bench::new();
     let fences = fences(&read(&format!("docs/errors/{code}.md")));
-    let (mut failing, mut mended) = (0, 0);
+    let (mut failing, mut mended) = (Vec::new(), 0);
     for fence in &fences {
         let fails = fence.words.contains(&"fails".to_owned());
-        match fence.words[0].as_str() {
+        let said = match fence.words[0].as_str() {
             "file" => {
                 let path = bench.path().join(&fence.words[1]);
                 fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -79,21 +82,29 @@ fn check_page(code: Code) {
             _ => {
                 let (diagnostics, text) = said(&fence.text);
                 let here = diagnostics.iter().any(|diagnostic| diagnostic.code == code);
-                // What depends on the robots of the library is said when the program is run.
-                let when_run = fence.words.contains(&"run".to_owned());
-                assert!(if fails && !when_run { here } else { diagnostics.is_empty() }, "`{code}`: {text}");
+                assert!(if fails { here } else { diagnostics.is_empty() }, "`{code}`: {text}");
+                text
             }
-        }
-        *(if fails { &mut failing } else { &mut mended }) += 1;
+        };
+        if fails { failing.push(said) } else { mended += 1 }
     }
-    assert!(failing == 1 && mended == 1, "the page of `{code}` has a failing and a mended example");
+    assert!(failing.len() == 1 && mended == 1, "the page of `{code}` has a failing and a mended example");
+    failing.remove(0)
 }
 
 #[test]
 fn every_page_of_a_code_shows_what_fails_and_how_it_is_mended() {
+    let recorded = |code| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/ui/pages/{code}.stderr"));
+    let mut differing = Vec::new();
     for code in Code::ALL {
-        check_page(*code);
+        let said = check_page(*code);
+        if std::env::var_os("NBC_UPDATE_UI").is_some() {
+            fs::write(recorded(code), &said).unwrap();
+        } else if fs::read_to_string(recorded(code)).unwrap_or_default() != said {
+            differing.push(format!("tests/ui/pages/{code}.stderr\n{said}"));
+        }
     }
+    assert!(differing.is_empty(), "messages differ from what is recorded:\n{}", differing.join("\n"));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use nbc::diag::{Code, Diagnostic, render};
 use nbc::source::Sources;
 use nbc::store::DiskWorld;
 
-use crate::language::programs;
+use crate::language::{programs, root};
 
 /// What the checker finds in a file of the repository, by its path from the root.
 fn found(path: &str) -> (Vec<Diagnostic>, String) {
@@ -45,26 +45,16 @@ fn every_message_is_as_recorded() {
 }
 
 #[test]
-fn every_code_of_the_language_has_a_program() {
-    // These are about the command line and about other files; their programs are on their pages.
-    let elsewhere = [
-        Code::BadSchedule,
-        Code::BadValue,
-        Code::Checkpoint,
-        Code::CircuitFile,
-        Code::ForeignFormat,
-        Code::HoldTooShort,
-        Code::IncompleteLibrary,
-        Code::RobotFile,
-        Code::UnknownRobot,
-        Code::Unwritable,
-    ];
-    for code in Code::ALL.iter().filter(|code| !elsewhere.contains(code)) {
-        let (diagnostics, said) = found(&format!("tests/ui/{code}.nb"));
-        assert!(
-            diagnostics.iter().any(|diagnostic| diagnostic.code == *code),
-            "`{code}` is not said of its program:\n{said}"
-        );
+fn every_code_has_a_program_and_its_message() {
+    for code in Code::ALL {
+        // What is about the command line and about other files has its program and its message on its page.
+        let own = format!("tests/ui/{code}.nb");
+        let (page, said) = (format!("tests/ui/pages/{code}.stderr"), root().join(&own).is_file().then(|| found(&own)));
+        assert!(root().join(&page).is_file(), "`{code}` has its message in {page}");
+        if let Some((diagnostics, said)) = said {
+            let here = diagnostics.iter().any(|diagnostic| diagnostic.code == *code);
+            assert!(here, "`{code}` is not said of its program:\n{said}");
+        }
     }
 }
 

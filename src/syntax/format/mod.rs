@@ -129,6 +129,14 @@ mod tests {
             "material bone {kind:rigid}\nmaterial antimuscle { kind : actuator\n range:0.6 .. 1.6 }",
             "material bone       { kind: rigid }\nmaterial antimuscle { kind: actuator, range: 0.6..1.6 }\n",
         );
+        let table = "material bone       { kind: rigid }\n\
+                     material muscle     { kind: actuator, period: 84 steps, phase:   0 deg, range: 0.6..1.6 }\n\
+                     material antimuscle { kind: actuator, period:  9 steps, phase: 180 deg, range: 0.6..1.6 }\n\
+                     material ear        { kind: sensor,   stimulus: s1,    absent:  1, present: 0.6 }\n\
+                     material eye        { kind: actuator, stimulus: other, absent: 10, present:   1 }\n";
+        check(table, table);
+        let apart = "swarm a { circuit: c }\n\nswarm longer { circuit: c }\n";
+        check(apart, apart);
         let long = "evolution gates {\n    box:         5 x 5\n    materials:   [bone, flesh, muscle, antimuscle]\n    descriptors: \
                     [voxels in 4 bins, active in 4 bins, sensory in 4 bins, behavior]\n}\n";
         check(long, long);

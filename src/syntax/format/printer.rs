@@ -137,8 +137,7 @@ impl<'a> Printer<'a> {
     /// Whether two items follow each other without a blank line or a comment on a line of its own between them.
     pub(super) fn adjacent(&self, first: Span, second: Span) -> bool {
         let between = &self.source[first.end as usize..second.start as usize];
-        let lines: Vec<_> = between.lines().collect();
-        lines.len() <= 2 && lines.iter().skip(1).all(|line| line.trim().is_empty())
+        between.bytes().filter(|&byte| byte == b'\n').count() <= 1
     }
 
     /// Whether a comment stands inside a span.

@@ -8,6 +8,9 @@ use crate::syntax::tree::{
     Declaration, DeclarationKind, Field, Instance, Quantity, Record, RecordDeclaration, Value, ValueKind,
 };
 
+/// The greatest number of columns of records that stand as the rows of a table, which are read downward.
+const ROW_WIDTH: usize = 120;
+
 impl Printer<'_> {
     /// The texts of the one-line records of one kind that follow each other, with their braces aligned.
     pub(super) fn record_run(&self, declarations: &[Declaration]) -> Vec<String> {
@@ -22,13 +25,14 @@ impl Printer<'_> {
             }
             run.push((record, declaration.span));
         }
-        let name = run.iter().map(|(record, _)| record.name.text.chars().count()).max().unwrap_or(0);
-        let text = |(record, _): &(&RecordDeclaration, Span)| {
-            format!("{} {:name$} {}", record.keyword.word(), record.name.text, flat_record(&record.record))
-        };
+        let mut texts = aligned(&run);
+        // The first record that is too long ends the run; without it the others may be narrower.
+        while let Some(long) = texts.iter().position(|text| text.chars().count() > ROW_WIDTH) {
+            run.truncate(long);
+            texts = aligned(&run);
+        }
         // A lone record stands as any other declaration does, with a blank line around it.
-        let texts: Vec<_> = run.iter().map(text).take_while(|text| text.chars().count() <= WIDTH).collect();
-        if texts.len() == run.len() && texts.len() > 1 { texts } else { Vec::new() }
+        if texts.len() > 1 { texts } else { Vec::new() }
     }
 
     pub(super) fn record_declaration(&mut self, declaration: &RecordDeclaration) {
@@ -69,6 +73,47 @@ impl Printer<'_> {
         self.line();
         self.write("]");
     }
+}
+
+/// The lines of records that stand as the rows of a table: their braces are aligned, and between neighbors of the same fields the values.
+fn aligned(run: &[(&RecordDeclaration, Span)]) -> Vec<String> {
+    let names = run.iter().map(|(record, _)| record.name.text.chars().count()).max().unwrap_or(0);
+    let same = |a: &(&RecordDeclaration, Span), b: &(&RecordDeclaration, Span)| {
+        a.0.record.fields.iter().map(|field| &field.name.text).eq(b
+            .0
+            .record
+            .fields
+            .iter()
+            .map(|field| &field.name.text))
+    };
+    let mut lines = Vec::new();
+    for group in run.chunk_by(same) {
+        let columns = group[0].0.record.fields.len();
+        let width = |record: &Record, at: usize| value(&record.fields[at].value).chars().count();
+        let widest = |at: usize| group.iter().map(|(record, _)| width(&record.record, at)).max().unwrap_or(0);
+        let widths: Vec<_> = (0..columns).map(widest).collect();
+        for (record, _) in group {
+            let fields = row(&record.record, &widths);
+            lines.push(format!("{} {:names$} {fields}", record.keyword.word(), record.name.text));
+        }
+    }
+    lines
+}
+
+/// A record on one line with its values in columns: numbers to the right, others to the left.
+fn row(record: &Record, widths: &[usize]) -> String {
+    let mut text = String::new();
+    for (at, (field, width)) in record.fields.iter().zip(widths).enumerate() {
+        let shown = value(&field.value);
+        let blanks = " ".repeat(width - shown.chars().count());
+        let (before, after) = match field.value.kind {
+            ValueKind::Quantity(_) => (blanks.as_str(), ""),
+            _ => ("", blanks.as_str()),
+        };
+        let separator = if at + 1 < record.fields.len() { format!(", {after}") } else { String::new() };
+        text += &format!("{}: {before}{shown}{separator}", field.name.text);
+    }
+    if text.is_empty() { "{}".to_owned() } else { format!("{{ {text} }}") }
 }
 
 fn flat_record(record: &Record) -> String {

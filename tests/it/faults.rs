@@ -1,0 +1,113 @@
+//! Faults together: one broken declaration hides nothing of the others, and programs read what people are told.
+
+use nbc::check;
+use nbc::diag::{Code, Diagnostic};
+use nbc::source::{MemoryWorld, Sources};
+use proptest::prelude::*;
+use serde_json::{Value, json};
+
+use crate::cli::Bench;
+
+/// Declarations with one fault each, of names that no other uses.
+const BROKEN: &[(Code, &str)] = &[
+    (Code::Ambiguous, "circuit f0(a, b, c) -> (q) { q = a nand b nand c }"),
+    (Code::Duplicate, "circuit f1(a, a) -> (q) { q = a }"),
+    (Code::Duplicate, "stimulus s7, s7"),
+    (Code::LoopWithoutStart, "circuit f2(a) -> (q) { q = nand(a, q) }"),
+    (Code::MissingField, "material m0 { kind: actuator, drive: sine, range: 0.6..1.6 }"),
+    (Code::MissingField, "swarm w0 { library: shipped }"),
+    (Code::MultipleDrivers, "circuit f3(a) -> (q) {\n q = a\n q = not a\n}"),
+    (Code::Operands, "circuit f4(a) -> (q) { q = half_adder(a) }"),
+    (Code::OutOfRange, "material m1 { kind: actuator, drive: sine, period: 84 steps, range: 0.6..1.7 }"),
+    (Code::OutOfRange, "evolution e0 { box: 0 x 5 }"),
+    (Code::OutOfRange, "evolution e1 { generations: 0 }"),
+    (Code::Recursion, "circuit f5(a) -> (q) { q = f5(a) }"),
+    (Code::RowWidth, "schedule c0(s1, s2) { 0 for 10 cycles }"),
+    (Code::RowWidth, "test and_gate {\n a b | q\n 0 0 | 0 0\n}"),
+    (Code::Syntax, "circuit f6(a) -> (q) { q = = a }"),
+    (Code::Syntax, "circuit f7(a) -> q { q = a"),
+    (Code::Syntax, "material m2 { kind rigid }"),
+    (Code::Syntax, "module f8(a);"),
+    (Code::TableIncomplete, "circuit f9(a) -> (q) { q = table(a) { 0: 1 } }"),
+    (Code::TableOverlap, "circuit g0(a) -> (q) { q = table(a) { 0: 1, -: 0 } }"),
+    (Code::Undriven, "circuit g1(a) -> (q, r) { q = a }"),
+    (Code::Unit, "schedule c1(s1) { 0 for 10 }"),
+    (Code::Unit, "material m3 { kind: actuator, drive: sine, period: 84 deg, range: 0.6..1.6 }"),
+    (Code::Unknown, "circuit g2(a) -> (q) { q = b and a }"),
+    (Code::Unknown, "library l0 { from: nowhere }"),
+    (Code::Unknown, "simulate nobody with sweep"),
+    (Code::Unknown, "test nobody {\n a | q\n 0 | 1\n}"),
+    (Code::UnknownField, "material m4 { kind: rigid, color: red }"),
+    (Code::Unused, "circuit g3(a, b) -> (q) { q = a }"),
+    (Code::Value, "evolution e2 { genome: trees }"),
+    (Code::Width, "circuit g4(a[2], b[3]) -> (q[2]) { q = a and b }"),
+];
+
+/// What the others speak of.
+const SOUND: &str = "circuit and_gate(a, b) -> (q) { q = a and b }";
+
+/// Codes and messages of what is found.
+fn found(declarations: &[&str]) -> Vec<(Code, String)> {
+    let mut sources = Sources::default();
+    let file = sources.add("main.nb", declarations.join("\n\n"));
+    let diagnostics = check::check(&MemoryWorld::default(), &mut sources, file).diagnostics;
+    diagnostics.into_iter().map(|Diagnostic { code, message, .. }| (code, message)).collect()
+}
+
+#[test]
+fn each_fault_is_found_alone() {
+    for (code, text) in BROKEN {
+        let found = found(&[SOUND, text]);
+        assert!(found.iter().all(|(found, _)| found == code) && !found.is_empty(), "{text}: {found:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_broken_declaration_hides_the_faults_of_others(
+        order in Just((0..BROKEN.len()).collect::<Vec<_>>()).prop_shuffle(),
+        count in 2..=BROKEN.len(),
+    ) {
+        let chosen: Vec<_> = order[..count].iter().map(|&at| BROKEN[at].1).collect();
+        let together = found(&[&[SOUND], &chosen[..]].concat());
+        for text in &chosen {
+            for (code, message) in found(&[SOUND, text]) {
+                // What was meant by an unclosed brace or a stray one depends on what follows.
+                let here = |found: &&(Code, String)| found.0 == code && (code == Code::Syntax || found.1 == message);
+                prop_assert!(together.iter().any(|one| here(&one)), "{} of {} is not among {:?}", message, text, together);
+            }
+        }
+        let syntax = |text: &&&str| found(&[SOUND, text])[0].0 == Code::Syntax;
+        let slips = together.iter().filter(|(code, _)| *code == Code::Syntax).count();
+        prop_assert!(slips >= chosen.iter().filter(syntax).count(), "each slip has a message: {:?}", together);
+    }
+}
+
+#[test]
+fn messages_are_data_with_places_in_bytes_lines_and_columns() {
+    let bench = Bench::new();
+    bench.file("one.nb", "// größer\ncircuit é(a) -> (q) { q = a }\n");
+    bench.file("two.nb", "circuit f(a) -> (q) {\n    q = a // größer\n}\n\ncircuit f(a) -> (q) { q = a }\n");
+    let ran = bench.run(&["check", "one.nb", "two.nb", "--format", "json"]);
+    assert_eq!((ran.status, ran.err.as_str()), (2, ""));
+    let all: Value = serde_json::from_str(&ran.out).unwrap();
+    for diagnostic in all["diagnostics"].as_array().unwrap() {
+        for key in ["code", "severity", "message", "help", "labels", "related"] {
+            assert!(diagnostic.get(key).is_some(), "{key} of {diagnostic}");
+        }
+    }
+    let label =
+        |code: &str| &all["diagnostics"].as_array().unwrap().iter().find(|one| one["code"] == code).unwrap()["labels"];
+    let second = label("duplicate");
+    assert_eq!(second[0]["file"], "two.nb");
+    assert_eq!(second[0]["start"]["line"], 5);
+    assert_eq!(second[0]["start"]["column"], 9);
+    assert_eq!(second[1]["start"], json!({ "byte": 8, "line": 1, "column": 9 }));
+    assert_eq!(second[1]["end"], json!({ "byte": 9, "line": 1, "column": 10 }));
+    let first = label("syntax");
+    assert_eq!((&first[0]["file"], &first[0]["start"]["line"]), (&json!("one.nb"), &json!(2)));
+    // The comment above has two letters of two bytes each.
+    assert_eq!(first[0]["start"], json!({ "byte": 20, "line": 2, "column": 9 }));
+}

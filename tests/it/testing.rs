@@ -1,0 +1,106 @@
+//! `nbc test`: every kind of test tells right from wrong, and the level is chosen by the number of robots.
+
+use crate::cli::Bench;
+use crate::language::{programs, root};
+
+const CIRCUITS: &str = "
+circuit exclusive(a, b) -> (q) { q = a xor b }
+
+circuit other(a, b) -> (q) { q = (a or b) and (a nand b) }
+
+circuit both(a, b) -> (q) { q = a and b }
+
+circuit toggle(clk) -> (q) { q = register(not q, clk) }
+";
+
+/// Runs one test at the level of logic: whether it passes, and what is said.
+#[track_caller]
+fn check_test(test: &str, passes: bool, says: &str) {
+    let bench = Bench::new();
+    bench.file("a.nb", format!("{CIRCUITS}\n{test}\n"));
+    let ran = bench.run(&["test", "a.nb", "--logic"]);
+    assert_eq!(ran.status, i32::from(!passes), "{test}\n{}{}", ran.out, ran.err);
+    assert!(ran.out.contains(says), "{says:?} is not in\n{}", ran.out);
+}
+
+#[test]
+fn truth_tables_are_checked_row_by_row() {
+    check_test(
+        "test exclusive \"x\" {\n a b | q\n 0 1 | 1\n 1 1 | 0\n}",
+        true,
+        "pass  exclusive \"x\" (2 rows, logic)",
+    );
+    check_test("test exclusive {\n a b | q\n 0 1 | 1\n 1 1 | 1\n}", false, "row 2: 1 1 | expected 1, found 0");
+    check_test("test exclusive {\n a b | q\n 0 1 | -\n 1 1 | -\n}", true, "1 passed, 0 failed");
+}
+
+#[test]
+fn sequences_remember() {
+    check_test("test toggle {\n clk | q\n 0 | 0\n 1 | 1\n 0 | 1\n 1 | 0\n}", true, "4 rows");
+    check_test("test toggle {\n clk | q\n 0 | 0\n ^ | 1\n ^ | 0\n}", true, "5 rows");
+    check_test("test toggle {\n clk | q\n 0 | 0\n ^ | 1\n ^ | 1\n}", false, "row 5: 1 | expected 1, found 0");
+}
+
+#[test]
+fn all_inputs_are_tried_against_an_expression_or_a_circuit() {
+    check_test("test exclusive for all inputs { q = a == not b }", true, "4 rows");
+    check_test("test exclusive for all inputs { q = a or b }", false, "row 4: 1 1 | expected 1, found 0");
+    check_test("test exclusive for all inputs against other", true, "4 rows");
+    check_test("test exclusive for all inputs against both", false, "row 2: 0 1 | expected 0, found 1");
+}
+
+#[test]
+fn small_swarms_are_tested_in_physics_and_large_ones_in_logic() {
+    let bench = Bench::new();
+    bench.file("small.nb", "circuit inverter(a) -> (q) { q = not a }\n\ntest inverter {\n a | q\n 1 | 0\n}\n");
+    // As many inverters of inverters cannot be told apart by optimization from what they are: a chain of 13 full adders.
+    bench.file(
+        "large.nb",
+        "circuit sum(a[13], b[13]) -> (q[13]) { q = a + b }\n\ntest sum {\n a b | q\n 13'd4000 13'd77 | 13'd4077\n}\n",
+    );
+    let levels = |arguments: &[&str]| {
+        let found =
+            bench.run(&[&["test", "small.nb", "large.nb", "--format", "json"], arguments].concat()).expect_json();
+        let level = |at: usize| found["tests"][at]["level"].as_str().unwrap().to_owned();
+        [level(0), level(1)]
+    };
+    assert_eq!(levels(&[]), ["physics", "logic"]);
+    assert_eq!(levels(&["--logic"]), ["logic", "logic"]);
+}
+
+#[test]
+fn the_gallery_passes_by_the_program_itself() {
+    let paths: Vec<_> = programs("circuits").iter().map(|path| path.to_str().unwrap().to_owned()).collect();
+    let arguments: Vec<&str> =
+        ["test", "--logic", "--format", "json"].into_iter().chain(paths.iter().map(String::as_str)).collect();
+    let found = Bench::new().run(&arguments).expect_json();
+    assert_eq!(found["passed"], true);
+    let tested = |name: &str| {
+        found["tests"].as_array().unwrap().iter().any(|test| test["file"].as_str().unwrap().ends_with(name))
+    };
+    for name in GALLERY {
+        assert!(tested(&format!("{name}.nb")), "`circuits/{name}.nb` has tests");
+        assert!(root().join(format!("circuits/{name}.nb")).is_file());
+    }
+}
+
+/// What the gallery shows.
+const GALLERY: &[&str] = &[
+    "comparator",
+    "counter",
+    "d_flip_flop",
+    "decoder",
+    "full_adder",
+    "half_adder",
+    "latch",
+    "lfsr",
+    "majority",
+    "multiplexer",
+    "parity",
+    "ripple_adder",
+    "rule_110",
+    "sequence_detector",
+    "seven_segment",
+    "sr_latch",
+    "t_flip_flop",
+];
