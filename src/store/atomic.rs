@@ -42,7 +42,8 @@ fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>
         // Read and write for all, less what the umask takes away, as for any other new file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(&folder)?;
+    // The name of the new file is nothing that the user wrote.
+    let mut file = builder.tempfile_in(&folder).map_err(|error| io::Error::from(error.kind()))?;
     let mut buffer = BufWriter::new(file.as_file_mut());
     content(&mut buffer)?;
     buffer.flush()?;
