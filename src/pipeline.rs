@@ -156,12 +156,14 @@ pub fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<D
 
 /// How long each row is held, and what it asks for.
 pub fn demands(rows: &[TestRow], protocol: Protocol, timing: &Timing) -> Vec<Demand> {
+    let needed = timing.hold + STEADY_EXTRA + (protocol.window - 1);
     let usual = match protocol.hold {
-        Hold::Auto => timing.hold + STEADY_EXTRA + (protocol.window - 1),
+        Hold::Auto => needed,
         Hold::Cycles(cycles) => cycles,
     };
     let hold = |row: &TestRow| row.hold.unwrap_or(usual).max(1) as usize;
-    rows.iter().map(|row| Demand { hold: hold(row), expected: row.expected.clone() }).collect()
+    let demand = |row: &TestRow| Demand { hold: hold(row), needed: needed as usize, expected: row.expected.clone() };
+    rows.iter().map(demand).collect()
 }
 
 /// Runs a test in full physics, calling `observe` with the cycles done and the cycles in all after each.

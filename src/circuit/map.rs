@@ -100,13 +100,13 @@ pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -
     Ok(mapped)
 }
 
-/// Maps with the robots of the widest margins that suffice.
+/// Maps with the robots of the widest margins that suffice for this circuit.
 fn map_widest(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
     let mut margins: Vec<f64> = library.kinds().map(|(_, kind)| kind.margin).collect();
     margins.sort_by(f64::total_cmp);
     let options = MapOptions { objective: Objective::Area, ..options };
-    let narrower = margins.into_iter().rev().map(|margin| library.with_margin(margin));
-    let mapped = narrower.filter(CellLibrary::is_complete).map(|library| map_with(source, &library, options)).next();
+    let wide = margins.into_iter().rev().map(|margin| library.with_margin(margin));
+    let mapped = wide.map(|wide| map_with(source, &wide, options)).find(Result::is_ok);
     mapped.unwrap_or_else(|| map_with(source, library, options))
 }
 
@@ -262,6 +262,7 @@ pub fn name_outputs(netlist: &mut Netlist) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::circuit::CellKind;
     use crate::circuit::example::{full_adder, latch};
 
     fn library(names: &str) -> CellLibrary {
@@ -306,6 +307,38 @@ mod tests {
              the library"
         );
         assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made of no cells");
+    }
+
+    #[test]
+    fn wide_margins_are_worth_more_robots() {
+        let mut library = library("nand and or not");
+        library.insert(Function::XOR, CellKind::uniform(1, 0.1));
+        library.insert(Function::NAND, CellKind::uniform(1, 2.0));
+        let cells = |objective| {
+            let mapped = map_with(&full_adder(), &library, MapOptions { objective, ..MapOptions::default() }).unwrap();
+            let margins = mapped.cells().map(|(_, cell)| library.get(cell.function).unwrap().margin);
+            (mapped.cells().count(), margins.fold(f64::INFINITY, f64::min))
+        };
+        assert_eq!(cells(Objective::Area), (5, 0.1));
+        assert_eq!(cells(Objective::Margin), (9, 2.0));
+    }
+
+    #[test]
+    fn short_paths_are_worth_more_robots() {
+        let chain = |netlist: &mut Netlist| {
+            let inputs: Vec<_> = (0..8).map(|i| netlist.add_input(format!("i{i}"))).collect();
+            inputs[1..].iter().fold(inputs[0], |sum, &input| netlist.add_gate(Function::XOR, &[sum, input]))
+        };
+        let mut netlist = Netlist::new("parity");
+        let sum = chain(&mut netlist);
+        netlist.add_output("y", sum);
+        let library = library("nand not");
+        let hold = |objective| {
+            let mapped = map_with(&netlist, &library, MapOptions { objective, ..MapOptions::default() }).unwrap();
+            crate::circuit::Timing::of(&mapped, &library, crate::circuit::Delays::Clock).hold
+        };
+        let (area, delay) = (hold(Objective::Area), hold(Objective::Delay));
+        assert!(delay < area, "{delay} cycles by delay, {area} by area");
     }
 
     #[test]

@@ -108,38 +108,8 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
+    use crate::circuit::example::Delayed;
     use crate::circuit::passes::{DissolveWires, Pass, Sweep};
-
-    /// A netlist whose cells each answer after their own number of cycles.
-    struct Delayed {
-        netlist: Netlist,
-        delay: BTreeMap<NetId, usize>,
-        /// The values of all nets, the latest last.
-        past: Vec<BTreeMap<NetId, bool>>,
-    }
-
-    impl Delayed {
-        fn run(&mut self, inputs: &[bool], cycles: usize) -> bool {
-            for _ in 0..cycles {
-                let mut now: BTreeMap<NetId, bool> = BTreeMap::new();
-                for id in self.netlist.ids() {
-                    let ago = |cycles: usize, id: &NetId| self.past[self.past.len().saturating_sub(cycles)][id];
-                    let value = match self.netlist.node(id) {
-                        Node::Input(_) => inputs[self.netlist.inputs().iter().position(|&input| input == id).unwrap()],
-                        Node::Cell(cell) => {
-                            let pins = self.netlist.pins(id);
-                            let a = ago(self.delay[&id], &pins[0]);
-                            cell.function.output(a, pins.get(1).map_or(a, |pin| ago(self.delay[&id], pin)))
-                        }
-                        _ => ago(1, &self.netlist.pins(id)[0]),
-                    };
-                    now.insert(id, value);
-                }
-                self.past.push(now);
-            }
-            self.past[self.past.len() - 1][&self.netlist.outputs()[0]]
-        }
-    }
 
     /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` says what q must be.
     fn check(
@@ -158,10 +128,7 @@ mod tests {
             Sweep.run(&mut netlist).unwrap();
             assert_eq!(netlist.cells().count(), cells);
             let mut draw = |bound: u32| (rand::Rng::next_u32(&mut random) % bound) as usize;
-            let delay = netlist.cells().map(|(id, _)| (id, 1 + draw(3))).collect();
-            let start = netlist.ids().map(|id| (id, netlist.cell(id).and_then(|cell| cell.start).unwrap_or(false)));
-            let past = vec![start.collect()];
-            let mut delayed = Delayed { netlist, delay, past };
+            let mut delayed = Delayed::new(netlist, || 1 + draw(3));
             let (mut data, mut clock) = (false, false);
             delayed.run(&[data, clock], 40);
             // The start value may be any once the circuit has settled; a first full row sets it.

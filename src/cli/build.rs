@@ -8,7 +8,8 @@ use serde_json::json;
 
 use crate::circuit::elaborate::elaborate;
 use crate::circuit::formats::{Design, blif, dot, verilog};
-use crate::circuit::{CellLibrary, Delays, MapOptions, Netlist, Race, Timing, levels, races};
+use crate::circuit::timing::fan_out;
+use crate::circuit::{CellLibrary, Delays, MapOptions, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::synth::{CellArguments, EffortWord, ObjectiveWord, synthesize};
 use crate::cli::{Context, Failure, Status};
 use crate::diag::{Code, Diagnostic};
@@ -128,17 +129,24 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
     for (_, cell) in mapped.cells() {
         *by_function.entry(cell.function.name()).or_insert(0) += 1;
     }
-    let name = |id: &crate::circuit::NetId| mapped.net_name(*id);
+    let name = |id: &NetId| mapped.net_name(*id);
+    let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
     let cells: Vec<_> = mapped
         .cells()
         .map(|(id, cell)| {
             let pins: Vec<_> = mapped.pins(id).iter().map(name).collect();
             json!({ "name": name(&id), "function": cell.function.name(), "pins": pins, "start": cell.start,
-                "arrival": timing.arrival(id), "slack": timing.slack(id) })
+                "arrival": timing.arrival(id), "required": timing.required(id), "slack": timing.slack(id),
+                "fan_out": fan_out[&id] })
         })
         .collect();
     let outputs: BTreeMap<_, _> = mapped.outputs().iter().map(|id| (name(id), name(&mapped.pins(*id)[0]))).collect();
     let race = |race: Race| json!({ "net": name(&race.net), "input": name(&race.input), "rises": race.rises });
+    let clock = |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock);
+    let memory = Memory::all(mapped, &timing, clock).into_iter().map(|Memory { nets, pulse, setup, hold }| {
+        let nets: Vec<_> = nets.iter().map(name).collect();
+        json!({ "nets": nets, "pulse": pulse, "setup": setup, "hold": hold })
+    });
     json!({
         "circuit": mapped.name,
         "inputs": mapped.inputs().iter().map(name).collect::<Vec<_>>(),
@@ -148,6 +156,7 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
         "depth": levels::depth(mapped),
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
+        "memory": memory.collect::<Vec<_>>(),
         "proved": true,
         "races": races(mapped).map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
     })

@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::circuit::NetId;
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic, render};
 use crate::model::{CircuitTest, Robot, Setting};
 use crate::pipeline::{self, Compiled, Loaded, Options, TestRun};
-use crate::report::{self, PageTest, Recording, RunResult, Scheme, Stage, Svg, TestResult};
+use crate::report::{self, PageTest, Recording, RunResult, Scheme, Stage, Svg, SwarmTiming, TestResult};
 use crate::store::{self, DiskWorld};
 
 /// Compile, simulate and test the circuits of a file
@@ -83,8 +82,7 @@ impl Arguments {
         let drawn =
             runs.iter().enumerate().map(|(i, run)| draw(run, &stem(runs, i), folder)).collect::<Result<Vec<_>, _>>()?;
         let source = self.file.to_string_lossy();
-        let tests =
-            drawn.iter().map(|drawn| TestResult::new(&drawn.run.verdict, &drawn.run.trace, drawn.files.clone()));
+        let tests = drawn.iter().map(test_result);
         let result = RunResult::new(&source, tests.collect());
         let json = serde_json::to_string_pretty(&result).expect("a result has nothing that JSON cannot say") + "\n";
         write(&folder.join("result.json"), json.as_bytes())?;
@@ -177,21 +175,15 @@ fn describe(drawn: &Drawn<'_>) -> String {
     let (trace, verdict) = (&drawn.run.trace, &drawn.run.verdict);
     let files: String = drawn.files.iter().map(|file| format!("picture  {file}\n")).collect();
     let (swarm, test, timing) =
-        (report::describe_swarm(trace), report::describe_test(verdict), describe_timing(drawn.run));
+        (report::describe_swarm(trace), report::describe_test(verdict), timing(drawn.run).describe());
     format!("{}: {swarm}\n\n{test}\n{files}{timing}", trace.circuit)
 }
 
-/// The slowest path, robot by robot, with the cycles that each takes.
-fn describe_timing(run: &TestRun) -> String {
+fn test_result<'a>(drawn: &Drawn<'a>) -> TestResult<'a> {
+    TestResult::new(&drawn.run.verdict, &drawn.run.trace, timing(drawn.run), drawn.files.clone())
+}
+
+fn timing(run: &TestRun) -> SwarmTiming {
     let Compiled { mapped, timing, assembly, .. } = &run.compiled;
-    let robot = |net: &str| assembly.members.iter().find(|member| member.net == net).map(|member| &member.robot);
-    let step = |&id: &NetId| {
-        let net = mapped.net_name(id);
-        match robot(&net) {
-            Some(robot) => format!("{net} ({}, {} cycles)", robot.name, robot.character.clock),
-            None => net,
-        }
-    };
-    let path: Vec<String> = timing.critical_path.iter().map(step).collect();
-    format!("timing   right after {} cycles: {}\n", timing.hold, path.join(" -> "))
+    SwarmTiming::of(mapped, timing, assembly)
 }

@@ -23,6 +23,7 @@ mod strip;
 mod svg;
 mod swatches;
 mod table;
+mod timing;
 mod vcd;
 mod verdict;
 
@@ -47,5 +48,6 @@ pub use stage::{Moment, Stage};
 pub use strip::draw_strip;
 pub use svg::{Anchor, Paint, Point, Svg, Type};
 pub use table::{Align, Table};
+pub use timing::SwarmTiming;
 pub use vcd::vcd;
 pub use verdict::{describe_swarm, describe_test};

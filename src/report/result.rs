@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::report::SwarmTiming;
 use crate::swarm::{SwarmTrace, TestVerdict};
 
 /// What a run found.
@@ -27,6 +28,8 @@ pub struct TestResult<'a> {
     pub verdict: &'a TestVerdict,
     /// The robots in order: net, function, robot, and the nets that the robot senses.
     pub robots: Vec<RobotResult<'a>>,
+    /// When each of them is right.
+    pub timing: SwarmTiming,
     /// The pictures' paths.
     pub pictures: Vec<String>,
 }
@@ -58,7 +61,7 @@ impl<'a> RunResult<'a> {
 
 impl<'a> TestResult<'a> {
     /// The results of one test, with the paths of its pictures.
-    pub fn new(verdict: &'a TestVerdict, trace: &'a SwarmTrace, pictures: Vec<String>) -> Self {
+    pub fn new(verdict: &'a TestVerdict, trace: &'a SwarmTrace, timing: SwarmTiming, pictures: Vec<String>) -> Self {
         let robots = trace.robots.iter().map(|robot| RobotResult {
             net: &robot.net,
             function: robot.function.name(),
@@ -67,6 +70,6 @@ impl<'a> TestResult<'a> {
             displacement: robot.com_x.last().zip(robot.com_x.first()).map_or(0.0, |(end, start)| end - start),
             unstable_at: robot.fault.map(|fault| fault.env_step),
         });
-        Self { verdict, robots: robots.collect(), pictures }
+        Self { verdict, robots: robots.collect(), timing, pictures }
     }
 }

@@ -56,27 +56,28 @@ fn align_bits(bits: &[Option<bool>], names: &[String]) -> String {
 }
 
 fn describe_lapses(row: &RowVerdict) -> Vec<String> {
-    let told = |lapse: &Lapse| {
-        let [first, second] = lapse.sensed.map(u8::from);
-        let output = u8::from(lapse.output);
-        let (net, robot, cycle) = (&lapse.net, &lapse.robot, lapse.cycle + 1);
-        format!("    cycle {cycle}: robot {robot} on net {net} output {output} on stimuli {first} {second}\n")
-    };
-    row.lapses.iter().map(told).chain(nearest_fix(row)).collect()
+    let wrong = row.lapses.iter().map(|lapse| describe_lapse(lapse, "output"));
+    let late = row.late.iter().map(|lapse| describe_lapse(lapse, "had no time yet and still output"));
+    wrong.chain(late).chain(nearest_fix(row)).collect()
 }
 
-/// What would most likely mend a row: robots that were wrong though they had time are to be replaced, else time was short.
+fn describe_lapse(lapse: &Lapse, did: &str) -> String {
+    let Lapse { net, robot, cycle, .. } = lapse;
+    let [first, second] = lapse.sensed.map(u8::from);
+    let (cycle, output) = (cycle + 1, u8::from(lapse.output));
+    format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {first} {second}\n")
+}
+
+/// What would most likely mend a row: robots that were wrong though they had time are to be replaced, else time was short, else the
+/// circuit itself answers so.
 fn nearest_fix(row: &RowVerdict) -> Option<String> {
-    match row.lapses.first() {
-        _ if row.passed => None,
-        None => Some(format!(
-            "    no robot was wrong for longer than its clock: hold the row for more than {} cycles\n",
-            row.hold
-        )),
-        Some(Lapse { net, robot, .. }) => {
-            Some(format!("    nearest fix: another robot than {robot} on net {net}, or a longer hold\n"))
-        }
-    }
+    let fix = match row.lapses.first() {
+        _ if row.passed => return None,
+        Some(Lapse { net, robot, .. }) => format!("another robot than {robot} on net {net}, or a longer hold"),
+        None if row.hold < row.needed => format!("hold the row for {} cycles, as `hold: auto` does", row.needed),
+        None => "every robot did as its gate does, so mend the circuit or the test".to_owned(),
+    };
+    Some(format!("    nearest fix: {fix}\n"))
 }
 
 #[cfg(test)]
@@ -93,11 +94,13 @@ mod tests {
             outputs: vec!["q".to_owned(), "nq".to_owned()],
             rows: vec![RowVerdict {
                 hold: 12,
+                needed: 14,
                 inputs: vec![true, false],
                 expected: vec![Some(true), None],
                 observed: vec![passed, false],
                 passed,
                 lapses: if passed { vec![] } else { vec![lapse] },
+                late: vec![],
             }],
             passed,
         }
@@ -117,5 +120,17 @@ mod tests {
         assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
         assert!(text.contains("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
         assert!(text.ends_with("    nearest fix: another robot than nand_1 on net q, or a longer hold\n"), "{text}");
+    }
+
+    #[test]
+    fn a_failure_without_a_wrong_robot_is_a_matter_of_time_or_of_the_circuit() {
+        let mut verdict = verdict(false);
+        verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].lapses);
+        let text = describe_test(&verdict);
+        assert!(text.contains("robot nand_1 on net q had no time yet and still output 0 on stimuli 1 0\n"), "{text}");
+        assert!(text.ends_with("    nearest fix: hold the row for 14 cycles, as `hold: auto` does\n"), "{text}");
+        verdict.rows[0].hold = 14;
+        let text = describe_test(&verdict);
+        assert!(text.ends_with("so mend the circuit or the test\n"), "{text}");
     }
 }

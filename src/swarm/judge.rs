@@ -31,6 +31,8 @@ pub struct TestVerdict {
 pub struct Demand {
     /// Cycles for which the row is held.
     pub hold: usize,
+    /// Cycles for which static timing would have it held.
+    pub needed: usize,
     /// The outputs at its end; `None` where the row does not say.
     pub expected: Vec<Option<bool>>,
 }
@@ -40,6 +42,8 @@ pub struct Demand {
 pub struct RowVerdict {
     /// Cycles for which the row was held.
     pub hold: usize,
+    /// Cycles for which static timing would have it held.
+    pub needed: usize,
     /// The input ports' bits.
     pub inputs: Vec<bool>,
     /// The outputs asked for; `None` where the row does not say.
@@ -48,11 +52,13 @@ pub struct RowVerdict {
     pub observed: Vec<bool>,
     /// Whether every checked output had its value, over the last two cycles at least.
     pub passed: bool,
-    /// Robots that were wrong in the row, where it failed.
+    /// Robots that were wrong in the row although their stimuli had not changed for as long as their clock, where it failed.
     pub lapses: Vec<Lapse>,
+    /// Robots that were wrong in the row's last cycle and had not had as long as their clock, where it failed.
+    pub late: Vec<Lapse>,
 }
 
-/// A robot that gave the wrong output although its stimuli had not changed for as long as its clock.
+/// A robot that gave another output than its function does of its stimuli.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Lapse {
     /// The net whose bit was wrong.
@@ -95,13 +101,18 @@ fn judge_row(trace: &SwarmTrace, row: &Demand, cycles: Range<usize>, clocks: &[u
     let last = &trace.cycles[cycles.end - 1];
     let steady = cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end;
     let passed = trace.cycles[steady].iter().all(|cycle| meets(&row.expected, &cycle.outputs));
+    let mut wrong = if passed { Vec::new() } else { wrong(trace, cycles.clone(), clocks) };
+    let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
+    let late = late.filter(|lapse| lapse.cycle + 1 == cycles.end).collect();
     RowVerdict {
         hold: row.hold,
+        needed: row.needed,
         inputs: last.inputs.clone(),
         expected: row.expected.clone(),
         observed: last.outputs.clone(),
         passed,
-        lapses: if passed { Vec::new() } else { lapses(trace, cycles, clocks) },
+        late,
+        lapses: wrong.into_iter().map(|(lapse, _)| lapse).collect(),
     }
 }
 
@@ -109,20 +120,16 @@ fn meets(expected: &[Option<bool>], outputs: &[bool]) -> bool {
     expected.iter().zip(outputs).all(|(expected, &output)| expected.is_none_or(|expected| expected == output))
 }
 
-/// The robots that were wrong in these cycles with settled stimuli, in order of cycles.
-fn lapses(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<Lapse> {
+/// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had settled.
+fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse, bool)> {
     let robots = || trace.robots.iter().zip(clocks).enumerate();
     let of_cycle = |cycle: usize| {
         robots().filter_map(move |(k, (robot, &clock))| {
             let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
-            let right = robot.function.output(sensed[0], sensed[1]);
-            (output != right && is_settled(trace, cycle, k, clock as usize)).then(|| Lapse {
-                net: robot.net.clone(),
-                robot: robot.robot.clone(),
-                cycle,
-                sensed,
-                output,
-            })
+            let (net, name) = (robot.net.clone(), robot.robot.clone());
+            let lapse = || Lapse { net, robot: name, cycle, sensed, output };
+            let settled = || is_settled(trace, cycle, k, clock as usize);
+            (output != robot.function.output(sensed[0], sensed[1])).then(|| (lapse(), settled()))
         })
     };
     cycles.flat_map(of_cycle).collect()
@@ -169,9 +176,13 @@ mod tests {
         }
     }
 
+    fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> TestVerdict {
+        let demand = Demand { hold: cycles.len(), needed: 4, expected: vec![expected] };
+        judge("t", &inverter(cycles), &[demand], &[clock])
+    }
+
     fn check(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32, passed: bool, wrong_cycles: &[usize]) {
-        let verdict =
-            judge("t", &inverter(cycles), &[Demand { hold: cycles.len(), expected: vec![expected] }], &[clock]);
+        let verdict = judged(cycles, expected, clock);
         assert_eq!(verdict.passed, passed);
         let found: Vec<usize> = verdict.rows[0].lapses.iter().map(|lapse| lapse.cycle).collect();
         assert_eq!(found, wrong_cycles);
@@ -191,5 +202,12 @@ mod tests {
     #[test]
     fn a_robot_that_has_not_settled_is_not_to_blame() {
         check(&[(true, true), (true, true), (true, true)], Some(false), 3, false, &[2]);
+    }
+
+    #[test]
+    fn a_robot_without_time_is_late() {
+        let late = |cycles: &[(bool, bool)]| judged(cycles, Some(false), 2).rows[0].late.len();
+        assert_eq!(late(&[(false, true), (true, true)]), 1);
+        assert_eq!(late(&[(true, true), (true, true)]), 0);
     }
 }

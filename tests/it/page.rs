@@ -39,7 +39,7 @@ pub fn robot(name: &str, function: Function) -> Robot {
 }
 
 fn verdict(trace: &SwarmTrace) -> TestVerdict {
-    let rows = [false, true, true].map(|q| Demand { hold: 8, expected: vec![Some(q), None] });
+    let rows = [false, true, true].map(|q| Demand { hold: 8, needed: 8, expected: vec![Some(q), None] });
     judge("holds </script><b> its bit", trace, &rows, &[4; 5])
 }
 

@@ -6,6 +6,8 @@ use std::path::Path;
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
 use nbc::model::Function;
+use nbc::report::describe_test;
+use nbc::{Options, RunReport};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -28,19 +30,48 @@ fn program(truth: u8) -> String {
     format!("{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n", nb::write(&netlist))
 }
 
-fn check(truth: u8) {
+/// Runs a program's tests in physics.
+fn run(program: &str, options: &Options) -> RunReport {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("f.nb");
-    fs::write(&path, program(truth)).unwrap();
-    let report = nbc::run_file(&path, &nbc::Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    fs::write(&path, program).unwrap();
+    nbc::run_file(&path, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn check(truth: u8) {
+    let report = run(&program(truth), &Options::default());
     report.assert_passed();
     let compiled = &report.tests[0].compiled;
     println!("{truth:08b}: {} robots, hold {}", compiled.mapped.cells().count(), compiled.timing.hold);
 }
 
 #[test]
-fn a_multiplexer_of_robots_computes() {
-    check(0b1100_1010);
+fn some_functions_of_three_inputs_compute() {
+    [0b1100_1010, 0b1001_0110, 0b0001_0110].into_iter().for_each(check);
+}
+
+#[test]
+fn a_hold_that_is_too_short_is_told_with_the_one_that_suffices() {
+    let latch = fs::read_to_string("circuits/latch.nb").unwrap().replace("1 1 | 1", "1 1 | 1 for 2 cycles");
+    let report = run(&latch, &Options::default());
+    let told = describe_test(&report.tests[0].verdict);
+    let needed = report.tests[0].compiled.timing.hold + 1;
+    assert!(!report.passed());
+    assert!(told.contains(&format!("nearest fix: hold the row for {needed} cycles")), "{told}");
+}
+
+#[test]
+fn a_robot_that_is_another_gate_is_named_with_its_net_and_cycle() {
+    let mut library = nbc::store::shipped_library().clone();
+    let place = |function| library.robots.iter().position(|robot| robot.function() == function).unwrap();
+    let (not, buf) = (place(Function::NOT), place(Function::BUF));
+    library.robots[not].body = library.robots[buf].body.clone();
+    let name = library.robots[not].name.clone();
+    let inverter = "circuit flip(a) -> (y) {\n    y = not a\n}\ntest flip \"inverts\" {\n    a | y\n    0 | 1\n}\n";
+    let report = run(inverter, &Options { library: Some(library) });
+    let told = describe_test(&report.tests[0].verdict);
+    assert!(told.contains(&format!("robot {name} on net y output 0 on stimuli 0")), "{told}");
+    assert!(told.contains(&format!("nearest fix: another robot than {name} on net y")), "{told}");
 }
 
 /// Run with `cargo test --release --test it fifty_random -- --ignored --nocapture`.
@@ -63,13 +94,13 @@ fn every_circuit_of_the_gallery_computes() {
     files.sort();
     let mut failed = String::new();
     for path in files {
-        let report = nbc::run_file(&path, &nbc::Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        let report = nbc::run_file(&path, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
         for test in &report.tests {
             let robots = test.compiled.mapped.cells().count();
             let (passed, hold) = (test.verdict.passed, test.compiled.timing.hold);
             println!("{} `{}`: {robots} robots, hold {hold}, passed {passed}", path.display(), test.verdict.title);
             if robots < 40 && !passed {
-                failed.push_str(&nbc::report::describe_test(&test.verdict));
+                failed.push_str(&describe_test(&test.verdict));
             }
         }
     }
@@ -78,7 +109,7 @@ fn every_circuit_of_the_gallery_computes() {
 
 #[test]
 fn measured_settle_times_are_within_the_clocks() {
-    let report = nbc::run_file("circuits/half_adder.nb", &nbc::Options::default()).unwrap();
+    let report = nbc::run_file("circuits/half_adder.nb", &Options::default()).unwrap();
     let compiled = &report.tests[0].compiled;
     let cells = nbc::swarm::cells(nbc::store::shipped_library());
     let measured = Timing::of(&compiled.mapped, &cells, Delays::Transition);

@@ -83,9 +83,26 @@ fn registers_are_kept_or_made_of_cells() {
 fn a_missing_gate_is_valued() {
     let bench = Bench::new();
     bench.file("fa.blif", FULL_ADDER);
-    let ran = bench.run(&["synth", "fa.blif", "--cells", "nand,not", "--what-if", "xor", "--format", "json"]);
-    let report: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
-    assert_eq!(report["what_if"]["xor"], 4);
+    let arguments = ["synth", "fa.blif", "--cells", "nand,not", "--what-if", "xor,and", "--format", "json"];
+    let report = bench.run(&arguments).expect_json();
+    assert_eq!(report["what_if"], serde_json::json!({ "xor": 4, "and": 0 }));
+    let told = bench.run(&arguments[..6]);
+    assert!(told.out.contains("with `xor`: 4 cells fewer\n"), "{}", told.out);
+}
+
+#[test]
+fn timing_memory_and_fan_out_are_reported() {
+    let bench = Bench::new();
+    let latch = std::fs::read_to_string("circuits/latch.nb").unwrap();
+    bench.file("latch.nb", latch);
+    let report = bench.run(&["build", "latch.nb", "--cells", "nand,not", "--emit", "json"]).expect_json();
+    // Two cells on the way in, twice through the pair less where it was entered.
+    assert_eq!((&report["hold"], &report["races"]), (&5.into(), &serde_json::json!([])));
+    assert_eq!(report["memory"], serde_json::json!([{ "nets": ["q", "nq"], "pulse": 2, "setup": 3, "hold": 1 }]));
+    let q = report["cells"].as_array().unwrap().iter().find(|cell| cell["name"] == "q").unwrap();
+    let number = |key: &str| q[key].as_u64().unwrap();
+    assert_eq!(number("required") - number("arrival"), number("slack"));
+    assert_eq!(number("fan_out"), 2);
 }
 
 #[test]
@@ -141,6 +158,32 @@ fn verilog_is_read_through_yosys() {
     let found = synth(format!("{}:/usr/bin:/bin", bench.path().display()));
     let report: serde_json::Value = serde_json::from_slice(&found.stdout).expect("a report in JSON");
     assert_eq!(report["cells"], 5);
+}
+
+/// A latch, and a flip-flop behind an adder.
+const REGISTERS: &str = "\
+module registers(input clk, en, input [1:0] a, output reg [1:0] sum, output reg held);
+always @(posedge clk) sum <= sum + a;
+always @(*) if (en) held = ^a;
+endmodule
+";
+
+#[test]
+fn yosys_keeps_latches_and_flip_flops() {
+    if Command::new("yosys").arg("-V").output().is_err() {
+        eprintln!("yosys is not installed, so Verilog is not read");
+        return;
+    }
+    let bench = Bench::new();
+    bench.file("registers.v", REGISTERS);
+    let report = bench.run(&["synth", "registers.v", "-o", "out.blif", "--cells", "all", "--format", "json"]);
+    let report = report.expect_json();
+    assert_eq!((&report["latches"], &report["proved"]), (&3.into(), &true.into()));
+    let written = std::fs::read_to_string(bench.path().join("out.blif")).unwrap();
+    let kinds = |kind: &str| written.lines().filter(|line| line.starts_with(".latch") && line.contains(kind)).count();
+    assert_eq!((kinds(" re "), kinds(" ah ")), (2, 1), "{written}");
+    bench.file("broken.v", "module broken(input a; endmodule\n");
+    bench.run(&["synth", "broken.v", "--cells", "all"]).expect_fault(&["yosys cannot read"]);
 }
 
 /// Runs `nbc synth` on a text that is at fault, and compares the first line of the message.

@@ -1,5 +1,6 @@
 //! Logic synthesis: the search for few cells that compute what a circuit computes.
 
+pub mod exact;
 pub mod graph;
 pub mod prices;
 pub mod reduce;

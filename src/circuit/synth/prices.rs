@@ -41,6 +41,11 @@ impl Prices {
         self.cells[usize::from(function.bits())]
     }
 
+    /// Whether every cell costs one.
+    pub fn are_even(&self) -> bool {
+        self.cells.iter().all(|&cost| cost <= 1)
+    }
+
     /// The cycles that a cell takes.
     pub fn clock(&self, function: Function) -> u32 {
         self.clocks[usize::from(function.bits())]

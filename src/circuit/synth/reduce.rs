@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::circuit::cells::CellLibrary;
 use crate::circuit::map::{MapOptions, Objective};
 use crate::circuit::network::{Network, Signal};
+use crate::circuit::synth::exact::{self, Answer};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::roam::roam;
@@ -60,10 +61,28 @@ pub fn reduce(
         let mapped = search(&cover(&few, &target, stages)?, &target, stages, effort, 2, &mut random);
         best = cheaper(best, mapped, &target);
     }
+    best = fewest(best, &target, stages, effort);
     if options.objective == Objective::Delay {
         best = quicken(&best, &target, stages, effort, &mut random);
     }
     Ok(best)
+}
+
+/// A network of the fewest cells there can be, where it has few inputs and the effort reaches as far.
+fn fewest(best: Network, prices: &Prices, stages: &[u32], effort: Effort) -> Network {
+    let nodes = match effort {
+        Effort::Fast => 10_000,
+        Effort::Normal => 1_000_000,
+        Effort::High => 1_000_000_000,
+    };
+    let combinational = stages.iter().all(|&stage| stage == 0);
+    if best.inputs > exact::MOST_INPUTS || !combinational || !prices.are_even() {
+        return best;
+    }
+    match exact::fewer(&best, prices, cost(&best, prices), nodes) {
+        Answer::Made(network) => network,
+        Answer::Impossible | Answer::Unknown => best,
+    }
 }
 
 /// The cheaper of two networks, the first where they cost the same.
@@ -133,7 +152,7 @@ fn search_wide(
 ) -> Network {
     let (rounds, visits, steps) = match effort {
         Effort::Fast => (1, 20, 0),
-        Effort::Normal => (2, 50, 2),
+        Effort::Normal => ((1_000 / network.gates.len() as u64).clamp(2, 5), 50, 2),
         Effort::High => (3 * share, 400, 16),
     };
     let mut best = network.clone();
@@ -184,4 +203,49 @@ fn quicken(network: &Network, prices: &Prices, stages: &[u32], effort: Effort, r
 /// Cycles until every output is right, each cell taking its clock.
 fn depth(network: &Network, prices: &Prices) -> u32 {
     Graph::new(network, prices, &[], &[]).depth()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn library(names: &str) -> CellLibrary {
+        CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
+    }
+
+    fn reduced(network: &Network, cells: &str) -> Network {
+        reduce(network, &[], &library(cells), MapOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn gates_whose_difference_nobody_sees_take_the_place_of_dearer_ones() {
+        // The exclusive or matters only where `a` is 1: there it is the opposite of `b`.
+        let mut network = Network::new(2);
+        let different = network.add(Function::XOR, [2, 3]);
+        let both = network.add(Function::AND, [2, different]);
+        network.outputs.push(both);
+        assert_eq!(reduced(&network, "nand not").gates.len(), 3);
+        assert_eq!(reduced(&network, "a_and_notb not").gates.len(), 1);
+    }
+
+    #[test]
+    fn exclusive_ors_of_nand_cells_share_their_first_gates() {
+        let mut network = Network::new(3);
+        let half = network.add(Function::XOR, [2, 3]);
+        let sum = network.add(Function::XOR, [half, 4]);
+        let pairs = [network.add(Function::AND, [2, 3]), network.add(Function::AND, [half, 4])];
+        let carry = network.add(Function::OR, pairs);
+        network.outputs = vec![sum, carry];
+        assert_eq!(reduced(&network, "nand").gates.len(), 9);
+    }
+
+    #[test]
+    fn outputs_that_are_constants_or_inputs_take_no_cells() {
+        let mut network = Network::new(2);
+        let never = network.add(Function::XOR, [2, 2]);
+        let same = network.add(Function::OR, [3, never]);
+        network.outputs = vec![never, same];
+        let reduced = reduced(&network, "nand");
+        assert_eq!((reduced.gates.len(), reduced.outputs), (0, vec![0, 3]));
+    }
 }

@@ -1,0 +1,142 @@
+//! What keeps memory elements safe: how long a pulse sets one, and how long its inputs must be at rest before and after it closes.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use crate::circuit::loops::Loops;
+use crate::circuit::{NetId, Netlist, Node, Timing};
+
+/// A memory element's times, in cycles. They hold for robots that answer after one cycle at least and their clock at most.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// The nets of the element.
+    pub nets: Vec<NetId>,
+    /// How long what sets the element must last, where it enters: a change passes every cell of the element once, then they hold it.
+    pub pulse: u32,
+    /// How long all other inputs must have been at rest when one switches that closes the element: for the slowest way to it and the
+    /// pulse, less the fastest way by which it closes.
+    pub setup: u32,
+    /// How long they must stay at rest afterwards: what closes the element may be slow, and what comes next fast.
+    pub hold: u32,
+}
+
+impl Memory {
+    /// The memory elements of a mapped netlist, `clock` being the cycles that each cell takes at most.
+    pub fn all(netlist: &Netlist, timing: &Timing, clock: impl Fn(NetId) -> u32) -> Vec<Self> {
+        let fastest = fastest(netlist);
+        let element = |nets: &Vec<NetId>| {
+            let listened = nets.iter().flat_map(|&net| netlist.pins(net));
+            let entered: Vec<NetId> = listened.filter(|pin| !nets.contains(pin)).collect();
+            let slow = entered.iter().map(|&net| timing.arrival(net)).max().unwrap_or(0);
+            let fast = entered.iter().filter_map(|net| fastest.get(net)).copied().min().unwrap_or(0);
+            let pulse = nets.iter().map(|&net| clock(net)).sum();
+            Self {
+                nets: nets.clone(),
+                pulse,
+                setup: (slow + pulse).saturating_sub(fast),
+                hold: slow.saturating_sub(fast),
+            }
+        };
+        Loops::memory(netlist)
+            .cores()
+            .iter()
+            .filter(|core| !core.is_empty())
+            .flat_map(|core| elements(netlist, core))
+            .map(|nets| element(&nets))
+            .collect()
+    }
+}
+
+/// The parts of a loop's memory that are connected among themselves: a state machine has one for each of its registers' latches.
+fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
+    let mut rest: Vec<NetId> = core.to_vec();
+    let mut elements = Vec::new();
+    while let Some(first) = rest.first().copied() {
+        let mut element = vec![first];
+        let mut at = 0;
+        while at < element.len() {
+            let pins = netlist.pins(element[at]);
+            let near = |&&net: &&NetId| netlist.pins(net).contains(&element[at]) && pins.contains(&net);
+            let new: Vec<NetId> = rest.iter().filter(near).filter(|net| !element.contains(net)).copied().collect();
+            element.extend(new);
+            at += 1;
+        }
+        rest.retain(|net| !element.contains(net));
+        elements.push(element);
+    }
+    elements
+}
+
+/// The fewest cycles after which a switch of an input can be noticed at each net: one for each cell on the way.
+fn fastest(netlist: &Netlist) -> BTreeMap<NetId, u32> {
+    let mut fastest: BTreeMap<NetId, u32> = netlist.inputs().iter().map(|&input| (input, 0)).collect();
+    let mut pending: VecDeque<NetId> = netlist.inputs().iter().copied().collect();
+    while let Some(net) = pending.pop_front() {
+        for (listener, _) in netlist.fanout(net) {
+            if matches!(netlist.node(listener), Node::Cell(_)) && !fastest.contains_key(&listener) {
+                fastest.insert(listener, fastest[&net] + 1);
+                pending.push_back(listener);
+            }
+        }
+    }
+    fastest
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::*;
+    use crate::circuit::cells::{CellKind, CellLibrary};
+    use crate::circuit::example::{Delayed, latch};
+    use crate::circuit::map::map;
+    use crate::circuit::{Delays, registers};
+    use crate::model::Function;
+
+    const CLOCK: u32 = 3;
+
+    fn library() -> CellLibrary {
+        [(Function::NAND, CellKind::uniform(CLOCK, 1.0))].into_iter().collect()
+    }
+
+    fn memory(netlist: &Netlist) -> Vec<Memory> {
+        Memory::all(netlist, &Timing::of(netlist, &library(), Delays::Clock), |_| CLOCK)
+    }
+
+    /// How many of many random delays let a latch forget that it took the opposite of `data` on its way.
+    fn forgets(netlist: &Netlist, setup: u32, hold: u32, data: bool) -> usize {
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(5);
+        let mut forgets = || {
+            let mut draw = || 1 + (rand::Rng::next_u32(&mut random) % CLOCK) as usize;
+            let mut latch = Delayed::new(netlist.clone(), &mut draw);
+            latch.run(&[!data, true], 60);
+            latch.run(&[data, true], setup as usize);
+            latch.run(&[data, false], hold as usize);
+            latch.run(&[!data, false], 60) != data
+        };
+        (0..300).filter(|_| forgets()).count()
+    }
+
+    #[test]
+    fn a_latch_that_is_given_its_times_remembers_whatever_the_delays() {
+        let mapped = map(&latch(), &library()).unwrap();
+        let [times] = &memory(&mapped)[..] else {
+            panic!("a latch is one memory element");
+        };
+        assert_eq!((times.nets.len(), times.pulse, times.setup, times.hold), (2, 6, 6 + 6 - 1, 6 - 1));
+        for data in [false, true] {
+            assert_eq!(forgets(&mapped, times.setup, times.hold, data), 0);
+            assert!(forgets(&mapped, 2, times.hold, data) > 0, "a short set-up is a risk");
+        }
+    }
+
+    #[test]
+    fn a_flip_flop_has_two_memory_elements() {
+        let mut netlist = Netlist::new("flip_flop");
+        let [d, clk] = ["d", "clk"].map(|name| netlist.add_input(name));
+        let q = registers::flip_flop(&mut netlist, "q", d, clk, false);
+        netlist.add_output("q", q);
+        let mapped = map(&netlist, &library()).unwrap();
+        let sizes: Vec<usize> = memory(&mapped).iter().map(|memory| memory.nets.len()).collect();
+        assert_eq!(sizes, [2, 2]);
+    }
+}

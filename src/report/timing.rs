@@ -1,0 +1,118 @@
+//! When the robots of a swarm are right: arrival, required and slack, the slowest path, memory and fan-out, as text and as data.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::circuit::timing::fan_out;
+use crate::circuit::{Memory, NetId, Netlist, Timing};
+use crate::swarm::{Assembly, Member};
+
+/// The static timing of a swarm, in cycles after its inputs switched.
+#[derive(Clone, Debug, Serialize)]
+pub struct SwarmTiming {
+    /// Cycles after which every net is right.
+    pub hold: u32,
+    /// The slowest path, input first.
+    pub critical_path: Vec<PathStep>,
+    /// The robots in order.
+    pub robots: Vec<RobotTiming>,
+    /// What keeps the memory elements safe.
+    pub memory: Vec<MemoryTimes>,
+}
+
+/// A net of the slowest path.
+#[derive(Clone, Debug, Serialize)]
+pub struct PathStep {
+    /// The net.
+    pub net: String,
+    /// The robot that drives it; none for an input.
+    pub robot: Option<String>,
+    /// Cycles that it takes.
+    pub cycles: u32,
+}
+
+/// When a robot is right.
+#[derive(Clone, Debug, Serialize)]
+pub struct RobotTiming {
+    /// The net that it drives.
+    pub net: String,
+    /// Its name in the library.
+    pub robot: String,
+    /// Cycles that it takes itself.
+    pub clock: u32,
+    /// Cycles after which it is right for good.
+    pub arrival: u32,
+    /// Cycles after which it must be right for the hold to suffice.
+    pub required: u32,
+    /// The difference of the two.
+    pub slack: u32,
+    /// Stimuli of robots and output ports that hear it.
+    pub fan_out: usize,
+}
+
+/// The times of a memory element.
+#[derive(Clone, Debug, Serialize)]
+pub struct MemoryTimes {
+    /// The nets of the element.
+    pub nets: Vec<String>,
+    /// Cycles for which what sets it must last.
+    pub pulse: u32,
+    /// Cycles for which its inputs must have been at rest before it closes.
+    pub setup: u32,
+    /// Cycles for which they must stay at rest afterwards.
+    pub hold: u32,
+}
+
+impl SwarmTiming {
+    /// The timing of a mapped netlist and the robots that play it.
+    pub fn of(mapped: &Netlist, timing: &Timing, assembly: &Assembly) -> Self {
+        let players: BTreeMap<NetId, &Member> = mapped.cells().map(|(id, _)| id).zip(&assembly.members).collect();
+        let clock = |id: NetId| players.get(&id).map_or(0, |member| member.robot.character.clock);
+        let listeners: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
+        let step = |&id: &NetId| PathStep {
+            net: mapped.net_name(id),
+            robot: players.get(&id).map(|member| member.robot.name.clone()),
+            cycles: clock(id),
+        };
+        let robot = |(&id, member): (&NetId, &&Member)| RobotTiming {
+            net: member.net.clone(),
+            robot: member.robot.name.clone(),
+            clock: clock(id),
+            arrival: timing.arrival(id),
+            required: timing.required(id),
+            slack: timing.slack(id),
+            fan_out: listeners[&id],
+        };
+        let times = |Memory { nets, pulse, setup, hold }| MemoryTimes {
+            nets: nets.into_iter().map(|net| mapped.net_name(net)).collect(),
+            pulse,
+            setup,
+            hold,
+        };
+        Self {
+            hold: timing.hold,
+            critical_path: timing.critical_path.iter().map(step).collect(),
+            robots: players.iter().map(robot).collect(),
+            memory: Memory::all(mapped, timing, clock).into_iter().map(times).collect(),
+        }
+    }
+
+    /// The timing as lines for people.
+    pub fn describe(&self) -> String {
+        let step = |step: &PathStep| match &step.robot {
+            Some(robot) => format!("{} ({robot}, {} cycles)", step.net, step.cycles),
+            None => step.net.clone(),
+        };
+        let path: Vec<String> = self.critical_path.iter().map(step).collect();
+        let mut text = format!("timing   right after {} cycles: {}\n", self.hold, path.join(" -> "));
+        for MemoryTimes { nets, pulse, setup, hold } in &self.memory {
+            let nets = nets.join(" ");
+            text.push_str(&format!("memory   {nets}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n"));
+        }
+        if let Some(busiest) = self.robots.iter().max_by_key(|robot| (robot.fan_out, std::cmp::Reverse(&robot.net))) {
+            text.push_str(&format!("fan-out  {} at most, of {}\n", busiest.fan_out, busiest.net));
+        }
+        text
+    }
+}
