@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::evolve::mutate::pick;
 use crate::evolve::{
-    AddStatus, Archive, Counts, Elite, NicheKey, Outcome, Recoding, Scores, cppn, mirrored, mutate, phenotype,
-    recodings, validate,
+    AddStatus, Archive, Counts, Descriptor, Elite, NicheKey, Outcome, Recoding, Scores, cppn, develop, mirrored,
+    mutate, phenotype, recodings, validate,
 };
-use crate::model::{Body, Evolution, Genotype, Palette, Rules, Symmetry};
+use crate::model::{Body, Evolution, Genotype, NodeKind, Palette, Rules, Symmetry};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
@@ -66,6 +66,27 @@ pub struct SearchState {
     pub mirrors: Vec<Genotype>,
     /// Filled niches and their elites.
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
+}
+
+impl SearchState {
+    /// Whether a run by that declaration can come to it: every body is what its network develops into, can be tried, and lies in its
+    /// niche.
+    pub fn fits(&self, evolution: &Evolution) -> bool {
+        let Evolution { palette, rules, width, height, .. } = evolution;
+        let descriptor = Descriptor::new(evolution);
+        let is_foreign =
+            |kind| matches!(kind, NodeKind::Output(code, _) if usize::from(code) > palette.materials().len());
+        let develops = |genotype: &Genotype| match genotype.nodes.iter().any(|&(_, kind)| is_foreign(kind)) {
+            true => None,
+            false => develop(genotype, palette, *rules, *width, *height).ok(),
+        };
+        let holds = |key: &NicheKey, elite: &Elite| {
+            develops(&elite.genotype).as_ref() == Some(&elite.body)
+                && descriptor.niche(&elite.body, elite.behavior) == *key
+        };
+        self.mirrors.iter().all(|genotype| develops(genotype).is_some())
+            && self.niches.iter().all(|(key, elites)| elites.iter().all(|elite| holds(key, elite)))
+    }
 }
 
 impl Search {
@@ -397,6 +418,26 @@ pub(crate) mod tests {
             }
             assert_eq!(straight, resumed);
         }
+    }
+
+    #[test]
+    fn a_state_that_no_run_comes_to_is_told() {
+        let evolution = Evolution { symmetry: Symmetry::Npn, ..evolution() };
+        let mut search = Search::new(&evolution, 3);
+        (0..4).for_each(|_| advance(&mut search));
+        let state = search.state();
+        assert!(state.fits(&evolution));
+        let check = |change: fn(&mut SearchState)| {
+            let mut changed = state.clone();
+            change(&mut changed);
+            assert!(!changed.fits(&evolution));
+        };
+        check(|state| state.niches[0].0.0[0] += 1);
+        check(|state| state.niches[0].1[0].body = Body::new(5, 5, vec![3; 25]));
+        check(|state| state.niches[0].1[0].genotype.links.clear());
+        check(|state| state.mirrors[0].nodes.clear());
+        let poorer = Palette::new(Palette::paper().materials()[..4].to_vec());
+        assert!(!state.fits(&Evolution { palette: poorer, ..evolution.clone() }));
     }
 
     #[test]

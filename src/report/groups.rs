@@ -99,7 +99,8 @@ fn compare(groups: &[BehaviorGroup], pair: [usize; 2]) -> Option<GroupComparison
     Some(GroupComparison { groups: pair, p, p_adjusted: p, p_least, a12, is_approximate })
 }
 
-/// The two-sided probability of a U at least as far from its mean, without ties. Of all orders of `m + n` values, equally likely,
+/// The two-sided probability of a U at least as far from its mean, without ties (`statrs` 0.19 has it right only where the first
+/// sample is the larger: else it gives the complement). Of all orders of `m + n` values, equally likely,
 /// those are counted that give each U: the greatest value is of the one sample and exceeds all of the other, or is of the other.
 fn exact_p(u: f64, m: usize, n: usize) -> f64 {
     let mut orders: Vec<Vec<Vec<f64>>> = vec![vec![Vec::new(); n + 1]; m + 1];
@@ -232,10 +233,22 @@ mod tests {
         check(4.0, 3, 3, 1.0);
         check(0.0, 10, 10, 2.0 / 184_756.0);
         assert!((exact_p(23.0, 10, 10) - 0.0433).abs() < 5e-5);
-        let library =
-            mannwhitneyu(&[1.0, 2.0, 5.0, 7.0], &[3.0, 8.0, 9.0], MannWhitneyUMethod::Exact, Alternative::TwoSided);
-        let (u, p) = library.unwrap();
-        check(u, 4, 3, p);
+        for larger in [[1.0, 2.0, 5.0, 7.0], [1.0, 2.0, 3.5, 4.0], [2.0, 8.5, 9.5, 7.0]] {
+            let (u, p) =
+                mannwhitneyu(&larger, &[3.0, 8.0, 9.0], MannWhitneyUMethod::Exact, Alternative::TwoSided).unwrap();
+            check(u, 4, 3, p);
+        }
+    }
+
+    #[test]
+    fn a_comparison_is_the_textbooks() {
+        // The example of scipy.stats.mannwhitneyu: U = 17, exact p = 1/9. Both orders of the samples give the same.
+        let [males, females] = [vec![19.0, 22.0, 16.0, 29.0, 24.0], vec![20.0, 11.0, 17.0, 12.0]];
+        let group = |values: &[f64]| BehaviorGroup { name: "", stimuli: 0, values: values.to_vec() };
+        for (a, b, u) in [(&males, &females, 17.0), (&females, &males, 3.0)] {
+            let found = compare(&[group(a), group(b)], [0, 1]).unwrap();
+            assert!((found.p - 1.0 / 9.0).abs() < 1e-12 && (found.a12 - u / 20.0).abs() < 1e-12, "{found:?}");
+        }
     }
 
     #[test]

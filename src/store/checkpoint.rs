@@ -76,7 +76,7 @@ impl Checkpoint {
     /// The search as it was, for the declaration it was made by.
     ///
     /// # Errors
-    /// A diagnostic when the declaration or the seed is another.
+    /// A diagnostic when the declaration or the seed is another, or its bodies are none of that declaration.
     pub fn resume(self, name: &str, evolution: &Evolution, seed: u64) -> Result<Search, Diagnostic> {
         let fault = |text: String| {
             let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{name}` {text}"));
@@ -87,6 +87,9 @@ impl Checkpoint {
         }
         if self.declaration != declaration(evolution) {
             return Err(fault(format!("was made by another declaration than `{}` is now", evolution.name)));
+        }
+        if !self.state.fits(evolution) {
+            return Err(fault(format!("holds what no run of `{}` comes to", evolution.name)));
         }
         Ok(Search::resume(evolution, self.state))
     }
@@ -174,6 +177,10 @@ mod tests {
         assert_eq!(refused(&evolution(), 2), "`a` is of seed 1, expected seed 2");
         let wider = Evolution { width: 5, ..evolution() };
         assert_eq!(refused(&wider, 1), "`a` was made by another declaration than `small` is now");
+        let mut forged = Checkpoint::of(&search(), 0, 0);
+        forged.state.niches[0].1[0].genotype.links.clear();
+        let message = forged.resume("a", &evolution(), 1).unwrap_err().message;
+        assert_eq!(message, "`a` holds what no run of `small` comes to");
         let text = String::from_utf8(Checkpoint::of(&search(), 0, 0).print()).unwrap();
         let later = text.replacen("nbc-checkpoint 1", "nbc-checkpoint 9", 1);
         let message = Checkpoint::read("a", later.as_bytes()).unwrap_err().message;

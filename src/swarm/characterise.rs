@@ -200,3 +200,74 @@ fn has_toppled(holds: &[Hold]) -> bool {
         heights.next().is_some_and(|first| heights.next_back().is_some_and(|last| last < TOPPLED * first))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Schedule;
+
+    fn nand() -> Behavior {
+        "RRRL".parse().unwrap()
+    }
+
+    fn hold(before: usize, pattern: usize, cycles: &[f64]) -> Hold {
+        let pairs = Pattern::PAIRS;
+        Hold { before: Some(pairs[before]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 2.0 }
+    }
+
+    fn tally(clock: u32, holds: &[Hold]) -> Tally {
+        let (margin, toppled) = (f64::INFINITY, false);
+        let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
+        holds.iter().for_each(|hold| tally.count(hold, nand()));
+        tally
+    }
+
+    #[test]
+    fn a_hold_is_wrong_when_any_cycle_from_the_clock_on_is() {
+        let holds = [hold(0, 3, &[0.5, -0.1, -0.2]), hold(3, 0, &[-0.5, 0.3, -0.1, 0.3]), hold(0, 3, &[-0.4, 0.1])];
+        let found = |clock| {
+            let Tally { switches, wrong, margin, .. } = tally(clock, &holds);
+            (switches, wrong, margin)
+        };
+        assert_eq!(found(1), (3, 3, -0.5));
+        assert_eq!(found(2), (3, 2, -0.1), "an isolated wrong cycle in steady state counts");
+        let start = Hold { before: None, ..hold(0, 3, &[9.0]) };
+        assert_eq!(tally(1, &[start]).switches, 0, "a fresh start is no switch");
+    }
+
+    #[test]
+    fn glitches_are_wrong_cycles_where_the_output_ought_to_stay() {
+        let stays = hold(1, 2, &[-0.2, 0.1, 0.1]);
+        let changes = hold(2, 3, &[0.2, 0.1, -0.1]);
+        let Tally { quiet, glitches, .. } = tally(2, &[stays, changes]);
+        assert_eq!((quiet, glitches), (3, 1));
+    }
+
+    #[test]
+    fn a_body_has_toppled_when_it_stays_low_in_a_pattern_that_it_stood_in() {
+        let at = |pattern, height| Hold { height, ..hold(0, pattern, &[0.1]) };
+        assert!(has_toppled(&[at(3, 2.0), at(1, 1.9), at(3, 1.3)]));
+        assert!(!has_toppled(&[at(3, 2.0), at(1, 1.2), at(3, 1.5)]), "low in another pattern is no fall");
+    }
+
+    #[test]
+    fn all_twelve_switches_are_timed_and_a_wrong_end_shows() {
+        let body = Body::parse(&["343", "563"], 8).unwrap();
+        let setting = Setting::paper();
+        let fixed =
+            run_trials(&setting, &[Trial { body: body.clone(), schedule: Schedule::constant(Pattern::PAIRS[0], 840) }]);
+        let walks_right = Direction::of(fixed[0].com_x[840] - fixed[0].com_x[0]) == Direction::Right;
+        // Asked for the other direction always, it is never right.
+        let contrary: Behavior = if walks_right { "LLLL" } else { "RRRR" }.parse().unwrap();
+        let (settle, _) = Probe::new(&setting, &body, contrary).settle().unwrap();
+        let pairs: std::collections::BTreeSet<_> =
+            settle.iter().map(|transition| (transition.from.pair_index(), transition.to.pair_index())).collect();
+        assert!(pairs.len() == 12 && pairs.iter().all(|(from, to)| from != to));
+        let back: Vec<u32> = settle.iter().filter(|t| t.to == Pattern::PAIRS[0]).map(|t| t.cycles).collect();
+        assert_eq!(back, [SETTLE_AFTER + 1; 3], "wrong to the end");
+        let probe = Probe::new(&setting, &body, contrary);
+        let settled = |cycles: &[f64]| probe.settled(&Hold { cycles: cycles.to_vec(), ..hold(1, 0, &[]) });
+        let sign = if walks_right { -1.0 } else { 1.0 };
+        assert_eq!([settled(&[sign; 4]), settled(&[-sign, sign, -sign, sign])], [1, 4]);
+    }
+}

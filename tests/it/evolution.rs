@@ -23,11 +23,11 @@ schedule short(s1, s2) {
 }
 
 evolution walks {
-    box:         4 x 3
+    box:         3 x 2
     variable:    short
     fixed:       1 cycles
-    batch:       8
-    generations: 14
+    batch:       6
+    generations: 12
     seed:        3
 }
 
@@ -37,7 +37,8 @@ evolution turns {
     symmetry:    npn
     niche:       pareto(3)
     as:          code
-    generations: 5
+    batch:       2
+    generations: 2
 }
 ";
 
@@ -85,7 +86,7 @@ fn the_same_seed_gives_the_same_archive_on_any_number_of_threads_and_after_being
     assert_eq!(straight(&bench, "2"), one);
     assert_eq!(straight(&bench, "8"), one);
     for (file, lines) in
-        [("walks/seed-3/progress.jsonl", 2), ("walks/seed-3/progress.jsonl", 9), ("turns/seed-3/progress.jsonl", 3)]
+        [("walks/seed-3/progress.jsonl", 2), ("walks/seed-3/progress.jsonl", 9), ("turns/seed-3/progress.jsonl", 1)]
     {
         let mut child = start(&bench, "killed", &[], file, lines);
         child.kill().unwrap();
@@ -126,14 +127,88 @@ fn a_checkpoint_that_does_not_fit_is_refused_and_left_alone() {
         assert_eq!(fs::read(&path).unwrap(), bytes);
     };
     let resume = [&first[..], &["--resume"]].concat();
-    check(&whole, &first, "holds a run already");
     let mut damaged = whole.clone();
     damaged[whole.len() / 2] ^= 4;
-    check(&damaged, &resume, "is damaged");
+    check(&damaged, &resume, "is damaged: its checksum does not fit");
+    check(&whole[..whole.len() / 2], &resume, "is damaged: its checksum does not fit");
     check(b"", &resume, "is no checkpoint");
-    let foreign = RUNS.replace("batch:       8", "batch:       9");
-    bench.file("runs.nb", foreign);
-    check(&whole, &resume, "made by another declaration");
+    check(b"PK\x03\x04 something else\n", &resume, "is no checkpoint");
+    for format in ["0", "2"] {
+        let header = format!("nbc-checkpoint {format} ");
+        let other = String::from_utf8(whole.clone()).unwrap().replacen("nbc-checkpoint 1 ", &header, 1);
+        check(other.as_bytes(), &resume, &format!("is a checkpoint of format {format}, expected format 1"));
+    }
+    bench.file("runs.nb", RUNS.replace("batch:       6", "batch:       7"));
+    check(&whole, &resume, "was made by another declaration than `walks` is now");
+    bench.file("runs.nb", RUNS);
+    let other = bench.path().join("out/walks/seed-4");
+    fs::create_dir_all(&other).unwrap();
+    fs::copy(&path, other.join("checkpoint.nbc")).unwrap();
+    check(&whole, &[&resume[..], &["--seed", "4"]].concat(), "is of seed 3, expected seed 4");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let bench = bench();
+    bench.file("taken", "a file");
+    let ran = bench.run(&["evolve", "runs.nb", "--run", "walks", "--out", "taken"]);
+    ran.expect_fault(&["unwritable", "cannot write `taken/walks/seed-3`"]);
+    fs::create_dir_all(bench.path().join("out").join(CHECKPOINTS[0])).unwrap();
+    let ran = bench.run(&["evolve", "runs.nb", "--run", "walks"]);
+    ran.expect_fault(&["cannot read `out/walks/seed-3/checkpoint.nbc`"]);
+}
+
+/// A limit on the size of files is like a full disk: a write fails in the middle.
+#[test]
+#[cfg(unix)]
+fn a_full_disk_leaves_the_last_checkpoint_to_go_on_from() {
+    let bench = bench();
+    let arguments = ["evolve", "runs.nb", "--run", "walks", "--checkpoint-every", "0"];
+    let program = bench.command(&[]).get_program().to_owned();
+    let mut limited = std::process::Command::new("sh");
+    limited.args(["-c", "ulimit -f 16; trap '' XFSZ; exec \"$@\"", "sh"]).arg(program).args(arguments);
+    let ran = limited.current_dir(bench.path()).output().unwrap();
+    let told = String::from_utf8(ran.stderr).unwrap();
+    assert_eq!(ran.status.code(), Some(2), "{told}");
+    assert!(told.contains("cannot write `out/walks/seed-3/"), "{told}");
+    let path = bench.path().join("out").join(CHECKPOINTS[0]);
+    assert!(path.exists(), "some generations had room");
+    let resumed = bench.run(&[&arguments[..], &["--resume"]].concat());
+    assert_eq!(resumed.status, 0, "{}", resumed.err);
+    let straight = bench.run(&[&arguments[..], &["--out", "roomy"]].concat());
+    assert_eq!(straight.status, 0, "{}", straight.err);
+    assert_eq!(fs::read(path).unwrap(), fs::read(bench.path().join("roomy").join(CHECKPOINTS[0])).unwrap());
+    let left: Vec<_> = fs::read_dir(bench.path().join("out/walks/seed-3")).unwrap().collect();
+    assert_eq!(left.len(), 2, "no half-written files stay: {left:?}");
+}
+
+#[test]
+fn each_generation_leaves_a_line_and_the_run_a_table() {
+    let bench = bench();
+    let ran = bench.run(&["evolve", "runs.nb", "--run", "walks"]);
+    let text = fs::read_to_string(bench.path().join("out/walks/seed-3/progress.jsonl")).unwrap();
+    let lines: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 12);
+    let mut fields: Vec<&str> = lines[0].as_object().unwrap().keys().map(String::as_str).collect();
+    fields.sort_unstable();
+    insta::assert_compact_debug_snapshot!(fields, @r#"["behaviors", "best", "coverage", "env_steps", "evaluations", "faults", "filled", "generation", "improved", "inconsistent", "left_out", "new", "qd_score", "surpassed", "undeveloped"]"#);
+    for (generation, two) in (1..).zip(lines.windows(2)) {
+        assert_eq!(two[0]["generation"], generation);
+        for rising in ["evaluations", "coverage", "qd_score", "behaviors", "env_steps"] {
+            assert!(two[0][rising].as_f64() <= two[1][rising].as_f64(), "{rising} falls after {generation}");
+        }
+    }
+    let last = &lines[11];
+    let best = last["best"].as_object().unwrap();
+    assert_eq!(last["behaviors"], best.len());
+    for (behavior, fitness) in best {
+        let line = ran.out.lines().find(|line| line.starts_with(behavior)).unwrap_or_else(|| panic!("{}", ran.out));
+        let numbers: Vec<&str> = line.split_whitespace().collect();
+        let shown = [0, 1].map(|i| format!("{:.3}", fitness[i].as_f64().unwrap()));
+        assert_eq!(numbers[3..], shown, "{line}");
+    }
+    let counted = format!("12 generations, {} evaluations", last["evaluations"]);
+    assert!(ran.out.contains(&counted) && ran.out.contains("left out"), "{}", ran.out);
 }
 
 fn declared(name: &str) -> Evolution {
@@ -170,11 +245,29 @@ fn a_run_is_told_in_words_and_in_json() {
     assert!(text.out.contains("walks, seed 3") && text.out.contains("3 generations"), "{}", text.out);
     assert_eq!(text.err, "", "nothing but the terminal hears of progress");
     let json = bench.run(&[&arguments[..], &["--out", "b", "--format", "json"]].concat());
-    let ended: serde_json::Value = serde_json::from_str(&json.out).unwrap();
-    assert_eq!((&ended[0]["run"], &ended[0]["generation"]), (&"walks".into(), &3.into()));
+    let ended = &json.expect_json()["runs"][0];
+    assert_eq!((&ended["run"], &ended["generation"]), (&"walks".into(), &3.into()));
     let unknown = bench.run(&["evolve", "runs.nb", "--run", "walk"]);
     assert_eq!(unknown.status, 2);
     assert!(unknown.err.contains("no evolution is called `walk`"), "{}", unknown.err);
+}
+
+#[test]
+fn several_runs_are_compared_in_words_and_in_json() {
+    let bench = bench();
+    bench.file("three.nb", RUNS.replace("seed:        3", "seed:        1..3"));
+    let arguments = ["evolve", "three.nb", "--run", "walks", "--generations", "8"];
+    let text = bench.run(&[&arguments[..], &["--out", "a"]].concat()).out;
+    assert!(text.contains("walks, 3 runs: ") && text.contains("Holm") && text.contains("XXYY, XYXY"), "{text}");
+    assert!(text.contains("cannot reach p < 0.05, whatever the values"), "{text}");
+    let json = bench.run(&[&arguments[..], &["--out", "b", "--format", "json"]].concat()).expect_json();
+    let comparison = &json["comparisons"][0];
+    assert_eq!((json["runs"].as_array().unwrap().len(), &comparison["seeds"]), (3, &3.into()));
+    let groups = comparison["groups"].as_array().unwrap();
+    let found = groups.iter().filter(|group| group["values"][0].is_number()).count();
+    let pairs = comparison["pairs"].as_array().unwrap();
+    assert!(found > 1 && pairs.len() == found * (found - 1) / 2, "{pairs:?}");
+    assert!(pairs.iter().all(|pair| pair["p_adjusted"].as_f64() >= pair["p"].as_f64()));
 }
 
 proptest! {

@@ -3,6 +3,7 @@
 mod benchmarks;
 mod circuit;
 mod cli;
+mod declared;
 mod determinism;
 mod editor;
 mod evolution;

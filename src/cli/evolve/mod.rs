@@ -1,0 +1,234 @@
+//! `nbc evolve`: evolution runs, resumable.
+
+mod run;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::cli::evolve::run::{Ended, Run};
+use crate::cli::{Context, Failure, Format, Interrupt, Status};
+use crate::diag::{Code, Diagnostic};
+use crate::evolve::{ArchiveStats, Search};
+use crate::model::{Evolution, Objective};
+use crate::pipeline;
+use crate::report::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
+use crate::store::DiskWorld;
+use crate::swarm;
+
+pub(super) use run::{CHECKPOINT, read_checkpoint};
+
+/// A run with `--quick`.
+const QUICK_SEEDS: usize = 3;
+const QUICK_GENERATIONS: u32 = 200;
+/// Evaluations from which on it is told how long they will take, and those that are timed for it.
+const LONG: u64 = 20_000;
+const SAMPLE: usize = 8;
+
+/// Evolve robots by the evolution declarations of a file
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  nbc evolve                                the prelude's `gates`, into out/gates
+  nbc evolve library/evolve.nb --run gates5 one run of a file
+  nbc evolve library/evolve.nb --resume     go on after an interruption
+
+Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
+pub struct Arguments {
+    /// The file with the declarations; the prelude's `gates` without it
+    file: Option<PathBuf>,
+    /// Only the declaration of this name
+    #[arg(long, value_name = "NAME")]
+    run: Option<String>,
+    /// This seed instead of the declared ones
+    #[arg(long)]
+    seed: Option<u64>,
+    /// That many generations instead of the declared ones
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    generations: Option<u32>,
+    /// The folder for results
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Go on from the checkpoints in the folder; start what has none
+    #[arg(long)]
+    resume: bool,
+    /// A small version of the first declaration: three seeds, 200 generations
+    #[arg(long, conflicts_with_all = ["seed", "generations"])]
+    quick: bool,
+    /// Seconds between checkpoints, 0 for one each generation
+    #[arg(long, value_name = "SECONDS", default_value_t = 10)]
+    checkpoint_every: u64,
+}
+
+/// What the command prints for machines.
+#[derive(Default, Serialize)]
+struct Results {
+    runs: Vec<Ended>,
+    comparisons: Vec<Comparison>,
+}
+
+/// The paper's comparison of behaviors over a declaration's runs.
+#[derive(Serialize)]
+struct Comparison {
+    run: String,
+    seeds: usize,
+    groups: Vec<BehaviorGroup>,
+    pairs: Vec<GroupComparison>,
+}
+
+impl Arguments {
+    /// Makes the runs, one after another.
+    ///
+    /// # Errors
+    /// When the file has errors, a checkpoint is refused, or results cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let interrupt = Interrupt::watch()?;
+        let declared = self.declared()?;
+        self.tell_duration(&declared, context);
+        let mut results = Results::default();
+        for evolution in declared {
+            let finished = self.run_seeds(&evolution, &interrupt, &mut results, context)?;
+            if !finished {
+                return results.end(context, Status::Interrupted);
+            }
+        }
+        results.end(context, Status::Done)
+    }
+
+    /// The runs of one declaration, then their comparison; whether they got to the end.
+    fn run_seeds(
+        &self,
+        evolution: &Evolution,
+        interrupt: &Interrupt,
+        results: &mut Results,
+        context: &mut Context,
+    ) -> Result<bool, Failure> {
+        let mut archives = Vec::new();
+        for &seed in &evolution.seeds {
+            let mut run = Run::open(self, evolution, seed)?;
+            let finished = run.make(interrupt)?;
+            archives.push(run.archive_stats());
+            results.runs.push(run.ended(finished));
+            if context.format == Format::Text {
+                context.print(run.summary(finished))?;
+                context.flush()?;
+            }
+            if !finished {
+                return Ok(false);
+            }
+        }
+        if is_comparable(evolution) {
+            let comparison = Comparison::of(evolution, &archives);
+            if context.format == Format::Text {
+                context.print(comparison.describe())?;
+            }
+            results.comparisons.push(comparison);
+        }
+        Ok(true)
+    }
+}
+
+impl Results {
+    fn end(&self, context: &mut Context, status: Status) -> Result<Status, Failure> {
+        if context.format == Format::Json {
+            context.print_json(self)?;
+        }
+        Ok(status)
+    }
+}
+
+impl Comparison {
+    fn of(evolution: &Evolution, archives: &[ArchiveStats]) -> Self {
+        let groups = behavior_groups(archives);
+        let pairs = compare_groups(&groups);
+        Self { run: evolution.name.clone(), seeds: archives.len(), groups, pairs }
+    }
+
+    fn describe(&self) -> String {
+        format!("{}, {} runs: {}\n", self.run, self.seeds, describe_groups(&self.groups, &self.pairs))
+    }
+}
+
+impl Arguments {
+    /// The runs to make, with what the command line changes.
+    fn declared(&self) -> Result<Vec<Evolution>, Failure> {
+        let mut evolutions = self.chosen()?;
+        if self.quick {
+            evolutions.truncate(1);
+        }
+        for evolution in &mut evolutions {
+            if let Some(seed) = self.seed {
+                evolution.seeds = vec![seed];
+            }
+            if self.quick {
+                evolution.seeds.truncate(QUICK_SEEDS);
+            }
+            let quick = self.quick.then_some(QUICK_GENERATIONS);
+            evolution.generations = self.generations.or(quick).unwrap_or(evolution.generations);
+        }
+        Ok(evolutions)
+    }
+
+    /// Says on standard error how long runs of many hours will take here, by the time of a few evaluations.
+    fn tell_duration(&self, evolutions: &[Evolution], context: &Context) {
+        let evaluations = |evolution: &Evolution| {
+            let generation = (evolution.batch + evolution.newcomers) as u64;
+            generation * u64::from(evolution.generations) * evolution.seeds.len() as u64
+        };
+        if evolutions.iter().map(evaluations).sum::<u64>() < LONG {
+            return;
+        }
+        let seconds: f64 =
+            evolutions.iter().map(|evolution| evaluations(evolution) as f64 * seconds_each(evolution)).sum();
+        let hours = seconds / 3600.0;
+        let text =
+            format!("at most about {hours:.1} hours on this machine; what need not be simulated makes it less\n");
+        context.log(&text);
+    }
+
+    /// The file's own runs, or the prelude's, or the one that is asked for by name.
+    fn chosen(&self) -> Result<Vec<Evolution>, Failure> {
+        let prelude = pipeline::prelude().evolutions;
+        let Some(path) = &self.file else { return self.named(prelude.clone(), prelude) };
+        let loaded = pipeline::load(&DiskWorld, &path.to_string_lossy());
+        if loaded.checked.has_errors() {
+            return Err(Failure::input(loaded.checked.diagnostics, loaded.sources));
+        }
+        let all = loaded.checked.program.evolutions;
+        let own: Vec<Evolution> = all.iter().filter(|evolution| !prelude.contains(evolution)).cloned().collect();
+        if own.is_empty() && self.run.is_none() {
+            let message = format!("`{}` declares no evolution", path.display());
+            let help = "without a file, the prelude's `gates` is run";
+            return Err(Failure::plain(Diagnostic::without_place(Code::Unknown, message).with_help(help)));
+        }
+        self.named(own, all)
+    }
+
+    fn named(&self, usual: Vec<Evolution>, all: Vec<Evolution>) -> Result<Vec<Evolution>, Failure> {
+        let Some(name) = &self.run else { return Ok(usual) };
+        let names: Vec<String> = all.iter().map(|evolution| format!("`{}`", evolution.name)).collect();
+        let found: Vec<Evolution> = all.into_iter().filter(|evolution| evolution.name == *name).collect();
+        if found.is_empty() {
+            let message = format!("no evolution is called `{name}`");
+            let help = format!("there are {}", names.join(", "));
+            return Err(Failure::plain(Diagnostic::without_place(Code::Unknown, message).with_help(help)));
+        }
+        Ok(found)
+    }
+}
+
+/// Seconds that one evaluation in full takes here.
+fn seconds_each(evolution: &Evolution) -> f64 {
+    let search = Search::new(evolution, 0);
+    let candidates: Vec<_> = search.ask().into_iter().take(SAMPLE).collect();
+    let started = Instant::now();
+    swarm::evaluate(&search, &candidates);
+    started.elapsed().as_secs_f64() / candidates.len().max(1) as f64
+}
+
+/// Whether the paper's comparison of behaviors can be made: several runs by its objective.
+fn is_comparable(evolution: &Evolution) -> bool {
+    evolution.seeds.len() > 1 && evolution.objective == Objective::Distance
+}

@@ -1,0 +1,142 @@
+//! An evolution declaration: each field is read from the text, and each makes another run.
+
+use nbc::evolve::Search;
+use nbc::model::{
+    Axis, Count, Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Spell, Symmetry,
+};
+use nbc::pipeline;
+use nbc::source::MemoryWorld;
+use nbc::swarm::evolve_generation;
+
+/// Generations after which two runs are compared.
+const GENERATIONS: u32 = 4;
+
+const DECLARATIONS: &str = "
+schedule short(s1, s2) {
+    0 0 for 1 cycles
+    1 1 for 1 cycles
+}
+
+schedule other(s1, s2) {
+    0 1 for 60 steps
+    1 0 for 70 steps
+}
+
+evolution base {
+    box:         3 x 3
+    variable:    short
+    fixed:       1 cycles
+    batch:       5
+    newcomers:   1
+    generations: 9
+    seed:        3
+}
+";
+
+/// The run that is like `base` but for some fields.
+#[track_caller]
+fn declared(fields: &str) -> Evolution {
+    let mut world = MemoryWorld::default();
+    world.insert("run.nb", format!("{DECLARATIONS}\nevolution run {{ from: base, {fields} }}\n"));
+    let checked = pipeline::load(&world, "run.nb").checked;
+    assert_eq!(checked.diagnostics, [], "{fields}");
+    checked.program.evolution("run").unwrap().clone()
+}
+
+/// What a declared run has come to after some generations.
+fn made(evolution: &Evolution) -> nbc::evolve::SearchState {
+    let mut search = Search::new(evolution, evolution.seeds[0]);
+    for _ in 0..GENERATIONS {
+        evolve_generation(&mut search);
+    }
+    search.state()
+}
+
+/// A field and what it changes in the declaration of `base`.
+type Change = (&'static str, fn(&mut Evolution));
+
+/// Changes of which each makes another run.
+fn changes() -> Vec<Change> {
+    vec![
+        ("box: 4 x 3", |run| run.width = 4),
+        ("materials: [muscle, bone, flesh, antimuscle, s1_shrink, s2_shrink, s1_grow, s2_grow]", |run| {
+            let paper = Palette::paper().materials().to_vec();
+            let order = [2, 0, 1, 3, 4, 5, 6, 7];
+            run.palette = Palette::new(order.map(|i: usize| paper[i].clone()).to_vec());
+        }),
+        (
+            "mutation: { add_node: 3, remove_node: 0.5, add_link: 2, remove_link: 0, change_activation: 4, change_weight: 5 }",
+            |run| {
+                run.mutation = MutationWeights {
+                    add_node: 3.0,
+                    remove_node: 0.5,
+                    add_link: 2.0,
+                    remove_link: 0.0,
+                    change_activation: 4.0,
+                    change_weight: 5.0,
+                };
+            },
+        ),
+        ("variable: other", |run| {
+            let spell = |pattern: usize, steps| Spell { pattern: nbc::model::Pattern::PAIRS[pattern], steps };
+            run.variable = Schedule { spells: vec![spell(1, 60), spell(2, 70)] };
+        }),
+        ("fixed: 100 steps", |run| run.fixed_steps = 100),
+        ("descriptors: [active in 3 bins, behavior, sensory in 2 bins]", |run| {
+            let count = |of, bins| Axis::Count { of, bins };
+            run.descriptors = vec![count(Count::Active, 3), Axis::Behavior, count(Count::Sensory, 2)];
+        }),
+        ("batch: 4", |run| run.batch = 4),
+        ("newcomers: 3", |run| run.newcomers = 3),
+        ("seed: 8", |run| run.seeds = vec![8]),
+        ("as: code", |run| run.rules = Rules::Code),
+        ("objective: gate", |run| run.objective = Objective::Gate),
+        ("symmetry: npn", |run| run.symmetry = Symmetry::Npn),
+        ("niche: pareto(4)", |run| run.niche = Niche::Pareto(4)),
+    ]
+}
+
+#[test]
+fn each_field_is_read_and_nothing_else_changes() {
+    let base = declared("");
+    assert_eq!((base.width, base.height, base.batch, base.newcomers, base.fixed_steps), (3, 3, 5, 1, 84));
+    assert_eq!((base.rules, base.niche), (Rules::Paper, Niche::Dominance), "the paper's are the usual ones");
+    let seeds: Change = ("seed: [5, 2, 9]", |run| run.seeds = vec![5, 2, 9]);
+    let range: Change = ("seed: 4..6", |run| run.seeds = vec![4, 5, 6]);
+    let generations: Change = ("generations: 77", |run| run.generations = 77);
+    for (field, change) in changes().into_iter().chain([seeds, range, generations]) {
+        let mut expected = base.clone();
+        change(&mut expected);
+        assert_ne!(expected, base, "`{field}` is a change");
+        assert_eq!(declared(field), expected, "{field}");
+    }
+}
+
+#[test]
+fn each_field_makes_another_run() {
+    let base = made(&declared(""));
+    assert_eq!(base, made(&declared("")));
+    for (field, _) in changes() {
+        assert_ne!(made(&declared(field)), base, "`{field}` changes nothing");
+    }
+    let mut search = Search::new(&declared("generations: 2"), 3);
+    (0..2).for_each(|_| _ = evolve_generation(&mut search));
+    assert!(search.is_done());
+}
+
+#[test]
+fn the_papers_experiment_is_declared_as_the_paper_says() {
+    let mut world = MemoryWorld::default();
+    world.insert("paper.nb", include_str!("../../library/paper.nb"));
+    let program = pipeline::load(&world, "paper.nb").checked.program;
+    for (name, side) in [("paper5", 5), ("paper7", 7), ("paper10", 10)] {
+        let run = program.evolution(name).unwrap();
+        assert_eq!((run.width, run.height), (side, side));
+        assert_eq!((run.batch, run.generations, run.seeds.len()), (16, 3000, 10), "{name}");
+        let patterns = nbc::model::Pattern::PAIRS;
+        assert_eq!(run.variable.spells, patterns.map(|pattern| Spell { pattern, steps: 840 }));
+        assert_eq!((run.fixed_steps, run.objective, run.niche), (840, Objective::Distance, Niche::Dominance));
+        assert_eq!((&run.palette, run.mutation), (&Palette::paper(), MutationWeights::default()));
+        assert_eq!(Search::new(run, 1).archive().stats().niches, 1024);
+    }
+}
