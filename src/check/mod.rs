@@ -23,9 +23,11 @@ mod test;
 pub use load::{PRELUDE, open};
 pub use swarm::DEFAULT_LIBRARY;
 
-use crate::diag::Diagnostic;
+use std::collections::BTreeSet;
+
+use crate::diag::{Code, Diagnostic};
 use crate::model::Program;
-use crate::source::{FileId, Sources, World};
+use crate::source::{FileId, Sources, Span, World};
 
 /// A program, and what is wrong with it.
 #[derive(Clone, Debug, Default)]
@@ -47,8 +49,21 @@ impl Checked {
 pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked {
     let loaded = load::load(world, sources, file);
     let (program, mut diagnostics) = program::program(&loaded.trees);
+    forget_consequences(&mut diagnostics, sources, &loaded);
     diagnostics.extend(loaded.faults);
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();
     Checked { program, diagnostics }
+}
+
+/// A name whose declaration could not be parsed is not unknown: the declaration has its own message.
+fn forget_consequences(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loaded: &load::Loaded) {
+    let text = |span: Span| &sources.file(span.file).text[span.range()];
+    let broken: BTreeSet<&str> =
+        loaded.trees.iter().flat_map(|(_, tree)| &tree.broken).map(|&span| text(span)).collect();
+    let follows = |diagnostic: &Diagnostic| {
+        diagnostic.code == Code::Unknown
+            && diagnostic.labels.first().is_some_and(|label| broken.contains(text(label.span)))
+    };
+    diagnostics.retain(|diagnostic| !follows(diagnostic));
 }

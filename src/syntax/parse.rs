@@ -44,10 +44,23 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     parsed.tree.comments = split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
     for piece in &split.pieces {
         let (declaration, errors) = parse_piece(text, file, &split.comments, piece);
+        if declaration.is_none() {
+            parsed.tree.broken.extend(name_of(text, file, piece));
+        }
         parsed.tree.declarations.extend(declaration);
         parsed.errors.extend(errors);
     }
     parsed
+}
+
+/// The word after the keyword of a declaration.
+fn name_of(text: &str, file: FileId, piece: &Piece) -> Option<Span> {
+    let source = &text[piece.range.clone()];
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let keyword = source.find(|c| !is_word(c))?;
+    let start = keyword + source[keyword..].find(|c: char| !c.is_whitespace())?;
+    let end = source[start..].find(|c| !is_word(c)).map_or(source.len(), |length| start + length);
+    (end > start).then(|| Span::new(file, piece.range.start + start, piece.range.start + end))
 }
 
 fn too_large(text: &str, file: FileId) -> Diagnostic {

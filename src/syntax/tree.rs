@@ -8,6 +8,8 @@ use crate::source::Span;
 pub struct Tree {
     /// The declarations that could be parsed.
     pub declarations: Vec<Declaration>,
+    /// The places of the names of those that could not, as far as they have one.
+    pub broken: Vec<Span>,
     /// The places of all comments, each from its `//` to the end of its line.
     pub comments: Vec<Span>,
 }
