@@ -1,5 +1,6 @@
 //! Films: robots walking, frame by frame, as GIF and APNG. One frame is held at a time, however long the film.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use resvg::tiny_skia::{self, FillRule, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, Transform};
@@ -168,17 +169,21 @@ fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, co
     }
 }
 
+/// Paints the voxels of one material after those of another, each material as one shape and one outline.
 fn paint_pose(frame: &mut Pixmap, pose: &Pose, scheme: Scheme, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
+    let mut shapes: BTreeMap<u8, PathBuilder> = BTreeMap::new();
     for (corners, code) in &pose.voxels {
-        let color = scheme.color(*code);
-        let mut path = PathBuilder::new();
+        let path = shapes.entry(*code).or_default();
         for (i, &corner) in corners.iter().enumerate() {
             let (x, y) = to_pixel(corner);
             if i == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
         }
         path.close();
-        // A voxel whose corners are no numbers has no path.
-        let Some(path) = path.finish() else { continue };
+    }
+    for (code, shape) in shapes {
+        // Voxels whose corners are no numbers have no path.
+        let Some(path) = shape.finish() else { continue };
+        let color = scheme.color(code);
         frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
         let edge = skia_paint(color.mix(Color::BLACK, 0.5));
         frame.stroke_path(&path, &edge, &Stroke { width: 0.8, ..Stroke::default() }, Transform::identity(), None);

@@ -1,15 +1,11 @@
 //! The colors of a film: 256 of them, and for any color the nearest.
 
-use std::collections::BTreeMap;
-
 use crate::report::Color;
 use crate::report::sprite::Scheme;
 
 /// The colors of a film, at most 256 of them, and the nearest of them for any color.
 pub struct Swatches {
     colors: Vec<Color>,
-    /// Numbers of colors that are in the list exactly.
-    exact: BTreeMap<[u8; 3], u8>,
     /// Numbers of the nearest colors, by the five high bits of red, green and blue.
     nearest: Vec<u8>,
 }
@@ -40,21 +36,28 @@ impl Swatches {
         colors.extend((0..125).map(|i| Color::new(steps[i / 25], steps[i / 5 % 5], steps[i % 5])));
         colors.truncate(256);
         let of_key = |key: usize| Color::new(wide(key >> 10), wide(key >> 5), wide(key));
-        let nearest = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();
-        let exact = colors.iter().enumerate().rev().map(|(i, c)| ([c.r, c.g, c.b], i as u8)).collect();
-        Self { colors, exact, nearest }
+        let mut nearest: Vec<u8> = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();
+        // A color of the list is itself, whatever else is near; where two are as near as that, the first.
+        for (i, color) in colors.iter().enumerate().rev() {
+            nearest[key(color.r, color.g, color.b)] = i as u8;
+        }
+        Self { colors, nearest }
     }
 
     /// The number of the color nearest to this one.
-    pub fn index(&self, rgb: [u8; 3]) -> u8 {
-        let key = usize::from(rgb[0] >> 3) << 10 | usize::from(rgb[1] >> 3) << 5 | usize::from(rgb[2] >> 3);
-        self.exact.get(&rgb).copied().unwrap_or(self.nearest[key])
+    pub fn index(&self, [r, g, b]: [u8; 3]) -> u8 {
+        self.nearest[key(r, g, b)]
     }
 
     /// All colors, red, green, blue.
     pub fn bytes(&self) -> Vec<u8> {
         self.colors.iter().flat_map(|color| [color.r, color.g, color.b]).collect()
     }
+}
+
+/// The five high bits of each part as one number.
+fn key(r: u8, g: u8, b: u8) -> usize {
+    usize::from(r >> 3) << 10 | usize::from(g >> 3) << 5 | usize::from(b >> 3)
 }
 
 /// Five bits as eight.
