@@ -8,7 +8,7 @@ use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic, render};
 use crate::model::{CircuitTest, Robot, Setting};
 use crate::pipeline::{self, Compiled, Loaded, Options, TestRun};
-use crate::report::{self, PageTest, Recording, RunResult, Scheme, Stage, Svg, SwarmTiming, TestResult};
+use crate::report::{self, PageTest, Recording, Room, RunResult, Scheme, Stage, Svg, SwarmTiming, TestResult};
 use crate::store::{self, DiskWorld};
 
 /// Compile, simulate and test the circuits of a file
@@ -89,7 +89,7 @@ impl Arguments {
         let page = folder.join("report.html");
         if !self.no_report {
             let tests: Vec<PageTest<'_>> = drawn.iter().map(page_test).collect();
-            write(&page, report::draw_page(&source, &tests, Scheme::default()).as_bytes())?;
+            write(&page, report::draw_run_page(&source, &tests, Scheme::default()).as_bytes())?;
         }
         match context.format {
             Format::Json => context.print_json(&result)?,
@@ -124,11 +124,7 @@ fn stem(runs: &[TestRun], i: usize) -> String {
 
 /// Draws a test's run and writes the drawings and waveforms.
 fn draw<'a>(run: &'a TestRun, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
-    let compiled = &run.compiled;
-    let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
-    let spacetime = report::draw_swarm(&run.trace);
-    let schematic =
-        report::draw_schematic(&compiled.mapped, &robots, &compiled.timing.critical_path, Scheme::default());
+    let (spacetime, schematic) = (report::draw_swarm(&run.trace), draw_circuit(run, Scheme::default()));
     let files = [
         ("spacetime.svg", spacetime.finish().into_bytes()),
         ("spacetime.png", report::png(&spacetime)),
@@ -149,16 +145,36 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
+fn draw_circuit(run: &TestRun, scheme: Scheme) -> Svg {
+    let compiled = &run.compiled;
+    let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
+    report::draw_schematic(&compiled.mapped, &robots, &compiled.timing.critical_path, scheme)
+}
+
+/// The page of tests that were run.
+pub(super) fn run_page(source: &str, runs: &[TestRun], scheme: Scheme) -> String {
+    let drawn: Vec<Drawn<'_>> = runs
+        .iter()
+        .map(|run| Drawn {
+            run,
+            spacetime: report::draw_swarm(&run.trace),
+            schematic: draw_circuit(run, scheme),
+            files: Vec::new(),
+        })
+        .collect();
+    let tests: Vec<PageTest<'_>> = drawn.iter().map(page_test).collect();
+    report::draw_run_page(source, &tests, scheme)
+}
+
 fn page_test<'a>(drawn: &'a Drawn<'a>) -> PageTest<'a> {
     let run = drawn.run;
-    let (assembly, trace) = (&run.compiled.assembly, &run.trace);
     PageTest {
         verdict: &run.verdict,
-        trace,
-        assembly,
+        trace: &run.trace,
+        assembly: &run.compiled.assembly,
         recording: record(run),
-        schematic: drawn.schematic.clone(),
-        spacetime: drawn.spacetime.clone(),
+        schematic: &drawn.schematic,
+        spacetime: &drawn.spacetime,
     }
 }
 
@@ -167,7 +183,7 @@ fn record(run: &TestRun) -> Recording {
     let (setting, assembly, trace) = (Setting::paper(), &run.compiled.assembly, &run.trace);
     let probe = Stage::of_swarm(&setting, assembly, trace, crate::model::CYCLE_STEPS);
     let points: Vec<usize> = (0..probe.robots()).map(|i| probe.points(i).len()).collect();
-    let (stride, robots) = Recording::room(&points, trace.cycles.len());
+    let (stride, robots) = Room::SWARM.fit(&points, trace.cycles.len());
     Recording::of(Stage::of_swarm(&setting, assembly, trace, stride), robots)
 }
 

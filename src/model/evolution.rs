@@ -1,5 +1,7 @@
 //! Evolution runs as declared data: everything the paper fixes in code.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Palette, Schedule};
 
 /// A declared evolution run (paper, Methods).
@@ -50,7 +52,8 @@ pub enum Rules {
 }
 
 /// One axis of an archive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// A number of voxels, in that many bins.
     Count {
@@ -64,7 +67,8 @@ pub enum Axis {
 }
 
 /// What a count axis counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Count {
     /// All voxels.
     Voxels,
@@ -106,7 +110,8 @@ impl Default for MutationWeights {
 }
 
 /// What an evolution run rewards.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Objective {
     /// The paper's two: distance in the variable simulation, least distance in the fixed ones.
     #[default]

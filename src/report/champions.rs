@@ -5,7 +5,7 @@ use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
 use crate::report::svg::{Anchor, Paint, Svg, Type};
 
-const COLUMNS: usize = 7;
+const COLUMNS: usize = 8;
 /// The most points of one path.
 const MAX_POINTS: usize = 400;
 
@@ -21,11 +21,13 @@ pub struct Champions {
 /// Draws the champions; `changes` are the cycles at which the stimuli change.
 pub fn draw_champions(title: &str, champions: &[Champions], changes: &[f64]) -> Svg {
     let columns = COLUMNS.min(champions.len().max(1));
-    let (width, pitch) = (columns as f64 * 132.0 + 70.0, 262.0);
-    let mut svg = Svg::new(width.max(320.0), 60.0 + pitch * champions.len().div_ceil(columns) as f64, title);
+    let (width, pitch) = (columns as f64 * 132.0 + 70.0, 256.0);
+    let mut svg = Svg::new(width.max(320.0), 72.0 + pitch * champions.len().div_ceil(columns) as f64, title);
     svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let note = "in brackets: body lengths gone, quarter by quarter, on the mean";
+    svg.text((14.0, 45.0), note, Type::new(10.0).colored(Color::GRAY));
     for (i, group) in champions.iter().enumerate() {
-        let corner = (62.0 + (i % columns) as f64 * 132.0, 66.0 + (i / columns) as f64 * pitch);
+        let corner = (62.0 + (i % columns) as f64 * 132.0, 78.0 + (i / columns) as f64 * pitch);
         let word = group.behavior.to_string();
         svg.group(&format!("champions-{word}"), &word, |svg| {
             draw_panel(svg, corner, group, changes, i % columns == 0);
@@ -46,13 +48,14 @@ fn draw_panel(svg: &mut Svg, corner: (f64, f64), group: &Champions, changes: &[f
     let cycles = |steps: usize| steps as f64 / f64::from(CYCLE_STEPS);
     let longest = paths.iter().map(|path| cycles(path.len().saturating_sub(1))).fold(1.0, f64::max);
     let panel = Panel::new(corner, 112.0, 180.0, place, (0.0, longest)).downwards();
-    panel.title(svg, &group.behavior.to_string());
-    panel.x_axis(svg, 3);
+    svg.text((panel.left, panel.top - 7.0), &group.behavior.to_string(), Type::new(11.0).bold());
+    let function = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::End);
+    svg.text((panel.right, panel.top - 7.0), group.behavior.function().name(), function);
+    panel.x_axis(svg, 4);
     if first {
         panel.y_axis(svg, 5);
         panel.y_label(svg, "time (cycles)");
     }
-    panel.x_label(svg, "body lengths");
     for &cycle in changes {
         let y = panel.y.at(cycle);
         svg.line((panel.left, y), (panel.right, y), Paint::stroke(Color::GRAY, 0.8).dashed(2.0));
@@ -64,8 +67,7 @@ fn draw_panel(svg: &mut Svg, corner: (f64, f64), group: &Champions, changes: &[f
         panel.curve(svg, points, Paint::stroke(Color::series(i), 1.2));
     }
     let mean = paths.iter().map(|path| walked(path)).sum::<f64>() / paths.len().max(1) as f64;
-    let set = Type::new(10.0).anchored(Anchor::End);
-    svg.text((panel.right - 4.0, panel.bottom - 5.0), &format!("{mean:.1}"), set);
+    panel.x_label(svg, &format!("body lengths ({mean:.1})"));
 }
 
 /// Body lengths gone, there and back counted alike: the sum over quarters of the path.

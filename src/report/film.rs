@@ -10,7 +10,7 @@ use crate::report::Color;
 use crate::report::raster::rasterize;
 use crate::report::sprite::{Pose, Scheme};
 use crate::report::stage::{Moment, Stage};
-use crate::report::svg::{Anchor, Paint, Svg, Type};
+use crate::report::svg::{Anchor, Paint, Svg, Type, shorten};
 use crate::report::swatches::Swatches;
 
 /// Env steps from frame to frame: twelve frames a cycle.
@@ -18,7 +18,8 @@ pub const STRIDE: u32 = CYCLE_STEPS / 12;
 /// Hundredths of a second for which a frame is shown: a cycle takes about half a second, half the robots' own pace.
 const DELAY: u16 = 4;
 
-const WIDTH: f64 = 560.0;
+/// The most lanes one below the other; more stand in further columns.
+const MAX_ROWS: usize = 8;
 const LABELS: f64 = 108.0;
 const HEAD: f64 = 34.0;
 const FOOT: f64 = 14.0;
@@ -90,7 +91,7 @@ impl<'a> Painter<'a> {
         if self.cameras.is_empty() {
             self.cameras = moment.centers.iter().map(|center| center[0]).collect();
         }
-        let slack = (WIDTH - LABELS) / self.film.scale() / 6.0;
+        let slack = self.film.span() / self.film.scale() / 6.0;
         for (camera, center) in self.cameras.iter_mut().zip(&moment.centers) {
             if center[0].is_finite() {
                 *camera = camera.clamp(center[0] - slack, center[0] + slack);
@@ -100,33 +101,56 @@ impl<'a> Painter<'a> {
 
     fn paint_lane(&mut self, moment: &Moment, lane: usize) {
         let film = self.film;
-        let (scale, ground) = (film.scale(), film.ground(lane));
-        let middle = LABELS + (WIDTH - LABELS) / 2.0;
+        let (scale, ground, left) = (film.scale(), film.ground(lane), film.left(lane));
+        let middle = left + LABELS + film.span() / 2.0;
         let camera = self.cameras[lane];
         let to_pixel = |(x, y): (f64, f64)| (middle + (x - camera) * scale, ground - (y - 1.0) * scale);
-        let half = (WIDTH - LABELS) / 2.0 / scale;
+        let half = film.span() / 2.0 / scale;
         for voxel in (camera - half).ceil() as i64..=(camera + half).floor() as i64 {
             let tall = if voxel % 5 == 0 { 7.0 } else { 3.0 };
             fill_rect(&mut self.frame, (to_pixel((voxel as f64, 0.0)).0, ground), 1.0, tall, Color::PALE);
         }
         paint_pose(&mut self.frame, &moment.poses[lane], film.scheme, to_pixel);
         for (i, color) in [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate() {
-            let place = (16.0 + i as f64 * 22.0, ground - 16.0);
+            let place = (left + 16.0 + i as f64 * 22.0, ground - 16.0);
             fill_rect(&mut self.frame, place, 16.0, 16.0, color);
             if !moment.patterns[lane].has(i) {
                 fill_rect(&mut self.frame, (place.0 + 2.0, place.1 + 2.0), 12.0, 12.0, Color::WHITE);
             }
         }
         if moment.faults[lane] {
-            fill_rect(&mut self.frame, (LABELS, ground + 9.0), WIDTH - LABELS, 4.0, Color::FAULT);
+            fill_rect(&mut self.frame, (left + LABELS, ground + 9.0), film.span(), 4.0, Color::FAULT);
         }
     }
 }
 
 impl Film {
+    fn columns(&self) -> usize {
+        self.lanes.len().div_ceil(MAX_ROWS).max(1)
+    }
+
+    /// Lanes one below the other; the columns are as even as can be.
+    fn rows(&self) -> usize {
+        self.lanes.len().div_ceil(self.columns())
+    }
+
+    /// The width of a lane with its name.
+    fn lane_width(&self) -> f64 {
+        if self.columns() == 1 { 560.0 } else { 340.0 }
+    }
+
+    /// The width of the part of a lane in which its robot walks.
+    fn span(&self) -> f64 {
+        self.lane_width() - LABELS
+    }
+
     /// Pixels for each voxel.
     fn scale(&self) -> f64 {
-        let most = if self.lanes.len() == 1 { 16.0 } else { 10.0 };
+        let most = match (self.lanes.len(), self.columns()) {
+            (1, _) => 16.0,
+            (_, 1) => 10.0,
+            _ => 6.0,
+        };
         (120.0 / self.largest as f64).clamp(5.0, most)
     }
 
@@ -134,22 +158,29 @@ impl Film {
         (self.largest as f64 * 1.25 + 0.5) * self.scale() + 26.0
     }
 
+    /// Where a lane begins.
+    fn left(&self, lane: usize) -> f64 {
+        (lane / self.rows()) as f64 * self.lane_width()
+    }
+
     /// Where the ground's face is in a lane.
     fn ground(&self, lane: usize) -> f64 {
-        HEAD + (lane as f64 + 1.0) * self.lane_height() - 16.0
+        HEAD + ((lane % self.rows()) as f64 + 1.0) * self.lane_height() - 16.0
     }
 
     fn backdrop(&self) -> Svg {
-        let height = HEAD + self.lane_height() * self.lanes.len() as f64 + FOOT;
-        let mut svg = Svg::new(WIDTH, height, &self.title);
+        let width = self.lane_width() * self.columns() as f64;
+        let height = HEAD + self.lane_height() * self.rows() as f64 + FOOT;
+        let mut svg = Svg::new(width, height, &self.title);
         svg.text((14.0, 22.0), &self.title, Type::new(14.0).bold());
         let legend = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::End);
-        svg.text((WIDTH - 10.0, 21.0), "squares: stimuli 1, 2; long ticks: 5 voxels", legend);
+        svg.text((width - 10.0, 21.0), "squares: stimuli 1, 2; long ticks: 5 voxels", legend);
         for (lane, name) in self.lanes.iter().enumerate() {
-            let (ground, top) = (self.ground(lane), HEAD + lane as f64 * self.lane_height());
-            svg.rect((LABELS, top), WIDTH - LABELS, ground - top, Paint::fill(Color::SKY));
-            svg.rect((LABELS, ground), WIDTH - LABELS, 9.0, Paint::fill(Color::GROUND));
-            svg.text((14.0, ground - 24.0), name, Type::new(11.0));
+            let (left, ground) = (self.left(lane), self.ground(lane));
+            let top = ground - self.lane_height() + 16.0;
+            svg.rect((left + LABELS, top), self.span(), ground - top, Paint::fill(Color::SKY));
+            svg.rect((left + LABELS, ground), self.span(), 9.0, Paint::fill(Color::GROUND));
+            svg.text((left + 14.0, ground - 24.0), &shorten(name, 15), Type::new(11.0));
         }
         svg
     }

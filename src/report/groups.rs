@@ -7,7 +7,7 @@ use serde::Serialize;
 use statrs::stats_tests::Alternative;
 use statrs::stats_tests::mannwhitneyu::{MannWhitneyUMethod, mannwhitneyu};
 
-use crate::evolve::ArchiveStats;
+use crate::evolve::Champion;
 use crate::model::Behavior;
 use crate::report::{Align, Table};
 
@@ -56,10 +56,10 @@ fn group_of(behavior: Behavior) -> usize {
 }
 
 /// The groups' values, one for each run: champions of one run are no independent samples.
-pub fn behavior_groups(runs: &[ArchiveStats]) -> Vec<BehaviorGroup> {
+pub fn behavior_groups(runs: &[Vec<Champion>]) -> Vec<BehaviorGroup> {
     let values = |place: usize| {
         runs.iter().filter_map(move |run| {
-            let champions = run.champions.iter().filter(|champion| group_of(champion.behavior) == place);
+            let champions = run.iter().filter(|champion| group_of(champion.behavior) == place);
             let distances: Vec<f64> = champions.map(|champion| champion.fitness[0]).collect();
             (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
         })
@@ -179,16 +179,14 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evolve::Champion;
 
-    fn run(distances: &[(&str, f64)]) -> ArchiveStats {
+    fn run(distances: &[(&str, f64)]) -> Vec<Champion> {
         let champion = |&(behavior, d): &(&str, f64)| Champion {
             behavior: behavior.parse().unwrap(),
             fitness: [d, 0.0],
             niches: 1,
         };
-        let champions = distances.iter().map(champion).collect();
-        ArchiveStats { filled: 0, niches: 0, coverage: 0.0, qd_score: 0.0, champions }
+        distances.iter().map(champion).collect()
     }
 
     #[test]
@@ -205,7 +203,7 @@ mod tests {
 
     #[test]
     fn three_runs_a_group_reach_a_tenth_and_no_further() {
-        let runs: Vec<ArchiveStats> = (0..3)
+        let runs: Vec<Vec<Champion>> = (0..3)
             .map(|i| {
                 run(&[("LLLL", 30.0 + f64::from(i)), ("LLRR", 20.0 + f64::from(i)), ("RRLL", 22.0 + f64::from(i))])
             })

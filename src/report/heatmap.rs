@@ -2,14 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use crate::evolve::Archive;
+use crate::evolve::NicheKey;
 use crate::model::{Axis, Behavior, Count, Function};
 use crate::report::Color;
-use crate::report::chart::{range_of, tick_label};
+use crate::report::chart::{Scale, range_of, tick_label};
+use crate::report::harvest::bins;
 use crate::report::svg::{Anchor, Paint, Svg, Type};
 
 const CELL: f64 = 26.0;
-const COLUMNS: usize = 4;
+const COLUMNS: usize = 8;
+/// Left of the maps and above them.
+const LEFT: f64 = 46.0;
+const TOP: f64 = 66.0;
+/// From map to map.
+const GAP: (f64, f64) = (28.0, 52.0);
+/// Width of the key right of the maps, and the height of its colors.
+const KEY: f64 = 80.0;
+const KEY_HEIGHT: f64 = 150.0;
 
 /// Five steps of a map from dark to light that keeps its order in gray and for any color vision.
 const MAP: [Color; 5] = [
@@ -23,49 +32,56 @@ const MAP: [Color; 5] = [
 /// What a map shows: the best first fitness of each pair of bins.
 type Cells = BTreeMap<(u16, u16), f64>;
 
-/// Draws an archive over two of its axes, by their places among `axes`; a behavior axis gives small multiples unless it is one of the two.
+/// An archive as a map shows it.
+pub struct Terrain<'a> {
+    /// What the first fitness is, with its unit.
+    pub unit: &'a str,
+    /// The archive's axes.
+    pub axes: &'a [Axis],
+    /// The best first fitness of each filled niche.
+    pub niches: &'a [(&'a NicheKey, f64)],
+}
+
+/// Draws an archive over two of its axes, by their places; a behavior axis gives small multiples unless it is one of the two.
 ///
 /// # Panics
 /// When an axis is not there.
-pub fn draw_heatmap(title: &str, archive: &Archive, axes: &[Axis], x: usize, y: usize) -> Svg {
-    let split = axes.iter().position(|axis| *axis == Axis::Behavior).filter(|&axis| axis != x && axis != y);
-    let maps = collect(archive, x, y, split);
-    let (low, high) = range_of(maps.values().flat_map(Cells::values).copied(), 0.0);
-    let (across, down) = (bins(axes[x]), bins(axes[y]));
+pub fn draw_heatmap(title: &str, terrain: &Terrain<'_>, x: usize, y: usize) -> Svg {
+    let axes = (terrain.axes[x], terrain.axes[y]);
+    let split = terrain.axes.iter().position(|axis| *axis == Axis::Behavior).filter(|&axis| axis != x && axis != y);
+    let maps = collect(terrain, x, y, split);
+    let range = range_of(maps.values().flat_map(Cells::values).copied(), 0.0);
     let shown: Vec<Option<u16>> = split.map_or(vec![None], |_| (0..16).map(Some).collect());
-    let (pitch_x, pitch_y) = (across as f64 * CELL + 44.0, down as f64 * CELL + 62.0);
     let columns = COLUMNS.min(shown.len());
-    let width = (columns as f64 * pitch_x + 130.0).max(title.chars().count() as f64 * 10.0 + 30.0);
-    let mut svg = Svg::new(width, 58.0 + shown.len().div_ceil(columns) as f64 * pitch_y, title);
+    let pitch = (bins(axes.0) as f64 * CELL + GAP.0, bins(axes.1) as f64 * CELL + GAP.1);
+    let width = (LEFT + columns as f64 * pitch.0 + KEY).max(title.chars().count() as f64 * 10.0 + 30.0);
+    let height = (TOP + shown.len().div_ceil(columns) as f64 * pitch.1).max(TOP + KEY_HEIGHT + 30.0);
+    let mut svg = Svg::new(width, height, title);
     svg.text((14.0, 28.0), title, Type::new(16.0).bold());
     let empty = Cells::new();
     for (i, behavior) in shown.iter().enumerate() {
-        let corner = (44.0 + (i % columns) as f64 * pitch_x, 64.0 + (i / columns) as f64 * pitch_y);
-        let word = behavior.map_or(String::new(), |bits| Behavior::from(Function::new(bits as u8)).to_string());
+        let place = (i % columns, i / columns);
+        let corner = (LEFT + place.0 as f64 * pitch.0, TOP + place.1 as f64 * pitch.1);
         let cells = maps.get(behavior).unwrap_or(&empty);
-        let map = Map { cells, axes: (axes[x], axes[y]), range: (low, high) };
-        svg.group(&format!("map-{word}"), &word, |svg| map.draw(svg, corner, &word));
+        let map = Map { cells, axes, range, leftmost: place.0 == 0, lowest: i + columns >= shown.len() };
+        let word = behavior.map_or(String::new(), |bits| Behavior::from(Function::new(bits as u8)).to_string());
+        let function = behavior.map_or("", |bits| Function::new(bits as u8).name());
+        svg.group(&format!("map-{word}"), &format!("{word} {function}"), |svg| {
+            map.draw(svg, corner, (&word, function));
+        });
     }
-    draw_key(&mut svg, (low, high));
+    draw_key(&mut svg, LEFT + columns as f64 * pitch.0 + 14.0, range, terrain.unit);
     svg
 }
 
-fn collect(archive: &Archive, x: usize, y: usize, split: Option<usize>) -> BTreeMap<Option<u16>, Cells> {
+fn collect(terrain: &Terrain<'_>, x: usize, y: usize, split: Option<usize>) -> BTreeMap<Option<u16>, Cells> {
     let mut maps: BTreeMap<Option<u16>, Cells> = BTreeMap::new();
-    for (key, elites) in archive.niches() {
-        let best = elites.iter().map(|elite| elite.fitness[0]).fold(f64::NEG_INFINITY, f64::max);
-        let cells = maps.entry(split.map(|axis| key.0[axis])).or_default();
-        let cell = cells.entry((key.0[x], key.0[y])).or_insert(best);
+    for &(NicheKey(key), best) in terrain.niches {
+        let cells = maps.entry(split.map(|axis| key[axis])).or_default();
+        let cell = cells.entry((key[x], key[y])).or_insert(best);
         *cell = cell.max(best);
     }
     maps
-}
-
-fn bins(axis: Axis) -> usize {
-    match axis {
-        Axis::Count { bins, .. } => bins,
-        Axis::Behavior => 16,
-    }
 }
 
 fn axis_label(axis: Axis) -> &'static str {
@@ -84,7 +100,8 @@ pub fn heat(share: f64) -> Color {
     MAP[below].mix(MAP[below + 1], place - below as f64)
 }
 
-fn share((low, high): (f64, f64), value: f64) -> f64 {
+/// How far a value is along a range: 0 at its start, 1 at its end.
+pub fn share((low, high): (f64, f64), value: f64) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }
 
@@ -93,12 +110,19 @@ struct Map<'a> {
     cells: &'a Cells,
     axes: (Axis, Axis),
     range: (f64, f64),
+    /// Whether the second axis is named beside it.
+    leftmost: bool,
+    /// Whether the first axis is named below it.
+    lowest: bool,
 }
 
 impl Map<'_> {
-    fn draw(&self, svg: &mut Svg, (left, top): (f64, f64), word: &str) {
+    fn draw(&self, svg: &mut Svg, (left, top): (f64, f64), (word, function): (&str, &str)) {
         let (across, down) = (bins(self.axes.0), bins(self.axes.1));
+        let (width, height) = (across as f64 * CELL, down as f64 * CELL);
         svg.text((left, top - 6.0), word, Type::new(11.0).bold());
+        let small = Type::new(9.0).colored(Color::GRAY);
+        svg.text((left + width, top - 6.0), function, small.anchored(Anchor::End));
         for row in 0..down {
             for column in 0..across {
                 // The second axis grows upwards.
@@ -108,21 +132,45 @@ impl Map<'_> {
                 svg.rect(corner, CELL, CELL, Paint::fill(color).with_stroke(Color::PALE, 1.0));
             }
         }
-        let (middle, bottom) = (left + across as f64 * CELL / 2.0, top + down as f64 * CELL);
-        let small = Type::new(9.0).colored(Color::GRAY).anchored(Anchor::Middle);
-        svg.text((middle, bottom + 13.0), axis_label(self.axes.0), small);
-        svg.text((left - 7.0, top + down as f64 * CELL / 2.0), axis_label(self.axes.1), small.upwards());
+        let middle = small.anchored(Anchor::Middle);
+        for column in 0..across {
+            let name = bin_label(self.axes.0, column);
+            svg.text((left + (column as f64 + 0.5) * CELL, top + height + 11.0), &name, middle);
+        }
+        for row in 0..down {
+            let y = top + (down as f64 - row as f64 - 0.5) * CELL + 3.0;
+            svg.text((left - 4.0, y), &bin_label(self.axes.1, row), small.anchored(Anchor::End));
+        }
+        if self.lowest {
+            svg.text((left + width / 2.0, top + height + 24.0), axis_label(self.axes.0), middle);
+        }
+        if self.leftmost {
+            let beside = if self.axes.1 == Axis::Behavior { 36.0 } else { 18.0 };
+            svg.text((left - beside, top + height / 2.0), axis_label(self.axes.1), middle.upwards());
+        }
     }
 }
 
-fn draw_key(svg: &mut Svg, (low, high): (f64, f64)) {
-    let (left, top, height) = (svg.width() - 74.0, 64.0, 140.0);
-    for step in 0..50 {
-        let y = top + height * f64::from(step) / 50.0;
-        svg.rect((left, y), 14.0, height / 50.0 + 0.5, Paint::fill(heat(1.0 - f64::from(step) / 49.0)));
+fn bin_label(axis: Axis, bin: usize) -> String {
+    match axis {
+        Axis::Count { .. } => (bin + 1).to_string(),
+        Axis::Behavior => Behavior::from(Function::new(bin as u8)).to_string(),
     }
-    let values = [low, high];
-    svg.text((left + 19.0, top + 8.0), &tick_label(high, &values), Type::new(10.0));
-    svg.text((left + 19.0, top + height), &tick_label(low, &values), Type::new(10.0));
-    svg.text((left - 8.0, top + height / 2.0), "fitness (voxels)", Type::new(10.0).anchored(Anchor::Middle).upwards());
+}
+
+fn draw_key(svg: &mut Svg, left: f64, range: (f64, f64), unit: &str) {
+    const STEPS: u32 = 70;
+    let step_height = KEY_HEIGHT / f64::from(STEPS);
+    for step in 0..STEPS {
+        let color = heat(1.0 - (f64::from(step) + 0.5) / f64::from(STEPS));
+        svg.rect((left, TOP + step_height * f64::from(step)), 14.0, step_height + 0.5, Paint::fill(color));
+    }
+    let scale = Scale::new(range, (TOP + KEY_HEIGHT, TOP));
+    let ticks = scale.ticks(5);
+    for &tick in &ticks {
+        let y = scale.at(tick);
+        svg.line((left + 14.0, y), (left + 18.0, y), Paint::stroke(Color::GRAY, 1.0));
+        svg.text((left + 21.0, y + 3.5), &tick_label(tick, &ticks), Type::new(10.0).colored(Color::GRAY));
+    }
+    svg.text((left + 52.0, TOP + KEY_HEIGHT / 2.0), unit, Type::new(11.0).anchored(Anchor::Middle).upwards());
 }

@@ -79,15 +79,23 @@ impl Layers {
 
     /// The slots of the layer before that are wired to a slot.
     fn before(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(usize, Slot)> {
-        let nets = match slot {
-            Slot::Pass(net) => vec![net],
-            Slot::Node(id) => netlist.pins(id).into_iter().filter(|&net| !self.is_feedback(net, id)).collect(),
+        self.entries(netlist, slot, layer).into_iter().map(|(before, _)| (layer - 1, before)).collect()
+    }
+
+    /// The slots of the layer before that are wired to a slot, each with the share of its height at which the wire enters.
+    pub fn entries(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(Slot, f64)> {
+        let id = match slot {
+            Slot::Pass(net) => return vec![(self.carrier(net, layer - 1), 0.5)],
+            Slot::Node(id) => id,
         };
-        nets.into_iter().map(|net| (layer - 1, self.carrier(net, layer - 1))).collect()
+        let pins = netlist.pins(id);
+        let share = |pin: usize| (pin as f64 + 1.0) / (pins.len() as f64 + 1.0);
+        let forwards = pins.iter().enumerate().filter(|&(_, &net)| !self.is_feedback(net, id));
+        forwards.map(|(pin, &net)| (self.carrier(net, layer - 1), share(pin))).collect()
     }
 
     /// The slots of the layer after that are wired to a slot.
-    fn after(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(usize, Slot)> {
+    pub fn after(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(usize, Slot)> {
         let (Slot::Node(net) | Slot::Pass(net)) = slot;
         let listeners: Vec<NetId> = netlist.fanout(net).into_iter().map(|(listener, _)| listener).collect();
         let near = listeners.iter().filter(|&&id| self.layer_of(id) == layer + 1);

@@ -3,8 +3,35 @@
 use crate::model::CYCLE_STEPS;
 use crate::report::stage::Stage;
 
-/// The most bytes of one recording, so that a page with a few of them stays below five megabytes.
-const MAX_BYTES: usize = 1_500_000;
+/// How large a recording may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Room {
+    /// The most bytes, so that a page with a few recordings stays below five megabytes.
+    bytes: usize,
+    /// Strides in env steps to choose from, the smoothest first.
+    strides: &'static [u32],
+}
+
+impl Room {
+    /// For a swarm: better a jerky film than one without all robots.
+    pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
+    /// For gaits of elites: better some of them than jerky ones.
+    pub const GAITS: Self = Self { bytes: 2_700_000, strides: &[7, 12, 14] };
+
+    /// The stride, and the number of robots, for which there is room; `points` are those of each robot.
+    pub fn fit(self, points: &[usize], cycles: usize) -> (u32, usize) {
+        let bytes = |points: usize, stride: u32| points * 4 * (cycles * (CYCLE_STEPS / stride) as usize + 1);
+        let all: usize = points.iter().sum();
+        let jerkiest = self.strides[self.strides.len() - 1];
+        let stride = self.strides.iter().copied().find(|&stride| bytes(all, stride) <= self.bytes).unwrap_or(jerkiest);
+        let mut used = 0;
+        let fitting = points.iter().take_while(|&&points| {
+            used += bytes(points, stride);
+            used <= self.bytes
+        });
+        (stride, fitting.count())
+    }
+}
 
 /// The robots of a stage over time.
 #[derive(Clone, Debug, Default)]
@@ -27,20 +54,6 @@ pub struct Recorded {
 }
 
 impl Recording {
-    /// The stride in env steps, and the number of robots, for which a recording has room.
-    pub fn room(points: &[usize], cycles: usize) -> (u32, usize) {
-        let bytes = |points: usize, stride: u32| points * 4 * (cycles * (CYCLE_STEPS / stride) as usize + 1);
-        let strides = [7, 12, 21, 42, 84];
-        let all: usize = points.iter().sum();
-        let stride = strides.into_iter().find(|&stride| bytes(all, stride) <= MAX_BYTES).unwrap_or(CYCLE_STEPS);
-        let mut used = 0;
-        let fitting = points.iter().take_while(|&&points| {
-            used += bytes(points, stride);
-            used <= MAX_BYTES
-        });
-        (stride, fitting.count())
-    }
-
     /// Runs a stage to its end and records its first robots.
     pub fn of(mut stage: Stage, robots: usize) -> Self {
         let frames_per_cycle = CYCLE_STEPS / stage.stride();

@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::circuit::{NetId, Netlist, Node};
 use crate::model::Robot;
 use crate::report::Color;
+use crate::report::heights;
 use crate::report::layers::{Layers, Slot};
 use crate::report::sprite::{Scheme, draw_body};
-use crate::report::svg::{Anchor, Paint, Point, Svg, Type};
+use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
 
 const CELL: (f64, f64) = (108.0, 92.0);
 const PORT: (f64, f64) = (54.0, 24.0);
@@ -74,17 +75,15 @@ impl Plan {
             let widest = slots.iter().map(|&slot| size(netlist, slot).0).fold(0.0, f64::max);
             lefts.push(lefts[layer] + widest + channel_width(&tracks[layer + 1]));
         }
-        let layer_height = |slots: &Vec<Slot>| slots.iter().map(|&slot| size(netlist, slot).1 + GAP).sum::<f64>();
-        let tallest = layers.layers.iter().map(layer_height).fold(60.0, f64::max);
+        let tops = heights::straighten(&layers, netlist, |slot| size(netlist, slot).1, GAP);
         let mut corners = BTreeMap::new();
+        let mut bottom = TOP + 60.0;
         for (layer, slots) in layers.layers.iter().enumerate() {
-            let mut y = TOP + (tallest - layer_height(slots)) / 2.0;
-            for &slot in slots {
-                corners.insert((layer, slot), (lefts[layer], y));
-                y += size(netlist, slot).1 + GAP;
+            for (&slot, top) in slots.iter().zip(&tops[layer]) {
+                corners.insert((layer, slot), (lefts[layer], TOP + top));
+                bottom = f64::max(bottom, TOP + top + size(netlist, slot).1 + GAP);
             }
         }
-        let bottom = TOP + tallest;
         let width = (lefts[lefts.len() - 1] + 14.0).max(260.0);
         let height = bottom + lanes.len() as f64 * TRACK + 40.0;
         Self { layers, corners, lefts, tracks, lanes, bottom, width, height }
@@ -263,13 +262,6 @@ fn draw_cell(svg: &mut Svg, (x, y): Point, (net, function): (&str, &str), symbol
     svg.place((x + (CELL.0 - body.width()) / 2.0, y + 20.0 + (52.0 - body.height()).max(0.0)), 1.0, &body);
     let middle = Type::new(9.0).colored(Color::GRAY).anchored(Anchor::Middle);
     svg.text((x + CELL.0 / 2.0, y + CELL.1 - 5.0), &shorten(&robot.name, 18), middle);
-}
-
-fn shorten(text: &str, most: usize) -> String {
-    match text.char_indices().nth(most) {
-        Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
-        None => text.to_owned(),
-    }
 }
 
 fn draw_legend(svg: &mut Svg, plan: &Plan, critical: &[NetId]) {

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use crate::model::{CYCLE_STEPS, Fault, Schedule, Trajectory};
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
-use crate::report::svg::{Anchor, Paint, Point, Svg, Type};
+use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
 use crate::swarm::{RobotTrace, Signal, SwarmTrace};
 
 const PANEL_WIDTH: f64 = 150.0;
@@ -76,7 +76,7 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
         spells: schedule.spells.iter().zip(&ends).map(|(spell, &end)| (end, spell.pattern.has(i))).collect(),
     };
     let track = Track {
-        title: name.to_owned(),
+        title: String::new(),
         subtitle: String::new(),
         path: trajectory.com_x.clone(),
         cycles: (trajectory.com_x.len().saturating_sub(1)) as f64 / f64::from(CYCLE_STEPS),
@@ -84,8 +84,22 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
         output: None,
         fault: trajectory.fault.map(|fault| cycles_of(fault.env_step - 1)),
     };
-    let rows = [Row { heading: None, tracks: vec![track], changes: &ends }];
+    let heading = Some(format!("voxels walked: {}", walked(schedule, trajectory)));
+    let rows = [Row { heading, tracks: vec![track], changes: &ends, panel: 2.0 * PANEL_WIDTH }];
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
+}
+
+/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`; those of spells that were not simulated to their end are left out.
+fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
+    let mut start = 0;
+    let mut told = Vec::new();
+    for spell in &schedule.spells {
+        let end = start + spell.steps as usize;
+        let Some(place) = trajectory.com_x.get(end) else { break };
+        told.push(format!("{} {:+.2}", spell.pattern, place - trajectory.com_x[start]).replace('-', "\u{2212}"));
+        start = end;
+    }
+    told.join(", ")
 }
 
 /// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs (paper, figure 6).
@@ -100,12 +114,44 @@ pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     };
     let mut rows = vec![];
     for (i, tracks) in robots.chunks(MAX_COLUMNS).enumerate() {
-        rows.push(Row { heading: (i == 0).then(|| heading.clone()), tracks: tracks.to_vec(), changes: &changes });
+        rows.push(Row {
+            heading: (i == 0).then(|| heading.clone()),
+            tracks: tracks.to_vec(),
+            changes: &changes,
+            panel: PANEL_WIDTH,
+        });
     }
     for (i, tracks) in outputs.chunks(MAX_COLUMNS).enumerate() {
         let heading = (i == 0).then(|| "outputs against the inputs of the swarm".to_owned());
-        rows.push(Row { heading, tracks: tracks.to_vec(), changes: &changes });
+        rows.push(Row { heading, tracks: tracks.to_vec(), changes: &changes, panel: PANEL_WIDTH });
     }
+    draw_rows(&format!("{} in space and time", trace.circuit), trace.cycles.len() as f64, &rows)
+}
+
+/// The diagram of some of a swarm's robots, each with the inputs of the swarm (paper, figure 6).
+pub fn draw_chosen(trace: &SwarmTrace, robots: &[usize]) -> Svg {
+    let changes = input_changes(trace);
+    let track = |&k: &usize| {
+        let robot = &trace.robots[k];
+        Track {
+            title: format!("{} = {}", robot.net, robot.function),
+            subtitle: robot.robot.clone(),
+            sensed: input_strips(trace),
+            output: Some(Strip::of_cycles(&robot.net, Color::OUTPUT, trace.cycles.iter().map(|cycle| cycle.bits[k]))),
+            ..bare_track(trace, robot)
+        }
+    };
+    let tracks: Vec<Track> = robots.iter().take(MAX_PANELS).map(track).collect();
+    let rows: Vec<Row<'_>> = tracks
+        .chunks(MAX_COLUMNS)
+        .enumerate()
+        .map(|(i, tracks)| Row {
+            heading: (i == 0).then(|| "robots against the inputs of the swarm".to_owned()),
+            tracks: tracks.to_vec(),
+            changes: &changes,
+            panel: PANEL_WIDTH,
+        })
+        .collect();
     draw_rows(&format!("{} in space and time", trace.circuit), trace.cycles.len() as f64, &rows)
 }
 
@@ -136,21 +182,21 @@ fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
 fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
     let Signal::Robot(k) = trace.shown[output] else { return None };
     let robot = &trace.robots[k];
-    let inputs = trace.inputs.iter().enumerate().take(8).map(|(i, name)| {
-        Strip::of_cycles(
-            name,
-            Color::series(if i < 2 { [0, 4][i] } else { i + 3 }),
-            trace.cycles.iter().map(|c| c.inputs[i]),
-        )
-    });
     let bits = trace.cycles.iter().map(|cycle| cycle.outputs[output]);
     Some(Track {
         title: format!("output {}", trace.outputs[output]),
         subtitle: format!("robot {}", robot.net),
-        sensed: inputs.collect(),
+        sensed: input_strips(trace),
         output: Some(Strip::of_cycles(&trace.outputs[output], Color::OUTPUT, bits)),
         ..bare_track(trace, robot)
     })
+}
+
+/// The inputs of the swarm, as many as there is room for.
+fn input_strips(trace: &SwarmTrace) -> Vec<Strip> {
+    let color = |i: usize| Color::series(if i < 2 { [0, 4][i] } else { i + 3 });
+    let bits = |i: usize| trace.cycles.iter().map(move |cycle| cycle.inputs[i]);
+    trace.inputs.iter().enumerate().take(8).map(|(i, name)| Strip::of_cycles(name, color(i), bits(i))).collect()
 }
 
 fn bare_track(trace: &SwarmTrace, robot: &RobotTrace) -> Track {
@@ -172,6 +218,8 @@ struct Row<'a> {
     tracks: Vec<Track>,
     /// Cycles at which a dotted line runs across the panels.
     changes: &'a [f64],
+    /// Width of each panel without its bits.
+    panel: f64,
 }
 
 impl Row<'_> {
@@ -183,7 +231,7 @@ impl Row<'_> {
 
     /// Width of a panel with its bits.
     fn pitch(&self) -> f64 {
-        self.strips() + PANEL_WIDTH + STRIP_WIDTH + STRIP_GAP + 26.0
+        self.strips() + self.panel + STRIP_WIDTH + STRIP_GAP + 26.0
     }
 
     fn width(&self) -> f64 {
@@ -195,7 +243,7 @@ fn draw_rows(title: &str, cycles: f64, rows: &[Row<'_>]) -> Svg {
     let height = (cycles * 9.0).clamp(220.0, 620.0);
     let top = 44.0;
     let pitch = HEADING + height + FOOT;
-    let width = rows.iter().map(Row::width).fold(380.0, f64::max);
+    let width = rows.iter().map(Row::width).fold(title.chars().count() as f64 * 10.8 + 28.0, f64::max);
     let mut svg = Svg::new(width, top + pitch * rows.len() as f64, title);
     svg.text((14.0, 28.0), title, Type::new(17.0).bold());
     for (r, row) in rows.iter().enumerate() {
@@ -212,7 +260,7 @@ fn draw_row(svg: &mut Svg, row: &Row<'_>, top: f64, cycles: f64, height: f64) {
         let left = MARGIN + column as f64 * row.pitch() + row.strips();
         let start = track.path.first().copied().unwrap_or(0.0);
         let place = range_of(track.path.iter().map(|x| x - start), 0.06);
-        let panel = Panel::new((left, top + HEADING), PANEL_WIDTH, height, place, (0.0, cycles)).downwards();
+        let panel = Panel::new((left, top + HEADING), row.panel, height, place, (0.0, cycles)).downwards();
         let id = format!("track-{}-{}", track.title, top as u32);
         svg.group(&id, &track.title, |svg| {
             if column == 0 {
@@ -233,7 +281,7 @@ fn draw_time_axis(svg: &mut Svg, panel: &Panel, strips: f64) {
 
 fn draw_track(svg: &mut Svg, track: &Track, panel: &Panel, changes: &[f64]) {
     draw_heading(svg, track, panel);
-    panel.x_axis(svg, 3);
+    panel.x_axis(svg, ((panel.right - panel.left) / 45.0) as usize);
     for (i, strip) in track.sensed.iter().rev().enumerate() {
         draw_strip(svg, strip, panel, panel.left - (i + 1) as f64 * (STRIP_WIDTH + STRIP_GAP));
     }
@@ -253,12 +301,12 @@ fn draw_track(svg: &mut Svg, track: &Track, panel: &Panel, changes: &[f64]) {
 fn draw_heading(svg: &mut Svg, track: &Track, panel: &Panel) {
     let left = panel.left - track.sensed.len() as f64 * (STRIP_WIDTH + STRIP_GAP);
     let line =
-        |svg: &mut Svg, above: f64, text: &str, set: Type| svg.text((left, panel.top - above), &cut(text, 30), set);
+        |svg: &mut Svg, above: f64, text: &str, set: Type| svg.text((left, panel.top - above), &shorten(text, 30), set);
     line(svg, 38.0, &track.title, Type::new(12.0).bold());
     line(svg, 24.0, &track.subtitle, Type::new(10.0).colored(Color::GRAY));
     let mut x = left;
     for strip in &track.sensed {
-        let name = cut(&strip.name, 10);
+        let name = shorten(&strip.name, 10);
         svg.rect((x, panel.top - 16.0), 8.0, 8.0, Paint::fill(strip.color));
         svg.text((x + 11.0, panel.top - 8.5), &name, Type::new(10.0));
         x += 20.0 + name.chars().count() as f64 * 6.2;
@@ -266,15 +314,7 @@ fn draw_heading(svg: &mut Svg, track: &Track, panel: &Panel) {
     if let Some(strip) = &track.output {
         let end = panel.right + STRIP_GAP + STRIP_WIDTH;
         svg.rect((end - 8.0, panel.top - 16.0), 8.0, 8.0, Paint::fill(strip.color));
-        svg.text((end - 11.0, panel.top - 8.5), &cut(&strip.name, 10), Type::new(10.0).anchored(Anchor::End));
-    }
-}
-
-/// The first characters of a text that is longer.
-fn cut(text: &str, most: usize) -> String {
-    match text.char_indices().nth(most) {
-        Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
-        None => text.to_owned(),
+        svg.text((end - 11.0, panel.top - 8.5), &shorten(&strip.name, 10), Type::new(10.0).anchored(Anchor::End));
     }
 }
 

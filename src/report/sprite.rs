@@ -96,19 +96,32 @@ pub fn draw_sprite(robot: &Robot, scheme: Scheme) -> Svg {
 pub fn draw_portrait(title: &str, body: &Body, scheme: Scheme) -> Svg {
     let voxel = 24.0;
     let picture = draw_body(body, scheme, voxel);
-    let palette = Palette::paper();
-    let codes: Vec<u8> = (1..=Palette::MAX_MATERIALS as u8).filter(|code| body.codes().contains(code)).collect();
     let legend_left = 20.0 + picture.width() + 24.0;
-    let height = (56.0 + picture.height() + 16.0).max(60.0 + codes.len() as f64 * 20.0);
-    let width = (legend_left + 130.0).max(24.0 + title.chars().count() as f64 * 9.0);
+    let height = (56.0 + picture.height() + 16.0).max(60.0 + codes_of(body).len() as f64 * 20.0);
+    let width = (legend_left + 130.0).max(28.0 + title.chars().count() as f64 * 9.5);
     let mut svg = Svg::new(width, height, title);
     svg.text((20.0, 30.0), title, Type::new(14.0).bold());
     svg.place((20.0, 48.0), 1.0, &picture);
-    for (i, &code) in codes.iter().enumerate() {
-        let top = 49.0 + i as f64 * 20.0;
-        let name = palette.materials().get(usize::from(code) - 1).map_or("material", |material| material.name.as_str());
-        svg.rect((legend_left, top), 13.0, 13.0, Paint::fill(scheme.color(code)));
-        svg.text((legend_left + 20.0, top + 11.0), &format!("{code} {name}"), Type::new(11.0));
-    }
+    draw_legend(&mut svg, (legend_left, 49.0), body, scheme);
     svg
+}
+
+/// The codes of a body's materials, each once.
+fn codes_of(body: &Body) -> Vec<u8> {
+    (1..=Palette::MAX_MATERIALS as u8).filter(|code| body.codes().contains(code)).collect()
+}
+
+/// The names of a body's materials beside their colors, one below the other.
+pub fn draw_legend(svg: &mut Svg, (left, top): Point, body: &Body, scheme: Scheme) {
+    for (i, code) in codes_of(body).into_iter().enumerate() {
+        let top = top + i as f64 * 20.0;
+        svg.rect((left, top), 13.0, 13.0, Paint::fill(scheme.color(code)));
+        svg.text((left + 20.0, top + 11.0), &format!("{code} {}", material_name(code)), Type::new(11.0));
+    }
+}
+
+/// The name of a material of the paper by its code.
+pub fn material_name(code: u8) -> String {
+    let palette = Palette::paper();
+    palette.materials().get(usize::from(code) - 1).map_or("material".to_owned(), |material| material.name.clone())
 }

@@ -37,8 +37,13 @@ pub struct Moment {
 impl Stage {
     /// One body under a schedule.
     pub fn of_trial(setting: &Setting, body: &Body, schedule: &Schedule, stride: u32) -> Self {
-        let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern])).collect();
-        Self::new(Flock::new(setting, std::slice::from_ref(body)), spells, stride)
+        Self::of_trials(setting, std::slice::from_ref(body), schedule, stride)
+    }
+
+    /// Bodies side by side under one schedule.
+    pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
+        let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
+        Self::new(Flock::new(setting, bodies), spells, stride)
     }
 
     /// A swarm with the stimuli that its robots sensed.

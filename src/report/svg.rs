@@ -217,6 +217,14 @@ impl Svg {
     }
 }
 
+/// The first characters of a text that has more than `most`.
+pub fn shorten(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
+        None => text.to_owned(),
+    }
+}
+
 /// A length with at most two decimals, which is finer than any screen; what is no number becomes 0.
 struct Number(f64);
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Search, SearchState};
-use crate::model::{Evolution, Schedule};
+use crate::model::{Axis, Evolution, Objective, Schedule};
 
 /// The version of checkpoints that this program writes and reads.
 const FORMAT: u32 = 1;
@@ -21,6 +21,12 @@ pub struct Checkpoint {
     pub evolution: String,
     /// The declaration, but for its name, seeds and number of generations, as text to compare.
     declaration: String,
+    /// The archive's axes; none in checkpoints that did not yet say them.
+    #[serde(default)]
+    pub descriptors: Vec<Axis>,
+    /// What is rewarded.
+    #[serde(default)]
+    pub objective: Objective,
     /// The search.
     pub state: SearchState,
     /// Env steps simulated so far.
@@ -37,6 +43,8 @@ impl Checkpoint {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             evolution: evolution.name.clone(),
             declaration: declaration(evolution),
+            descriptors: evolution.descriptors.clone(),
+            objective: evolution.objective,
             state: search.state(),
             env_steps,
             left_out,
@@ -110,7 +118,7 @@ fn declaration(evolution: &Evolution) -> String {
 mod tests {
     use super::*;
     use crate::evolve::{Outcome, Scores};
-    use crate::model::{Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Rules, Symmetry};
+    use crate::model::{Behavior, Count, MutationWeights, Niche, Palette, Rules, Symmetry};
 
     fn evolution() -> Evolution {
         Evolution {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use nbc::model::{Body, Character, Function, Provenance, Robot, Setting};
-use nbc::report::{self, PageTest, Recording, Scheme, Stage};
+use nbc::report::{self, PageTest, Recording, Room, Scheme, Stage};
 use nbc::swarm::{Assembly, Demand, Member, SwarmTrace, TestVerdict, judge};
 use serde_json::Value;
 
@@ -63,15 +63,17 @@ fn page() -> String {
     let (assembly, verdict) = (assembly(&trace), verdict(&trace));
     let robots: Vec<&Robot> = assembly.members.iter().map(|member| &member.robot).collect();
     let stage = || Stage::of_swarm(&Setting::paper(), &assembly, &trace, 7);
+    let schematic = report::draw_schematic(&latch_netlist(), &robots, &[], Scheme::Paper);
+    let spacetime = report::draw_swarm(&trace);
     let test = || PageTest {
         verdict: &verdict,
         trace: &trace,
         assembly: &assembly,
         recording: Recording::of(stage(), 5),
-        schematic: report::draw_schematic(&latch_netlist(), &robots, &[], Scheme::Paper),
-        spacetime: report::draw_swarm(&trace),
+        schematic: &schematic,
+        spacetime: &spacetime,
     };
-    report::draw_page("circuits/<latch>.nb", &[test(), test()], Scheme::Paper)
+    report::draw_run_page("circuits/<latch>.nb", &[test(), test()], Scheme::Paper)
 }
 
 /// The data that the page's script reads.
@@ -97,16 +99,18 @@ fn the_page_holds_everything_and_fetches_nothing() {
     assert_eq!(test["cycles"].as_array().unwrap().len(), 24);
     assert_eq!(test["marks"], serde_json::json!([8, 16]));
     let frames = test["robots"][0]["frames"].as_str().unwrap().len() / 4 * 3 / 2;
-    let points = test["robots"][0]["points"].as_u64().unwrap() as usize;
+    let points = test["robots"][0]["corners"].as_u64().unwrap() as usize;
     assert_eq!(frames / (points * 2), 24 * 12 + 1);
 }
 
 #[test]
 fn a_recording_has_room_for_what_fits() {
-    assert_eq!(Recording::room(&[36; 5], 60), (7, 5));
-    let (stride, robots) = Recording::room(&[36; 100], 300);
+    assert_eq!(Room::SWARM.fit(&[36; 5], 60), (7, 5));
+    let (stride, robots) = Room::SWARM.fit(&[36; 100], 300);
     assert!(stride > 7 && robots <= 100);
-    assert_eq!(Recording::room(&[100_000_000], 1000).1, 0);
+    assert_eq!(Room::SWARM.fit(&[100_000_000], 1000).1, 0);
+    let (stride, robots) = Room::GAITS.fit(&[26; 1024], 8);
+    assert!(stride <= 14 && robots > 300, "{robots} gaits every {stride} steps");
 }
 
 fn chromium() -> Option<PathBuf> {
@@ -125,66 +129,113 @@ fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> Str
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// What a reader does, as a script put before and after the page's own.
+/// What a reader does, as scripts put before and after the page's own.
 const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => faults.push(e.message));\
-    addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => faults.push(String(m));</script>";
+    addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => faults.push(String(m));\
+    const tell = found => { document.body.innerHTML = ''; const told = document.createElement('pre'); told.id = 'found';\
+    told.textContent = JSON.stringify({ ...found, faults }); document.body.append(told); };\
+    const later = (ready, then) => { const started = performance.now(), wait = setInterval(() => {\
+    if (ready() || performance.now() - started > 20000) { clearInterval(wait); then(); } }, 100); };</script>";
 const READER: &str = r#"<script>
 const player = players[0], section = document.getElementById("test-0"), shot = () => section.querySelector(".stage").toDataURL();
-const before = shot(); section.querySelector(".play").click();
-const started = performance.now();
-const wait = setInterval(() => {
-  const moved = shot() !== before && player.time > 0; if (!moved && performance.now() - started < 20000) return; clearInterval(wait); section.querySelector(".play").click();
+const before = shot(), moved = () => shot() !== before && player.clock.time > 0; section.querySelector(".play").click();
+later(moved, () => {
+  const walked = moved(); section.querySelector(".play").click();
   const cell = section.querySelector('[data-id="cell-1"]'); cell.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
-  const followed = player.chosen, panel = section.querySelector(".robot").textContent, focusable = cell.tabIndex;
+  const followed = player.chosen, pressed = cell.getAttribute("aria-pressed"), panel = section.querySelector(".robot").textContent;
+  section.querySelector('[data-id="cell-2"]').dispatchEvent(new MouseEvent("mouseenter"));
+  const hovered = section.querySelector(".robot").textContent;
   const slider = section.querySelector(".scrub"); slider.value = 6; slider.dispatchEvent(new Event("input"));
   const clock = section.querySelector(".clock").textContent, wide = document.documentElement.scrollWidth <= innerWidth;
-  document.body.innerHTML = ""; const found = document.createElement("pre"); found.id = "found";
-  found.textContent = JSON.stringify({ moved, followed, panel, focusable, clock, wide, faults }); document.body.append(found);
-}, 100);
+  tell({ walked, followed, pressed, panel, hovered, focusable: cell.tabIndex, clock, wide });
+});
 </script>"#;
+const EXPLORER: &str = r##"<script>
+const niches = [...document.querySelectorAll("button.niche")], last = niches[niches.length - 1], stage = document.querySelector(".stage");
+last.click();
+const elite = archive.data.elites[Number(last.dataset.elite)], shot = () => stage.toDataURL(), before = shot(), moved = () => shot() !== before;
+later(moved, () => {
+  const walked = moved() && archive.clock.time > 0, panel = document.querySelector(".robot").textContent;
+  niches[0].focus(); niches[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+  const stepped = document.activeElement === niches[1], maps = document.querySelectorAll(".map").length;
+  const axis = document.querySelectorAll(".axis")[1]; axis.value = "2"; axis.dispatchEvent(new Event("change"));
+  const again = document.querySelectorAll("button.niche").length, wide = document.documentElement.scrollWidth <= innerWidth;
+  tell({ walked, behavior: elite.behavior, body: elite.about[4][1], panel, stepped, maps, niches: niches.length, again, wide });
+});
+</script>"##;
 
-#[test]
-fn the_page_works_in_a_browser() {
-    let Some(browser) = chromium() else { return };
+/// What the reader's script found on a page in a window of that size.
+fn found(browser: &Path, page: &str, reader: &str, size: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
-    let page = page();
     let watched =
-        page.replace("<head>\n", &format!("<head>\n{WATCH}\n")).replace("</body>", &format!("{READER}\n</body>"));
+        page.replace("<head>\n", &format!("<head>\n{WATCH}\n")).replace("</body>", &format!("{reader}\n</body>"));
     let file = folder.path().join("watched.html");
     std::fs::write(&file, watched).unwrap();
+    let arguments = [size, "--virtual-time-budget=30000", "--run-all-compositor-stages-before-draw", "--dump-dom"];
+    let dom = browse(browser, folder.path(), &arguments, &file);
+    let start = dom
+        .find("<pre id=\"found\">")
+        .unwrap_or_else(|| panic!("the reader's script ended:\n{}", &dom[..dom.len().min(2000)]));
+    let text = &dom[start + 16..start + dom[start..].find("</pre>").unwrap()];
+    let found: Value =
+        serde_json::from_str(&text.replace("&amp;", "&").replace("&gt;", ">").replace("&lt;", "<")).unwrap();
+    assert_eq!(found["faults"], serde_json::json!([]), "{found}");
+    assert_eq!(found["wide"], true, "nothing sticks out of the page: {found}");
+    found
+}
+
+/// Keeps a page and its screenshot among the artefacts of the tests.
+fn keep(browser: &Path, name: &str, page: &str, size: (u32, u32), look: &str) {
+    let artefacts = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (file, picture) = (artefacts.join(format!("{name}.html")), artefacts.join(format!("{name}.png")));
+    std::fs::write(&file, page).unwrap();
+    let (to, window) = (format!("--screenshot={}", picture.display()), format!("--window-size={},{}", size.0, size.1));
+    let folder = tempfile::tempdir().unwrap();
+    browse(browser, folder.path(), &[&window, look, "--virtual-time-budget=1000", &to], &file);
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&picture).unwrap()));
+    let mut reader = decoder.read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!((info.width, info.height), size);
+    let corner = &pixels[..3];
+    assert_eq!(corner[0] < 60, look == DARK, "the page is in the reader's theme: {corner:?}");
+}
+
+const LIGHT: &str = "--blink-settings=preferredColorScheme=1";
+const DARK: &str = "--blink-settings=preferredColorScheme=0";
+
+#[test]
+fn the_page_of_a_run_works_in_a_browser() {
+    let Some(browser) = chromium() else { return };
+    let page = page();
     for size in ["--window-size=1200,900", "--window-size=500,800"] {
-        let dom = browse(
-            &browser,
-            folder.path(),
-            &[size, "--virtual-time-budget=30000", "--run-all-compositor-stages-before-draw", "--dump-dom"],
-            &file,
-        );
-        let start = dom
-            .find("<pre id=\"found\">")
-            .unwrap_or_else(|| panic!("the reader's script ended:\n{}", &dom[..dom.len().min(2000)]));
-        let text = &dom[start + 16..start + dom[start..].find("</pre>").unwrap()];
-        let found: Value =
-            serde_json::from_str(&text.replace("&amp;", "&").replace("&gt;", ">").replace("&lt;", "<")).unwrap();
-        assert_eq!(found["faults"], serde_json::json!([]), "{found}");
-        assert_eq!(found["moved"], true, "the player moves");
+        let found = found(&browser, &page, READER, size);
+        assert_eq!(found["walked"], true, "the player moves");
         assert_eq!((&found["followed"], &found["focusable"]), (&1.into(), &0.into()), "a cell's robot is followed");
+        assert_eq!(found["pressed"], "true");
         assert!(found["panel"].as_str().unwrap().contains("nand_1"), "{found}");
+        assert!(found["hovered"].as_str().unwrap().contains("n3 = nand"), "{found}");
         assert_eq!(found["clock"], "cycle 7 of 24");
-        assert_eq!(found["wide"], true, "nothing sticks out of the page");
     }
+    keep(&browser, "run", &page, (1100, 1500), LIGHT);
+    keep(&browser, "run-phone-dark", &page, (500, 1500), DARK);
 }
 
 #[test]
-fn screenshots_are_kept() {
+fn the_page_of_an_evolution_opens_elites_in_a_browser() {
+    let bench = crate::drawing::evolved();
+    let page = std::fs::read_to_string(bench.path().join("out/tiny/report.html")).unwrap();
+    assert!(page.len() < 5_000_000 && page.contains("of 16 behaviors in") && page.contains("2 seeds together"));
+    let data = data(&page);
+    let elites = data["elites"].as_array().unwrap();
+    assert!(elites.len() > 4 && elites.iter().all(|elite| elite["frames"].is_string()));
     let Some(browser) = chromium() else { return };
-    let artefacts = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let file = artefacts.join("page.html");
-    std::fs::write(&file, page()).unwrap();
-    let picture = artefacts.join("page.png");
-    let to = format!("--screenshot={}", picture.display());
-    let folder = tempfile::tempdir().unwrap();
-    browse(&browser, folder.path(), &["--window-size=1100,1500", "--virtual-time-budget=1000", &to], &file);
-    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&picture).unwrap()));
-    let info = decoder.read_info().unwrap().info().clone();
-    assert_eq!((info.width, info.height), (1100, 1500));
+    let found = found(&browser, &page, EXPLORER, "--window-size=1200,900");
+    assert_eq!(found["walked"], true, "the chosen elite walks: {found}");
+    let panel = found["panel"].as_str().unwrap();
+    assert!(panel.contains(found["behavior"].as_str().unwrap()) && panel.contains(found["body"].as_str().unwrap()));
+    assert_eq!((&found["stepped"], &found["maps"]), (&true.into(), &16.into()), "{found}");
+    assert!(found["niches"].as_u64().unwrap() > 2 && found["again"].as_u64().unwrap() > 2, "{found}");
+    keep(&browser, "evolution", &page, (1100, 2400), LIGHT);
+    keep(&browser, "evolution-phone-dark", &page, (500, 2400), DARK);
 }

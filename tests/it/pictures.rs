@@ -161,7 +161,7 @@ fn one_robots_diagram_shows_its_schedule() {
     let com_x: Vec<f64> = (0..=1680).map(|i| 250.0 + f64::from(i) * 0.01).collect();
     let svg = report::draw_robot("nand_1", &schedule, &Trajectory { com_x, com_y: vec![], fault: None }).finish();
     let texts = texts(&svg);
-    for wanted in ["nand_1", "stimulus 1", "stimulus 2", "20"] {
+    for wanted in ["nand_1 in space and time", "voxels walked: 00 +8.40, 11 +8.40", "stimulus 1", "stimulus 2", "20"] {
         assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");
     }
 }

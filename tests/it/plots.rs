@@ -1,8 +1,8 @@
 //! Plots of evolution: heat maps, progress, champions, comparisons.
 
-use nbc::evolve::{Archive, Elite};
+use nbc::evolve::{Archive, Champion, Elite, NicheKey};
 use nbc::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
-use nbc::report::{self, Champions, Course, Group};
+use nbc::report::{self, Champions, Course, Terrain};
 use roxmltree::{Document, Node};
 
 fn group<'a>(document: &'a Document<'a>, id: &str) -> Node<'a, 'a> {
@@ -40,7 +40,7 @@ fn a_heat_map_colors_the_niches_that_are_filled() {
     let mut archive = Archive::new(&evolution);
     archive.add(elite(&["333", "300", "000"], "RRRL", 1.0));
     archive.add(elite(&["333", "333", "333"], "RRRL", 5.0));
-    let svg = report::draw_heatmap("gates", &archive, &axes(), 0, 1).finish();
+    let svg = heatmap(&archive, 0, 1);
     let document = Document::parse(&svg).unwrap();
     let cells = |word: &str| fills(group(&document, &format!("map-{word}")), "rect");
     let colored = |word: &str| cells(word).into_iter().filter(|fill| fill != "#ffffff").collect::<Vec<_>>();
@@ -49,8 +49,19 @@ fn a_heat_map_colors_the_niches_that_are_filled() {
     assert!(colored("RRRL").contains(&report::heat(0.0).to_string()));
     assert!(colored("RRRL").contains(&report::heat(1.0).to_string()));
     assert_eq!(colored("LLLL").len(), 0);
-    assert!(has_text(&svg, "active voxels (bin)") && has_text(&svg, "fitness (voxels)"));
-    report::png(&report::draw_heatmap("empty", &Archive::new(&evolution), &axes(), 3, 1));
+    assert!(has_text(&svg, "active voxels (bin)") && has_text(&svg, "distance (voxels)"));
+    let across = heatmap(&archive, 3, 1);
+    let filled = fills(group(&Document::parse(&across).unwrap(), "map-"), "rect");
+    assert_eq!(filled.len(), 16 * 4, "behaviors are an axis like any other");
+    assert_eq!(filled.iter().filter(|fill| *fill != "#ffffff").count(), 2);
+    heatmap(&Archive::new(&evolution), 0, 2);
+}
+
+fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
+    let best = |elites: &[Elite]| elites.iter().map(|elite| elite.fitness[0]).fold(0.0, f64::max);
+    let niches: Vec<(&NicheKey, f64)> = archive.niches().map(|(key, elites)| (key, best(elites))).collect();
+    let terrain = Terrain { unit: "distance (voxels)", axes: &axes(), niches: &niches };
+    report::draw_heatmap("gates", &terrain, x, y).finish()
 }
 
 fn evolution() -> nbc::model::Evolution {
@@ -97,15 +108,22 @@ fn progress_shows_every_seed_the_median_and_the_band() {
 
 #[test]
 fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
-    let made = |name: &str, stimuli, values: &[f64], apart| Group {
-        name: name.to_owned(),
-        stimuli,
-        values: values.to_vec(),
-        apart,
+    // Ten runs: robots that answer no stimulus go farthest, those that answer one and two alike.
+    let run = |i: u32| {
+        let champion = |word: &str, distance: f64| Champion {
+            behavior: word.parse().unwrap(),
+            fitness: [distance + 0.01 * f64::from(i), 0.0],
+            niches: 1,
+        };
+        vec![
+            champion("RRRR", 9.0),
+            champion("LLRR", 5.0),
+            champion("RRRL", 5.0 + if i.is_multiple_of(2) { -0.5 } else { 0.5 }),
+        ]
     };
-    let groups =
-        [made("XXXX", 0, &[9.0, 8.0, 10.0], false), made("XXYY", 1, &[5.0, 4.0], true), made("XYXY", 1, &[], false)];
-    let svg = report::draw_comparison("groups", "distance (voxels)", "Mann-Whitney U", &groups).finish();
+    let groups = report::behavior_groups(&(0..10).map(run).collect::<Vec<_>>());
+    let comparisons = report::compare_groups(&groups);
+    let svg = report::draw_comparison("groups", "distance (voxels)", &groups, &comparisons).finish();
     let document = Document::parse(&svg).unwrap();
     let middle = |name: &str| {
         let label = group(&document, &format!("group-{name}"))
@@ -114,10 +132,11 @@ fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
             .unwrap();
         label.attribute("x").unwrap().parse::<f64>().unwrap()
     };
-    assert_eq!(fills(group(&document, "group-XXXX"), "circle").len(), 3);
-    assert_eq!(fills(group(&document, "group-XXYY"), "circle").len(), 2);
-    let (first, second) = (middle("XXYY") - middle("XXXX"), middle("XYXY") - middle("XXYY"));
-    assert!((first - 2.0 * second).abs() < 0.1, "{first} is twice {second}");
+    assert_eq!(fills(group(&document, "group-XXXX"), "circle").len(), 10);
+    assert_eq!(fills(group(&document, "group-XYYX"), "circle").len(), 0);
+    let (first, second) = (middle("XXYY") - middle("XXXX"), middle("XXXY") - middle("XXYY"));
+    assert!((first - 1.5 * second).abs() < 0.1, "{first} is wider than {second}");
+    assert!(has_text(&svg, "XXXX against XXYY") && has_text(&svg, "p = 3.2e-5") && has_text(&svg, "A12 = 1.00"));
 }
 
 #[test]
@@ -132,5 +151,5 @@ fn champions_are_drawn_in_body_lengths() {
     assert_eq!(panel.descendants().filter(|n| n.has_tag_name("polyline")).count(), 2);
     assert_eq!(panel.descendants().filter(|n| n.has_attribute("stroke-dasharray")).count(), 3);
     // Ten voxels of a body of five columns are two lengths.
-    assert!(has_text(&svg, "2.0") && has_text(&svg, "body lengths"));
+    assert!(has_text(&svg, "body lengths (2.0)") && has_text(&svg, "nand"));
 }

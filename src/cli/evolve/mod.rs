@@ -8,17 +8,18 @@ use std::time::Instant;
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::run::{Ended, Run};
 use crate::cli::{Context, Failure, Format, Interrupt, Status};
 use crate::diag::{Code, Diagnostic};
-use crate::evolve::{ArchiveStats, Search};
+use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, Objective};
 use crate::pipeline;
-use crate::report::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
-use crate::store::DiskWorld;
+use crate::report::{BehaviorGroup, GroupComparison, Scheme, behavior_groups, compare_groups, describe_groups};
+use crate::store::{self, DiskWorld};
 use crate::swarm;
 
-pub(super) use run::{CHECKPOINT, read_checkpoint};
+pub(super) use run::{CHECKPOINT, PROGRESS, read_checkpoint};
 
 /// A run with `--quick`.
 const QUICK_SEEDS: usize = 3;
@@ -60,6 +61,9 @@ pub struct Arguments {
     /// Seconds between checkpoints, 0 for one each generation
     #[arg(long, value_name = "SECONDS", default_value_t = 10)]
     checkpoint_every: u64,
+    /// Write a page with plots and the archive's elites walking
+    #[arg(long)]
+    report: bool,
 }
 
 /// What the command prints for machines.
@@ -105,11 +109,11 @@ impl Arguments {
         results: &mut Results,
         context: &mut Context,
     ) -> Result<bool, Failure> {
-        let mut archives = Vec::new();
+        let mut champions = Vec::new();
         for &seed in &evolution.seeds {
             let mut run = Run::open(self, evolution, seed)?;
             let finished = run.make(interrupt)?;
-            archives.push(run.archive_stats());
+            champions.push(run.archive_stats().champions);
             results.runs.push(run.ended(finished));
             if context.format == Format::Text {
                 context.print(run.summary(finished))?;
@@ -120,13 +124,28 @@ impl Arguments {
             }
         }
         if is_comparable(evolution) {
-            let comparison = Comparison::of(evolution, &archives);
+            let comparison = Comparison::of(evolution, &champions);
             if context.format == Format::Text {
                 context.print(comparison.describe())?;
             }
             results.comparisons.push(comparison);
         }
+        if self.report {
+            self.write_report(evolution, context)?;
+        }
         Ok(true)
+    }
+
+    /// Writes the page of a declaration's runs beside their folders.
+    fn write_report(&self, evolution: &Evolution, context: &mut Context) -> Result<(), Failure> {
+        let folder = self.out.join(&evolution.name);
+        let path = folder.join("report.html");
+        let page = run_page(&read_run(&folder)?, Scheme::default());
+        store::write(&path, page.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
+        if context.format == Format::Text {
+            context.print(format_args!("report  {}\n", path.display()))?;
+        }
+        Ok(())
     }
 }
 
@@ -140,10 +159,10 @@ impl Results {
 }
 
 impl Comparison {
-    fn of(evolution: &Evolution, archives: &[ArchiveStats]) -> Self {
-        let groups = behavior_groups(archives);
+    fn of(evolution: &Evolution, champions: &[Vec<Champion>]) -> Self {
+        let groups = behavior_groups(champions);
         let pairs = compare_groups(&groups);
-        Self { run: evolution.name.clone(), seeds: archives.len(), groups, pairs }
+        Self { run: evolution.name.clone(), seeds: champions.len(), groups, pairs }
     }
 
     fn describe(&self) -> String {

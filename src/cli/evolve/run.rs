@@ -19,7 +19,7 @@ use crate::swarm::{self, Work};
 /// The file in a run's folder that it is resumed from.
 pub(in crate::cli) const CHECKPOINT: &str = "checkpoint.nbc";
 /// The file in a run's folder with a line for each generation.
-const PROGRESS: &str = "progress.jsonl";
+pub(in crate::cli) const PROGRESS: &str = "progress.jsonl";
 
 /// How one run ended.
 #[derive(Serialize)]

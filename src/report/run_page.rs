@@ -3,13 +3,13 @@
 use serde_json::{Value, json};
 
 use crate::model::CYCLE_STEPS;
+use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::recording::Recording;
 use crate::report::sprite::Scheme;
 use crate::report::svg::Svg;
 use crate::swarm::{Assembly, RowVerdict, Signal, SwarmTrace, TestVerdict};
 
-const STYLE: &str = include_str!("../../assets/report.css");
-const SCRIPT: &str = include_str!("../../assets/report.js");
+const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
 
 /// One test on the page.
 pub struct PageTest<'a> {
@@ -22,31 +22,25 @@ pub struct PageTest<'a> {
     /// The robots' film.
     pub recording: Recording,
     /// The circuit.
-    pub schematic: Svg,
+    pub schematic: &'a Svg,
     /// The swarm in space and time.
-    pub spacetime: Svg,
+    pub spacetime: &'a Svg,
 }
 
 /// The page of a run of the source file with that name.
-pub fn draw_page(source: &str, tests: &[PageTest<'_>], scheme: Scheme) -> String {
-    let sections: String = tests.iter().enumerate().map(|(i, test)| section(i, test)).collect();
+pub fn draw_run_page(source: &str, tests: &[PageTest<'_>], scheme: Scheme) -> String {
     let palette: Vec<String> = (1..=8).map(|code| scheme.color(code).to_string()).collect();
-    let data = json!({ "palette": palette, "tests": tests.iter().map(test_data).collect::<Vec<_>>() });
-    // No text of the user's can end the element.
-    let data = data.to_string().replace('<', "\\u003c");
-    let passed = tests.iter().filter(|test| test.verdict.passed).count();
-    let (word, verdict) = if passed == tests.len() { ("pass", "pass") } else { ("fail", "FAIL") };
-    let count = tests.len();
-    let (source, version) = (escape(source), env!("CARGO_PKG_VERSION"));
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
-         <title>{verdict}: {source}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{source}</h1>\n\
-         <p class=\"verdict {word}\">{verdict}: {passed} of {count} tests passed</p>\n{sections}\
-         <footer class=\"dim\"><p>made by nbc {version}</p></footer>\n</main>\n\
-         <script id=\"data\" type=\"application/json\">{data}</script>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
-    )
+    let (passed, count) = (tests.iter().filter(|test| test.verdict.passed).count(), tests.len());
+    let word = if passed == count { "pass" } else { "FAIL" };
+    Html {
+        heading: source,
+        passed: passed == count,
+        verdict: format!("{word}: {passed} of {count} tests passed"),
+        body: tests.iter().enumerate().map(|(i, test)| section(i, test)).collect(),
+        data: json!({ "palette": palette, "tests": tests.iter().map(test_data).collect::<Vec<_>>() }),
+        script: SCRIPT,
+    }
+    .finish()
 }
 
 fn section(number: usize, test: &PageTest<'_>) -> String {
@@ -57,29 +51,25 @@ fn section(number: usize, test: &PageTest<'_>) -> String {
         0 => String::new(),
         _ => format!("<p class=\"dim\">The player has room for the first {shown} robots.</p>\n"),
     };
-    let player = if shown == 0 { String::new() } else { PLAYER.to_owned() };
+    let player = if shown == 0 { String::new() } else { player() };
     format!(
         "<section id=\"test-{number}\">\n<h2>{circuit}: {title} <span class=\"{word}\">{word}</span></h2>\n{table}\
-         <h3>Schematic</h3>\n<div class=\"scroll picture\" tabindex=\"0\" role=\"group\" aria-label=\"schematic\">{schematic}</div>\n\
-         <div class=\"robot\" aria-live=\"polite\"></div>\n{left_out}{player}\
-         <details><summary>The swarm in space and time</summary>\n<div class=\"scroll picture\" tabindex=\"0\">{spacetime}</div>\n</details>\n</section>\n",
+         <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" aria-live=\"polite\"></div></div>\n{left_out}{player}\
+         <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n</section>\n",
         circuit = escape(&verdict.circuit),
         title = escape(&verdict.title),
         table = truth_table(verdict),
-        schematic = inline(&test.schematic),
-        spacetime = inline(&test.spacetime),
+        schematic = picture(test.schematic, "schematic"),
+        spacetime = picture(test.spacetime, "paths of the robots over time"),
     )
 }
 
-const PLAYER: &str = "<h3>Robots</h3>\n<div class=\"controls\"><button type=\"button\" class=\"play\">Play</button>\
-    <input type=\"range\" class=\"scrub\" min=\"0\" step=\"0.05\" value=\"0\" aria-label=\"time in cycles\">\
-    <label>cycles a second <select class=\"speed\"><option>0.5</option><option selected>2</option><option>4</option><option>8</option></select></label>\
-    <output class=\"clock\"></output></div>\n<canvas class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas>\n\
-    <h3>Waveform</h3>\n<canvas class=\"wave\" role=\"img\" aria-label=\"inputs, robots' bits and outputs over the cycles\"></canvas>\n";
-
-/// A drawing within the page; several drawings may name their parts alike, so the names are no longer identities.
-fn inline(svg: &Svg) -> String {
-    svg.finish().replace("<g id=\"", "<g data-id=\"")
+fn player() -> String {
+    format!(
+        "<h3>Robots</h3>\n{}<canvas class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas>\n\
+         <h3>Waveform</h3>\n<canvas class=\"wave\" role=\"img\" aria-label=\"inputs, robots' bits and outputs over the cycles\"></canvas>\n",
+        controls("2")
+    )
 }
 
 fn truth_table(verdict: &TestVerdict) -> String {
@@ -130,7 +120,6 @@ fn robot_data(test: &PageTest<'_>, k: usize) -> Value {
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
     let voxels: Vec<[usize; 5]> =
         recorded.voxels.iter().map(|&([a, b, c, d], code)| [a, b, c, d, usize::from(code)]).collect();
-    let bytes: Vec<u8> = recorded.frames.iter().flat_map(|small| small.to_le_bytes()).collect();
     let body = &member.robot.body;
     let character = &member.robot.character;
     let wired = |i: usize| match robot.senses[i] {
@@ -143,8 +132,8 @@ fn robot_data(test: &PageTest<'_>, k: usize) -> Value {
         "fault": fault,
         "size": [body.width(), body.height()],
         "voxels": voxels,
-        "points": recorded.points,
-        "frames": base64(&bytes),
+        "corners": recorded.points,
+        "frames": base64(&recorded.frames),
         "about": [
             ["robot", robot.robot.as_str()],
             ["behavior", &member.robot.behavior.to_string()],
@@ -177,35 +166,4 @@ fn waves(trace: &SwarmTrace) -> Vec<Value> {
         row(&format!("output {name}"), "out", 1, trace.cycles.iter().map(|cycle| cycle.outputs[o]).collect())
     });
     inputs.chain(robots).chain(outputs).collect()
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// Bytes as base64 (RFC 4648, section 4).
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
-        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for place in 0..4 {
-            let digit = DIGITS[(word >> (18 - 6 * place) & 63) as usize];
-            text.push(if place <= chunk.len() { char::from(digit) } else { '=' });
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn base64_is_that_of_the_standard() {
-        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
 }

@@ -1,0 +1,143 @@
+"use strict";
+// The player of a run's page: a swarm in lanes, in step with its waveform. Everything is in the page; nothing is fetched.
+
+const HINT = "Point at a cell to see its robot; choose it to follow the robot.";
+
+class Player {
+  constructor(section, test, palette) {
+    Object.assign(this, { section, test, palette, chosen: -1, cameras: [] });
+    this.stage = section.querySelector(".stage");
+    this.wave = section.querySelector(".wave");
+    this.panel = section.querySelector(".robot");
+    this.cells = [...section.querySelectorAll('[data-id^="cell-"]')];
+    this.clock = new Clock(section, test.cycles.length, () => this.draw());
+    this.cells.forEach(cell => this.bindCell(cell));
+    this.stage.onclick = event => this.choose(this.chosen < 0 ? Math.floor(event.offsetY / this.laneHeight()) : this.chosen);
+    this.wave.onclick = event => {
+      const left = this.labelWidth();
+      this.clock.seek((event.offsetX - left) / (this.wave.clientWidth - left - 8) * this.clock.cycles);
+    };
+    new ResizeObserver(() => this.draw()).observe(this.stage);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    this.show(-1);
+    this.draw();
+  }
+
+  bindCell(cell) {
+    const k = Number(cell.dataset.id.slice(5));
+    cell.tabIndex = 0;
+    cell.setAttribute("role", "button");
+    cell.setAttribute("aria-label", cell.querySelector("title").textContent);
+    cell.setAttribute("aria-pressed", "false");
+    cell.onmouseenter = cell.onfocus = () => this.show(k);
+    cell.onmouseleave = cell.onblur = () => this.show(this.chosen);
+    cell.onclick = () => this.choose(k);
+    cell.onkeydown = event => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      this.choose(k);
+    };
+  }
+
+  laneHeight() { return this.chosen < 0 ? 92 : 240; }
+  labelWidth() { return Math.min(110, this.wave.clientWidth * .3); }
+
+  /** Follows robot `k` alone, or all again when it is followed already. */
+  choose(k) {
+    if (!this.test.robots[k]) return;
+    this.chosen = this.chosen === k ? -1 : k;
+    this.cameras = [];
+    for (const cell of this.cells) {
+      const chosen = cell.dataset.id === "cell-" + this.chosen;
+      cell.classList.toggle("chosen", chosen);
+      cell.setAttribute("aria-pressed", String(chosen));
+    }
+    this.show(this.chosen);
+    this.draw();
+  }
+
+  show(k) {
+    const robot = this.test.robots[k];
+    if (robot) describe(this.panel, robot.net + " = " + robot.function, robot.about);
+    else this.panel.textContent = HINT;
+  }
+
+  draw() {
+    const lanes = this.chosen < 0 ? this.test.robots.map((_, k) => k) : [this.chosen];
+    const [pen, width] = fit(this.stage, Math.max(40, lanes.length * this.laneHeight()));
+    lanes.forEach((k, lane) => this.drawLane(pen, width, k, lane));
+    this.drawWave();
+  }
+
+  drawLane(pen, width, k, lane) {
+    const robot = this.test.robots[k], height = this.laneHeight(), label = Math.min(96, width * .28);
+    const frame = this.clock.time * this.test.pace, pose = poseAt(robot, frame);
+    const scale = Math.min((height - 30) / (robot.size[1] * 1.3), (width - label) / 12);
+    const view = { left: label, top: lane * height, width: width - label, ground: (lane + 1) * height - 14, scale };
+    view.camera = this.cameras[k] = this.follow(k, middle(pose), view.width / 2 / scale);
+    pen.save();
+    pen.beginPath();
+    pen.rect(label, view.top, view.width, height);
+    pen.clip();
+    drawGround(pen, view);
+    drawPose(pen, robot, pose, view, this.palette);
+    pen.restore();
+    pen.fillStyle = themed("ink");
+    pen.font = "13px system-ui, sans-serif";
+    pen.fillText(robot.net + " = " + robot.function, 4, view.ground - 34, label - 8);
+    const cycle = this.test.cycles[this.clock.cycle()];
+    if (cycle) drawStimuli(pen, cycle.sensed[k], 6, view.ground - 24);
+    if (robot.fault !== null && frame >= robot.fault) {
+      pen.fillStyle = themed("bad");
+      pen.fillText("unstable", 4, view.ground + 4);
+    }
+  }
+
+  /** Where the camera of a lane stands: it moves only when the robot leaves the middle. */
+  follow(k, place, half) {
+    const slack = this.chosen < 0 ? half / 2 : half / 4, camera = this.cameras[k] ?? place;
+    return Math.min(place + slack, Math.max(place - slack, camera));
+  }
+
+  drawWave() {
+    const rows = this.test.waves, height = 22, bottom = rows.length * height, cycles = this.clock.cycles;
+    const [pen, width] = fit(this.wave, bottom + 26), left = this.labelWidth(), span = width - left - 8;
+    const x = cycle => left + Math.min(cycle, cycles) / cycles * span;
+    const upright = (cycle, color, thick) => {
+      pen.strokeStyle = themed(color);
+      pen.lineWidth = thick;
+      pen.beginPath();
+      pen.moveTo(x(cycle), 0);
+      pen.lineTo(x(cycle), bottom);
+      pen.stroke();
+    };
+    pen.font = "12px system-ui, sans-serif";
+    for (const cycle of this.test.marks) upright(cycle, "line", 1);
+    rows.forEach((row, r) => this.drawRow(pen, row, r * height, x, left));
+    pen.fillStyle = themed("dim");
+    pen.textAlign = "center";
+    const step = Math.max(1, Math.ceil(cycles / Math.max(2, span / 60)));
+    for (let cycle = 0; cycle <= cycles; cycle += step) pen.fillText(String(cycle), x(cycle), bottom + 18);
+    pen.textAlign = "start";
+    upright(this.clock.time, "bad", 2);
+  }
+
+  drawRow(pen, row, top, x, left) {
+    const high = top + 5, low = top + 17;
+    pen.fillStyle = themed("ink");
+    pen.fillText(row.name, 4, low - 1, left - 10);
+    pen.strokeStyle = themed(row.color);
+    pen.lineWidth = 1.6;
+    pen.beginPath();
+    row.bits.forEach((bit, cycle) => {
+      const y = bit ? high : low;
+      pen.lineTo(x(cycle + row.shift), y);
+      pen.lineTo(x(cycle + 1 + row.shift), y);
+    });
+    pen.stroke();
+  }
+}
+
+const data = JSON.parse(document.getElementById("data").textContent);
+window.players = data.tests.map((test, i) =>
+  test.robots.length ? new Player(document.getElementById("test-" + i), test, data.palette) : null);

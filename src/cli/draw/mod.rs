@@ -1,0 +1,142 @@
+//! `nbc draw`: one picture, film, waveform or page of a robot, a library, an evolution run or a circuit's swarm.
+
+mod canvas;
+mod kind;
+mod robot;
+mod run;
+mod several;
+mod swarm;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::cli::{Context, Failure, Status, library, schedule, simulate};
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Behavior, Palette, Schedule};
+use crate::report::Scheme;
+use crate::source::Sources;
+use crate::store;
+
+use canvas::Canvas;
+use kind::Kind;
+use robot::Subject;
+
+pub(super) use run::{page as run_page, read as read_run};
+
+/// Draw a robot, a library, an evolution run, or the swarm of a file's first test
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  nbc draw nand --as gif --schedule '00*4 11*4' -o nand.gif
+  nbc draw body.yaml --as strip -o gait.svg
+  nbc draw shipped --as sprite -o library.png          the robots that come with the program
+  nbc draw circuits/latch.nb --as schematic -o latch.svg
+  nbc draw out/gates --as heatmap --axes voxels,active -o archive.png
+  nbc draw out/gates --behavior RRRL --as strip -o nand.png
+
+docs/pictures.md shows every kind.")]
+pub struct Arguments {
+    /// A file with a body, a robot of the library, a folder of robots or `shipped`, the folder of a run, or a source file (.nb)
+    what: String,
+    /// What to draw
+    #[arg(long = "as", value_enum)]
+    kind: Kind,
+    /// The file to write: `.svg` or `.png` for pictures, `.gif`, `.png` or `.apng` for films, `.vcd`, `.dot`, `.html`
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The stimuli of robots over time, as for `nbc simulate`
+    #[arg(long, default_value = "00*10 01*10 10*10 11*10")]
+    schedule: String,
+    /// The cycle of a pose [default: the schedule's end]
+    #[arg(long, value_name = "CYCLE", value_parser = cycle, allow_negative_numbers = true)]
+    at: Option<f64>,
+    /// The robot of this behavior, of a library or a run
+    #[arg(long, value_name = "BEHAVIOR")]
+    behavior: Option<Behavior>,
+    /// The two axes of a heat map: `voxels`, `active`, `sensory`, `behavior` [default: the first two]
+    #[arg(long, value_name = "X,Y", value_delimiter = ',')]
+    axes: Vec<String>,
+    /// Only these robots of a swarm, by the nets they drive, each with the inputs of the swarm
+    #[arg(long, value_name = "NET,…", value_delimiter = ',')]
+    robots: Vec<String>,
+    /// Colors that people with any color vision can tell apart
+    #[arg(long)]
+    safe_colors: bool,
+}
+
+impl Arguments {
+    /// Draws and writes.
+    ///
+    /// # Errors
+    /// When what is to be drawn makes no sense, is not to be had of this subject, or cannot be written.
+    pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
+        let canvas = Canvas::new(&self.output, self.kind).map_err(Failure::plain)?;
+        let what = Path::new(&self.what);
+        if self.what.ends_with(".nb") {
+            self.draw_swarm(&canvas)?
+        } else if run::is_run(what) {
+            let harvest = run::read(what)?;
+            match self.behavior {
+                Some(behavior) => self.draw_robot(&canvas, &self.champion(&harvest, behavior)?)?,
+                None => self.draw_run(&canvas, &harvest)?,
+            }
+        } else if self.what == "shipped" || what.is_dir() {
+            self.draw_library(&canvas)?
+        } else {
+            self.draw_robot(&canvas, &self.robot()?)?
+        }
+        Ok(Status::Done)
+    }
+
+    fn draw_library(&self, canvas: &Canvas) -> Result<(), Failure> {
+        let folder = Path::new(&self.what);
+        let library = if self.what == "shipped" { store::shipped_library().clone() } else { library::robots(folder)? };
+        match self.behavior {
+            None => self.draw_several(canvas, &several::of_library(&self.what, &library)),
+            Some(behavior) => {
+                let robot = library.robots_for(behavior.function()).next();
+                let robot = robot.ok_or_else(|| self.none_of(behavior))?;
+                self.draw_robot(canvas, &Subject::of(robot))
+            }
+        }
+    }
+
+    fn robot(&self) -> Result<Subject, Failure> {
+        let body = simulate::read_body(&self.what, Palette::paper().materials().len())?;
+        match library::find(store::shipped_library(), &self.what) {
+            Ok(robot) => Ok(Subject::of(robot)),
+            Err(_) => {
+                let title = Path::new(&self.what).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+                Ok(Subject { title: title.unwrap_or_default(), body })
+            }
+        }
+    }
+
+    fn none_of(&self, behavior: Behavior) -> Failure {
+        let message = format!("`{}` has no robot of the behavior `{behavior}`", self.what);
+        Failure::plain(Diagnostic::without_place(Code::Unknown, message))
+    }
+
+    fn scheme(&self) -> Scheme {
+        if self.safe_colors { Scheme::Safe } else { Scheme::Paper }
+    }
+
+    fn schedule(&self) -> Result<Schedule, Failure> {
+        let mut sources = Sources::default();
+        let id = sources.add("--schedule", self.schedule.as_str());
+        schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
+    }
+
+    /// The fault of a kind that this subject does not have.
+    fn not_of(&self, given: &str, wanted: &str) -> Failure {
+        let message = format!("`{}` is {given}, expected {wanted} for `--as {}`", self.what, self.kind.word());
+        Failure::plain(Diagnostic::without_place(Code::BadValue, message))
+    }
+}
+
+/// A moment in cycles from the start.
+fn cycle(text: &str) -> Result<f64, String> {
+    let cycle = text.parse().ok().filter(|cycle: &f64| cycle.is_finite() && *cycle >= 0.0);
+    cycle.ok_or_else(|| "expected a number of cycles, 0 or more".to_owned())
+}

@@ -1,0 +1,53 @@
+//! Pictures of one robot.
+
+use crate::cli::Failure;
+use crate::cli::draw::Arguments;
+use crate::cli::draw::canvas::Canvas;
+use crate::cli::draw::kind::Kind;
+use crate::model::{Body, CYCLE_STEPS, Robot, Schedule, Setting, Trial};
+use crate::report::{self, Film, STRIDE, Stage, Svg};
+use crate::sim;
+
+/// A body with what is written above its pictures.
+pub(super) struct Subject {
+    pub(super) title: String,
+    pub(super) body: Body,
+}
+
+impl Subject {
+    pub(super) fn of(robot: &Robot) -> Self {
+        Self { title: format!("{}: {}, {}", robot.name, robot.function(), robot.behavior), body: robot.body.clone() }
+    }
+}
+
+impl Arguments {
+    pub(super) fn draw_robot(&self, canvas: &Canvas, robot: &Subject) -> Result<(), Failure> {
+        let Subject { title, body } = robot;
+        let schedule = self.schedule()?;
+        match self.kind {
+            Kind::Apng | Kind::Gif => {
+                let stage = Stage::of_trial(&Setting::paper(), body, &schedule, STRIDE);
+                let lanes = vec![format!("{} x {}", body.width(), body.height())];
+                let largest = body.width().max(body.height());
+                canvas.film(&Film { title: title.clone(), lanes, scheme: self.scheme(), largest }, stage)
+            }
+            Kind::Pose => {
+                let step = self.at.map_or(schedule.steps(), |cycle| (cycle * f64::from(CYCLE_STEPS)).round() as u32);
+                canvas.picture(&report::draw_pose(title, body, &schedule, step, self.scheme()))
+            }
+            Kind::Spacetime => canvas.picture(&diagram(title, body, schedule)),
+            Kind::Sprite => canvas.picture(&report::draw_portrait(title, body, self.scheme())),
+            Kind::Strip => canvas.picture(&report::draw_strip(title, body, &schedule, self.scheme())),
+            Kind::Comparison | Kind::Heatmap | Kind::Progress => Err(self.not_of("a robot", "the folder of a run")),
+            Kind::Dot | Kind::Report | Kind::Schematic | Kind::Vcd => {
+                Err(self.not_of("a robot", "a source file (.nb)"))
+            }
+        }
+    }
+}
+
+fn diagram(title: &str, body: &Body, schedule: Schedule) -> Svg {
+    let trial = Trial { body: body.clone(), schedule };
+    let trajectory = sim::run_trials(&Setting::paper(), std::slice::from_ref(&trial)).remove(0);
+    report::draw_robot(title, &trial.schedule, &trajectory)
+}

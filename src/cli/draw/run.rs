@@ -1,0 +1,178 @@
+//! Pictures of an evolution run: of one seed's folder, or of all seeds of a declaration.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::cli::Failure;
+use crate::cli::draw::Arguments;
+use crate::cli::draw::canvas::Canvas;
+use crate::cli::draw::kind::Kind;
+use crate::cli::draw::robot::Subject;
+use crate::cli::draw::several::{One, Several, champions};
+use crate::cli::evolve::{CHECKPOINT, PROGRESS, read_checkpoint};
+use crate::diag::{Code, Diagnostic};
+use crate::evolve::NicheKey;
+use crate::model::{Behavior, CYCLE_STEPS, Objective, Pattern, Schedule, Spell};
+use crate::report::{self, Harvest, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
+
+/// Whether a folder is that of a run: a seed's, or one with seeds.
+pub(super) fn is_run(folder: &Path) -> bool {
+    !seeds(folder).is_empty()
+}
+
+/// The checkpoints of a run, in order of their seeds.
+fn seeds(folder: &Path) -> Vec<PathBuf> {
+    let own = folder.join(CHECKPOINT);
+    if own.is_file() {
+        return vec![own];
+    }
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let number = |path: &Path| path.file_name()?.to_str()?.strip_prefix("seed-")?.parse::<u64>().ok();
+    let mut seeds: Vec<(u64, PathBuf)> = entries
+        .filter_map(|entry| {
+            let path = entry.ok()?.path();
+            Some((number(&path)?, path.join(CHECKPOINT)))
+        })
+        .filter(|(_, checkpoint)| checkpoint.is_file())
+        .collect();
+    seeds.sort();
+    seeds.into_iter().map(|(_, checkpoint)| checkpoint).collect()
+}
+
+/// What the runs in a folder found.
+pub(in crate::cli) fn read(folder: &Path) -> Result<Harvest, Failure> {
+    let mut harvest: Option<Harvest> = None;
+    for path in seeds(folder) {
+        let Some(checkpoint) = read_checkpoint(&path)? else { continue };
+        let progress = fs::read_to_string(path.with_file_name(PROGRESS)).unwrap_or_default();
+        let run = SeedRun {
+            seed: checkpoint.state.seed,
+            niches: checkpoint.state.niches,
+            progress: SeedRun::read_progress(&progress),
+        };
+        if checkpoint.descriptors.is_empty() {
+            return Err(unusable(&path, "does not say the axes of its archive", "`nbc evolve --resume` writes them"));
+        }
+        let (name, axes, objective) = (checkpoint.evolution, checkpoint.descriptors, checkpoint.objective);
+        let harvest = harvest.get_or_insert(Harvest { name, axes: axes.clone(), objective, runs: Vec::new() });
+        if harvest.axes != axes || harvest.objective != objective {
+            let help = "draw the folder of one seed";
+            return Err(unusable(&path, "was made by another declaration than those before it", help));
+        }
+        harvest.runs.push(run);
+    }
+    harvest.ok_or_else(|| unusable(folder, "holds no run", "name the folder of a run, such as `out/gates`"))
+}
+
+fn unusable(path: &Path, what: &str, help: &str) -> Failure {
+    let message = format!("`{}` {what}", path.display());
+    Failure::plain(Diagnostic::without_place(Code::Checkpoint, message).with_help(help))
+}
+
+impl Arguments {
+    pub(super) fn draw_run(&self, canvas: &Canvas, harvest: &Harvest) -> Result<(), Failure> {
+        match self.kind {
+            Kind::Comparison => canvas.picture(&comparison(harvest)),
+            Kind::Heatmap => {
+                let [x, y] = self.chosen_axes(harvest)?;
+                canvas.picture(&heatmap(harvest, x, y))
+            }
+            Kind::Progress => canvas.picture(&progress(harvest)),
+            Kind::Report => canvas.bytes(page(harvest, self.scheme()).as_bytes()),
+            Kind::Spacetime => canvas.picture(&champions(&each_champion(harvest), &self.schedule()?)),
+            Kind::Apng | Kind::Gif | Kind::Sprite => self.draw_several(canvas, &best_champions(harvest)),
+            Kind::Pose | Kind::Strip => Err(self.not_of("a run", "one `--behavior` of it")),
+            Kind::Dot | Kind::Schematic | Kind::Vcd => Err(self.not_of("a run", "a source file (.nb)")),
+        }
+    }
+
+    /// The best robot of a behavior.
+    pub(super) fn champion(&self, harvest: &Harvest, behavior: Behavior) -> Result<Subject, Failure> {
+        let elite = harvest.champion(behavior).ok_or_else(|| self.none_of(behavior))?;
+        let title = format!("{}: {}, {behavior}", harvest.name, behavior.function());
+        Ok(Subject { title, body: elite.body.clone() })
+    }
+
+    /// The places of the two axes that are asked for; the first two where none are.
+    fn chosen_axes(&self, harvest: &Harvest) -> Result<[usize; 2], Failure> {
+        let words: Vec<&str> = harvest.axes.iter().map(|&axis| axis_word(axis)).collect();
+        let bad = |message: String| {
+            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+            let fault = Diagnostic::without_place(Code::BadValue, message);
+            Failure::plain(fault.with_help(format!("the archive has the axes {}", words.join(", "))))
+        };
+        if self.axes.is_empty() {
+            let second = usize::from(words.len() > 1);
+            return Ok([0, second]);
+        }
+        let [x, y] = &self.axes[..] else {
+            return Err(bad(format!("{} axes were given, expected two such as `voxels,active`", self.axes.len())));
+        };
+        let place = |word: &str| {
+            let found = words.iter().position(|known| *known == word);
+            found.ok_or_else(|| bad(format!("`{word}` is no axis of this archive")))
+        };
+        match [place(x)?, place(y)?] {
+            [x, y] if x == y => Err(bad(format!("both axes are `{}`, expected two different ones", words[x]))),
+            places => Ok(places),
+        }
+    }
+}
+
+/// The champions of every seed, by behavior.
+fn each_champion(harvest: &Harvest) -> Several {
+    let one = |behavior: Behavior| {
+        harvest.runs.iter().filter_map(move |run| {
+            let body = run.champion(behavior)?.body.clone();
+            Some(One { behavior, name: format!("seed {}", run.seed), body })
+        })
+    };
+    let title = match harvest.runs.len() {
+        1 => format!("{}: the champion of each behavior", harvest.name),
+        seeds => format!("{}: the champions of {seeds} seeds by behavior", harvest.name),
+    };
+    Several { title, robots: Behavior::all().flat_map(one).collect() }
+}
+
+/// The best of each behavior over all seeds.
+fn best_champions(harvest: &Harvest) -> Several {
+    let one = |behavior: Behavior| {
+        let body = harvest.champion(behavior)?.body.clone();
+        Some(One { behavior, name: behavior.function().to_string(), body })
+    };
+    let robots = Behavior::all().filter_map(one).collect();
+    Several { title: format!("{}: the champion of each behavior", harvest.name), robots }
+}
+
+fn heatmap(harvest: &Harvest, x: usize, y: usize) -> Svg {
+    let best = harvest.best();
+    let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
+    let terrain = Terrain { unit: harvest.unit(), axes: &harvest.axes, niches: &niches };
+    report::draw_heatmap(&format!("{}: the best of each niche", harvest.name), &terrain, x, y)
+}
+
+fn progress(harvest: &Harvest) -> Svg {
+    report::draw_progress(&format!("{} over time", harvest.name), "generation", &harvest.courses())
+}
+
+fn comparison(harvest: &Harvest) -> Svg {
+    let champions: Vec<_> = harvest.runs.iter().map(SeedRun::champions).collect();
+    let groups = report::behavior_groups(&champions);
+    let title = format!("{}: champions by group of behaviors", harvest.name);
+    report::draw_comparison(&title, harvest.unit(), &groups, &report::compare_groups(&groups))
+}
+
+/// The page of a run with all its plots.
+pub(in crate::cli) fn page(harvest: &Harvest, scheme: Scheme) -> String {
+    let spell = |pattern| Spell { pattern, steps: 10 * CYCLE_STEPS };
+    let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
+    let plate = |heading: &str, drawing| Plate { heading: heading.to_owned(), drawing };
+    let mut plates = vec![
+        plate("Progress", progress(harvest)),
+        plate("Champions in space and time", champions(&each_champion(harvest), &schedule)),
+    ];
+    if harvest.objective == Objective::Distance {
+        plates.push(plate("Groups of behaviors", comparison(harvest)));
+    }
+    report::draw_evolution_page(harvest, &plates, scheme)
+}

@@ -1,0 +1,201 @@
+//! The report of evolution runs as one HTML page that needs nothing else: the verdict, the archive whose niches open their elites and
+//! play their gaits, and the plots.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+
+use crate::evolve::{Elite, NicheKey};
+use crate::model::{Axis, Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Setting, Spell};
+use crate::report::chart::range_of;
+use crate::report::harvest::{Harvest, axis_word, bins};
+use crate::report::heatmap::{heat, share};
+use crate::report::html::{Html, base64, controls, escape, picture};
+use crate::report::recording::{Recorded, Recording, Room};
+use crate::report::sprite::Scheme;
+use crate::report::stage::Stage;
+use crate::report::svg::Svg;
+
+const SCRIPT: &str = include_str!("../../assets/page/archive.js");
+/// Cycles of a gait under each pattern.
+const GAIT_CYCLES: usize = 2;
+
+/// A drawing of the page with its heading, and what is said below it.
+pub struct Plate {
+    /// The heading.
+    pub heading: String,
+    /// The drawing.
+    pub drawing: Svg,
+}
+
+/// An elite on the page.
+struct Entry<'a> {
+    key: &'a NicheKey,
+    seed: u64,
+    elite: &'a Elite,
+}
+
+/// The page of what runs of one declaration found. The gaits are simulated here.
+pub fn draw_evolution_page(harvest: &Harvest, plates: &[Plate], scheme: Scheme) -> String {
+    let entries = ranked(harvest);
+    let (pace, gaits) = record(&entries);
+    let left_out = entries.len() - gaits.len();
+    let behaviors = Behavior::all().filter(|&behavior| harvest.champion(behavior).is_some()).count();
+    Html {
+        heading: &harvest.name,
+        passed: behaviors > 0,
+        verdict: verdict(harvest, behaviors, entries.len()),
+        body: archive(harvest, left_out) + &plates.iter().map(plate).collect::<String>(),
+        data: data(harvest, &entries, &gaits, pace, scheme),
+        script: SCRIPT,
+    }
+    .finish()
+}
+
+fn verdict(harvest: &Harvest, behaviors: usize, filled: usize) -> String {
+    let runs = match harvest.runs.len() {
+        1 => format!("seed {}", harvest.runs[0].seed),
+        several => format!("{several} seeds together"),
+    };
+    let niches = harvest.niche_count();
+    format!(
+        "{behaviors} of 16 behaviors in {filled} of {niches} niches ({:.1} %), {runs}",
+        100.0 * filled as f64 / niches.max(1) as f64
+    )
+}
+
+/// The best of each niche: the best of every behavior first, then the second best, and behaviors that answer more stimuli first.
+fn ranked(harvest: &Harvest) -> Vec<Entry<'_>> {
+    let mut of_behavior: BTreeMap<Behavior, Vec<Entry<'_>>> = BTreeMap::new();
+    for (key, (seed, elite)) in harvest.best() {
+        of_behavior.entry(elite.behavior).or_default().push(Entry { key, seed, elite });
+    }
+    let mut ranked = Vec::new();
+    for (behavior, mut entries) in of_behavior {
+        entries.sort_by(|a, b| b.elite.fitness[0].total_cmp(&a.elite.fitness[0]));
+        let arity = Reverse(behavior.function().arity());
+        ranked.extend(entries.into_iter().enumerate().map(|(rank, entry)| ((rank, arity, Reverse(behavior)), entry)));
+    }
+    ranked.sort_by_key(|(rank, _)| *rank);
+    ranked.into_iter().map(|(_, entry)| entry).collect()
+}
+
+/// Frames in a cycle, and the gaits of as many of the first elites as there is room for.
+fn record(entries: &[Entry<'_>]) -> (u32, Vec<Recorded>) {
+    let spell = |pattern| Spell { pattern, steps: GAIT_CYCLES as u32 * CYCLE_STEPS };
+    let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
+    let bodies: Vec<Body> = entries.iter().map(|entry| entry.elite.body.clone()).collect();
+    let setting = Setting::paper();
+    let probe = Stage::of_trials(&setting, &bodies, &schedule, CYCLE_STEPS);
+    let points: Vec<usize> = (0..bodies.len()).map(|i| probe.points(i).len()).collect();
+    let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES * Pattern::PAIRS.len());
+    let recording = Recording::of(Stage::of_trials(&setting, &bodies[..count], &schedule, stride), count);
+    (recording.frames_per_cycle, recording.robots)
+}
+
+fn archive(harvest: &Harvest, left_out: usize) -> String {
+    let counted: Vec<usize> = (0..harvest.axes.len()).filter(|&i| harvest.axes[i] != Axis::Behavior).collect();
+    let choice = |label: &str, place: usize| {
+        let option = |&i: &usize| {
+            let chosen = if counted.get(place.min(counted.len() - 1)) == Some(&i) { " selected" } else { "" };
+            format!("<option value=\"{i}\"{chosen}>{}</option>", axis_word(harvest.axes[i]))
+        };
+        let options: String = counted.iter().map(option).collect();
+        format!("<label>{label} <select class=\"axis\">{options}</select></label>")
+    };
+    let axes = if counted.is_empty() { String::new() } else { choice("across", 0) + &choice("upwards", 1) };
+    let untold = match left_out {
+        0 => String::new(),
+        _ => format!("<p class=\"dim\">{left_out} elites have no gait here, as the page has no room for more.</p>\n"),
+    };
+    format!(
+        "<section id=\"archive\">\n<h2>Archive</h2>\n<p>Each square is a niche, colored by the best {unit} found there. \
+         Choose one to see its elite walk; the arrow keys go from niche to niche.</p>\n\
+         <div class=\"controls\">{axes}<span class=\"key\">{low} <i style=\"background:linear-gradient(90deg,{colors})\"></i> {high}</span></div>\n\
+         <div class=\"beside\"><div class=\"maps\"></div>\n<div class=\"elite\"><div class=\"robot\" aria-live=\"polite\"></div>\n\
+         <p class=\"untold dim\" hidden>There was no room for the gait of this elite.</p>\n\
+         <div class=\"player\">{controls}<canvas class=\"stage\" role=\"img\" aria-label=\"the elite walking\"></canvas></div></div></div>\n\
+         {untold}</section>\n",
+        unit = escape(harvest.unit()),
+        low = number(range(harvest).0),
+        high = number(range(harvest).1),
+        colors = (0..=8).map(|i| heat(f64::from(i) / 8.0).to_string()).collect::<Vec<_>>().join(","),
+        controls = controls("1"),
+    )
+}
+
+fn range(harvest: &Harvest) -> (f64, f64) {
+    range_of(harvest.best().values().map(|(_, elite)| elite.fitness[0]), 0.0)
+}
+
+fn number(value: f64) -> String {
+    format!("{value:.2}")
+}
+
+fn plate(plate: &Plate) -> String {
+    let heading = escape(&plate.heading);
+    format!("<section>\n<h2>{heading}</h2>\n{}</section>\n", picture(&plate.drawing, &plate.heading))
+}
+
+fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, scheme: Scheme) -> Value {
+    let range = range(harvest);
+    let elites: Vec<Value> = entries
+        .iter()
+        .enumerate()
+        .map(|(i, entry)| {
+            elite_data(harvest, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string())
+        })
+        .collect();
+    let axes: Vec<Value> =
+        harvest.axes.iter().map(|&axis| json!({ "word": axis_word(axis), "bins": bins(axis) })).collect();
+    let behaviors: Vec<Value> = Behavior::all()
+        .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
+        .collect();
+    json!({
+        "palette": (1..=8).map(|code| scheme.color(code).to_string()).collect::<Vec<_>>(),
+        "patterns": Pattern::PAIRS.map(|pattern| pattern.to_string()),
+        "cycles": GAIT_CYCLES,
+        "pace": pace,
+        "axes": axes,
+        "behaviors": behaviors,
+        "elites": elites,
+        "first": 0,
+    })
+}
+
+fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, color: String) -> Value {
+    let Entry { key: NicheKey(niche), seed, elite } = entry;
+    let counted = harvest.axes.iter().zip(niche).filter(|(axis, _)| **axis != Axis::Behavior);
+    let place: Vec<String> =
+        counted.map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, bins(*axis))).collect();
+    let walked: Vec<String> = Pattern::PAIRS
+        .iter()
+        .zip(elite.displacement)
+        .map(|(pattern, voxels)| format!("{pattern} {voxels:+.2}"))
+        .collect();
+    let mut value = json!({
+        "behavior": elite.behavior.to_string(),
+        "function": elite.behavior.function().name(),
+        "niche": niche,
+        "fitness": elite.fitness,
+        "color": color,
+        "size": [elite.body.width(), elite.body.height()],
+        "about": [
+            ["best", &format!("{} {}", number(elite.fitness[0]), harvest.unit())],
+            ["bins", &place.join(", ")],
+            ["second fitness", &format!("{:.3}", elite.fitness[1])],
+            ["displacement", &format!("{} voxels", walked.join(", "))],
+            ["body", &elite.body.rows().join(" ")],
+            ["born", &format!("seed {seed}, generation {}", elite.generation)],
+        ],
+    });
+    if let Some(gait) = gait {
+        let voxels: Vec<[usize; 5]> =
+            gait.voxels.iter().map(|&([a, b, c, d], code)| [a, b, c, d, usize::from(code)]).collect();
+        value["voxels"] = json!(voxels);
+        value["corners"] = json!(gait.points);
+        value["frames"] = json!(base64(&gait.frames));
+    }
+    value
+}

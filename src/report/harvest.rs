@@ -1,0 +1,150 @@
+//! What evolution runs of one declaration found: each seed's elites and progress, and the best elite of each niche over all seeds.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::evolve::{Champion, Elite, NicheKey};
+use crate::model::{Axis, Behavior, Count, Objective};
+use crate::report::progress::Course;
+
+/// Runs of one declaration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Harvest {
+    /// The declaration's name.
+    pub name: String,
+    /// The archive's axes.
+    pub axes: Vec<Axis>,
+    /// What was rewarded.
+    pub objective: Objective,
+    /// The runs, in order of their seeds.
+    pub runs: Vec<SeedRun>,
+}
+
+/// The run of one seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeedRun {
+    /// The seed.
+    pub seed: u64,
+    /// Filled niches and their elites.
+    pub niches: Vec<(NicheKey, Vec<Elite>)>,
+    /// The run after each generation.
+    pub progress: Vec<ProgressLine>,
+}
+
+/// What is read of a line of `progress.jsonl`.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct ProgressLine {
+    /// Generations done.
+    pub generation: u32,
+    /// Filled niches as a share of all.
+    pub coverage: f64,
+    /// Sum over filled niches of the best first fitness.
+    pub qd_score: f64,
+}
+
+impl SeedRun {
+    /// The lines of a file of progress, as far as they can be read: the last one of a run that was killed may be cut.
+    pub fn read_progress(text: &str) -> Vec<ProgressLine> {
+        text.lines().map_while(|line| serde_json::from_str(line).ok()).collect()
+    }
+
+    /// The fittest elite of a behavior; the first of equals.
+    pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
+        let own = self.niches.iter().flat_map(|(_, elites)| elites).filter(|elite| elite.behavior == behavior);
+        fittest(own)
+    }
+
+    /// The champions of all behaviors found, as an archive's statistics tell them.
+    pub fn champions(&self) -> Vec<Champion> {
+        let champion = |behavior| {
+            let fitness = self.champion(behavior)?.fitness;
+            let holds = |elites: &[Elite]| elites.iter().any(|elite| elite.behavior == behavior);
+            let niches = self.niches.iter().filter(|(_, elites)| holds(elites)).count();
+            Some(Champion { behavior, fitness, niches })
+        };
+        Behavior::all().filter_map(champion).collect()
+    }
+}
+
+fn fittest<'a>(elites: impl Iterator<Item = &'a Elite>) -> Option<&'a Elite> {
+    elites.fold(None, |best: Option<&Elite>, elite| match best {
+        Some(best) if best.fitness[0] >= elite.fitness[0] => Some(best),
+        _ => Some(elite),
+    })
+}
+
+impl Harvest {
+    /// The fittest elite of each niche over all seeds, with its seed.
+    pub fn best(&self) -> BTreeMap<&NicheKey, (u64, &Elite)> {
+        let mut best: BTreeMap<&NicheKey, (u64, &Elite)> = BTreeMap::new();
+        for run in &self.runs {
+            for (key, elites) in &run.niches {
+                let Some(elite) = fittest(elites.iter()) else { continue };
+                let held = best.entry(key).or_insert((run.seed, elite));
+                if elite.fitness[0] > held.1.fitness[0] {
+                    *held = (run.seed, elite);
+                }
+            }
+        }
+        best
+    }
+
+    /// The fittest elite of a behavior over all seeds.
+    pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
+        fittest(self.runs.iter().filter_map(|run| run.champion(behavior)))
+    }
+
+    /// Niches there are.
+    pub fn niche_count(&self) -> usize {
+        self.axes.iter().map(|axis| bins(*axis)).product()
+    }
+
+    /// Coverage and QD-score over the generations.
+    pub fn courses(&self) -> [Course; 2] {
+        let runs = |value: fn(&ProgressLine) -> f64| {
+            let points = |run: &SeedRun| {
+                run.progress.iter().map(|line| (f64::from(line.generation), value(line))).collect::<Vec<_>>()
+            };
+            self.runs.iter().map(points).collect()
+        };
+        [
+            Course {
+                title: "coverage".to_owned(),
+                unit: "filled niches (%)".to_owned(),
+                runs: runs(|line| 100.0 * line.coverage),
+            },
+            Course {
+                title: "QD-score".to_owned(),
+                unit: format!("sum of {}", self.unit()),
+                runs: runs(|line| line.qd_score),
+            },
+        ]
+    }
+
+    /// What the first fitness is.
+    pub fn unit(&self) -> &'static str {
+        match self.objective {
+            Objective::Distance => "distance (voxels)",
+            Objective::Gate => "being right (share)",
+        }
+    }
+}
+
+/// How many bins an axis has.
+pub fn bins(axis: Axis) -> usize {
+    match axis {
+        Axis::Count { bins, .. } => bins,
+        Axis::Behavior => 16,
+    }
+}
+
+/// The word of an axis in the language.
+pub fn axis_word(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Count { of: Count::Voxels, .. } => "voxels",
+        Axis::Count { of: Count::Active, .. } => "active",
+        Axis::Count { of: Count::Sensory, .. } => "sensory",
+        Axis::Behavior => "behavior",
+    }
+}

@@ -1,0 +1,109 @@
+//! What all pages have in common: one file that fetches nothing, in the reader's theme, with its data and scripts inside.
+
+use serde_json::Value;
+
+use crate::report::svg::Svg;
+
+const STYLE: &str = include_str!("../../assets/page/page.css");
+/// Robots on a canvas, and the controls of a player.
+const COMMON: [&str; 2] = [include_str!("../../assets/page/robot.js"), include_str!("../../assets/page/clock.js")];
+
+/// A page under way.
+pub struct Html<'a> {
+    /// The heading, as plain text.
+    pub heading: &'a str,
+    /// Whether the verdict is good.
+    pub passed: bool,
+    /// The verdict, which comes first, as plain text.
+    pub verdict: String,
+    /// What follows, as HTML.
+    pub body: String,
+    /// What the script reads.
+    pub data: Value,
+    /// What moves the page.
+    pub script: &'static str,
+}
+
+impl Html<'_> {
+    /// The page as a file.
+    pub fn finish(self) -> String {
+        let (heading, verdict, version) = (escape(self.heading), escape(&self.verdict), env!("CARGO_PKG_VERSION"));
+        let class = if self.passed { "pass" } else { "fail" };
+        // No text of the user's can end the element.
+        let data = self.data.to_string().replace('<', "\\u003c");
+        let scripts: String =
+            COMMON.iter().chain([&self.script]).map(|script| format!("<script>\n{script}</script>\n")).collect();
+        format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
+             <title>{heading}: {verdict}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <h1>{heading}</h1>\n<p class=\"verdict {class}\">{verdict}</p>\n{body}\
+             <footer class=\"dim\"><p>made by nbc {version}</p></footer>\n</main>\n\
+             <script id=\"data\" type=\"application/json\">{data}</script>\n{scripts}</body>\n</html>\n",
+            body = self.body,
+        )
+    }
+}
+
+/// The buttons of a player, which starts at that many cycles a second.
+pub fn controls(speed: &str) -> String {
+    let option = |value: &str| {
+        let chosen = if value == speed { " selected" } else { "" };
+        format!("<option{chosen}>{value}</option>")
+    };
+    let speeds: String = ["0.5", "1", "2", "4", "8"].map(option).concat();
+    format!(
+        "<div class=\"controls\"><button type=\"button\" class=\"play\">Play</button>\
+         <input type=\"range\" class=\"scrub\" min=\"0\" step=\"0.05\" value=\"0\" aria-label=\"time in cycles\">\
+         <label>cycles a second <select class=\"speed\">{speeds}</select></label><output class=\"clock\"></output></div>\n"
+    )
+}
+
+/// A drawing within a page, in a frame that scrolls where the page is narrow. Several drawings may name their parts alike, so the names
+/// are no longer identities.
+pub fn picture(svg: &Svg, label: &str) -> String {
+    let svg = svg.finish().replace("<g id=\"", "<g data-id=\"");
+    format!(
+        "<div class=\"scroll picture\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">{svg}</div>\n",
+        escape(label)
+    )
+}
+
+/// Text for an element or an attribute.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Numbers of 16 bits, lower byte first, as base64 (RFC 4648, section 4).
+pub fn base64(numbers: &[i16]) -> String {
+    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    base64_of(&bytes)
+}
+
+fn base64_of(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
+        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for place in 0..4 {
+            let digit = DIGITS[(word >> (18 - 6 * place) & 63) as usize];
+            text.push(if place <= chunk.len() { char::from(digit) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_is_that_of_the_standard() {
+        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+            assert_eq!(base64_of(plain.as_bytes()), coded);
+        }
+        assert_eq!(base64(&[1, -2]), base64_of(&[1, 0, 254, 255]));
+    }
+}

@@ -1,0 +1,76 @@
+//! The pictures of README.md and docs/: all are made by the commands of docs/pictures.md, and none is left over.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::cli::Bench;
+
+/// The most bytes of one picture and of all together.
+const MOST: [u64; 2] = [1_000_000, 4_000_000];
+const AGAIN: &str = "`cargo run --release --example gallery` makes them";
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The commands of docs/pictures.md, without the program's name.
+fn commands() -> Vec<String> {
+    let manual = fs::read_to_string(root().join("docs/pictures.md")).unwrap();
+    manual.lines().filter_map(|line| line.strip_prefix("    nbc ")).map(str::to_owned).collect()
+}
+
+/// The file that a command writes into docs/pictures.
+fn written(command: &str) -> Option<String> {
+    command.split_once("-o docs/pictures/").map(|(_, file)| file.trim().to_owned())
+}
+
+/// The pictures that a page shows.
+fn shown(page: &Path) -> Vec<String> {
+    let text = fs::read_to_string(page).unwrap();
+    let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next()?.split_once("pictures/"));
+    links.map(|(_, file)| file.to_owned()).collect()
+}
+
+#[test]
+fn every_picture_is_made_by_one_command_and_shown() {
+    let made: BTreeSet<String> = commands().iter().filter_map(|command| written(command)).collect();
+    let files = fs::read_dir(root().join("docs/pictures")).unwrap().map(|entry| entry.unwrap());
+    let there: BTreeSet<String> = files.map(|entry| entry.file_name().into_string().unwrap()).collect();
+    assert_eq!(made, there, "the commands of docs/pictures.md against docs/pictures; {AGAIN}");
+    let pages = fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let pages = pages.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
+    let shown: BTreeSet<String> = pages
+        .chain([root().join("README.md")])
+        .flat_map(|page| shown(&page))
+        .filter(|file| file.contains('.'))
+        .collect();
+    assert_eq!(shown, there, "the pictures that README.md and docs/ show against docs/pictures");
+}
+
+#[test]
+fn pictures_are_small() {
+    let size = |file: String| (fs::metadata(root().join("docs/pictures").join(&file)).unwrap().len(), file);
+    let sizes: Vec<(u64, String)> = commands().iter().filter_map(|command| written(command)).map(size).collect();
+    let large: Vec<_> = sizes.iter().filter(|(size, _)| *size > MOST[0]).collect();
+    assert!(large.is_empty(), "{large:?}");
+    assert!(sizes.iter().map(|(size, _)| size).sum::<u64>() < MOST[1]);
+}
+
+#[test]
+fn pictures_of_bodies_are_those_of_this_version() {
+    let bench = Bench::new();
+    let quick =
+        commands().into_iter().filter(|command| command.contains("--as sprite") || command.contains("--as pose"));
+    let mut tried = 0;
+    for command in quick {
+        let file = written(&command).unwrap();
+        let line = command.replace("docs/pictures/", "").replace('\'', "");
+        let ran = bench.run(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let [made, kept] = [bench.path().join(&file), root().join("docs/pictures").join(&file)].map(fs::read);
+        assert!(made.unwrap() == kept.unwrap(), "docs/pictures/{file} is of another version; {AGAIN}");
+        tried += 1;
+    }
+    assert!(tried >= 4);
+}
