@@ -155,16 +155,18 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
     for comparison in comparisons {
         let [a, b] = comparison.groups.map(|i| groups[i].name.split(',').next().unwrap_or_default());
         let note = if comparison.is_approximate { "approximate: there are ties" } else { "" };
-        let numbers = [comparison.p, comparison.p_adjusted].map(|p| format!("{p:.2e}"));
-        let [p, adjusted] = numbers;
+        let [p, adjusted] = [comparison.p, comparison.p_adjusted].map(probability);
         pairs.push(vec![format!("{a} > {b}"), p, adjusted, format!("{:.2}", comparison.a12), note.to_owned()]);
     }
     let mut text = format!(
-        "champions' distance in voxels, a value for each run\n{table}\nexact Mann-Whitney U, two-sided, Holm-adjusted\n{pairs}"
+        "champions' distance in voxels, a value for each run\n{table}\nexact Mann-Whitney U, two-sided, Holm-adjusted; \
+         A12: how often a value of the first group exceeds one of the second\n{pairs}"
     );
+    let mut told = 0;
     for threshold in THRESHOLDS {
         let beyond = comparisons.iter().filter(|comparison| comparison.p_least > threshold).count();
-        if beyond > 0 {
+        // A comparison that cannot reach one threshold cannot reach a lower one either.
+        if beyond > told {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
@@ -172,8 +174,14 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
                 comparisons.len()
             );
         }
+        told = beyond;
     }
     text
+}
+
+/// A probability with three digits that matter.
+fn probability(p: f64) -> String {
+    if p < 0.001 { format!("{p:.2e}") } else { format!("{p:.3}") }
 }
 
 #[cfg(test)]
@@ -215,7 +223,8 @@ mod tests {
         let comparison = &comparisons[0];
         assert!((comparison.p - 0.1).abs() < 1e-12 && (comparison.p_least - 0.1).abs() < 1e-12);
         assert_eq!((comparison.a12, comparison.is_approximate), (1.0, false));
-        assert!(describe_groups(&groups, &comparisons).contains("1 of 1 comparisons cannot reach p < 0.05"));
+        let told = describe_groups(&groups, &comparisons);
+        assert!(told.contains("1 of 1 comparisons cannot reach p < 0.05") && !told.contains("p < 0.001"), "{told}");
     }
 
     #[test]
@@ -255,6 +264,22 @@ mod tests {
         let expected = [0.06, 0.03, 0.06];
         assert!(adjusted.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{adjusted:?}");
         assert_eq!(holm(&[0.9, 0.8]), [1.0, 1.0]);
+    }
+
+    #[test]
+    fn ten_runs_a_group_reach_the_papers_threshold() {
+        let runs: Vec<ArchiveStats> = (0..10)
+            .map(|i| {
+                let shift = 0.01 * f64::from(i);
+                run(&[("LLLL", 40.0 + shift), ("LLRR", 20.0 + shift), ("LRRR", 10.0 + shift), ("LRRL", 1.0 + shift)])
+            })
+            .collect();
+        let groups = behavior_groups(&runs);
+        let comparisons = compare_groups(&groups);
+        assert_eq!(comparisons.len(), 6);
+        assert!(comparisons.iter().all(|comparison| comparison.p_adjusted < 0.001 && comparison.a12 == 1.0));
+        let told = describe_groups(&groups, &comparisons);
+        assert!(told.contains("1.08e-5  6.50e-5  1.00") && !told.contains("cannot reach"), "{told}");
     }
 
     #[test]

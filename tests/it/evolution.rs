@@ -66,7 +66,7 @@ fn read(bench: &Bench, out: &str) -> Vec<Vec<u8>> {
 /// Starts the runs and waits until a file has grown to that many lines.
 fn start(bench: &Bench, out: &str, more: &[&str], file: &str, lines: usize) -> Child {
     let resume = [&["evolve", "runs.nb", "--out", out, "--resume", "--checkpoint-every", "0"], more].concat();
-    let mut child = bench.command(&resume).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut child = bench.command(&resume).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let path = bench.path().join(out).join(file);
     let patience = Instant::now() + Duration::from_secs(60);
     while fs::read_to_string(&path).unwrap_or_default().lines().count() < lines {
@@ -104,10 +104,13 @@ fn the_same_seed_gives_the_same_archive_on_any_number_of_threads_and_after_being
 fn a_signal_ends_a_run_in_good_order() {
     let bench = bench();
     for signal in ["TERM", "USR1", "INT"] {
-        let mut child = start(&bench, signal, &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 1);
+        let child = start(&bench, signal, &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 1);
         let sent = std::process::Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
         assert!(sent.success());
-        assert_eq!(child.wait().unwrap().code(), Some(4));
+        let ended = child.wait_with_output().unwrap();
+        assert_eq!(ended.status.code(), Some(4));
+        let told = String::from_utf8(ended.stderr).unwrap();
+        assert!(told.starts_with("at most about ") && told.contains(" hours on this machine"), "{told}");
         assert!(bench.path().join(signal).join(CHECKPOINTS[0]).exists());
     }
 }
