@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn ten_runs_a_group_reach_the_papers_threshold() {
-        let runs: Vec<ArchiveStats> = (0..10)
+        let runs: Vec<Vec<Champion>> = (0..10)
             .map(|i| {
                 let shift = 0.01 * f64::from(i);
                 run(&[("LLLL", 40.0 + shift), ("LLRR", 20.0 + shift), ("LRRR", 10.0 + shift), ("LRRL", 1.0 + shift)])
