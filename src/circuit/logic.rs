@@ -74,6 +74,11 @@ impl Logic {
         }
     }
 
+    /// The value of an input, a constant or a cell.
+    pub fn value(&self, net: NetId) -> bool {
+        self.values[net.index()]
+    }
+
     /// One time step of every cell; whether any output changed.
     fn step(&mut self) -> bool {
         self.next.clear();

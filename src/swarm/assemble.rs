@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::circuit::{NetId, Netlist, Node};
+use crate::circuit::{Logic, NetId, Netlist, Node};
 use crate::model::{Function, Library, Robot};
 use crate::swarm::cells::choose;
 
@@ -60,7 +60,9 @@ pub enum AssembleError {
 /// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are wired.
 ///
 /// The first robot of the library that computes a cell's function plays it; failing that, one that computes it with exchanged
-/// inputs. A cell of one input is sensed on the side its robot listens to; the other stimulus stays absent.
+/// inputs. A cell of one input is sensed on the side its robot listens to; the other stimulus stays absent. Robots without a start value
+/// begin as if the circuit had been at rest with all inputs 0: two robots that hold a bit would else both be driven, and could
+/// chase each other for ever.
 ///
 /// # Errors
 /// [`AssembleError::MissingFunction`] when no robot fits a cell.
@@ -69,6 +71,7 @@ pub enum AssembleError {
 /// When the netlist still has wires, which `dissolve-wires` takes out.
 pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, AssembleError> {
     let signals = number_signals(netlist);
+    let before = Logic::new(netlist);
     let mut members = Vec::new();
     for (id, cell) in netlist.cells() {
         let pins: Vec<Signal> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
@@ -78,8 +81,7 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
         if exchange {
             senses.reverse();
         }
-        let start = cell.start.unwrap_or(false);
-        members.push(Member { net: netlist.net_name(id), robot: robot.clone(), senses, start });
+        members.push(Member { net: netlist.net_name(id), robot: robot.clone(), senses, start: before.value(id) });
     }
     Ok(Assembly {
         circuit: netlist.name.clone(),

@@ -72,7 +72,7 @@ pub fn reduce(
 fn fewest(best: Network, prices: &Prices, stages: &[u32], effort: Effort) -> Network {
     let nodes = match effort {
         Effort::Fast => 10_000,
-        Effort::Normal => 1_000_000,
+        Effort::Normal => 100_000,
         Effort::High => 1_000_000_000,
     };
     let combinational = stages.iter().all(|&stage| stage == 0);
