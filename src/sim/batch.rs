@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use crate::sim::constants::Constants;
-use crate::sim::lattice::{CORNERS, DrivenEdge, Edge, Lattice, LatticePoint};
+use crate::sim::lattice::{CORNERS, DrivenEdge, Edge, Lattice, LatticePoint, Voxel};
 use crate::sim::probe::Probe;
 use crate::sim::proximity::{Inside, Proximity};
 use crate::sim::real::{Mask, Real};
@@ -76,15 +76,22 @@ pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 /// A voxel of any lane.
 #[derive(Clone, Debug)]
-pub struct Tile<R: Real> {
+pub struct Tile {
     /// Row and column.
     pub cell: [usize; 2],
     /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
     /// Lanes that have it on their surface, as bits.
     pub surface: u32,
-    /// Lanes that have it of rigid material.
-    pub rigid: R::Mask,
+}
+
+/// Rigid voxels whose limits are looked after together: in each lane one at most, the next in reading order.
+#[derive(Clone, Debug)]
+pub struct Round<R: Real> {
+    /// Lanes that have one.
+    pub lanes: R::Mask,
+    /// The voxels' masses, top left, top right, bottom right, bottom left, and whose they are.
+    pub voxels: Vec<([usize; CORNERS], R::Mask)>,
 }
 
 /// One lane's robot.
@@ -162,8 +169,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub aims: Vec<R>,
     /// The rows of the lattice, upper first.
     pub rows: Vec<Row>,
-    /// The tiles with rigid material in some lane.
-    pub rigid: Vec<Tile<R>>,
+    /// The rigid voxels of all lanes.
+    pub rigid: Vec<Round<R>>,
     /// The robots.
     pub occupants: Vec<Occupant>,
     /// What is near what.
@@ -194,8 +201,8 @@ pub struct Row {
 /// A mass's place in the box: row, column, twin.
 type Key = (usize, usize, bool);
 
-/// What tells frames apart: row and column of the voxel, its masses.
-type FrameKey = ([usize; 2], [usize; CORNERS]);
+/// What tells voxels of all lanes apart: row and column, masses.
+type TileKey = ([usize; 2], [usize; CORNERS]);
 
 /// What tells rims apart: the earlier mass and the later.
 type RimKey = (usize, usize);
@@ -203,7 +210,7 @@ type RimKey = (usize, usize);
 /// The places that a lane's edges have found.
 #[derive(Clone, Copy, Debug)]
 enum Spring {
-    Frame(FrameKey, usize),
+    Frame(TileKey, usize),
     Rim(RimKey),
 }
 
@@ -301,7 +308,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     fn lay_springs(&mut self, robots: &[(&Lattice, &State)], maps: &[Vec<usize>], places: &[Key]) -> Vec<Vec<Driven>> {
         let lanes: Vec<Vec<Spring>> =
             robots.iter().zip(maps).map(|((body, _), masses)| springs(body, masses)).collect();
-        let mut frames: BTreeMap<FrameKey, [K; 4]> = BTreeMap::new();
+        let mut frames: BTreeMap<TileKey, [K; 4]> = BTreeMap::new();
         let mut rims: BTreeMap<RimKey, K> = BTreeMap::new();
         for (lane, ((body, _), springs)) in robots.iter().zip(&lanes).enumerate() {
             for (edge, spring) in body.edges().iter().zip(springs) {
@@ -323,7 +330,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             self.rim_stiffness.push(stiffness);
         }
         self.rim_frozen = vec![R::splat(0.0); rims.len()];
-        let frames: BTreeMap<FrameKey, usize> = frames.into_keys().zip(0..).collect();
+        let frames: BTreeMap<TileKey, usize> = frames.into_keys().zip(0..).collect();
         let rims: BTreeMap<RimKey, usize> = rims.into_keys().zip(0..).collect();
         let mut driven: Vec<Vec<Driven>> = Vec::with_capacity(robots.len());
         for ((body, _), springs) in robots.iter().zip(&lanes) {
@@ -410,26 +417,33 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     fn lay_tiles(&mut self, robots: &[(&Lattice, &State)]) {
-        let mut tiles: BTreeMap<([usize; 2], [usize; CORNERS]), (u32, u32)> = BTreeMap::new();
+        let mut surface: BTreeMap<TileKey, u32> = BTreeMap::new();
+        let mut rigid: Vec<BTreeMap<TileKey, u32>> = Vec::new();
         for (lane, (body, _)) in robots.iter().enumerate() {
-            for voxel in body.voxels() {
+            let key = |voxel: &Voxel| {
                 let corners = voxel.corners.map(|point| self.occupants[lane].masses[point]);
-                let (surface, rigid) = tiles.entry(([voxel.row, voxel.column], corners)).or_default();
-                *surface |= u32::from(voxel.is_surface()) << lane;
-                *rigid |= u32::from(voxel.rigid) << lane;
+                ([voxel.row, voxel.column], corners)
+            };
+            for voxel in body.voxels().iter().filter(|voxel| voxel.is_surface()) {
+                *surface.entry(key(voxel)).or_default() |= 1 << lane;
+            }
+            let own: BTreeSet<TileKey> = body.voxels().iter().filter(|voxel| voxel.rigid).map(key).collect();
+            rigid.resize(rigid.len().max(own.len()), BTreeMap::new());
+            for (key, round) in own.into_iter().zip(&mut rigid) {
+                *round.entry(key).or_default() |= 1 << lane;
             }
         }
-        let mut surface_tiles = Vec::new();
-        for ((cell, corners), (surface, rigid)) in tiles {
-            let tile = Tile { cell, corners, surface, rigid: R::Mask::from_bits(rigid) };
-            if rigid != 0 {
-                self.rigid.push(tile.clone());
-            }
-            if surface != 0 {
-                surface_tiles.push(tile);
-            }
-        }
-        self.proximity = Proximity::new(surface_tiles);
+        self.rigid = rigid.iter().map(Round::new).collect();
+        let tiles = surface.into_iter().map(|((cell, corners), surface)| Tile { cell, corners, surface });
+        self.proximity = Proximity::new(tiles.collect());
+    }
+}
+
+impl<R: Real> Round<R> {
+    fn new(voxels: &BTreeMap<TileKey, u32>) -> Self {
+        let lanes = voxels.values().fold(0, |all, lanes| all | lanes);
+        let voxel = |(&(_, corners), &lanes): (&TileKey, &u32)| (corners, R::Mask::from_bits(lanes));
+        Self { lanes: R::Mask::from_bits(lanes), voxels: voxels.iter().map(voxel).collect() }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Length limits: after the integrator, edges that are too long or too short are moved back a part of the way (docs/physics.md 8).
 
-use crate::sim::batch::{Batch, DIAGONAL, FRAME, MAIN, Mass, Place, Row};
+use crate::sim::batch::{Batch, DIAGONAL, FRAME, MAIN, Mass, Place, Round, Row};
 use crate::sim::constants::Constants;
+use crate::sim::lattice::CORNERS;
 use crate::sim::real::{Mask, Real};
 use crate::sim::step::square;
 use crate::sim::stiffness::Stiffness;
@@ -59,26 +60,79 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// 0.5 r excess / (2 d) before the next edge is looked at.
     #[inline(always)]
     pub fn limit_rigid(&mut self) {
-        let (long, short) =
-            (self.constants.cell * self.constants.rigid_longest, self.constants.cell * self.constants.rigid_tightest);
-        for tile in &self.rigid {
-            for side in 0..4 {
-                let (a, b) = (tile.corners[side], tile.corners[(side + 1) % 4]);
-                let (here, there) = (self.masses[a].at, self.masses[b].at);
-                let r = [here[0] - there[0], here[1] - there[1]];
-                let square = square(r);
-                let too_long = R::splat(long * long).at_most(square);
-                let bites = too_long.or(square.at_most(R::splat(short * short))).and(tile.rigid);
-                if bites.any() {
-                    let bound = R::select(too_long, R::splat(long), R::splat(short));
-                    let factor = correction(square, bound, self.constants.rigid_correction, bites);
-                    for axis in 0..2 {
-                        self.masses[a].at[axis] -= r[axis] * factor;
-                        self.masses[b].at[axis] += r[axis] * factor;
-                    }
-                }
+        let bounds = Rigid::<R>::new(&self.constants);
+        for Round { lanes, voxels } in &self.rigid {
+            let mut at = gather(&self.masses, voxels);
+            let mut moved = false;
+            moved |= bounds.pull_back::<0, 1>(&mut at, *lanes);
+            moved |= bounds.pull_back::<1, 2>(&mut at, *lanes);
+            moved |= bounds.pull_back::<2, 3>(&mut at, *lanes);
+            moved |= bounds.pull_back::<3, 0>(&mut at, *lanes);
+            if moved {
+                scatter(&mut self.masses, voxels, &at);
             }
         }
+    }
+}
+
+/// The corners of one voxel in each lane.
+#[inline(always)]
+fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -> [Place<R>; CORNERS] {
+    let mut at = [[R::splat(0.0); 2]; CORNERS];
+    for &(corners, lanes) in voxels {
+        for corner in 0..CORNERS {
+            let place = masses[corners[corner]].at;
+            for axis in 0..2 {
+                at[corner][axis] = R::select(lanes, place[axis], at[corner][axis]);
+            }
+        }
+    }
+    at
+}
+
+/// Puts the corners of one voxel in each lane back.
+#[inline(always)]
+fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask)], at: &[Place<R>; CORNERS]) {
+    for &(corners, lanes) in voxels {
+        for corner in 0..CORNERS {
+            let place = &mut masses[corners[corner]].at;
+            for axis in 0..2 {
+                place[axis] = R::select(lanes, at[corner][axis], place[axis]);
+            }
+        }
+    }
+}
+
+/// How long a side of a rigid voxel may be.
+#[derive(Clone, Copy)]
+struct Rigid<R> {
+    bounds: Bounds<R>,
+    share: f64,
+}
+
+impl<R: Real> Rigid<R> {
+    #[inline(always)]
+    fn new(constants: &Constants) -> Self {
+        let (most, least) = (constants.cell * constants.rigid_longest, constants.cell * constants.rigid_tightest);
+        Self { bounds: Bounds::between(least, most), share: constants.rigid_correction }
+    }
+
+    /// Moves the ends of a side back where it is at a bound or beyond. Whether it was anywhere.
+    #[inline(always)]
+    fn pull_back<const FROM: usize, const TO: usize>(self, at: &mut [Place<R>; CORNERS], lanes: R::Mask) -> bool {
+        let r = between(at[FROM], at[TO]);
+        let square = square(r);
+        let too_long = self.bounds.most_squared.at_most(square);
+        let bites = too_long.or(square.at_most(self.bounds.least_squared)).and(lanes);
+        if bites.any() {
+            let bound = R::select(too_long, self.bounds.most, self.bounds.least);
+            let factor = correction(square, bound, self.share, bites);
+            for axis in 0..2 {
+                at[FROM][axis] -= r[axis] * factor;
+                at[TO][axis] += r[axis] * factor;
+            }
+        }
+        bites.any()
     }
 }
 
@@ -94,7 +148,11 @@ struct Bounds<R> {
 impl<R: Real> Bounds<R> {
     #[inline(always)]
     fn new(rest: f64, constants: &Constants) -> Self {
-        let (most, least) = (rest * constants.longest, rest * constants.tightest);
+        Self::between(rest * constants.tightest, rest * constants.longest)
+    }
+
+    #[inline(always)]
+    fn between(least: f64, most: f64) -> Self {
         let (most_squared, least_squared) = (R::splat(most * most), R::splat(least * least));
         Self { most: R::splat(most), least: R::splat(least), most_squared, least_squared }
     }

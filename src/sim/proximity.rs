@@ -19,7 +19,7 @@ const SLACK: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct Proximity<R: Real> {
     /// Surface voxels of all lanes, in reading order.
-    tiles: Vec<Tile<R>>,
+    tiles: Vec<Tile>,
     /// Their masses.
     points: Vec<usize>,
     /// Where those were when the lists were made; infinitely far before the first time.
@@ -64,7 +64,7 @@ impl<R: Real> Default for Proximity<R> {
 
 impl<R: Real> Proximity<R> {
     /// The broad phase over these surface voxels.
-    pub fn new(tiles: Vec<Tile<R>>) -> Self {
+    pub fn new(tiles: Vec<Tile>) -> Self {
         let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
         points.sort_unstable();
         points.dedup();
@@ -181,13 +181,13 @@ fn overfull(pairs: &[u32], surface: &[u32]) -> u32 {
 }
 
 /// Whether two voxels' cells differ by more than one row or column.
-fn are_apart<R: Real>(a: &Tile<R>, b: &Tile<R>) -> bool {
+fn are_apart(a: &Tile, b: &Tile) -> bool {
     a.cell[0].abs_diff(b.cell[0]) > 1 || a.cell[1].abs_diff(b.cell[1]) > 1
 }
 
 /// Least and greatest coordinates of a tile.
 #[inline(always)]
-fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile<R>) -> [Place<R>; 2] {
+fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Place<R>; 2] {
     let [a, b, c, d] = [0, 1, 2, 3].map(|corner| masses[tile.corners[corner]].at);
     let least = |axis: usize| a[axis].min(b[axis]).min(c[axis].min(d[axis]));
     let greatest = |axis: usize| a[axis].max(b[axis]).max(c[axis].max(d[axis]));
