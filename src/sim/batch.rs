@@ -179,8 +179,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub unstable: u32,
     /// Surface voxels of each lane, zero in lanes that cannot be unstable.
     pub countable: Vec<u32>,
-    /// Scratch: masses that are not above the ground's face, with their lanes.
-    pub low: Vec<(usize, u32)>,
+    /// Scratch: lanes in which each surface mass is not above the ground's face, as bits.
+    pub low: Vec<u32>,
     /// Scratch: masses inside voxels.
     pub inside: Vec<Inside>,
     /// Scratch: voxels of one lane.

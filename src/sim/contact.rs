@@ -8,6 +8,15 @@ use crate::sim::constants::Constants;
 use crate::sim::lattice::CORNERS;
 use crate::sim::real::{Mask, Real};
 
+/// A point further than this outside the box around a voxel, in metres, is outside the voxel whatever is rounded, ...
+const CLEAR: f64 = 1e-5;
+
+/// ... unless it is so near the line of the falling diagonal: twice the area, in square metres, of the triangle that it makes with it.
+const NEAR_DIAGONAL: f64 = 1e-7;
+
+/// No voxel that is larger than this, in metres, is judged by the box around it.
+const SOUND: f64 = 1.0;
+
 /// A voxel where it is now.
 #[derive(Clone, Copy, Debug)]
 pub struct Quad {
@@ -15,6 +24,10 @@ pub struct Quad {
     pub corners: [Vector2<f64>; CORNERS],
     /// Which sides are surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
+    /// Least and greatest coordinates.
+    pub bounds: [Vector2<f64>; 2],
+    /// Bounds outside of which a point is clearly outside.
+    reach: [Vector2<f64>; 2],
 }
 
 /// A corner of one voxel inside another.
@@ -45,10 +58,18 @@ pub fn is_inside<R: Real>(point: [R; 2], corners: [[R; 2]; CORNERS]) -> R::Mask 
 }
 
 impl Quad {
-    /// Least and greatest coordinates.
-    pub fn bounds(&self) -> [Vector2<f64>; 2] {
-        let [a, b, c, d] = self.corners;
-        [a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d)]
+    /// A voxel with these corners, top left first and clockwise.
+    pub fn new(corners: [Vector2<f64>; CORNERS], surface: [bool; CORNERS]) -> Self {
+        let [a, b, c, d] = corners;
+        Self::within([a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d)], corners, surface)
+    }
+
+    /// The same where its bounds are known.
+    pub fn within(bounds: [Vector2<f64>; 2], corners: [Vector2<f64>; CORNERS], surface: [bool; CORNERS]) -> Self {
+        let [least, greatest] = bounds;
+        let is_sound = greatest.x - least.x < SOUND && greatest.y - least.y < SOUND;
+        let clear = Vector2::repeat(if is_sound { CLEAR } else { f64::INFINITY });
+        Self { corners, surface, bounds, reach: [least - clear, greatest + clear] }
     }
 
     /// The corners between which a side runs: clockwise on the surface, else left to right or top to bottom (docs/physics.md 3).
@@ -61,6 +82,18 @@ impl Quad {
         self.ends(side).map(|corner| self.corners[corner])
     }
 
+    /// Whether a point is so clearly outside that [`Quad::contains`] need not be asked. On the line of the falling diagonal that says
+    /// yes everywhere, even far outside.
+    #[inline(always)]
+    fn is_clear_of(&self, point: Vector2<f64>) -> bool {
+        let [least, greatest] = self.reach;
+        let is_outside = point.y > greatest.y || point.y < least.y || point.x < least.x || point.x > greatest.x;
+        is_outside && {
+            let (start, end) = (self.corners[0] - point, self.corners[2] - point);
+            (end.x * start.y - end.y * start.x).abs() > NEAR_DIAGONAL
+        }
+    }
+
     /// Whether a point is inside.
     pub fn contains(&self, point: Vector2<f64>) -> bool {
         is_inside([point.x, point.y], self.corners.map(|corner| [corner.x, corner.y]))
@@ -68,8 +101,13 @@ impl Quad {
 
     /// The contact of corner `corner` of `main` with this voxel, if it is inside and came through a surface side: the nearest of the
     /// surface sides which are crossed by one of the two sides that meet in the corner (docs/physics.md 7.3 and 7.4).
+    #[inline(always)]
     pub fn hit_by(&self, main: &Quad, corner: usize, constants: &Constants) -> Option<Hit> {
         let point = main.corners[corner];
+        if self.is_clear_of(point) { None } else { self.hit_at(point, main, corner, constants) }
+    }
+
+    fn hit_at(&self, point: Vector2<f64>, main: &Quad, corner: usize, constants: &Constants) -> Option<Hit> {
         if !self.contains(point) {
             return None;
         }
@@ -112,4 +150,42 @@ fn distance(point: Vector2<f64>, [a, b]: [Vector2<f64>; 2], constants: &Constant
     let e = b - a;
     let length = e.norm();
     if length < constants.shortest { constants.nowhere } else { e.perp(&(point - a)).abs() / length }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point(range: std::ops::Range<f64>) -> impl Strategy<Value = Vector2<f64>> {
+        (range.clone(), range).prop_map(|(x, y)| Vector2::new(x, y))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 4096, ..ProptestConfig::default() })]
+
+        #[test]
+        fn what_is_clear_of_a_voxel_is_not_inside(
+            shifts in proptest::array::uniform4(point(-0.06..0.06)),
+            beside in point(-0.2..0.3),
+            far_along_the_diagonal in -3.0..3.0,
+        ) {
+            let square = [[0.0, 0.1], [0.1, 0.1], [0.1, 0.0], [0.0, 0.0]].map(|[x, y]| Vector2::new(x, y));
+            let corners = [0, 1, 2, 3].map(|corner| square[corner] + shifts[corner]);
+            let quad = Quad::new(corners, [true; CORNERS]);
+            let on_the_diagonal = corners[0] + (corners[2] - corners[0]) * far_along_the_diagonal;
+            for point in [beside, on_the_diagonal] {
+                prop_assert!(!(quad.is_clear_of(point) && quad.contains(point)));
+            }
+        }
+    }
+
+    #[test]
+    fn on_the_line_of_the_falling_diagonal_everything_is_inside() {
+        let corners = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(|[x, y]| Vector2::new(x, y) / 8.0);
+        let quad = Quad::new(corners, [true; CORNERS]);
+        let (on, beside) = (Vector2::new(-0.125, 0.25), Vector2::new(-0.125, 0.26));
+        assert!(quad.contains(on) && !quad.is_clear_of(on));
+        assert!(!quad.contains(beside) && quad.is_clear_of(beside));
+    }
 }

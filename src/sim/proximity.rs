@@ -21,7 +21,7 @@ pub struct Proximity<R: Real> {
     /// Surface voxels of all lanes, in reading order.
     tiles: Vec<Tile>,
     /// Their masses.
-    points: Vec<usize>,
+    pub points: Vec<usize>,
     /// Where those were when the lists were made; infinitely far before the first time.
     reference: Vec<Place<R>>,
     /// Points near a tile that is not theirs.
@@ -43,6 +43,15 @@ struct NearPoint {
 struct NearTiles {
     tiles: [usize; 2],
     lanes: u32,
+}
+
+/// What a look at the points told.
+#[derive(Clone, Copy, Debug)]
+pub struct Survey {
+    /// Whether a point has moved so far that the lists have to be renewed.
+    pub is_stale: bool,
+    /// Lanes with a point that is not above the height asked for, as bits.
+    pub lowest: u32,
 }
 
 /// A point found inside a tile.
@@ -72,22 +81,20 @@ impl<R: Real> Proximity<R> {
         Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
     }
 
-    /// Calls `found` with each surface mass that is not above `height`, and its lanes. True when a point has moved so far that the lists
-    /// have to be renewed.
+    /// Looks where the points are: notes for each in which lanes it is not above `height`.
     #[inline(always)]
-    pub fn survey(&mut self, masses: &[Mass<R>], height: f64, mut found: impl FnMut(usize, u32)) -> bool {
+    pub fn survey(&self, masses: &[Mass<R>], height: f64, low: &mut Vec<u32>) -> Survey {
+        low.resize(self.points.len(), 0);
         let height = R::splat(height);
-        let mut moved = R::splat(0.0);
-        for (&point, reference) in self.points.iter().zip(&self.reference) {
+        let (mut moved, mut lowest) = (R::splat(0.0), 0);
+        for ((&point, reference), low) in self.points.iter().zip(&self.reference).zip(low) {
             let at = masses[point].at;
             moved = (at[0] - reference[0]).abs().max(moved);
             moved = (at[1] - reference[1]).abs().max(moved);
-            let low = at[1].at_most(height);
-            if low.any() {
-                found(point, low.bits());
-            }
+            *low = at[1].at_most(height).bits();
+            lowest |= *low;
         }
-        R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any()
+        Survey { is_stale: R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any(), lowest }
     }
 
     /// Makes the lists from current positions. `surface[lane]` counts a lane's surface voxels, zero where it cannot be unstable.

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use crate::sim::batch::Batch;
 use crate::sim::contact::{Hit, Quad};
 use crate::sim::lattice::CORNERS;
-use crate::sim::proximity::Inside;
+use crate::sim::proximity::{Inside, Survey};
 use crate::sim::real::Real;
 use crate::sim::stiffness::Stiffness;
 
@@ -16,19 +16,18 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.unburden();
         let mut low = std::mem::take(&mut self.low);
         let mut inside = std::mem::take(&mut self.inside);
-        let stale = self.proximity.survey(&self.masses, self.constants.cell, |point, lanes| low.push((point, lanes)));
-        if stale {
+        let Survey { is_stale, lowest } = self.proximity.survey(&self.masses, self.constants.cell, &mut low);
+        if is_stale {
             self.proximity.renew(&self.masses, &self.countable);
         }
         self.proximity.insides(&self.masses, &mut inside);
         self.unstable |= self.proximity.unstable(&self.masses, &self.countable);
-        if !low.is_empty() {
+        if lowest != 0 {
             self.meet_ground(&low);
         }
         if !inside.is_empty() {
             self.meet_itself(&inside);
         }
-        low.clear();
         inside.clear();
         self.low = low;
         self.inside = inside;
@@ -44,12 +43,12 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.loads.truncate(self.weights);
     }
 
-    /// Contact between each robot's low voxels and the ground, each way once.
+    /// Contact between each robot's low voxels and the ground, each way once. `low` has the lanes in which each surface mass is low.
     #[inline(never)]
-    fn meet_ground(&mut self, low: &[(usize, u32)]) {
+    fn meet_ground(&mut self, low: &[u32]) {
         for lane in 0..self.occupants.len() {
             let mut voxels = std::mem::take(&mut self.voxels);
-            for &(mass, _) in low.iter().filter(|(_, lanes)| lanes >> lane & 1 == 1) {
+            for (&mass, _) in self.proximity.points.iter().zip(low).filter(|(_, lanes)| *lanes >> lane & 1 == 1) {
                 voxels.extend(self.occupants[lane].at_mass[mass].iter().map(|&(voxel, _)| voxel));
             }
             voxels.sort_unstable();
@@ -65,7 +64,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     fn meet_ground_voxels(&mut self, lane: usize, voxel: usize) {
         let (quad, masses) = self.quad(lane, voxel);
         let cell = self.constants.cell;
-        let [least, greatest] = quad.bounds();
+        let [least, greatest] = quad.bounds;
         if !(least.y <= cell && greatest.y >= 0.0) {
             return;
         }
@@ -105,11 +104,11 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     fn meet_itself_in(&mut self, lane: usize, inside: &Inside) {
         let reference = self.occupants[lane].surface.iter().position(|voxel| voxel.corners == inside.corners);
         let (reference, masses) = self.quad(lane, reference.expect("a tile in a lane is a surface voxel of its robot"));
-        let [least, greatest] = reference.bounds();
+        let [least, greatest] = reference.bounds;
         for n in 0..self.occupants[lane].at_mass[inside.point].len() {
             let (voxel, corner) = self.occupants[lane].at_mass[inside.point][n];
             let (main, _) = self.quad(lane, voxel);
-            let [from, to] = main.bounds();
+            let [from, to] = main.bounds;
             let meet = from.x <= greatest.x && least.x <= to.x && from.y <= greatest.y && least.y <= to.y;
             if let Some(hit) = meet.then(|| reference.hit_by(&main, corner, &self.constants)).flatten() {
                 let ends = reference.ends(hit.side).map(|corner| masses[corner]);
@@ -167,7 +166,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
         let voxel = self.occupants[lane].surface[voxel];
         let place = |mass: usize| Vector2::new(self.masses[mass].at[0].lane(lane), self.masses[mass].at[1].lane(lane));
-        (Quad { corners: voxel.corners.map(place), surface: voxel.sides }, voxel.corners)
+        (Quad::new(voxel.corners.map(place), voxel.sides), voxel.corners)
     }
 
     /// Ground voxel `column`, rounded as docs/physics.md 2 says.
@@ -175,6 +174,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let cell = self.constants.cell;
         let (left, right) = (column as f64 * cell, (column + 1) as f64 * cell);
         let corners = [[left, cell], [right, cell], [right, 0.0], [left, 0.0]].map(|[x, y]| Vector2::new(x, y));
-        Quad { corners, surface: [true, column + 1 == self.world_width, true, column == 0] }
+        let bounds = [corners[3], corners[1]];
+        Quad::within(bounds, corners, [true, column + 1 == self.world_width, true, column == 0])
     }
 }
