@@ -9,6 +9,7 @@ use crate::circuit::{Netlist, Proof, Timing, elaborate, map, prove};
 use crate::diag::{Code, Diagnostic, render};
 use crate::model::{CYCLE_STEPS, CircuitTest, Hold, Instance, Library, Origin, Program, Setting, Stimulation, TestRow};
 use crate::report;
+use crate::sim::Simulator;
 use crate::source::{MemoryWorld, Sources, Span, World};
 use crate::store::{self, DiskWorld};
 use crate::swarm::{self, Assembly, Demand, Exposure, SwarmTrace, TestVerdict};
@@ -70,6 +71,8 @@ pub struct TestRun {
 pub struct Options {
     /// These robots instead of those that the file asks for.
     pub library: Option<Library>,
+    /// How their robots are simulated.
+    pub simulator: Simulator,
 }
 
 /// Reads and checks a file. What cannot be read is a diagnostic like any other.
@@ -176,7 +179,7 @@ pub fn run_test(
     options: &Options,
     observe: &mut dyn FnMut(usize, usize),
 ) -> Result<TestRun, Vec<Diagnostic>> {
-    simulate_test(program, test, compile_test(program, test, options)?, observe)
+    simulate_test(program, test, compile_test(program, test, options)?, options, observe)
 }
 
 /// Compiles the circuit of a test onto the robots that it asks for.
@@ -195,6 +198,7 @@ pub fn simulate_test(
     program: &Program,
     test: &CircuitTest,
     compiled: Compiled,
+    options: &Options,
     observe: &mut dyn FnMut(usize, usize),
 ) -> Result<TestRun, Vec<Diagnostic>> {
     let protocol = protocol(program, test);
@@ -204,7 +208,8 @@ pub fn simulate_test(
     let held = rows.iter().zip(&demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
     let exposure = Exposure { inputs: held.collect(), cycle_steps: CYCLE_STEPS, window: protocol.window as usize };
     let cycles = exposure.inputs.len();
-    let trace = swarm::simulate(&Setting::paper(), &compiled.assembly, &exposure, &mut |done| observe(done, cycles));
+    let mut tell = |done| observe(done, cycles);
+    let trace = swarm::simulate(&options.simulator, &Setting::paper(), &compiled.assembly, &exposure, &mut tell);
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
     let verdict = swarm::judge(&test.title, &trace, &demands, &clocks);
     Ok(TestRun { compiled, trace, verdict, warnings })

@@ -1,16 +1,16 @@
 //! `nbc bench`: how fast this machine simulates.
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::timings::{self, Stage};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::report::{Align, Table};
-use crate::sim::{Kernel, Part, Probe, Simulator};
+use crate::sim::{Kernel, Probe, Simulator};
 
 /// Boxes measured: the paper's.
 const SIDES: [usize; 3] = [5, 7, 10];
@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc bench --format json")]
 pub struct Arguments {
-    /// Tell also which share of the time each part of a substep takes, one body in all lanes
+    /// Tell also which share of the time each stage of a substep takes, one body in all lanes
     #[arg(long)]
     timings: bool,
 }
@@ -43,25 +43,13 @@ struct Case {
     different: f64,
     /// Evaluations a second by the paper's protocol, nothing left out.
     evaluations: f64,
-    /// With `--timings`: shares of the time, by name of the part of a substep.
+    /// With `--timings`: shares of the time, by name of the stage.
     #[serde(skip_serializing_if = "Option::is_none")]
     timings: Option<BTreeMap<&'static str, f64>>,
 }
 
-thread_local! {
-    /// When the last part ended on this thread, and the seconds of each part so far, in order of `Part::ALL`.
-    static WATCH: Cell<(Option<Instant>, [f64; Part::ALL.len()])> = const { Cell::new((None, [0.0; Part::ALL.len()])) };
-}
-
-/// Books the time since the last part ended.
-fn watch(part: Part) {
-    let now = Instant::now();
-    let (last, mut seconds) = WATCH.get();
-    if let Some(last) = last {
-        seconds[part as usize] += (now - last).as_secs_f64();
-    }
-    WATCH.set((Some(now), seconds));
-}
+/// The stages of a substep, and what comes between env steps.
+const STAGES: [Stage; 4] = [Stage::Springs, Stage::Contact, Stage::Limits, Stage::Bookkeeping];
 
 #[derive(Serialize)]
 struct Figures {
@@ -106,20 +94,22 @@ fn measure(side: usize, kernel: Kernel, timings: bool) -> Case {
     }
 }
 
+/// The share of the time that each stage of a substep takes, one body in all lanes.
+fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
+    let before = timings::seconds();
+    race(side, kernel, 0, Some(timings::watch));
+    let seconds = timings::seconds();
+    let spent = STAGES.map(|stage| seconds[stage as usize] - before[stage as usize]);
+    let all: f64 = spent.iter().sum();
+    STAGES.iter().zip(spent).map(|(stage, spent)| (stage.name(), spent / all)).collect()
+}
+
 /// Lane-substeps a second, the lanes' bodies `shift` apart.
 fn speed(side: usize, kernel: Kernel, shift: usize) -> f64 {
-    race(side, kernel, shift, None).0
+    race(side, kernel, shift, None)
 }
 
-/// The share of the time that each part of a substep takes, one body in all lanes.
-fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
-    let (_, seconds) = race(side, kernel, 0, Some(watch));
-    let all: f64 = seconds.iter().sum();
-    Part::ALL.iter().zip(seconds).map(|(part, seconds)| (part.name(), seconds / all)).collect()
-}
-
-/// Lane-substeps a second, the lanes' bodies `shift` apart, and the seconds that the probe booked.
-fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> (f64, [f64; Part::ALL.len()]) {
+fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 {
     let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
     let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
@@ -134,8 +124,7 @@ fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> (f64
             rounds += 1;
         }
         let seconds = processor_seconds().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
-        let substeps = f64::from(rounds) * trials.len() as f64 * f64::from(CYCLE_STEPS) * SUBSTEPS;
-        (substeps / seconds, WATCH.get().1)
+        f64::from(rounds) * trials.len() as f64 * f64::from(CYCLE_STEPS) * SUBSTEPS / seconds
     })
 }
 
@@ -173,12 +162,12 @@ fn describe(figures: &Figures) -> String {
 
 /// Shares of the time as a table, empty where they were not measured.
 fn describe_timings(figures: &Figures) -> String {
-    let columns = Part::ALL.map(|part| (part.name(), Align::Right));
+    let columns = STAGES.map(|stage| (stage.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();
     let mut table = Table::new(&columns);
     for case in &figures.cases {
         let Some(timings) = &case.timings else { return String::new() };
-        let shares = Part::ALL.iter().map(|part| format!("{:.0} %", 100.0 * timings[part.name()]));
+        let shares = STAGES.iter().map(|stage| format!("{:.0} %", 100.0 * timings[stage.name()]));
         table.push([case.bounds.clone()].into_iter().chain(shares).collect());
     }
     format!("\nshare of the time with one body in all lanes\n{table}")

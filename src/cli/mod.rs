@@ -21,6 +21,7 @@ mod simulate;
 mod status;
 mod synth;
 mod test;
+mod timings;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

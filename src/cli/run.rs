@@ -1,9 +1,11 @@
 //! `nbc run`: compile a file's circuits, simulate their swarms, test them, and draw what happened.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::Args;
 
+use crate::cli::timings::{self, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic, render};
 use crate::model::{CircuitTest, Robot, Setting};
@@ -29,6 +31,8 @@ pub struct Arguments {
     /// Leave out the report page
     #[arg(long)]
     no_report: bool,
+    #[command(flatten)]
+    timings: Timings,
 }
 
 /// A test's run with its drawings.
@@ -45,6 +49,7 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let started = Instant::now();
         let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.file.to_string_lossy());
         if checked.has_errors() {
             return Err(Failure::input(checked.diagnostics, sources));
@@ -57,10 +62,11 @@ impl Arguments {
         }
         let folder = self.folder();
         store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
+        let options = Options { simulator: self.timings.simulator(), ..Options::default() };
         let mut warnings = checked.diagnostics;
         let mut runs = Vec::new();
         for test in &checked.program.tests {
-            match simulate(&checked.program, test) {
+            match simulate(&checked.program, test, &options) {
                 Ok(run) => {
                     warnings.extend(run.warnings.iter().cloned());
                     runs.push(run);
@@ -69,7 +75,9 @@ impl Arguments {
             }
         }
         context.log(&render::text(&warnings, &sources, context.color));
-        self.report(&runs, &folder, context)
+        let status = timings::time(timings::Stage::Output, || self.report(&runs, &folder, context))?;
+        self.timings.tell(started, context);
+        Ok(status)
     }
 
     fn folder(&self) -> PathBuf {
@@ -106,9 +114,13 @@ impl Arguments {
     }
 }
 
-fn simulate(program: &crate::model::Program, test: &CircuitTest) -> Result<TestRun, Vec<Diagnostic>> {
+fn simulate(
+    program: &crate::model::Program,
+    test: &CircuitTest,
+    options: &Options,
+) -> Result<TestRun, Vec<Diagnostic>> {
     let bar = Progress::new("simulating", 0);
-    pipeline::run_test(program, test, &Options::default(), &mut |done, all| {
+    pipeline::run_test(program, test, options, &mut |done, all| {
         bar.set_total(all as u64);
         bar.set(done as u64);
     })

@@ -147,7 +147,7 @@ fn in_physics(
     compiled: Compiled,
 ) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
     let bar = Progress::new("simulating", 0);
-    let run = pipeline::simulate_test(program, test, compiled, &mut |done, all| {
+    let run = pipeline::simulate_test(program, test, compiled, &Options::default(), &mut |done, all| {
         bar.set_total(all as u64);
         bar.set(done as u64);
     })?;

@@ -3,8 +3,10 @@
 /// A part of the work of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
+    /// Whatever came before on this thread; no part of the simulation.
+    Elsewhere,
     /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
-    Books,
+    Bookkeeping,
     /// Contact with the ground and with oneself, the instability count.
     Contact,
     /// Springs and the integrator: four stages.
@@ -13,20 +15,6 @@ pub enum Part {
     Limits,
 }
 
-impl Part {
-    /// All parts, in order of a substep.
-    pub const ALL: [Self; 4] = [Self::Books, Self::Contact, Self::Springs, Self::Limits];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Books => "books",
-            Self::Contact => "contact",
-            Self::Springs => "springs",
-            Self::Limits => "limits",
-        }
-    }
-}
-
-/// Told of a part when the part ends, by the thread that did it.
-pub type Probe = fn(Part);
+/// Told of a part when the part ends, by the thread that did it, and of how many simulations side by side it was. Limits end a substep,
+/// bookkeeping ends what one thread does in one go.
+pub type Probe = fn(Part, usize);

@@ -7,7 +7,7 @@ use crate::model::{Body, Fault, FaultKind, Pattern, Schedule, Setting};
 use crate::sim::batch::Batch;
 use crate::sim::constants::Constants;
 use crate::sim::lattice::Lattice;
-use crate::sim::probe::Probe;
+use crate::sim::probe::{Part, Probe};
 use crate::sim::real::Real;
 use crate::sim::signal::Signals;
 use crate::sim::simulator::Simulator;
@@ -104,6 +104,9 @@ pub fn runs<'a>(world: &World, setting: &Setting, bodies: impl IntoIterator<Item
 ///
 /// `env_step` is the kernel compiled for `R`; `K` is for one body or for different ones.
 pub fn carry<R: Real, K: Stiffness<R>>(runs: &mut [&mut Run], world: &World, env_step: impl Fn(&mut Batch<R, K>)) {
+    if let Some(probe) = world.probe {
+        probe(Part::Elsewhere, runs.len());
+    }
     let robots: Vec<_> = runs.iter().map(|run| (&*run.lattice, &run.state)).collect();
     let mut batch = Batch::<R, K>::new(&robots, world.width, &world.constants);
     batch.probe = world.probe;
@@ -128,6 +131,7 @@ pub fn carry<R: Real, K: Stiffness<R>>(runs: &mut [&mut Run], world: &World, env
             Some(_) => batch.unload_saved(lane, &mut run.state),
         }
     }
+    batch.tell(Part::Bookkeeping);
 }
 
 /// Books an env step of one lane: its center of mass, or its fault.

@@ -15,7 +15,7 @@ use crate::sim::stiffness::Stiffness;
 /// One env step: substeps with the targets as they are (docs/physics.md 4).
 #[inline(always)]
 pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
-    batch.tell(Part::Books);
+    batch.tell(Part::Bookkeeping);
     for _ in 0..batch.constants.substeps {
         batch.meet();
         batch.tell(Part::Contact);
@@ -41,9 +41,9 @@ struct Measure<R> {
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Tells whoever asks where time goes that a part has ended.
     #[inline(always)]
-    fn tell(&self, part: Part) {
+    pub fn tell(&self, part: Part) {
         if let Some(probe) = self.probe {
-            probe(part);
+            probe(part, self.occupants.len());
         }
     }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::evolve::{Candidate, Outcome, Scores, Search};
 use crate::model::{Behavior, Direction, Evolution, Objective, Pattern, Schedule, Setting, Trajectory, Trial};
-use crate::sim::run_trials;
+use crate::sim::Simulator;
 use crate::swarm::gate;
 
 /// How much was simulated, and how much a full evaluation of everything would have taken on top.
@@ -27,16 +27,16 @@ impl Work {
 /// Brings a search one generation further: asks, evaluates in parallel, tells.
 pub fn evolve_generation(search: &mut Search) -> Work {
     let candidates = search.ask();
-    let (outcomes, work) = evaluate(search, &candidates);
+    let (outcomes, work) = evaluate(&Simulator::default(), search, &candidates);
     search.tell(&candidates, &outcomes);
     work
 }
 
 /// The outcome of each candidate, judged against the archive as it is now.
-pub fn evaluate(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
     match search.evolution().objective {
-        Objective::Distance => distance(search, candidates),
-        Objective::Gate => gate::evaluate(search, candidates),
+        Objective::Distance => distance(simulator, search, candidates),
+        Objective::Gate => gate::evaluate(simulator, search, candidates),
     }
 }
 
@@ -62,13 +62,13 @@ pub fn fixed_trials(body: &crate::model::Body, steps: u32) -> [Trial; 4] {
 }
 
 /// The paper's two objectives: four fixed simulations, then the variable one for those whose fixed fitness can still win a niche.
-fn distance(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
     let evolution = search.evolution();
     let setting = setting(evolution);
     let trials: Vec<Trial> =
         candidates.iter().flat_map(|candidate| fixed_trials(&candidate.body, evolution.fixed_steps)).collect();
     let mut work = Work { env_steps: steps(&trials), left_out: 0 };
-    let trajectories = run_trials(&setting, &trials);
+    let trajectories = simulator.run_trials(&setting, &trials);
     let first: Vec<Result<Scores, Outcome>> = candidates
         .iter()
         .zip(trajectories.chunks_exact(4))
@@ -83,7 +83,7 @@ fn distance(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
         .collect();
     work.env_steps += steps(&remaining);
     work.left_out += u64::from(evolution.variable.steps()) * (candidates.len() - remaining.len()) as u64;
-    let mut long = run_trials(&setting, &remaining).into_iter();
+    let mut long = simulator.run_trials(&setting, &remaining).into_iter();
     let outcomes = first
         .into_iter()
         .map(|scores| match scores {

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::{Candidate, Outcome, Scores, Search};
 use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern};
-use crate::sim::Flock;
+use crate::sim::Simulator;
 use crate::swarm::evaluate::{self, Work};
 use crate::swarm::holds::{Hold, HoldPlan};
 
@@ -49,24 +49,24 @@ fn random_sequences() -> Vec<Lane> {
 
 /// The outcome of each candidate by the gate objective: the walks, then the random sequences. After each cycle those are dropped that
 /// no niche could take any more; their scores can only fall.
-pub(crate) fn evaluate(search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+pub(crate) fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
     let mut attempts: Vec<Attempt> = candidates.iter().map(Attempt::new).collect();
     let mut work = Work::default();
     for (stage, lanes) in [walks(), random_sequences()].iter().enumerate() {
         for attempt in &mut attempts {
             attempt.holds.resize(attempt.holds.len() + lanes.len(), Vec::new());
         }
-        work = work.plus(try_lanes(search, &mut attempts, lanes, stage * WALKS.len()));
+        work = work.plus(try_lanes(simulator, search, &mut attempts, lanes, stage * WALKS.len()));
     }
     (attempts.into_iter().map(Attempt::end).collect(), work)
 }
 
 /// Carries the attempts that are still open through some lanes, whose holds are kept from place `first` on.
-fn try_lanes(search: &Search, attempts: &mut [Attempt], lanes: &[Lane], first: usize) -> Work {
+fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], lanes: &[Lane], first: usize) -> Work {
     let all = (attempts.len() * lanes.len()) as u64;
     let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
     let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![attempt.candidate.body.clone(); lanes.len()]).collect();
-    let mut flock = Flock::new(&evaluate::setting(search.evolution()), &bodies);
+    let mut flock = simulator.flock(&evaluate::setting(search.evolution()), &bodies);
     let cycles = lanes[0].len();
     let mut work = Work::default();
     for cycle in 0..cycles {

@@ -1,7 +1,7 @@
 //! A swarm in full physics: every robot in its own simulation, hearing in each cycle what the others did in the cycle before.
 
 use crate::model::{Body, Pattern, Setting};
-use crate::sim::Flock;
+use crate::sim::{Flock, Simulator};
 use crate::swarm::{Assembly, CycleTrace, Member, RobotTrace, Signal, SwarmTrace};
 
 /// Samples of a robot's path that a trace keeps of each cycle.
@@ -26,6 +26,7 @@ pub struct Exposure {
 /// # Panics
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.
 pub fn simulate(
+    simulator: &Simulator,
     setting: &Setting,
     assembly: &Assembly,
     exposure: &Exposure,
@@ -33,7 +34,7 @@ pub fn simulate(
 ) -> SwarmTrace {
     assert!(exposure.window > 0, "an output is read over one cycle at least");
     let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
-    let mut flock = Flock::new(setting, &bodies);
+    let mut flock = simulator.flock(setting, &bodies);
     let mut trace = begin(assembly, &flock);
     let mut bits: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
     for inputs in &exposure.inputs {

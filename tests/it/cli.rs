@@ -302,3 +302,42 @@ fn the_machines_speed_is_told_as_data() {
         assert!((speed("evaluations") * 80.0 * 84.0 * 30.0 / speed("lanes") - 1.0).abs() < 1e-9);
     }
 }
+
+/// The table of `--timings`: seconds by stage.
+fn timings(told: &str) -> std::collections::BTreeMap<&str, f64> {
+    let rows = told.lines().skip_while(|line| !line.starts_with("stage ")).skip(1);
+    let rows = rows.map(|line| line.split_whitespace().collect::<Vec<_>>()).take_while(|row| row.len() == 4);
+    rows.map(|row| (row[0], row[1].parse().unwrap())).collect()
+}
+
+#[test]
+fn timings_are_told_beside_results_that_they_do_not_change() {
+    let bench = Bench::new();
+    let file =
+        "circuit flip(a) -> (y) {\n    y = not a\n}\ntest flip \"inverts\" {\n    a | y\n    0 | 1\n    1 | 0\n}\n";
+    bench.file("flip.nb", file);
+    let arguments = ["run", "flip.nb", "--no-report", "--format", "json"];
+    let untimed = bench.run(&arguments);
+    let timed = bench.run(&[&arguments[..], &["--timings"]].concat());
+    assert_eq!((untimed.status, &untimed.out), (timed.status, &timed.out));
+    assert!(timings(&untimed.err).is_empty());
+    let seconds = timings(&timed.err);
+    let stages: Vec<&str> = seconds.keys().copied().collect();
+    assert_eq!(stages, ["bookkeeping", "contact", "limits", "output", "springs"], "{}", timed.err);
+    assert!(seconds["springs"] > seconds["bookkeeping"], "{}", timed.err);
+    assert!(timed.err.contains("lane-substeps a second and thread"), "{}", timed.err);
+}
+
+#[test]
+fn timings_of_an_evolution_know_what_is_not_simulation() {
+    let bench = Bench::new();
+    bench.file("small.nb", "schedule once(s1, s2) {\n    0 1 for 1 cycles\n}\nevolution small {\n    box: 3 x 2\n    variable: once\n    fixed: 1 cycles\n    batch: 4\n    generations: 2\n    seed: 1\n}\n");
+    let ran = bench.run(&["evolve", "small.nb", "--timings"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let seconds = timings(&ran.err);
+    assert!(
+        ["archive", "development", "output", "springs"].iter().all(|stage| seconds.contains_key(stage)),
+        "{}",
+        ran.err
+    );
+}

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use nbc::evolve::{Search, recodings};
 use nbc::model::{Body, Evolution, Pattern, Schedule, Setting, Spell, Trial};
 use nbc::pipeline;
+use nbc::sim::Simulator;
 use nbc::sim::run_trials;
 use nbc::source::MemoryWorld;
 use nbc::swarm::evaluate;
@@ -230,9 +231,9 @@ fn what_is_left_out_changes_no_archive() {
         for _ in 0..evolution.generations {
             let candidates = staged.ask();
             assert_eq!(candidates, full.ask());
-            staged.tell(&candidates, &evaluate(&staged, &candidates).0);
+            staged.tell(&candidates, &evaluate(&Simulator::default(), &staged, &candidates).0);
             // An empty archive could take everything, so nothing is left out.
-            full.tell(&candidates, &evaluate(&empty, &candidates).0);
+            full.tell(&candidates, &evaluate(&Simulator::default(), &empty, &candidates).0);
             assert_eq!(staged.archive(), full.archive());
         }
         assert_eq!(full.counts().surpassed, 0);

@@ -68,7 +68,7 @@ fn a_robot_that_is_another_gate_is_named_with_its_net_and_cycle() {
     library.robots[not].body = library.robots[buf].body.clone();
     let name = library.robots[not].name.clone();
     let inverter = "circuit flip(a) -> (y) {\n    y = not a\n}\ntest flip \"inverts\" {\n    a | y\n    0 | 1\n}\n";
-    let report = run(inverter, &Options { library: Some(library) });
+    let report = run(inverter, &Options { library: Some(library), ..Options::default() });
     let told = describe_test(&report.tests[0].verdict);
     assert!(told.contains(&format!("robot {name} on net y output 0 on stimuli 0")), "{told}");
     assert!(told.contains(&format!("nearest fix: another robot than {name} on net y")), "{told}");

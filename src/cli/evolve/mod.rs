@@ -10,12 +10,14 @@ use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::run::{Ended, Run};
+use crate::cli::timings::Timings;
 use crate::cli::{Context, Failure, Format, Interrupt, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, Objective};
 use crate::pipeline;
 use crate::report::{BehaviorGroup, GroupComparison, Scheme, behavior_groups, compare_groups, describe_groups};
+use crate::sim::Simulator;
 use crate::store::{self, DiskWorld};
 use crate::swarm;
 
@@ -64,6 +66,8 @@ pub struct Arguments {
     /// Write a page with plots and the archive's elites walking
     #[arg(long)]
     report: bool,
+    #[command(flatten)]
+    timings: Timings,
 }
 
 /// What the command prints for machines.
@@ -88,16 +92,18 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, a checkpoint is refused, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let interrupt = Interrupt::watch()?;
+        let (started, interrupt) = (Instant::now(), Interrupt::watch()?);
         let declared = self.declared()?;
         self.tell_duration(&declared, context);
         let mut results = Results::default();
         for evolution in declared {
             let finished = self.run_seeds(&evolution, &interrupt, &mut results, context)?;
             if !finished {
+                self.timings.tell(started, context);
                 return results.end(context, Status::Interrupted);
             }
         }
+        self.timings.tell(started, context);
         results.end(context, Status::Done)
     }
 
@@ -243,7 +249,7 @@ fn seconds_each(evolution: &Evolution) -> f64 {
     let search = Search::new(evolution, 0);
     let candidates: Vec<_> = search.ask().into_iter().take(SAMPLE).collect();
     let started = Instant::now();
-    swarm::evaluate(&search, &candidates);
+    swarm::evaluate(&Simulator::default(), &search, &candidates);
     started.elapsed().as_secs_f64() / candidates.len().max(1) as f64
 }
 

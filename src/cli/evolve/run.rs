@@ -8,11 +8,13 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::cli::evolve::Arguments;
+use crate::cli::timings::{self, Stage};
 use crate::cli::{Failure, Interrupt, Progress};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{ArchiveStats, Search};
 use crate::model::Evolution;
 use crate::report::{EvolutionLine, evolution_table};
+use crate::sim::Simulator;
 use crate::store::{self, Checkpoint};
 use crate::swarm::{self, Work};
 
@@ -36,6 +38,7 @@ pub(super) struct Ended {
 /// One declaration with one seed, in its folder.
 pub(super) struct Run {
     search: Search,
+    simulator: Simulator,
     work: Work,
     folder: PathBuf,
     checkpoint_every: Duration,
@@ -68,6 +71,7 @@ impl Run {
         let evaluations_before = search.counts().evaluations;
         let run = Self {
             search,
+            simulator: arguments.timings.simulator(),
             work,
             folder,
             checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
@@ -88,26 +92,26 @@ impl Run {
         while !self.search.is_done() && !interrupt.is_raised() {
             self.advance();
             let line = EvolutionLine::of(&self.search, self.work);
-            self.append(&line)?;
+            timings::time(Stage::Output, || self.append(&line))?;
             bar.set(u64::from(line.generation));
             bar.set_message(self.message(&line));
             if saved.elapsed() >= self.checkpoint_every {
-                self.save()?;
+                timings::time(Stage::Output, || self.save())?;
                 saved = Instant::now();
             }
         }
-        self.save()?;
+        timings::time(Stage::Output, || self.save())?;
         Ok(self.search.is_done())
     }
 
     /// One generation, with a clock on what is not simulation.
     fn advance(&mut self) {
         let asked = Instant::now();
-        let candidates = self.search.ask();
+        let candidates = timings::time(Stage::Development, || self.search.ask());
         self.searching += asked.elapsed();
-        let (outcomes, work) = swarm::evaluate(&self.search, &candidates);
+        let (outcomes, work) = swarm::evaluate(&self.simulator, &self.search, &candidates);
         let told = Instant::now();
-        self.search.tell(&candidates, &outcomes);
+        timings::time(Stage::Archive, || self.search.tell(&candidates, &outcomes));
         self.searching += told.elapsed();
         self.work = self.work.plus(work);
     }
