@@ -10,12 +10,27 @@ use miette::{
 use super::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceFile, Sources};
 
-/// All diagnostics as text, in their order, each with its excerpt of the source.
+/// The most diagnostics that are shown; nobody reads more.
+const MOST_SHOWN: usize = 100;
+
+/// The most characters of a message that are shown: a word of the user's may be megabytes long.
+const MOST_CHARACTERS: usize = 600;
+
+/// A message as it is shown.
+fn clipped(text: &str) -> String {
+    match text.char_indices().nth(MOST_CHARACTERS) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+/// Diagnostics as text, in their order, each with its excerpt of the source; of very many the first ones, and how many follow.
 pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
-    diagnostics
+    let shown: String = diagnostics
         .iter()
+        .take(MOST_SHOWN)
         .map(|diagnostic| {
             let mut text = String::new();
             handler
@@ -23,14 +38,18 @@ pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> Strin
                 .expect("text can be written to a string");
             text + "\n"
         })
-        .collect()
+        .collect();
+    match diagnostics.len().saturating_sub(MOST_SHOWN) {
+        0 => shown,
+        more => format!("{shown}and {more} more like these; `--format json` has them all\n"),
+    }
 }
 
 /// A diagnostic as miette wants it.
 #[derive(Debug)]
 struct Report<'a> {
     heading: Option<&'a Diagnostic>,
-    message: &'a str,
+    message: String,
     labels: Vec<&'a Label>,
     excerpt: Option<Excerpt<'a>>,
     related: Vec<Report<'a>>,
@@ -43,7 +62,7 @@ impl<'a> Report<'a> {
             diagnostic.labels.iter().chain(&diagnostic.related).partition(|label| Some(label.span.file) == file);
         Self {
             heading: Some(diagnostic),
-            message: &diagnostic.message,
+            message: clipped(&diagnostic.message),
             labels: here,
             excerpt: file.map(|file| Excerpt::new(sources, file)),
             related: elsewhere.into_iter().map(|label| Self::elsewhere(label, sources)).collect(),
@@ -52,13 +71,13 @@ impl<'a> Report<'a> {
 
     fn elsewhere(label: &'a Label, sources: &'a Sources) -> Self {
         let excerpt = Some(Excerpt::new(sources, label.span.file));
-        Self { heading: None, message: &label.text, labels: vec![label], excerpt, related: Vec::new() }
+        Self { heading: None, message: clipped(&label.text), labels: vec![label], excerpt, related: Vec::new() }
     }
 }
 
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message)
+        f.write_str(&self.message)
     }
 }
 
@@ -78,7 +97,7 @@ impl miette::Diagnostic for Report<'_> {
     }
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
-        self.heading?.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.heading?.help.as_ref().map(|help| Box::new(clipped(help)) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -88,7 +107,7 @@ impl miette::Diagnostic for Report<'_> {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let labeled = |label: &&Label| {
             let start = self.excerpt.as_ref().map_or(0, |excerpt| excerpt.visible(label.span.range().start));
-            LabeledSpan::new(Some(label.text.clone()), start, label.span.range().len())
+            LabeledSpan::new(Some(clipped(&label.text)), start, label.span.range().len())
         };
         (!self.labels.is_empty())
             .then(|| Box::new(self.labels.iter().map(labeled)) as Box<dyn Iterator<Item = LabeledSpan>>)
@@ -194,6 +213,14 @@ mod tests {
         let shown = render(&"x".repeat(10_000_000), 5_000_000, 5_000_001);
         assert!(shown.len() < 2_000, "{} bytes shown", shown.len());
         assert!(shown.contains("expected a name"), "{shown}");
+    }
+
+    #[test]
+    fn a_word_of_megabytes_is_shown_in_part_and_of_many_messages_the_first() {
+        let diagnostic =
+            Diagnostic::without_place(Code::Unknown, format!("no net is called `{}`", "x".repeat(1_000_000)));
+        let shown = text(&vec![diagnostic; 1_000], &Sources::default(), false);
+        assert!(shown.len() < 200_000 && shown.ends_with("and 900 more like these; `--format json` has them all\n"));
     }
 
     #[test]

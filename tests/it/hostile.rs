@@ -4,6 +4,8 @@ use nbc::check;
 use nbc::diag::{Code, Diagnostic, render};
 use nbc::source::{MemoryWorld, Sources};
 
+use crate::cli::Bench;
+
 fn found(text: String) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
     let file = sources.add("a.nb", text);
@@ -105,4 +107,78 @@ fn a_circle_of_many_files_is_refused() {
     let file = check::open(&world, "0.nb", &mut sources).unwrap();
     let diagnostics = check::check(&world, &mut sources, file).diagnostics;
     assert!(diagnostics.iter().any(|diagnostic| diagnostic.code == Code::Nesting), "{diagnostics:?}");
+}
+
+/// The program refuses a file with this code, within a second of the processor and a gigabyte of address space.
+#[track_caller]
+fn refused_in_bounds(bench: &Bench, file: &str, code: Code) {
+    refused_by(bench, &["check", file], code);
+}
+
+#[track_caller]
+fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
+    let file = arguments[1];
+    let mut command = std::process::Command::new("bash");
+    command.args(["-c", "ulimit -t 1 -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_nbc")]).args(arguments);
+    let output = command.current_dir(bench.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{file}: {:?}, {said:.500}", output.status);
+    assert!(said.contains(code.word()) && !said.contains("panicked"), "{file}: {code} is not in {said:.500}");
+    assert!(said.len() < 100_000, "{file}: {} bytes of messages", said.len());
+}
+
+#[test]
+fn hostile_files_are_refused_within_a_second_and_a_gigabyte() {
+    let bench = Bench::new();
+    let refused = |text: &[u8], code: Code| {
+        bench.file("hostile.nb", text);
+        refused_in_bounds(&bench, "hostile.nb", code);
+    };
+    let deep = |open: &str, close: &str| circuit(&format!("q = {}a{}", open.repeat(10_000), close.repeat(10_000)));
+    refused(deep("(", ")").as_bytes(), Code::Nesting);
+    refused(deep("if a then ", " else a").as_bytes(), Code::Nesting);
+    refused(deep("{2{", "}}").as_bytes(), Code::Nesting);
+    refused("for i in 0..2 {\n".repeat(10_000).as_bytes(), Code::Nesting);
+    refused(b"circuit f(a[8589934592]) -> (q) { q = any(a) }", Code::OutOfRange);
+    refused(circuit("q = any({1073741824{a}})").as_bytes(), Code::OutOfRange);
+    refused(circuit("for i in 0..1000000 { _ = a }\n q = a").as_bytes(), Code::TooLarge);
+    refused(circuit("for i in 0..1000000 { for j in 0..1000000 { } }\n q = a").as_bytes(), Code::TooLarge);
+    refused(b"use \"hostile.nb\"\ncircuit f(a) -> (q) { q = a }", Code::CircularUse);
+    refused(b"circuit f(a) -> (q) { q = a }\n\xff\xfe", Code::Unreadable);
+    refused(&vec![b'\n'; 100_000_000], Code::Unreadable);
+    refused("circuit f(a) -> (q) { q = a }\n".repeat(3_500_000).as_bytes(), Code::Unreadable);
+    refused("(".repeat(8_000_000).as_bytes(), Code::Nesting);
+    refused("a ".repeat(4_000_000).as_bytes(), Code::Syntax);
+    refused("}\n".repeat(4_000_000).as_bytes(), Code::Syntax);
+    refused("\"".repeat(8_000_000).as_bytes(), Code::Syntax);
+    refused("// c\n".repeat(1_600_000).as_bytes(), Code::Empty);
+    refused("circuit f {\n".repeat(20_000).as_bytes(), Code::Syntax);
+    refused_in_bounds(&bench, "/dev/zero", Code::Unreadable);
+    refused_in_bounds(&bench, ".", Code::Unreadable);
+}
+
+#[test]
+fn hostile_circuit_files_are_refused_within_a_second_and_a_gigabyte() {
+    let bench = Bench::new();
+    let refused = |name: &str, bytes: &[u8]| {
+        bench.file(name, bytes);
+        refused_by(&bench, &["synth", name, "--cells", "nand"], Code::CircuitFile);
+    };
+    // Each model instantiates the next one so often.
+    let models = |depth: usize, times: usize| {
+        let mut text = ".model m0\n.inputs x\n.outputs y\n.subckt m1 x=x y=y\n.end\n".to_owned();
+        for at in 1..depth {
+            let next = at + 1;
+            text += &format!(".model m{at}\n.inputs x\n.outputs y\n.names x y\n1 1\n");
+            (0..times).for_each(|copy| text += &format!(".subckt m{next} x=x y=t{copy}\n"));
+        }
+        text + &format!(".model m{depth}\n.inputs x\n.outputs y\n.names x y\n0 1\n.end\n")
+    };
+    refused("double.blif", models(60, 2).as_bytes());
+    refused("deep.blif", models(20_000, 1).as_bytes());
+    refused("wide.aig", b"aig 99999999 99999999 0 0 0\n");
+    refused("wide.aig", b"aig 4000000 4000000 0 0 0\n");
+    refused("long.aag", b"aag 4000000 0 0 4000000 0\n");
+    refused("zero.blif", &[0; 1_000_000]);
+    refused("zero.bench", &[b'('; 1_000_000]);
 }

@@ -21,6 +21,7 @@ mod page;
 mod physics;
 mod pictures;
 mod plots;
+mod speed;
 mod swarms;
 mod synth;
 mod testing;

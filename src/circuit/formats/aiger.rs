@@ -9,7 +9,10 @@ use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
 
 /// The most variables that a file may have.
-pub const MOST_VARIABLES: usize = 20_000_000;
+pub const MOST_VARIABLES: usize = 4_000_000;
+
+/// The most inputs and latches, of which a binary file says no more than their number.
+pub const MOST_PORTS: usize = 1_000_000;
 
 /// Reads a file; `clock` names the clock of its latches.
 ///
@@ -81,6 +84,9 @@ impl<'b> Reader<'b> {
         };
         if numbers.iter().any(|&number| number > MOST_VARIABLES) {
             return self.fault(format!("more than {MOST_VARIABLES} variables"));
+        }
+        if inputs > MOST_PORTS || latches > MOST_PORTS {
+            return self.fault(format!("more than {MOST_PORTS} inputs or latches"));
         }
         if inputs + latches + ands > variables || binary && inputs + latches + ands != variables {
             return self.fault("the numbers of the header contradict each other");

@@ -29,11 +29,21 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
             "expected `.model`",
         )]);
     }
+    let mut extents = vec![None; models.all.len()];
+    if let Err((message, span)) = models.extent(0, 0, &mut extents) {
+        return Err(vec![Diagnostic::new(Code::CircuitFile, message, span, "when it came to this one")]);
+    }
     let mut draft = Draft::titled(models.all[0].name);
     let mut flat = Flat { models: &models, draft: &mut draft, clock, path: Vec::new() };
     flat.instantiate(0, "", &BTreeMap::new());
     draft.finish()
 }
+
+/// How deep models may instantiate models.
+const MOST_DEPTH: usize = 200;
+
+/// The most bytes, roughly, that the models may take once they are all in their places.
+const MOST_BYTES: usize = 1 << 29;
 
 /// A logical line: its words with their places.
 type Words<'t> = Vec<(&'t str, Span)>;
@@ -43,6 +53,17 @@ enum Statement<'t> {
     Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool },
     Latch(Words<'t>),
     Subcircuit(Words<'t>),
+}
+
+impl Statement<'_> {
+    /// The bytes that an instance of it takes, roughly.
+    fn size(&self) -> usize {
+        const NET: usize = 100;
+        match self {
+            Self::Names { signals, cubes, .. } => NET * signals.len() + cubes.iter().map(Vec::len).sum::<usize>(),
+            Self::Latch(words) | Self::Subcircuit(words) => NET * words.len(),
+        }
+    }
 }
 
 /// A model as it stands in the text.
@@ -83,7 +104,48 @@ const IGNORED: &[&str] = &[
     ".wire_arrival",
 ];
 
+/// What a model with all that it instantiates comes to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Extent {
+    /// How many models stand in each other.
+    depth: usize,
+    statements: usize,
+    /// The bytes that an instance takes, roughly.
+    bytes: usize,
+}
+
 impl<'t> Models<'t> {
+    /// Measures a model `depth` deep, each model once, or finds the place at which it comes to too much.
+    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (String, Span)> {
+        // A model that contains itself is told of where it is instantiated.
+        known[model] = Some(Extent::default());
+        let mut extent = Extent::default();
+        for (statement, span) in &self.all[model].statements {
+            extent.statements = extent.statements.saturating_add(1);
+            extent.bytes = extent.bytes.saturating_add(statement.size());
+            let Statement::Subcircuit(words) = statement else { continue };
+            let Some(&inner) = self.by_name.get(words[0].0) else { continue };
+            let nested = match known[inner] {
+                Some(nested) => nested,
+                None if depth < MOST_DEPTH => self.extent(inner, depth + 1, known)?,
+                None => Extent { depth: MOST_DEPTH, ..Extent::default() },
+            };
+            // An instance's name stands before those of its nets.
+            let names = nested.statements.saturating_mul(words[0].0.len() + 10);
+            extent.depth = extent.depth.max(nested.depth + 1);
+            extent.statements = extent.statements.saturating_add(nested.statements);
+            extent.bytes = extent.bytes.saturating_add(nested.bytes).saturating_add(names);
+            if extent.depth > MOST_DEPTH {
+                return Err((format!("models nest more than {MOST_DEPTH} deep"), *span));
+            }
+            if extent.bytes > MOST_BYTES {
+                return Err(("the circuit is too large with its models in their places".to_owned(), *span));
+            }
+        }
+        known[model] = Some(extent);
+        Ok(extent)
+    }
+
     fn fault(&mut self, message: impl Into<String>, span: Span, label: impl Into<String>) {
         if self.errors.len() < 20 {
             self.errors.push(Diagnostic::new(Code::CircuitFile, message, span, label));

@@ -1,0 +1,149 @@
+//! How fast the language is. Measured in release builds, when asked for:
+//! `cargo test --release --test it speed:: -- --ignored --nocapture --test-threads=1`.
+
+use std::fs;
+use std::process::Command;
+
+use nbc::check;
+use nbc::circuit::elaborate;
+use nbc::source::{MemoryWorld, Sources};
+
+use crate::cli::Bench;
+use crate::language::programs;
+
+/// Processor seconds that this thread has taken; less than the clock's where the machine has other work.
+fn processor_seconds() -> f64 {
+    let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap();
+    text.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-9
+}
+
+/// The most memory that this process has held, in megabytes.
+fn peak_megabytes() -> f64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+    peak.trim().trim_end_matches(" kB").parse::<f64>().unwrap() / 1024.0
+}
+
+/// The least processor seconds of several runs of the program.
+fn program_seconds(bench: &Bench, arguments: &[&str], runs: usize) -> f64 {
+    let seconds = |minutes: &str| {
+        let (minutes, seconds) = minutes.trim_end_matches('s').split_once('m').unwrap();
+        minutes.parse::<f64>().unwrap() * 60.0 + seconds.parse::<f64>().unwrap()
+    };
+    let run = |_| {
+        let script = "\"$0\" \"$@\" >/dev/null 2>&1; times";
+        let mut command = Command::new("bash");
+        command.args(["-c", script, env!("CARGO_BIN_EXE_nbc")]).args(arguments).current_dir(bench.path());
+        let said = String::from_utf8(command.output().unwrap().stdout).unwrap();
+        // The second line is about the shell's children: seconds in the program and in the system.
+        said.lines().nth(1).unwrap().split(' ').map(seconds).sum::<f64>()
+    };
+    (0..runs).map(run).fold(f64::INFINITY, f64::min)
+}
+
+/// A program of ten thousand lines: circuits that use each other, each with a test.
+fn long_program() -> String {
+    let mut text =
+        String::from("circuit c0(a, b, v[8]) -> (q, w[8]) {\n    q = (a nand b) xor v[0]\n    w = not v\n}\n");
+    let mut lines = 4;
+    for at in 1.. {
+        text += &format!(
+            "
+circuit c{at}(a, b, v[8]) -> (q, w[8]) {{
+    // What the one before says, and something of its own.
+    (t, x) = c{before}(a, b, v)
+    u      = if a then t and not b else nand(t, v[3], b)
+    y      = table(a, b, t) {{ 00-: 1, 011: 0, else: 1 }}
+    w      = x + {{4'b1010, v[7..4]}}
+    q      = (y xor u) or any(v)
+}}
+
+test c{at} \"row {at}\" {{
+    a b v       | q
+    0 1 8'd{value:<3}   | -
+    1 0 8'hff   | -
+}}
+",
+            before = at / 2,
+            value = at % 256,
+        );
+        lines += 15;
+        if lines >= 10_000 {
+            break;
+        }
+    }
+    assert!(text.lines().count() >= 10_000);
+    text
+}
+
+#[test]
+#[ignore = "measures a release build"]
+fn ten_thousand_lines_are_checked_in_a_fifth_of_a_second() {
+    let bench = Bench::new();
+    bench.file("long.nb", long_program());
+    let ran = bench.run(&["check", "long.nb"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let seconds = program_seconds(&bench, &["check", "long.nb"], 10);
+    println!("nbc check of 10,000 lines: {:.0} ms", seconds * 1e3);
+    let format = program_seconds(&bench, &["fmt", "--check", "long.nb"], 10);
+    println!("nbc fmt --check of 10,000 lines: {:.0} ms", format * 1e3);
+    assert!(seconds < 0.2, "{seconds} s");
+}
+
+#[test]
+#[ignore = "measures a release build"]
+fn two_hundred_thousand_gates_are_elaborated_in_two_seconds() {
+    // Twenty thousand full adders of five gates, twice: one net after the other, and a hierarchy of circuits.
+    let text = "
+        circuit row[n](a[n], b[n], cin) -> (s[n], cout) {
+            net c[n + 1]
+            c[0] = cin
+            for i in 0..n { (s[i], c[i + 1]) = full_adder(a[i], b[i], c[i]) }
+            cout = c[n]
+        }
+        circuit square[n](a[n], b[n]) -> (s[n * n]) {
+            for i in 0..n { (s[i * n + n - 1..i * n], _) = row(a, b, a[i]) }
+        }
+        circuit large(a[200], b[200]) -> (s[40000]) { s = square(a, b) }";
+    let mut sources = Sources::default();
+    let file = sources.add("large.nb", text);
+    let before = processor_seconds();
+    let checked = check::check(&MemoryWorld::default(), &mut sources, file);
+    assert!(!checked.has_errors(), "{:?}", checked.diagnostics);
+    let between = processor_seconds();
+    let netlist = elaborate(&checked.program, &"large".into()).unwrap();
+    let seconds = processor_seconds() - between;
+    let gates = netlist.cells().count();
+    println!(
+        "check {:.2} s, elaboration of {gates} gates {seconds:.2} s, peak {:.0} MB",
+        between - before,
+        peak_megabytes()
+    );
+    assert!(gates >= 200_000 && seconds < 2.0 && peak_megabytes() < 1024.0);
+}
+
+#[test]
+#[ignore = "measures a release build"]
+fn every_command_starts_in_a_fiftieth_of_a_second() {
+    let bench = Bench::new();
+    let help = bench.run(&["--help"]).out;
+    let listed = help.split("Commands:").nth(1).unwrap().split("Options:").next().unwrap();
+    let commands: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let latch = programs("circuits").into_iter().find(|path| path.ends_with("latch.nb")).unwrap();
+    let latch = latch.to_str().unwrap();
+    let starts = commands.iter().map(|&command| vec![command, "--help"]);
+    let work = [
+        vec!["check", latch],
+        vec!["fmt", "--check", latch],
+        vec!["test", "--logic", latch],
+        vec!["explain", "width"],
+        vec!["library", "list"],
+        vec!["completions", "bash"],
+        vec!["build", latch],
+    ];
+    for arguments in starts.chain(work) {
+        let seconds = program_seconds(&bench, &arguments, 10);
+        println!("nbc {}: {:.0} ms", arguments.join(" "), seconds * 1e3);
+        assert!(seconds < 0.02, "{arguments:?} takes {seconds} s");
+    }
+}
