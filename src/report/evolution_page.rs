@@ -21,7 +21,7 @@ const SCRIPT: &str = include_str!("../../assets/page/archive.js");
 /// Cycles of a gait under each pattern.
 const GAIT_CYCLES: usize = 2;
 
-/// A drawing of the page with its heading, and what is said below it.
+/// A drawing of the page with its heading.
 pub struct Plate {
     /// The heading.
     pub heading: String,
@@ -182,9 +182,9 @@ fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, col
         "color": color,
         "size": [elite.body.width(), elite.body.height()],
         "about": [
-            ["best", &format!("{} {}", number(elite.fitness[0]), harvest.unit())],
+            ["fitness", &format!("{}, {}", number(elite.fitness[0]), harvest.unit())],
             ["bins", &place.join(", ")],
-            ["second fitness", &format!("{:.3}", elite.fitness[1])],
+            ["second", &format!("{:.3}", elite.fitness[1])],
             ["displacement", &format!("{} voxels", walked.join(", "))],
             ["body", &elite.body.rows().join(" ")],
             ["born", &format!("seed {seed}, generation {}", elite.generation)],

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use resvg::tiny_skia::{self, FillRule, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, Transform};
+use resvg::tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use crate::model::CYCLE_STEPS;
 use crate::report::Color;
@@ -11,7 +11,7 @@ use crate::report::raster::rasterize;
 use crate::report::sprite::{Pose, Scheme};
 use crate::report::stage::{Moment, Stage};
 use crate::report::svg::{Anchor, Paint, Svg, Type, shorten};
-use crate::report::swatches::Swatches;
+use crate::report::swatches::{Swatches, UNCHANGED};
 
 /// Env steps from frame to frame: twelve frames a cycle.
 pub const STRIDE: u32 = CYCLE_STEPS / 12;
@@ -72,7 +72,7 @@ impl<'a> Painter<'a> {
 
     /// Draws a moment and gives what has changed since the one before.
     fn paint(&mut self, moment: &Moment, share: f64) -> Patch {
-        self.frame.draw_pixmap(0, 0, self.backdrop.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
+        self.frame.data_mut().copy_from_slice(self.backdrop.data());
         self.follow(moment);
         for lane in 0..moment.poses.len() {
             self.paint_lane(moment, lane);
@@ -154,8 +154,9 @@ impl Film {
         (120.0 / self.largest as f64).clamp(5.0, most)
     }
 
+    /// Whole pixels, so that the edges of the ground are sharp.
     fn lane_height(&self) -> f64 {
-        (self.largest as f64 * 1.25 + 0.5) * self.scale() + 26.0
+        ((self.largest as f64 * 1.25 + 0.5) * self.scale()).round() + 26.0
     }
 
     /// Where a lane begins.
@@ -221,21 +222,32 @@ fn paint_pose(frame: &mut Pixmap, pose: &Pose, scheme: Scheme, to_pixel: impl Fn
     }
 }
 
-/// The smallest rectangle that holds every pixel that differs; one pixel where none does.
+/// The smallest rectangle that holds every pixel that differs, one pixel where none does; those in it that do not differ are
+/// [`UNCHANGED`], which makes long runs that take no room in a file.
 fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
     if old.len() != fresh.len() {
         return Patch { left: 0, top: 0, width, height, pixels: fresh.to_vec() };
     }
     let row = width as usize;
-    let differs = |y: usize| old[y * row..(y + 1) * row] != fresh[y * row..(y + 1) * row];
-    let top = (0..height as usize).find(|&y| differs(y)).unwrap_or(0);
-    let bottom = (0..height as usize).rfind(|&y| differs(y)).unwrap_or(0);
-    let differing = |x: usize| (top..=bottom).any(|y| old[y * row + x] != fresh[y * row + x]);
-    let left = (0..row).find(|&x| differing(x)).unwrap_or(0);
-    let right = (0..row).rfind(|&x| differing(x)).unwrap_or(0);
-    let pixels = (top..=bottom).flat_map(|y| fresh[y * row + left..=y * row + right].iter().copied()).collect();
+    let [left, top, right, bottom] = changed(old, fresh, row).unwrap_or_default();
+    let pixel = |at: usize| if old[at] == fresh[at] { UNCHANGED } else { fresh[at] };
+    let pixels = (top..=bottom).flat_map(|y| (y * row + left..=y * row + right).map(pixel)).collect();
     let (wide, high) = ((right - left + 1) as u32, (bottom - top + 1) as u32);
     Patch { left: left as u32, top: top as u32, width: wide, height: high, pixels }
+}
+
+/// Left, top, right and bottom of what differs.
+fn changed(old: &[u8], fresh: &[u8], row: usize) -> Option<[usize; 4]> {
+    let rows = old.chunks(row).zip(fresh.chunks(row)).enumerate();
+    let differing = rows.filter(|(_, (old, fresh))| old != fresh);
+    let spans = differing.filter_map(|(y, (old, fresh))| {
+        let differs = |x: &usize| old[*x] != fresh[*x];
+        Some((y, (0..row).find(differs)?, (0..row).rfind(differs)?))
+    });
+    spans.fold(None, |found: Option<[usize; 4]>, (y, first, last)| {
+        let [left, top, right, _] = found.unwrap_or([first, y, last, y]);
+        Some([left.min(first), top, right.max(last), y])
+    })
 }
 
 /// Writes an endless GIF of the robots on a stage, calling `observe` with the number of frames done after each.
@@ -254,6 +266,7 @@ pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut d
         let patch = painter.paint(&moment, i as f64 / last);
         let frame = gif::Frame {
             delay: DELAY,
+            transparent: Some(UNCHANGED),
             left: patch.left as u16,
             top: patch.top as u16,
             width: patch.width as u16,
@@ -278,8 +291,10 @@ pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut 
     let mut encoder = png::Encoder::new(out, width, height);
     encoder.set_color(png::ColorType::Indexed);
     encoder.set_palette(painter.swatches.bytes());
+    encoder.set_trns((0..=UNCHANGED).map(|color| if color == UNCHANGED { 0 } else { 255 }).collect::<Vec<u8>>());
     encoder.set_compression(png::Compression::Fast);
     encoder.set_animated(moments as u32, 0).map_err(io::Error::other)?;
+    encoder.set_blend_op(png::BlendOp::Over).map_err(io::Error::other)?;
     encoder.set_frame_delay(DELAY, 100).map_err(io::Error::other)?;
     let mut writer = encoder.write_header().map_err(io::Error::other)?;
     for (i, moment) in stage.enumerate() {

@@ -16,7 +16,7 @@ impl Room {
     /// For a swarm: better a jerky film than one without all robots.
     pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
     /// For gaits of elites: better some of them than jerky ones.
-    pub const GAITS: Self = Self { bytes: 2_700_000, strides: &[7, 12, 14] };
+    pub const GAITS: Self = Self { bytes: 2_400_000, strides: &[7, 12, 14] };
 
     /// The stride, and the number of robots, for which there is room; `points` are those of each robot.
     pub fn fit(self, points: &[usize], cycles: usize) -> (u32, usize) {

@@ -1,9 +1,12 @@
-//! The colors of a film: 256 of them, and for any color the nearest.
+//! The colors of a film: 255 of them, and for any color the nearest.
 
 use crate::report::Color;
 use crate::report::sprite::Scheme;
 
-/// The colors of a film, at most 256 of them, and the nearest of them for any color.
+/// The number that is no color: a pixel as it was in the frame before.
+pub const UNCHANGED: u8 = 255;
+
+/// The colors of a film, at most 255 of them, and the nearest of them for any color.
 pub struct Swatches {
     colors: Vec<Color>,
     /// Numbers of the nearest colors, by the five high bits of red, green and blue.
@@ -34,7 +37,7 @@ impl Swatches {
         colors.extend((0..=15).map(|level| Color::new(level * 17, level * 17, level * 17)));
         let steps = [0, 63, 127, 191, 255];
         colors.extend((0..125).map(|i| Color::new(steps[i / 25], steps[i / 5 % 5], steps[i % 5])));
-        colors.truncate(256);
+        colors.truncate(usize::from(UNCHANGED));
         let of_key = |key: usize| Color::new(wide(key >> 10), wide(key >> 5), wide(key));
         let mut nearest: Vec<u8> = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();
         // A color of the list is itself, whatever else is near; where two are as near as that, the first.
@@ -49,9 +52,10 @@ impl Swatches {
         self.nearest[key(r, g, b)]
     }
 
-    /// All colors, red, green, blue.
+    /// All colors, red, green, blue, and one for [`UNCHANGED`] that is not seen.
     pub fn bytes(&self) -> Vec<u8> {
-        self.colors.iter().flat_map(|color| [color.r, color.g, color.b]).collect()
+        let unseen = std::iter::repeat_n(Color::BLACK, 256 - self.colors.len());
+        self.colors.iter().copied().chain(unseen).flat_map(|color| [color.r, color.g, color.b]).collect()
     }
 }
 

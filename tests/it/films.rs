@@ -1,7 +1,13 @@
 //! Films, decoded frame by frame.
 
-use nbc::model::{Body, Pattern, Schedule, Setting, Spell};
-use nbc::report::{self, Film, STRIDE, Scheme, Stage};
+use std::cell::Cell;
+use std::io::{self, Write};
+use std::rc::Rc;
+
+use nbc::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Spell};
+use nbc::report::{self, Color, Film, STRIDE, Scheme, Stage};
+
+use crate::pictures::latch;
 
 const WALKER: [&str; 5] = ["66666", "46666", "44444", "44404", "44005"];
 
@@ -34,11 +40,18 @@ fn decode_gif(bytes: &[u8]) -> (Vec<Vec<u8>>, Vec<u8>) {
     while let Some(frame) = decoder.read_next_frame().unwrap() {
         for (y, line) in frame.buffer.chunks(usize::from(frame.width)).enumerate() {
             let start = (usize::from(frame.top) + y) * row + usize::from(frame.left);
-            picture[start..start + line.len()].copy_from_slice(line);
+            put_over(&mut picture[start..start + line.len()], line);
         }
         pictures.push(picture.clone());
     }
     (pictures, palette)
+}
+
+/// Pixels over those of the frame before; the last color number leaves what is there.
+fn put_over(picture: &mut [u8], line: &[u8]) {
+    for (pixel, &new) in picture.iter_mut().zip(line) {
+        *pixel = if new == 255 { *pixel } else { new };
+    }
 }
 
 #[test]
@@ -66,11 +79,76 @@ fn an_apng_shows_the_same_film() {
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().unwrap();
     assert_eq!(reader.info().animation_control.unwrap().num_frames as usize, pictures.len());
-    // GIF fills its palette up to 256 colors.
-    assert!(palette.starts_with(reader.info().palette.as_deref().unwrap()));
-    let mut first = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut first).unwrap();
-    assert_eq!(first, pictures[0]);
+    assert_eq!(Some(palette.as_slice()), reader.info().palette.as_deref());
+    let row = reader.info().width as usize;
+    let mut picture = vec![0; row * reader.info().height as usize];
+    for (i, expected) in pictures.iter().enumerate() {
+        let mut patch = vec![0; reader.output_buffer_size().unwrap()];
+        let shape = reader.next_frame(&mut patch).unwrap();
+        let place = *reader.info().frame_control().unwrap();
+        assert_eq!((place.width, place.height, place.blend_op), (shape.width, shape.height, png::BlendOp::Over));
+        for (y, line) in patch.chunks(shape.line_size).take(shape.height as usize).enumerate() {
+            let start = (place.y_offset as usize + y) * row + place.x_offset as usize;
+            put_over(&mut picture[start..start + line.len()], line);
+        }
+        assert!(picture == *expected, "frame {i} is that of the GIF");
+    }
+}
+
+/// Counts what is written.
+struct Counter(Rc<Cell<usize>>);
+
+impl Write for Counter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.set(self.0.get() + bytes.len());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn frames_are_written_as_they_are_made() {
+    let body = Body::parse(&WALKER, 8).unwrap();
+    for write in [report::write_gif, report::write_apng] {
+        let (film, stage) = film(&body, 3);
+        let written = Rc::new(Cell::new(0));
+        let mut sizes = Vec::new();
+        write(&film, stage, &mut Counter(written.clone()), &mut |_| sizes.push(written.get())).unwrap();
+        assert_eq!(sizes.len(), 3 * 12 + 1);
+        assert!(sizes.windows(2).all(|pair| pair[1] > pair[0]), "no frame is held back: {sizes:?}");
+    }
+}
+
+#[test]
+fn a_swarm_walks_in_lanes_beside_its_stimuli() {
+    let trace = latch(&[(false, true), (true, true)], 2);
+    let assembly = crate::page::assembly(&trace);
+    let lanes: Vec<String> = trace.robots.iter().map(|robot| robot.net.clone()).collect();
+    let film = Film { title: "latch".to_owned(), lanes, scheme: Scheme::Paper, largest: 5 };
+    let stage = Stage::of_swarm(&Setting::paper(), &assembly, &trace, CYCLE_STEPS);
+    let mut bytes = Vec::new();
+    report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
+    let width = usize::from(gif::Decoder::new(bytes.as_slice()).unwrap().width());
+    let (pictures, palette) = decode_gif(&bytes);
+    assert_eq!(pictures.len(), 4 + 1);
+    let number = |color: Color| palette.chunks(3).position(|rgb| rgb == [color.r, color.g, color.b]).unwrap() as u8;
+    let count = |picture: &[u8], color: u8, columns: std::ops::Range<usize>| {
+        picture.chunks(width).flat_map(|row| &row[columns.clone()]).filter(|&&pixel| pixel == color).count()
+    };
+    let [one, two, ground] = [Color::STIMULUS_1, Color::STIMULUS_2, Color::GROUND].map(number);
+    for (picture, cycle) in pictures.iter().zip(&trace.cycles) {
+        for (i, color) in [one, two].into_iter().enumerate() {
+            // A frame of two pixels around twelve by twelve, which are filled while the stimulus is present.
+            let present = cycle.sensed.iter().filter(|sensed| sensed[i]).count();
+            assert_eq!(count(picture, color, 0..60), 5 * (16 * 16 - 12 * 12) + present * 12 * 12);
+        }
+        // Far from the robots, whose edges may have any color; ticks cover some columns.
+        let column = (width - 20..width).map(|x| count(picture, ground, x..x + 1)).max().unwrap();
+        assert_eq!(column, 5 * 9, "five lanes stand on ground nine pixels deep");
+    }
 }
 
 #[test]

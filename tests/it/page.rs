@@ -43,7 +43,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
     judge("holds </script><b> its bit", trace, &rows, &[4; 5])
 }
 
-fn assembly(trace: &SwarmTrace) -> Assembly {
+pub fn assembly(trace: &SwarmTrace) -> Assembly {
     let member = |k: usize| Member {
         net: trace.robots[k].net.clone(),
         robot: robot(&trace.robots[k].robot, trace.robots[k].function),
@@ -90,6 +90,7 @@ fn the_page_holds_everything_and_fetches_nothing() {
     for outside in ["src=\"", "href=\"http", "url(", "@import", "fetch("] {
         assert!(!page.contains(outside), "the page says {outside:?}");
     }
+    assert!(page == self::page(), "the same run has the same page");
     assert!(page.contains("pass: 2 of 2 tests passed"), "the verdict comes first");
     assert!(page.contains("circuits/&lt;latch&gt;.nb"));
     assert!(!page.contains("</script><b>"), "a title cannot break out");

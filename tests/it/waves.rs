@@ -5,6 +5,7 @@ use std::io::Cursor;
 use nbc::report;
 use wellen::simple::{Waveform, read_from_reader};
 
+use crate::cli::Bench;
 use crate::pictures::latch;
 
 /// The times in microseconds and values of a signal, by its full name.
@@ -37,6 +38,27 @@ fn a_dump_reads_back_with_the_traces_values() {
     let places = changes(&mut waves, "d_latch.robot_q.x");
     assert_eq!(places.len(), trace.robots[1].com_x.len());
     assert_eq!(places[1], (cycle / 4, trace.robots[1].com_x[1].to_string()));
+}
+
+#[test]
+fn a_run_leaves_its_waveforms_beside_the_report() {
+    let bench = Bench::new();
+    let program =
+        "circuit inverter(a) -> (q) { q = not a }\ntest inverter \"inverts\" {\n    a | q\n    1 | 0\n    0 | 1\n}\n";
+    bench.file("not.nb", program);
+    assert_eq!(bench.run(&["run", "not.nb"]).status, 0);
+    assert!(bench.path().join("out/not/report.html").is_file());
+    let bytes = std::fs::read(bench.path().join("out/not/inverter-waves.vcd")).unwrap();
+    let drawn = bench.run(&["draw", "not.nb", "--as", "vcd", "-o", "a.vcd"]);
+    assert_eq!(drawn.status, 0, "{}", drawn.err);
+    assert!(bytes == std::fs::read(bench.path().join("a.vcd")).unwrap(), "the same run has the same waveforms");
+    let mut waves = read_from_reader(Cursor::new(bytes)).unwrap();
+    let hold = changes(&mut waves, "inverter.inputs.a")[1].0;
+    assert_eq!(changes(&mut waves, "inverter.inputs.a"), [(0, "1".to_owned()), (hold, "0".to_owned())]);
+    assert_eq!(changes(&mut waves, "inverter.robot_q.bit").last().unwrap().1, "1");
+    let places = changes(&mut waves, "inverter.robot_q.x");
+    let place = |time: u64| places.iter().rfind(|(at, _)| *at <= time).unwrap().1.parse::<f64>().unwrap();
+    assert!(place(2 * hold) > place(hold), "a robot whose bit is 1 goes right");
 }
 
 #[test]
