@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::circuit::loops::Loops;
+use crate::circuit::network::counting_word;
 use crate::circuit::{NetId, Netlist, Node};
 use crate::model::Function;
 
@@ -78,17 +79,8 @@ type Values = BTreeMap<NetId, Ternary>;
 
 /// The values of all nets in 64 states of the inputs and the memory, and which of these states are at rest.
 fn at_rest(netlist: &Netlist, loops: &Loops, memory: &[NetId], bits: usize, word: u64) -> (Values, u64) {
-    const COUNTING: [u64; 6] = [
-        0xaaaa_aaaa_aaaa_aaaa,
-        0xcccc_cccc_cccc_cccc,
-        0xf0f0_f0f0_f0f0_f0f0,
-        0xff00_ff00_ff00_ff00,
-        0xffff_0000_ffff_0000,
-        0xffff_ffff_0000_0000,
-    ];
-    let bit = |i: usize| COUNTING.get(i).copied().unwrap_or_else(|| 0u64.wrapping_sub(word >> (i - 6) & 1));
     let free = netlist.inputs().iter().chain(memory).enumerate();
-    let mut values: Values = free.map(|(i, &id)| (id, Ternary::known(bit(i)))).collect();
+    let mut values: Values = free.map(|(i, &id)| (id, Ternary::known(counting_word(i, word as usize)))).collect();
     for &id in loops.order() {
         if !values.contains_key(&id) {
             let value = answer(netlist, &values, id);
