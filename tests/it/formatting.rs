@@ -51,6 +51,22 @@ fn every_program_of_the_repository_is_in_its_canonical_form() {
     }
 }
 
+#[test]
+fn the_laws_hold_for_every_program_that_can_be_parsed() {
+    let mut seen = 0;
+    for path in programs("tests/ui").into_iter().chain(programs("tests/ui/used")) {
+        let mut sources = Sources::default();
+        // Some of them are no text, for that is their fault.
+        let Ok(text) = fs::read_to_string(&path) else { continue };
+        let file = sources.add("a.nb", text.clone());
+        if syntax::parse(&sources, file).errors.is_empty() {
+            check_laws(&text);
+            seen += 1;
+        }
+    }
+    assert!(seen > 20, "{seen} programs could be parsed");
+}
+
 /// An expression over the nets `a`, `b` and the bus `v`, one bit wide.
 fn expression() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
