@@ -28,6 +28,9 @@ pub enum Effort {
 
 /// The most inputs of a network that is searched as a whole.
 const WHOLE_INPUTS: usize = 11;
+/// The most inputs of a network that is searched from several starts at high effort, and how many.
+const SMALL_INPUTS: usize = 4;
+const SMALL_STARTS: usize = 6;
 /// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 500;
 /// The most gates of a network that the walk roams as a whole.
@@ -136,9 +139,15 @@ fn search(
         Effort::Normal => (12 * gates).clamp(150, 500),
         Effort::High => (1_000 * gates).clamp(10_000, 60_000),
     };
-    let calm = walk::improve_all(network, prices, stages, Plan::calm(visits * share), random);
     let plan = Plan { climb: 400, patience: visits / 4, ..Plan::calm(visits * share) };
-    walk::improve_all(&calm, prices, stages, plan, random)
+    let mut walk = || {
+        let calm = walk::improve_all(network, prices, stages, Plan::calm(visits * share), random);
+        walk::improve_all(&calm, prices, stages, plan, random)
+    };
+    // Where few inputs make a walk cheap, a fresh start is worth more than a longer walk.
+    let starts = if effort == Effort::High && network.inputs <= SMALL_INPUTS { SMALL_STARTS } else { 1 };
+    let first = walk();
+    (1..starts).fold(first, |best, _| cheaper(best, walk(), prices))
 }
 
 /// Searches in windows and over samples of the patterns, in turns.
