@@ -43,11 +43,11 @@ pub(super) struct Run {
     folder: PathBuf,
     checkpoint_every: Duration,
     started: Instant,
-    /// Time spent on asking and telling: parents, mutation, development, the archive.
-    searching: Duration,
     /// Evaluations and work made before this program took over.
     evaluations_before: u64,
     work_before: Work,
+    /// What [`searching`] said then.
+    searching_before: f64,
 }
 
 impl Run {
@@ -76,9 +76,9 @@ impl Run {
             folder,
             checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
             started: Instant::now(),
-            searching: Duration::ZERO,
             evaluations_before,
             work_before: work,
+            searching_before: searching(),
         };
         run.trim_progress()?;
         Ok(run)
@@ -106,13 +106,9 @@ impl Run {
 
     /// One generation, with a clock on what is not simulation.
     fn advance(&mut self) {
-        let asked = Instant::now();
         let candidates = timings::time(Stage::Development, || self.search.ask());
-        self.searching += asked.elapsed();
         let (outcomes, work) = swarm::evaluate(&self.simulator, &self.search, &candidates);
-        let told = Instant::now();
         timings::time(Stage::Archive, || self.search.tell(&candidates, &outcomes));
-        self.searching += told.elapsed();
         self.work = self.work.plus(work);
     }
 
@@ -178,11 +174,17 @@ impl Run {
             return String::new();
         }
         let in_full = rate * simulated / (simulated + left_out);
-        let search = 100.0 * self.searching.as_secs_f64() / seconds;
+        let search = 100.0 * (searching() - self.searching_before) / seconds;
         format!(
             "{seconds:.1} s, {rate:.1} evaluations/s, what was simulated making {in_full:.1} full ones/s; {search:.2} % of the time for archive, development and mutation\n"
         )
     }
+}
+
+/// Seconds that this program has spent so far on asking and telling: parents, mutation, development, the archive.
+fn searching() -> f64 {
+    let seconds = timings::seconds();
+    seconds[Stage::Development as usize] + seconds[Stage::Archive as usize]
 }
 
 /// The checkpoint at a path, if there is one.
