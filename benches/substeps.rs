@@ -7,13 +7,8 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use nbc::model::{Body, Pattern, Schedule, Setting, Trial};
+use nbc::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use nbc::sim::{InstructionSet, Kernel, Simulator};
-
-/// Env steps of one trial: a cycle.
-const STEPS: u32 = 84;
-/// Substeps of an env step (docs/physics.md 1).
-const SUBSTEPS: u64 = 30;
 
 fn substeps(criterion: &mut Criterion) {
     let setting = Setting::paper();
@@ -27,14 +22,15 @@ fn substeps(criterion: &mut Criterion) {
         for &kernel in &kernels {
             for bodies in ["one body", "different bodies"] {
                 let shift = |lane| if bodies == "one body" { 0 } else { lane };
-                let schedule = Schedule::constant(Pattern::PAIRS[1], STEPS);
+                let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
                 let trial = |lane| Trial { body: Body::patchwork(side, shift(lane)), schedule: schedule.clone() };
                 let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
                 if kernel.lanes() == 1 && bodies != "one body" {
                     continue;
                 }
                 let simulator = Simulator { kernel, ..Simulator::default() };
-                group.throughput(Throughput::Elements(kernel.lanes() as u64 * u64::from(STEPS) * SUBSTEPS));
+                let substeps = u64::from(CYCLE_STEPS * simulator.constants.substeps);
+                group.throughput(Throughput::Elements(kernel.lanes() as u64 * substeps));
                 let name = format!("{} lanes, {}, {bodies}", kernel.lanes(), kernel.set().name());
                 group.bench_function(BenchmarkId::new(format!("{side}x{side}"), name), |bencher| {
                     bencher.iter(|| pool.install(|| black_box(simulator.run_trials(&setting, &trials))));

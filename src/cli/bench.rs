@@ -10,14 +10,12 @@ use crate::cli::timings::{self, Stage};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::report::{Align, Table};
-use crate::sim::{Kernel, Probe, Simulator};
+use crate::sim::{Constants, Kernel, Probe, Simulator};
 
 /// Boxes measured: the paper's.
 const SIDES: [usize; 3] = [5, 7, 10];
-/// Substeps of the paper's evaluation of one robot: eighty cycles.
-const EVALUATION: f64 = 80.0 * CYCLE_STEPS as f64 * SUBSTEPS;
-/// Substeps of an env step (docs/physics.md 1).
-const SUBSTEPS: f64 = 30.0;
+/// Cycles of the paper's evaluation of one robot.
+const EVALUATION: f64 = 80.0;
 /// How long each figure is measured at least.
 const PATIENCE: Duration = Duration::from_millis(500);
 
@@ -83,13 +81,13 @@ impl Arguments {
 }
 
 fn measure(side: usize, kernel: Kernel, timings: bool) -> Case {
-    let lanes = speed(side, kernel, 0);
+    let lanes = race(side, kernel, 0, None);
     Case {
         bounds: format!("{side}x{side}"),
-        scalar: speed(side, Kernel::SCALAR, 0),
+        scalar: race(side, Kernel::SCALAR, 0, None),
         lanes,
-        different: speed(side, kernel, 1),
-        evaluations: lanes / EVALUATION,
+        different: race(side, kernel, 1, None),
+        evaluations: lanes / (EVALUATION * cycle_substeps()),
         timings: timings.then(|| shares(side, kernel)),
     }
 }
@@ -104,11 +102,12 @@ fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     STAGES.iter().zip(spent).map(|(stage, spent)| (stage.name(), spent / all)).collect()
 }
 
-/// Lane-substeps a second, the lanes' bodies `shift` apart.
-fn speed(side: usize, kernel: Kernel, shift: usize) -> f64 {
-    race(side, kernel, shift, None)
+/// Substeps of a cycle.
+fn cycle_substeps() -> f64 {
+    f64::from(CYCLE_STEPS * Constants::default().substeps)
 }
 
+/// Lane-substeps a second, the lanes' bodies `shift` apart.
 fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 {
     let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
@@ -124,7 +123,7 @@ fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 
             rounds += 1;
         }
         let seconds = processor_seconds().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
-        f64::from(rounds) * trials.len() as f64 * f64::from(CYCLE_STEPS) * SUBSTEPS / seconds
+        f64::from(rounds) * trials.len() as f64 * cycle_substeps() / seconds
     })
 }
 

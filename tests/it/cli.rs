@@ -4,6 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use nbc::model::CYCLE_STEPS;
+use nbc::sim::Constants;
 use serde_json::Value;
 
 /// A folder of its own for one test, with the program run inside it.
@@ -296,10 +298,11 @@ fn the_machines_speed_is_told_as_data() {
     assert!(figures["machine"].is_string() && [4, 8].contains(&figures["width"].as_u64().unwrap()));
     let boxes: Vec<_> = figures["cases"].as_array().unwrap().iter().map(|case| case["box"].as_str().unwrap()).collect();
     assert_eq!(boxes, ["5x5", "7x7", "10x10"]);
+    let evaluation = 80.0 * f64::from(CYCLE_STEPS * Constants::default().substeps);
     for case in figures["cases"].as_array().unwrap() {
         let speed = |name: &str| case[name].as_f64().unwrap();
         assert!(speed("scalar") > 0.0 && speed("lanes") > speed("scalar"), "{case}");
-        assert!((speed("evaluations") * 80.0 * 84.0 * 30.0 / speed("lanes") - 1.0).abs() < 1e-9);
+        assert!((speed("evaluations") * evaluation / speed("lanes") - 1.0).abs() < 1e-9);
     }
 }
 
