@@ -16,22 +16,27 @@ struct Finding<'a> {
     differs: Vec<&'static str>,
 }
 
+impl<'a> Finding<'a> {
+    /// Measures a robot again.
+    fn of(robot: &'a Robot) -> Self {
+        let differs = differences(robot);
+        Self { name: &robot.name, verified: differs.is_empty(), differs }
+    }
+}
+
 /// Measures every robot again; a robot whose file says anything else fails.
 ///
 /// # Errors
 /// When the output cannot be written.
 pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failure> {
     let bar = Progress::new("verifying", library.robots.len() as u64);
-    let finding = |robot: &'_ Robot| {
-        let differs = differences(robot);
+    let find = |robot| {
+        let finding = Finding::of(robot);
         bar.add(1);
-        differs
+        finding
     };
-    let differs: Vec<_> = library.robots.par_iter().map(finding).collect();
+    let findings: Vec<_> = library.robots.par_iter().map(find).collect();
     drop(bar);
-    let named = library.robots.iter().zip(differs);
-    let findings: Vec<_> =
-        named.map(|(robot, differs)| Finding { name: &robot.name, verified: differs.is_empty(), differs }).collect();
     let failed = findings.iter().filter(|finding| !finding.verified).count();
     match context.format {
         Format::Json => context.print_json(&findings)?,
