@@ -11,9 +11,10 @@ use nbc::model::Function;
 use nbc::source::FileId;
 
 use crate::circuit::sum_of_products;
+use crate::language::root;
 
 fn files() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/benchmarks");
+    let folder = root().join("tests/benchmarks");
     let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|ending| ending != "md" && ending != "csv"));
     files.sort();
@@ -75,8 +76,7 @@ fn seconds_used() -> f64 {
 
 /// What ABC makes of a circuit, and what SAT proved, by library: fast, best, optimum. Empty where it is not known.
 fn reference(name: &str) -> Option<[[String; 3]; 3]> {
-    let text =
-        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/benchmarks/reference.csv")).unwrap();
+    let text = fs::read_to_string(root().join("tests/benchmarks/reference.csv")).unwrap();
     let row = text.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(','))?;
     let cells: Vec<String> = row.split(',').map(str::to_owned).collect();
     let [a1, a2, a3, b2, b3, c1, c2, c3] = <[String; 8]>::try_from(cells).unwrap();

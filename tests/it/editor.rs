@@ -1,12 +1,11 @@
 //! The editor's grammar: the gallery is tokenized with it, and every word has the scope that its meaning asks for.
 
 use std::fs;
-use std::path::Path;
 
 use regex::Regex;
 use serde_json::Value;
 
-use crate::language::programs;
+use crate::language::{programs, root};
 
 /// A rule of the grammar: a pattern, the scope of all of it, and those of its groups.
 struct Rule {
@@ -16,7 +15,7 @@ struct Rule {
 }
 
 fn read(path: &str) -> Value {
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("editors/vscode").join(path)).unwrap();
+    let text = fs::read_to_string(root().join("editors/vscode").join(path)).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 

@@ -2,17 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::cli::Bench;
+use crate::language::root;
 
 /// The most bytes of one picture and of all together.
 const MOST: [u64; 2] = [1_000_000, 4_000_000];
 const AGAIN: &str = "`cargo run --release --example gallery` makes them";
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
 
 /// The commands of docs/pictures.md, without the program's name.
 fn commands() -> Vec<String> {

@@ -2,14 +2,13 @@
 //! `tests/ui/pages`; `NBC_UPDATE_UI=1 cargo test --test it manual` writes it anew.
 
 use std::fs;
-use std::path::Path;
 
 use nbc::check;
 use nbc::diag::{Code, Diagnostic, Severity, render};
 use nbc::source::{MemoryWorld, Sources};
 
 use crate::cli::Bench;
-use crate::language::passes;
+use crate::language::{passes, root};
 
 /// A fenced piece of a page: the words after the fence, and the text.
 struct Fence {
@@ -36,7 +35,7 @@ fn fences(page: &str) -> Vec<Fence> {
 }
 
 fn read(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+    fs::read_to_string(root().join(path)).unwrap()
 }
 
 /// What the checker says of a program called `main.nb`.
@@ -94,7 +93,7 @@ fn check_page(code: Code) -> String {
 
 #[test]
 fn every_page_of_a_code_shows_what_fails_and_how_it_is_mended() {
-    let recorded = |code| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/ui/pages/{code}.stderr"));
+    let recorded = |code| root().join(format!("tests/ui/pages/{code}.stderr"));
     let mut differing = Vec::new();
     for code in Code::ALL {
         let said = check_page(*code);

@@ -1,7 +1,6 @@
 //! Compiled swarms in full physics give the truth tables of their logic, held for as long as static timing says.
 
 use std::fs;
-use std::path::Path;
 
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
@@ -10,6 +9,8 @@ use nbc::report::describe_test;
 use nbc::{Options, RunReport};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::language::programs;
 
 /// A circuit for the function of three inputs with these outputs, and a test of all its rows.
 fn program(truth: u8) -> String {
@@ -88,12 +89,8 @@ fn fifty_random_functions_of_three_inputs_compute() {
 #[test]
 #[ignore = "minutes of physics"]
 fn every_circuit_of_the_gallery_computes() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("circuits");
-    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|path| path.extension().is_some_and(|ending| ending == "nb"));
-    files.sort();
     let mut failed = String::new();
-    for path in files {
+    for path in programs("circuits") {
         let report = nbc::run_file(&path, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
         for test in &report.tests {
             let robots = test.compiled.mapped.cells().count();

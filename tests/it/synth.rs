@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use crate::cli::Bench;
+use crate::language::root;
 
 const FULL_ADDER: &str = "\
 .model fa
@@ -107,7 +108,7 @@ fn timing_memory_and_fan_out_are_reported() {
 
 #[test]
 fn the_delay_objective_makes_fewer_levels() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/benchmarks/pop8.blif");
+    let folder = root().join("tests/benchmarks/pop8.blif");
     let depth = |objective: &str| {
         let bench = Bench::new();
         let source = folder.to_str().unwrap();

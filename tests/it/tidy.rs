@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::language::root;
+
 /// The folders with their layers; a folder may import lower layers only.
 const LAYERS: &[(&str, u8)] = &[
     ("source", 0),
@@ -21,7 +23,7 @@ const LAYERS: &[(&str, u8)] = &[
 ];
 
 fn source_files() -> Vec<(PathBuf, String)> {
-    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
+    let mut open = vec![root().join("src")];
     let mut files = Vec::new();
     while let Some(folder) = open.pop() {
         for entry in fs::read_dir(folder).unwrap() {
@@ -46,7 +48,7 @@ fn product_code(text: &str) -> &str {
 
 /// The folder under `src` that a file belongs to; `pipeline` and `lib` are files.
 fn folder(path: &Path) -> String {
-    let inside = path.strip_prefix(Path::new(env!("CARGO_MANIFEST_DIR")).join("src")).unwrap();
+    let inside = path.strip_prefix(root().join("src")).unwrap();
     let first = inside.components().next().unwrap().as_os_str().to_string_lossy().into_owned();
     first.trim_end_matches(".rs").to_owned()
 }
@@ -134,7 +136,7 @@ fn every_module_says_what_it_is() {
 
 #[test]
 fn every_numbered_citation_of_the_model_exists() {
-    let model = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/physics.md")).unwrap();
+    let model = fs::read_to_string(root().join("docs/physics.md")).unwrap();
     for (path, text) in source_files() {
         for part in text.split("docs/physics.md ").skip(1) {
             let section: String = part.chars().take_while(char::is_ascii_digit).collect();
