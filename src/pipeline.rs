@@ -7,7 +7,7 @@ use crate::circuit::logic::Logic;
 use crate::circuit::timing::Delays;
 use crate::circuit::{Netlist, Proof, Timing, elaborate, map, prove};
 use crate::diag::{Code, Diagnostic, render};
-use crate::model::{CYCLE_STEPS, CircuitTest, Hold, Instance, Library, Origin, Program, Setting, Stimulation, TestRow};
+use crate::model::{CYCLE_STEPS, CircuitTest, Hold, Instance, Library, Origin, Program, Stimulation, TestRow};
 use crate::report;
 use crate::sim::Simulator;
 use crate::source::{MemoryWorld, Sources, Span, World};
@@ -209,7 +209,7 @@ pub fn simulate_test(
     let exposure = Exposure { inputs: held.collect(), cycle_steps: CYCLE_STEPS, window: protocol.window as usize };
     let cycles = exposure.inputs.len();
     let mut tell = |done| observe(done, cycles);
-    let trace = swarm::simulate(&options.simulator, &Setting::paper(), &compiled.assembly, &exposure, &mut tell);
+    let trace = swarm::simulate(&options.simulator, &compiled.assembly, &exposure, &mut tell);
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
     let verdict = swarm::judge(&test.title, &trace, &demands, &clocks);
     Ok(TestRun { compiled, trace, verdict, warnings })

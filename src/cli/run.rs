@@ -8,7 +8,7 @@ use clap::Args;
 use crate::cli::timings::{self, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic, render};
-use crate::model::{CircuitTest, Robot, Setting};
+use crate::model::{CircuitTest, Robot};
 use crate::pipeline::{self, Compiled, Loaded, Options, TestRun};
 use crate::report::{self, PageTest, Recording, Room, RunResult, Scheme, Stage, Svg, SwarmTiming, TestResult};
 use crate::store::{self, DiskWorld};
@@ -192,11 +192,11 @@ fn page_test<'a>(drawn: &'a Drawn<'a>) -> PageTest<'a> {
 
 /// The film of a swarm, as far as a page has room for it.
 fn record(run: &TestRun) -> Recording {
-    let (setting, assembly, trace) = (Setting::paper(), &run.compiled.assembly, &run.trace);
-    let probe = Stage::of_swarm(&setting, assembly, trace, crate::model::CYCLE_STEPS);
+    let (assembly, trace) = (&run.compiled.assembly, &run.trace);
+    let probe = Stage::of_swarm(assembly, trace, crate::model::CYCLE_STEPS);
     let points: Vec<usize> = (0..probe.robots()).map(|i| probe.points(i).len()).collect();
     let (stride, robots) = Room::SWARM.fit(&points, trace.cycles.len());
-    Recording::of(Stage::of_swarm(&setting, assembly, trace, stride), robots)
+    Recording::of(Stage::of_swarm(assembly, trace, stride), robots)
 }
 
 fn describe(drawn: &Drawn<'_>) -> String {

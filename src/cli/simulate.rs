@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Status, library, schedule};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, render};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Table};
 use crate::sim;
@@ -12,7 +12,7 @@ use crate::source::{FileError, Sources, World};
 use crate::store::{self, DiskWorld};
 
 /// The most ground voxels in a row.
-const MAX_WORLD_WIDTH: usize = 10_000;
+const MAX_WORLD_WIDTH: usize = 1_000_000;
 
 /// Simulate one robot under a schedule of stimuli
 #[derive(Args)]
@@ -58,6 +58,8 @@ impl Arguments {
         let body = read_body(&self.robot, setting.palette.materials().len())?;
         check_place(&setting, &body).map_err(Failure::plain)?;
         let trajectory = sim::run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
+        let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
+        context.log(&render::text(&warnings, &Sources::default(), context.color));
         match context.format {
             Format::Json => context.print_json(&Outcome::of(&schedule, &trajectory))?,
             Format::Text => context.print(describe(&schedule, &trajectory))?,
@@ -105,6 +107,15 @@ fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
         ));
     }
     Ok(())
+}
+
+/// What is to be said of a robot that did not stay on its ground: from then on it falls, or creeps along the plane below.
+fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
+    let ground = 0.0..=setting.world_width as f64;
+    let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;
+    let message = format!("the robot walked off the end of its ground at env step {step}");
+    let help = format!("give it more than {} voxels with `--world-width`", setting.world_width);
+    Some(Diagnostic::without_place(Code::GroundEnds, message).with_help(help))
 }
 
 impl<'a> Outcome<'a> {

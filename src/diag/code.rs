@@ -53,6 +53,7 @@ codes! {
     Duplicate = "duplicate", Error: "A name that is declared twice.";
     Empty = "empty", Error: "A file that declares nothing.";
     ForeignFormat = "foreign-format", Error: "A file of another version of the program.";
+    GroundEnds = "ground-ends", Warning: "A robot that walks off the end of its ground.";
     HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the slowest path needs.";
     IncompleteLibrary = "incomplete-library", Error: "A cell library that does not hold enough functions.";
     LoopWithoutStart = "loop-without-start", Warning: "A feedback loop without a start value.";

@@ -3,7 +3,7 @@
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting};
 use crate::report::sprite::Pose;
 use crate::sim::Flock;
-use crate::swarm::{Assembly, SwarmTrace};
+use crate::swarm::{self, Assembly, SwarmTrace};
 
 /// Robots on their way through their stimuli.
 pub struct Stage {
@@ -46,15 +46,15 @@ impl Stage {
         Self::new(Flock::new(setting, bodies), spells, stride)
     }
 
-    /// A swarm with the stimuli that its robots sensed.
-    pub fn of_swarm(setting: &Setting, assembly: &Assembly, trace: &SwarmTrace, stride: u32) -> Self {
+    /// A swarm in its setting, with the stimuli that its robots sensed.
+    pub fn of_swarm(assembly: &Assembly, trace: &SwarmTrace, stride: u32) -> Self {
         let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
         let spells = trace
             .cycles
             .iter()
             .map(|cycle| (CYCLE_STEPS, cycle.sensed.iter().map(|sensed| Pattern::new(sensed)).collect()))
             .collect();
-        Self::new(Flock::new(setting, &bodies), spells, stride)
+        Self::new(Flock::new(&swarm::setting(assembly, trace.cycles.len()), &bodies), spells, stride)
     }
 
     fn new(flock: Flock, spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {

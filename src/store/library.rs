@@ -62,23 +62,17 @@ pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
 }
 
 /// A library of robots in order of their functions' bits, and within a function the most reliable first, then the shortest clock, then
-/// the largest box, as small bodies stumble sooner in walks of hundreds of cycles (docs/compiler.md, "In physics"), then the greatest
-/// margin.
+/// the greatest margin.
 pub fn best_first(mut robots: Vec<Robot>) -> Library {
     robots.sort_by(|a, b| {
         let (left, right) = (&a.character, &b.character);
         (a.function().cmp(&b.function()))
             .then(left.error_rate.total_cmp(&right.error_rate))
             .then(left.clock.cmp(&right.clock))
-            .then(area(b).cmp(&area(a)))
             .then(right.margin.total_cmp(&left.margin))
             .then(a.name.cmp(&b.name))
     });
     Library { robots }
-}
-
-fn area(robot: &Robot) -> usize {
-    robot.body.width() * robot.body.height()
 }
 
 #[cfg(test)]

@@ -6,6 +6,8 @@ use crate::swarm::{Assembly, CycleTrace, Member, RobotTrace, Signal, SwarmTrace}
 
 /// Samples of a robot's path that a trace keeps of each cycle.
 const SAMPLES_PER_CYCLE: u32 = 12;
+/// Ground voxels of a swarm's world where no more are needed.
+const LEAST_WORLD: usize = 1 << 15;
 
 /// What a swarm is exposed to, and how its motion is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +20,18 @@ pub struct Exposure {
     pub window: usize,
 }
 
-/// Simulates a swarm through an exposure, calling `observe` with the number of finished cycles after each.
+/// The world of a swarm's robots for so many cycles: the paper's, with more ground.
+///
+/// In the paper's 500 voxels a robot that holds its output comes to the end of the ground within some hundred cycles and falls off it. No
+/// robot walks its own width in a cycle, so there is ground for that much both ways, by powers of two so that most tests of a circuit
+/// have the same world.
+pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
+    let widest = assembly.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
+    let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_WORLD);
+    Setting { world_width, ..Setting::paper() }
+}
+
+/// Simulates a swarm in its [`setting`] through an exposure, calling `observe` with the number of finished cycles after each.
 ///
 /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the last `window` cycles, else 0; that bit is
 /// the stimulus of the robots it feeds during the next cycle (paper, section 4).
@@ -27,14 +40,13 @@ pub struct Exposure {
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.
 pub fn simulate(
     simulator: &Simulator,
-    setting: &Setting,
     assembly: &Assembly,
     exposure: &Exposure,
     observe: &mut dyn FnMut(usize),
 ) -> SwarmTrace {
     assert!(exposure.window > 0, "an output is read over one cycle at least");
     let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
-    let mut flock = simulator.flock(setting, &bodies);
+    let mut flock = simulator.flock(&setting(assembly, exposure.inputs.len()), &bodies);
     let mut trace = begin(assembly, &flock);
     let mut bits: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
     for inputs in &exposure.inputs {

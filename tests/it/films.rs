@@ -128,7 +128,7 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
     let assembly = crate::page::assembly(&trace);
     let lanes: Vec<String> = trace.robots.iter().map(|robot| robot.net.clone()).collect();
     let film = Film { title: "latch".to_owned(), lanes, scheme: Scheme::Paper, largest: 5 };
-    let stage = Stage::of_swarm(&Setting::paper(), &assembly, &trace, CYCLE_STEPS);
+    let stage = Stage::of_swarm(&assembly, &trace, CYCLE_STEPS);
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
     let width = usize::from(gif::Decoder::new(bytes.as_slice()).unwrap().width());

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use nbc::model::{Body, Character, Function, Provenance, Robot, Setting};
+use nbc::model::{Body, Character, Function, Provenance, Robot};
 use nbc::report::{self, PageTest, Recording, Room, Scheme, Stage};
 use nbc::swarm::{Assembly, Demand, Member, SwarmTrace, TestVerdict, judge};
 use serde_json::Value;
@@ -62,7 +62,7 @@ fn page() -> String {
     let trace = latch(&[(false, true), (true, true), (true, false)], 8);
     let (assembly, verdict) = (assembly(&trace), verdict(&trace));
     let robots: Vec<&Robot> = assembly.members.iter().map(|member| &member.robot).collect();
-    let stage = || Stage::of_swarm(&Setting::paper(), &assembly, &trace, 7);
+    let stage = || Stage::of_swarm(&assembly, &trace, 7);
     let schematic = report::draw_schematic(&latch_netlist(), &robots, &[], Scheme::Paper);
     let spacetime = report::draw_swarm(&trace);
     let test = || PageTest {

@@ -4,8 +4,11 @@ use std::fs;
 
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
-use nbc::model::Function;
+use nbc::model::{CYCLE_STEPS, Function, Robot};
 use nbc::report::describe_test;
+use nbc::sim::Simulator;
+use nbc::store::shipped_library;
+use nbc::swarm::{Assembly, Exposure, Member, Signal, simulate};
 use nbc::{Options, RunReport};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -63,7 +66,7 @@ fn a_hold_that_is_too_short_is_told_with_the_one_that_suffices() {
 
 #[test]
 fn a_robot_that_is_another_gate_is_named_with_its_net_and_cycle() {
-    let mut library = nbc::store::shipped_library().clone();
+    let mut library = shipped_library().clone();
     let place = |function| library.robots.iter().position(|robot| robot.function() == function).unwrap();
     let (not, buf) = (place(Function::NOT), place(Function::BUF));
     library.robots[not].body = library.robots[buf].body.clone();
@@ -73,6 +76,23 @@ fn a_robot_that_is_another_gate_is_named_with_its_net_and_cycle() {
     let told = describe_test(&report.tests[0].verdict);
     assert!(told.contains(&format!("robot {name} on net y output 0 on stimuli 0")), "{told}");
     assert!(told.contains(&format!("nearest fix: another robot than {name} on net y")), "{told}");
+}
+
+#[test]
+fn a_robot_never_comes_to_the_end_of_its_ground() {
+    let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
+    let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
+    let member = Member { net: "y".to_owned(), robot, senses: [Signal::Constant(false); 2], start: true };
+    let outputs = vec![("y".to_owned(), Signal::Robot(0))];
+    let assembly = Assembly { circuit: "one".to_owned(), inputs: Vec::new(), members: vec![member], outputs };
+    let exposure = Exposure { inputs: vec![Vec::new(); 80], cycle_steps: CYCLE_STEPS, window: 1 };
+    let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
+    let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
+    assert!(walked > 250.0, "{walked}: not as far as the paper's ground reaches");
+    assert!(trace.cycles.iter().all(|cycle| cycle.bits[0]));
+    let room = |cycles| nbc::swarm::setting(&assembly, cycles).world_width / 2;
+    assert_eq!(room(80), room(1000), "tests of a circuit have the same world");
+    assert!(room(20_000) as f64 > 20_000.0 * 2.0 * walked / 80.0);
 }
 
 /// Run with `cargo test --release --test it fifty_random -- --ignored --nocapture`.
@@ -108,7 +128,7 @@ fn every_circuit_of_the_gallery_computes() {
 fn measured_settle_times_are_within_the_clocks() {
     let report = nbc::run_file("circuits/half_adder.nb", &Options::default()).unwrap();
     let compiled = &report.tests[0].compiled;
-    let cells = nbc::swarm::cells(nbc::store::shipped_library());
+    let cells = nbc::swarm::cells(shipped_library());
     let measured = Timing::of(&compiled.mapped, &cells, Delays::Transition);
     assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);
 }

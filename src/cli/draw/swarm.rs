@@ -8,7 +8,7 @@ use crate::cli::draw::several::{One, Several};
 use crate::cli::run::run_page;
 use crate::cli::{Failure, Progress};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{Robot, Setting};
+use crate::model::Robot;
 use crate::pipeline::{self, Loaded, Options, TestRun};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
 use crate::store::DiskWorld;
@@ -42,7 +42,7 @@ impl Arguments {
                     assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
                 let title = assembly.circuit.clone();
                 let film = Film { title, lanes: lanes.collect(), scheme: self.scheme(), largest };
-                canvas.film(&film, Stage::of_swarm(&Setting::paper(), assembly, &run.trace, STRIDE))
+                canvas.film(&film, Stage::of_swarm(assembly, &run.trace, STRIDE))
             }
             _ => canvas.picture(&self.diagram(run)?),
         }
