@@ -172,6 +172,7 @@ endmodule
 #[test]
 fn yosys_keeps_latches_and_flip_flops() {
     if Command::new("yosys").arg("-V").output().is_err() {
+        assert!(std::env::var_os("CI").is_none(), "CI must have yosys");
         eprintln!("yosys is not installed, so Verilog is not read");
         return;
     }
