@@ -48,6 +48,11 @@ impl Progress {
     pub fn set_message(&self, message: impl Into<String>) {
         self.0.set_message(message.into());
     }
+
+    /// Does something that prints, with the bar out of the way.
+    pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.0.suspend(work)
+    }
 }
 
 impl Drop for Progress {

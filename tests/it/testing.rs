@@ -68,6 +68,42 @@ fn small_swarms_are_tested_in_physics_and_large_ones_in_logic() {
     assert_eq!(levels(&["--logic"]), ["logic", "logic"]);
 }
 
+/// A test that takes its time in physics, then two that are done at once, in two files.
+fn slow_then_quick() -> Bench {
+    let bench = Bench::new();
+    let inverter = "circuit inverter(a) -> (q) { q = not a }";
+    bench.file("slow.nb", format!("{inverter}\n\ntest inverter \"slow\" {{\n a | q\n 0 | 1 for 40 cycles\n}}\n"));
+    let quick = |title| format!("test inverter \"{title}\" {{\n a | q\n 0 | 1 for 4 cycles\n}}\n");
+    bench.file("quick.nb", format!("{inverter}\n\n{}\n{}", quick("second"), quick("third")));
+    bench
+}
+
+#[test]
+fn tests_are_told_in_order_for_any_number_of_threads() {
+    let bench = slow_then_quick();
+    for format in ["text", "json"] {
+        let told = |threads: &str| {
+            let mut command = bench.command(&["test", "slow.nb", "quick.nb", "--physics", "--format", format]);
+            let output = command.env("RAYON_NUM_THREADS", threads).output().unwrap();
+            assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+            String::from_utf8(output.stdout).unwrap()
+        };
+        let alone = told("1");
+        let places: Vec<_> = ["slow", "second", "third"].map(|title| alone.find(title).unwrap()).into();
+        assert!(places.is_sorted(), "{alone}");
+        assert!(["2", "8"].into_iter().all(|threads| told(threads) == alone));
+    }
+}
+
+#[test]
+fn no_test_runs_while_a_file_is_at_fault() {
+    let bench = slow_then_quick();
+    bench.file("broken.nb", "circuit inverter(a) -> (q) { q = not b }\n");
+    bench.file("bare.nb", "circuit inverter(a) -> (q) { q = not a }\n");
+    bench.run(&["test", "quick.nb", "broken.nb"]).expect_fault(&["no net is called `b`"]);
+    bench.run(&["test", "quick.nb", "bare.nb"]).expect_fault(&["`bare.nb` declares no test"]);
+}
+
 #[test]
 fn the_gallery_passes_by_the_program_itself() {
     let paths: Vec<_> = programs("circuits").iter().map(|path| path.to_str().unwrap().to_owned()).collect();

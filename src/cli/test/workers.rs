@@ -1,0 +1,105 @@
+//! Work side by side on the cores of the machine, with the results in order.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Sender};
+use std::thread;
+
+/// Does the work for each item and hands the results on in order of the items, each as soon as it and those before it are there.
+/// Where handing on fails, no more work is begun.
+///
+/// The threads are not those of rayon, which simulation shares out its parts to: one of them that waits for a part would begin with
+/// another item meanwhile, and come back only when that is done.
+///
+/// # Errors
+/// The first that handing on gives.
+pub(super) fn in_order<T: Sync, R: Send, E>(
+    items: &[T],
+    work: impl Fn(&T) -> R + Sync,
+    mut hand_on: impl FnMut(R) -> Result<(), E>,
+) -> Result<(), E> {
+    let next = AtomicUsize::new(0);
+    let take = |results: Sender<(usize, R)>| {
+        while let Some((place, item)) = pick(items, &next) {
+            if results.send((place, work(item))).is_err() {
+                break;
+            }
+        }
+    };
+    thread::scope(|scope| {
+        let (sender, results) = mpsc::channel();
+        for _ in 0..rayon::current_num_threads().min(items.len()) {
+            let (take, sender) = (&take, sender.clone());
+            scope.spawn(move || take(sender));
+        }
+        drop(sender);
+        let (mut early, mut due) = (BTreeMap::new(), 0);
+        for (place, result) in results {
+            early.insert(place, result);
+            while let Some(result) = early.remove(&due) {
+                hand_on(result)?;
+                due += 1;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The next item that nobody has taken, with its place.
+fn pick<'a, T>(items: &'a [T], next: &AtomicUsize) -> Option<(usize, &'a T)> {
+    let place = next.fetch_add(1, Ordering::Relaxed);
+    Some((place, items.get(place)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Barrier;
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn results_come_in_order_whoever_is_first() {
+        let items: Vec<u64> = (0..40).collect();
+        let slow_at_first = |&item: &u64| {
+            thread::sleep(Duration::from_millis(if item % 4 == 0 { 5 } else { 0 }));
+            item
+        };
+        let mut found = Vec::new();
+        let done: Result<(), ()> = in_order(&items, slow_at_first, |item| {
+            found.push(item);
+            Ok(())
+        });
+        assert_eq!((done, found), (Ok(()), items));
+    }
+
+    #[test]
+    fn the_first_result_is_handed_on_before_the_last_is_made() {
+        // The last item waits until the first has been handed on.
+        let (items, handed_on) = ([0, 1], Barrier::new(2));
+        let wait = |&item: &usize| {
+            if item == 1 {
+                handed_on.wait();
+            }
+            item
+        };
+        let done: Result<(), ()> = in_order(&items, wait, |item| {
+            if item == 0 {
+                handed_on.wait();
+            }
+            Ok(())
+        });
+        assert_eq!(done, Ok(()));
+    }
+
+    #[test]
+    fn a_refusal_ends_the_work() {
+        let (items, begun) = ([(); 10_000], AtomicUsize::new(0));
+        let work = |(): &()| {
+            thread::sleep(Duration::from_millis(1));
+            begun.fetch_add(1, Ordering::Relaxed)
+        };
+        assert_eq!(in_order(&items, work, |_| Err("enough")), Err("enough"));
+        assert!(begun.into_inner() < 1000);
+    }
+}
