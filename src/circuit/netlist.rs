@@ -1,5 +1,6 @@
 //! The netlist: a directed graph of ports, constants and cells, feedback included. A net is known by the node that drives it.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use petgraph::Direction::Incoming;
@@ -212,6 +213,15 @@ impl Netlist {
     /// The cells, in order of numbers.
     pub fn cells(&self) -> impl Iterator<Item = (NetId, &Cell)> {
         self.ids().filter_map(|id| Some((id, self.cell(id)?)))
+    }
+
+    /// How many cells there are of each function, by name.
+    pub fn by_function(&self) -> BTreeMap<&'static str, usize> {
+        let mut counts = BTreeMap::new();
+        for (_, cell) in self.cells() {
+            *counts.entry(cell.function.name()).or_insert(0) += 1;
+        }
+        counts
     }
 
     /// The graph itself, for petgraph's algorithms: an edge's weight is the listener's pin.

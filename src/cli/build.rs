@@ -9,8 +9,8 @@ use serde_json::json;
 use crate::circuit::elaborate::elaborate;
 use crate::circuit::formats::{Design, blif, dot, verilog};
 use crate::circuit::timing::fan_out;
-use crate::circuit::{CellLibrary, Delays, MapOptions, Memory, NetId, Netlist, Race, Timing, levels, races};
-use crate::cli::synth::{CellArguments, EffortWord, ObjectiveWord, synthesize};
+use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
+use crate::cli::mapping::{MappingArguments, synthesize};
 use crate::cli::{Context, Failure, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Circuit, Instance};
@@ -40,13 +40,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    cells: CellArguments,
-    /// What to make least of
-    #[arg(long, value_enum, default_value_t)]
-    objective: ObjectiveWord,
-    /// How much work to put into it
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortWord,
+    mapping: MappingArguments,
 }
 
 /// What to print.
@@ -71,7 +65,7 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, the library lacks a function, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let library = self.cells.library()?;
+        let library = self.mapping.library()?;
         let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.file.to_string_lossy());
         if checked.has_errors() {
             return Err(Failure::input(checked.diagnostics, sources));
@@ -82,8 +76,7 @@ impl Arguments {
         let instance = Instance::from(circuit.name.as_str());
         let source = elaborate(&checked.program, &instance)
             .map_err(|faults| Failure::input(faults, Sources::clone(&sources)))?;
-        let options = MapOptions { objective: self.objective.into(), effort: self.effort.into() };
-        let mapped = synthesize(&source, &library, options)?;
+        let mapped = synthesize(&source, &library, self.mapping.options())?;
         let text = emit(self.emit, mapped, &library);
         match &self.output {
             Some(path) => store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?,
@@ -125,10 +118,6 @@ fn emit(emit: Emit, mapped: Netlist, library: &CellLibrary) -> String {
 
 fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
     let timing = Timing::of(mapped, library, Delays::Clock);
-    let mut by_function: BTreeMap<&str, usize> = BTreeMap::new();
-    for (_, cell) in mapped.cells() {
-        *by_function.entry(cell.function.name()).or_insert(0) += 1;
-    }
     let name = |id: &NetId| mapped.net_name(*id);
     let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
     let cells: Vec<_> = mapped
@@ -152,7 +141,7 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
         "inputs": mapped.inputs().iter().map(name).collect::<Vec<_>>(),
         "outputs": outputs,
         "cells": cells,
-        "by_function": by_function,
+        "by_function": mapped.by_function(),
         "depth": levels::depth(mapped),
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),

@@ -14,6 +14,7 @@ mod failure;
 mod fmt;
 mod interrupt;
 mod library;
+mod mapping;
 mod progress;
 mod run;
 mod schedule;

@@ -9,14 +9,12 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::circuit::formats::{Design, aiger, bench, blif, dot, nb, verilog};
-use crate::circuit::{
-    CellLibrary, Effort, MapError, MapOptions, Netlist, Objective, levels, map_with, prove, registers,
-};
-use crate::cli::{Context, Failure, Format, Status, library};
+use crate::circuit::{Netlist, levels, registers};
+use crate::cli::mapping::{MappingArguments, functions, synthesize};
+use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
-use crate::model::Function;
 use crate::source::Sources;
-use crate::{store, swarm};
+use crate::store;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -36,13 +34,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    cells: CellArguments,
-    /// What to make least of
-    #[arg(long, value_enum, default_value_t)]
-    objective: ObjectiveWord,
-    /// How much work to put into it
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortWord,
+    mapping: MappingArguments,
     /// The clock of latches for which the file names none
     #[arg(long, value_name = "NAME")]
     clock: Option<String>,
@@ -54,65 +46,12 @@ pub struct Arguments {
     what_if: Vec<String>,
 }
 
-/// Which cells there are.
-#[derive(Args)]
-pub(super) struct CellArguments {
-    /// The functions of the cells, such as `nand,not`, or `all`; by default those of the robots in the program
-    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
-    cells: Vec<String>,
-    /// A robot file, or a folder of them, to take the cells from
-    #[arg(long, value_name = "FILE")]
-    library: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Default, ValueEnum)]
-pub(super) enum ObjectiveWord {
-    /// Few robots
-    #[default]
-    Area,
-    /// Few cycles
-    Delay,
-    /// Wide noise margins
-    Margin,
-}
-
-#[derive(Clone, Copy, Default, ValueEnum)]
-pub(super) enum EffortWord {
-    /// A quick look
-    Fast,
-    /// Well under a second for most circuits
-    #[default]
-    Normal,
-    /// As good as it gets in minutes
-    High,
-}
-
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum RegisterWord {
     /// As registers of the output's format
     Keep,
     /// As latches and flip-flops made of cells
     Expand,
-}
-
-impl From<ObjectiveWord> for Objective {
-    fn from(word: ObjectiveWord) -> Self {
-        match word {
-            ObjectiveWord::Area => Self::Area,
-            ObjectiveWord::Delay => Self::Delay,
-            ObjectiveWord::Margin => Self::Margin,
-        }
-    }
-}
-
-impl From<EffortWord> for Effort {
-    fn from(word: EffortWord) -> Self {
-        match word {
-            EffortWord::Fast => Self::Fast,
-            EffortWord::Normal => Self::Normal,
-            EffortWord::High => Self::High,
-        }
-    }
 }
 
 /// What came of it, for programs.
@@ -149,7 +88,7 @@ impl Arguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
         let target = self.output.as_deref().map(target).transpose()?;
-        let library = self.cells.library()?;
+        let library = self.mapping.library()?;
         let what_if = functions(&self.what_if)?;
         let design = read(&self.input, self.clock.as_deref())?;
         let expand = match self.registers {
@@ -157,7 +96,7 @@ impl Arguments {
             None => matches!(target, Some(Target::Nb | Target::Dot)),
         };
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
-        let options = MapOptions { objective: self.objective.into(), effort: self.effort.into() };
+        let options = self.mapping.options();
         let mapped = synthesize(&source, &library, options)?;
         let result = Design { logic: mapped, registers: if expand { Vec::new() } else { design.registers.clone() } };
         if let (Some(path), Some(target)) = (&self.output, target) {
@@ -182,13 +121,9 @@ impl Arguments {
 
 impl Report {
     fn of(design: &Design, mapped: &Netlist, started: Instant) -> Self {
-        let mut by_function = BTreeMap::new();
-        for (_, cell) in mapped.cells() {
-            *by_function.entry(cell.function.name()).or_insert(0) += 1;
-        }
         Self {
             cells: mapped.cells().count(),
-            by_function,
+            by_function: mapped.by_function(),
             depth: levels::depth(mapped),
             inputs: design.inputs(),
             outputs: design.outputs(),
@@ -215,50 +150,6 @@ impl Report {
         }
         text
     }
-}
-
-impl CellArguments {
-    /// The library that the user chose.
-    pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
-        match (&self.library, &self.cells[..]) {
-            (Some(path), _) => Ok(swarm::cells(&library::robots(path)?)),
-            (None, []) => Ok(swarm::cells(store::shipped_library())),
-            (None, [all]) if all == "all" => Ok(CellLibrary::uniform(
-                Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),
-            )),
-            (None, names) => Ok(CellLibrary::uniform(functions(names)?)),
-        }
-    }
-}
-
-fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
-    let parse = |name: &String| {
-        Function::parse(name.trim()).ok_or_else(|| {
-            let names: Vec<_> = Function::all().map(Function::name).collect();
-            let fault = Diagnostic::without_place(Code::BadValue, format!("`{name}` is no function of two inputs"));
-            Failure::plain(fault.with_help(format!("the functions are {}", names.join(", "))))
-        })
-    };
-    names.iter().map(parse).collect()
-}
-
-/// Maps a netlist and proves the result; what is not proved is not written.
-pub(super) fn synthesize(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, Failure> {
-    let mapped = map_with(source, library, options).map_err(|error| {
-        let code = match error {
-            MapError::Netlist(_) => Code::CircuitFile,
-            MapError::Incomplete { .. } => Code::IncompleteLibrary,
-        };
-        let fault = Diagnostic::without_place(code, error.to_string());
-        Failure::plain(match error.help() {
-            Some(help) => fault.with_help(help),
-            None => fault,
-        })
-    })?;
-    if let Err(error) = prove(source, &mapped) {
-        panic!("a mapped circuit is always equal to its source, and this one is not: {error}");
-    }
-    Ok(mapped)
 }
 
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Failure {

@@ -1,7 +1,7 @@
 //! Expressions to gates, bit by bit; the lowest bit of a value comes first.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
-use crate::circuit::elaborate::module::{Bit, NONE, Signal, Site};
+use crate::circuit::elaborate::module::{Bit, ModuleId, NONE, Signal, Site};
 use crate::circuit::elaborate::{fault, instance};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
@@ -9,6 +9,17 @@ use crate::source::Span;
 
 /// `a` without `b`.
 const A_WITHOUT_B: u8 = 0b0100;
+
+/// An expression that puts a circuit into another one.
+struct Call<'c> {
+    callee: CircuitId,
+    /// Its parameters, as far as they are given.
+    arguments: &'c [Option<SizeId>],
+    operands: &'c [ExpressionId],
+    /// The turns of the loops around it.
+    frame: u32,
+    span: Span,
+}
 
 impl ModuleBuilder<'_, '_> {
     /// Builds one statement.
@@ -144,7 +155,7 @@ impl ModuleBuilder<'_, '_> {
             }
             ExpressionKind::Call { circuit, arguments, operands } => {
                 let values = take(operands.len());
-                return self.call(*circuit, arguments, operands, values, frame, name, span);
+                return self.call(Call { callee: *circuit, arguments, operands, frame, span }, values, name);
             }
         };
         Some(vec![value])
@@ -270,40 +281,12 @@ impl ModuleBuilder<'_, '_> {
         self.gate(Function::OR, [chosen, other], span)
     }
 
-    #[allow(clippy::too_many_arguments, reason = "a call is all of these")]
-    fn call(
-        &mut self,
-        callee: CircuitId,
-        given: &[Option<SizeId>],
-        operands: &[ExpressionId],
-        values: Vec<Vec<Bit>>,
-        frame: u32,
-        name: Option<String>,
-        span: Span,
-    ) -> Option<Vec<Vec<Bit>>> {
-        let mut arguments = Vec::new();
-        for size in given {
-            arguments.push(match size {
-                Some(size) => Some(self.size(*size, frame)?),
-                None => None,
-            });
-        }
-        let widths: Vec<_> = values.iter().map(|value| Some(value.len() as u32)).collect();
-        let arguments = self.builder.arguments(callee, arguments, &widths, span)?;
-        let id = self.builder.build(callee, arguments)?;
-        let inputs = self.builder.module(id).inputs.clone();
-        for (port, (value, expected)) in values.iter().zip(inputs).enumerate() {
-            if value.len() as u32 != expected {
-                let operand = self.span(operands[port]);
-                let fault =
-                    instance::operand_fault(self.builder.circuit(callee), port, expected, value.len() as u32, operand);
-                self.fault(fault);
-                return None;
-            }
-        }
+    /// Puts a circuit in its place; `values` are those of the operands.
+    fn call(&mut self, call: Call, values: Vec<Vec<Bit>>, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
+        let id = self.callee(&call, &values)?;
         let name = name.unwrap_or_else(|| {
             self.unnamed += 1;
-            format!("{}_{}", self.builder.circuit(callee).name, self.unnamed)
+            format!("{}_{}", self.builder.circuit(call.callee).name, self.unnamed)
         });
         let site = self.module.sites.len() as u32;
         self.module.sites.push(Site { module: id, inputs: values.concat(), name });
@@ -312,5 +295,30 @@ impl ModuleBuilder<'_, '_> {
         let mut output =
             |width| bits.by_ref().take(width as usize).map(|bit| self.signal(Signal::Output { site, bit })).collect();
         Some(outputs.into_iter().map(&mut output).collect())
+    }
+
+    /// The module of a called circuit, if its parameters and the widths of the operands fit.
+    fn callee(&mut self, call: &Call, values: &[Vec<Bit>]) -> Option<ModuleId> {
+        let mut arguments = Vec::new();
+        for size in call.arguments {
+            arguments.push(match size {
+                Some(size) => Some(self.size(*size, call.frame)?),
+                None => None,
+            });
+        }
+        let widths: Vec<_> = values.iter().map(|value| Some(value.len() as u32)).collect();
+        let arguments = self.builder.arguments(call.callee, arguments, &widths, call.span)?;
+        let id = self.builder.build(call.callee, arguments)?;
+        let inputs = self.builder.module(id).inputs.clone();
+        for (port, (value, expected)) in values.iter().zip(inputs).enumerate() {
+            let found = value.len() as u32;
+            if found != expected {
+                let operand = self.span(call.operands[port]);
+                let circuit = self.builder.circuit(call.callee);
+                self.fault(instance::operand_fault(circuit, port, expected, found, operand));
+                return None;
+            }
+        }
+        Some(id)
     }
 }

@@ -48,44 +48,27 @@ pub fn reduce(
     library: &CellLibrary,
     options: MapOptions,
 ) -> Result<Network, Function> {
-    let effort = options.effort;
     let target = Prices::of(library);
+    let course = Course { prices: &target, stages, effort: options.effort };
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_796e_7468);
     let direct = cover(network, &target, stages)?;
     if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
         return Ok(direct);
     }
     let exclusive = target.cost(Function::XOR).unwrap_or(4);
-    let mut best = search(&direct, &target, stages, effort, 2, &mut random);
-    if exclusive > 1 && (effort == Effort::High || is_narrow(&direct)) {
+    let mut best = course.search(&direct, 2, &mut random);
+    if exclusive > 1 && (options.effort == Effort::High || is_narrow(&direct)) {
         // Where an exclusive or is dear, first aim at few gates of any kind, then at cells.
         let ideal = Prices::abstracted(2 * exclusive - 1);
-        let few = search(&cover(network, &ideal, stages)?, &ideal, stages, effort, 1, &mut random);
-        let mapped = search(&cover(&few, &target, stages)?, &target, stages, effort, 2, &mut random);
+        let few = Course { prices: &ideal, ..course }.search(&cover(network, &ideal, stages)?, 1, &mut random);
+        let mapped = course.search(&cover(&few, &target, stages)?, 2, &mut random);
         best = cheaper(best, mapped, &target);
     }
-    best = fewest(best, &target, stages, effort);
+    best = course.fewest(best);
     if options.objective == Objective::Delay {
-        best = quicken(&best, &target, stages, effort, &mut random);
+        best = course.quicken(&best, &mut random);
     }
     Ok(best)
-}
-
-/// A network of the fewest cells there can be, where it has few inputs and the effort reaches as far.
-fn fewest(best: Network, prices: &Prices, stages: &[u32], effort: Effort) -> Network {
-    let nodes = match effort {
-        Effort::Fast => 10_000,
-        Effort::Normal => 100_000,
-        Effort::High => 1_000_000_000,
-    };
-    let combinational = stages.iter().all(|&stage| stage == 0);
-    if best.inputs > exact::MOST_INPUTS || !combinational || !prices.are_even() {
-        return best;
-    }
-    match exact::fewer(&best, prices, cost(&best, prices), nodes) {
-        Answer::Made(network) => network,
-        Answer::Impossible | Answer::Unknown => best,
-    }
 }
 
 /// The cheaper of two networks, the first where they cost the same.
@@ -121,92 +104,108 @@ fn is_narrow(network: &Network) -> bool {
     network.inputs <= WHOLE_INPUTS && network.gates.len() <= WHOLE_GATES
 }
 
-/// The search that fits a network's width and the effort, `share` being the part of the work that it may take.
-fn search(
-    network: &Network,
-    prices: &Prices,
-    stages: &[u32],
+/// What every search of a synthesis goes by.
+#[derive(Clone, Copy)]
+struct Course<'a> {
+    prices: &'a Prices,
+    /// How many kept cells lie before each input.
+    stages: &'a [u32],
     effort: Effort,
-    share: u64,
-    random: &mut ChaCha8Rng,
-) -> Network {
-    if !is_narrow(network) {
-        return search_wide(network, prices, stages, effort, share, random);
-    }
-    let gates = network.gates.len() as u64;
-    let visits = match effort {
-        Effort::Fast => (8 * gates).min(1_000),
-        Effort::Normal => (12 * gates).clamp(150, 500),
-        Effort::High => (1_000 * gates).clamp(10_000, 60_000),
-    };
-    let plan = Plan { climb: 400, patience: visits / 4, ..Plan::calm(visits * share) };
-    let mut walk = || {
-        let calm = walk::improve_all(network, prices, stages, Plan::calm(visits * share), random);
-        walk::improve_all(&calm, prices, stages, plan, random)
-    };
-    // Where few inputs make a walk cheap, a fresh start is worth more than a longer walk.
-    let starts = if effort == Effort::High && network.inputs <= SMALL_INPUTS { SMALL_STARTS } else { 1 };
-    let first = walk();
-    (1..starts).fold(first, |best, _| cheaper(best, walk(), prices))
 }
 
-/// Searches in windows and over samples of the patterns, in turns.
-fn search_wide(
-    network: &Network,
-    prices: &Prices,
-    stages: &[u32],
-    effort: Effort,
-    share: u64,
-    random: &mut ChaCha8Rng,
-) -> Network {
-    let (rounds, visits, steps) = match effort {
-        Effort::Fast => (1, 20, 0),
-        Effort::Normal => ((1_000 / network.gates.len() as u64).clamp(2, 5), 50, 2),
-        Effort::High => (3 * share, 400, 16),
-    };
-    let mut best = network.clone();
-    for round in 0..rounds {
-        let gates = best.gates.len();
-        let (inputs, size) = if effort == Effort::High && round % 2 == 1 { (10, 50) } else { (8, 30) };
-        let panes = Panes { windows: gates.min(3000), inputs, gates: size, plan: Plan::calm(visits) };
-        best = no_dearer(best, prices, stages, |best| window::improve(best, prices, stages, panes, random));
-        if gates <= MOST_ROAMED {
-            let plan = Plan::calm(steps * gates as u64);
-            best = no_dearer(best, prices, stages, |best| roam(best, prices, stages, plan, random));
+impl Course<'_> {
+    /// The search that fits a network's width and the effort, `share` being the part of the work that it may take.
+    fn search(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
+        if !is_narrow(network) {
+            return self.search_wide(network, share, random);
+        }
+        let gates = network.gates.len() as u64;
+        let visits = match self.effort {
+            Effort::Fast => (8 * gates).min(1_000),
+            Effort::Normal => (12 * gates).clamp(150, 500),
+            Effort::High => (1_000 * gates).clamp(10_000, 60_000),
+        };
+        let calm = Plan::calm(visits * share);
+        let bold = Plan { climb: 400, patience: visits / 4, ..calm };
+        let mut walk = || {
+            let first = walk::improve_all(network, self.prices, self.stages, calm, random);
+            walk::improve_all(&first, self.prices, self.stages, bold, random)
+        };
+        // Where few inputs make a walk cheap, a fresh start is worth more than a longer walk.
+        let starts = if self.effort == Effort::High && network.inputs <= SMALL_INPUTS { SMALL_STARTS } else { 1 };
+        let first = walk();
+        (1..starts).fold(first, |best, _| cheaper(best, walk(), self.prices))
+    }
+
+    /// Searches in windows and over samples of the patterns, in turns.
+    fn search_wide(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
+        let &Self { prices, stages, effort } = self;
+        let (rounds, visits, steps) = match effort {
+            Effort::Fast => (1, 20, 0),
+            Effort::Normal => ((1_000 / network.gates.len() as u64).clamp(2, 5), 50, 2),
+            Effort::High => (3 * share, 400, 16),
+        };
+        let mut best = network.clone();
+        for round in 0..rounds {
+            let gates = best.gates.len();
+            let (inputs, size) = if effort == Effort::High && round % 2 == 1 { (10, 50) } else { (8, 30) };
+            let panes = Panes { windows: gates.min(3000), inputs, gates: size, plan: Plan::calm(visits) };
+            best = self.no_dearer(best, |best| window::improve(best, prices, stages, panes, random));
+            if gates <= MOST_ROAMED {
+                let plan = Plan::calm(steps * gates as u64);
+                best = self.no_dearer(best, |best| roam(best, prices, stages, plan, random));
+            }
+        }
+        best
+    }
+
+    /// What a search makes of a network, unless that is dearer.
+    fn no_dearer(&self, best: Network, search: impl FnOnce(&Network) -> Network) -> Network {
+        let next = cover(&search(&best), self.prices, self.stages).expect("the network is made of the library's cells");
+        if cost(&next, self.prices) <= cost(&best, self.prices) { next } else { best }
+    }
+
+    /// A network of the fewest cells there can be, where it has few inputs and the effort reaches as far.
+    fn fewest(&self, best: Network) -> Network {
+        let nodes = match self.effort {
+            Effort::Fast => 10_000,
+            Effort::Normal => 100_000,
+            Effort::High => 1_000_000_000,
+        };
+        let combinational = self.stages.iter().all(|&stage| stage == 0);
+        if best.inputs > exact::MOST_INPUTS || !combinational || !self.prices.are_even() {
+            return best;
+        }
+        match exact::fewer(&best, self.prices, cost(&best, self.prices), nodes) {
+            Answer::Made(network) => network,
+            Answer::Impossible | Answer::Unknown => best,
         }
     }
-    best
-}
 
-/// What a search makes of a network, unless that is dearer.
-fn no_dearer(best: Network, prices: &Prices, stages: &[u32], search: impl FnOnce(&Network) -> Network) -> Network {
-    let next = cover(&search(&best), prices, stages).expect("the network is made of the library's cells");
-    if cost(&next, prices) <= cost(&best, prices) { next } else { best }
-}
-
-/// Makes the slowest path shorter, then the network cheaper without making it longer again, in turns.
-fn quicken(network: &Network, prices: &Prices, stages: &[u32], effort: Effort, random: &mut ChaCha8Rng) -> Network {
-    let rounds = match effort {
-        Effort::Fast => 1,
-        Effort::Normal => 3,
-        Effort::High => 20,
-    };
-    let rank = |network: &Network| (depth(network, prices), cost(network, prices));
-    let mut best = network.clone();
-    let mut now = network.clone();
-    for _ in 0..rounds {
-        for pace in [Pace::Hurry, Pace::Keep] {
-            let plan = Plan { pace, ..Plan::calm((10 * now.gates.len() as u64).min(3_000)) };
-            now = match is_narrow(&now) {
-                true => walk::improve_all(&now, prices, stages, plan, random),
-                false => roam(&now, prices, stages, plan, random),
-            };
+    /// Makes the slowest path shorter, then the network cheaper without making it longer again, in turns.
+    fn quicken(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
+        let rounds = match self.effort {
+            Effort::Fast => 1,
+            Effort::Normal => 3,
+            Effort::High => 20,
+        };
+        let rank = |network: &Network| (depth(network, self.prices), cost(network, self.prices));
+        let mut best = network.clone();
+        let mut now = network.clone();
+        for _ in 0..rounds {
+            for pace in [Pace::Hurry, Pace::Keep] {
+                let plan = Plan { pace, ..Plan::calm((10 * now.gates.len() as u64).min(3_000)) };
+                now = match is_narrow(&now) {
+                    true => walk::improve_all(&now, self.prices, self.stages, plan, random),
+                    false => roam(&now, self.prices, self.stages, plan, random),
+                };
+            }
+            if rank(&now) < rank(&best) {
+                best = now.clone();
+            }
         }
-        if rank(&now) < rank(&best) {
-            best = now.clone();
-        }
+        best
     }
-    best
 }
 
 /// Cycles until every output is right, each cell taking its clock.

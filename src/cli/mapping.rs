@@ -1,0 +1,120 @@
+//! How a circuit is mapped: the arguments that `nbc build` and `nbc synth` share.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::circuit::{CellLibrary, Effort, MapError, MapOptions, Netlist, Objective, map_with, prove};
+use crate::cli::{Failure, library};
+use crate::diag::{Code, Diagnostic};
+use crate::model::Function;
+use crate::{store, swarm};
+
+/// Which cells there are, and what to make of them.
+#[derive(Args)]
+pub(super) struct MappingArguments {
+    /// The functions of the cells, such as `nand,not`, or `all`; by default those of the robots in the program
+    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
+    cells: Vec<String>,
+    /// A robot file, or a folder of them, to take the cells from
+    #[arg(long, value_name = "FILE")]
+    library: Option<PathBuf>,
+    /// What to make least of
+    #[arg(long, value_enum, default_value_t)]
+    objective: ObjectiveWord,
+    /// How much work to put into it
+    #[arg(long, value_enum, default_value_t)]
+    effort: EffortWord,
+}
+
+impl MappingArguments {
+    /// The library that the user chose.
+    pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
+        match (&self.library, &self.cells[..]) {
+            (Some(path), _) => Ok(swarm::cells(&library::robots(path)?)),
+            (None, []) => Ok(swarm::cells(store::shipped_library())),
+            (None, [all]) if all == "all" => Ok(CellLibrary::uniform(
+                Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),
+            )),
+            (None, names) => Ok(CellLibrary::uniform(functions(names)?)),
+        }
+    }
+
+    /// How to map.
+    pub(super) fn options(&self) -> MapOptions {
+        MapOptions { objective: self.objective.into(), effort: self.effort.into() }
+    }
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum ObjectiveWord {
+    /// Few robots
+    #[default]
+    Area,
+    /// Few cycles
+    Delay,
+    /// Wide noise margins
+    Margin,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum EffortWord {
+    /// A quick look
+    Fast,
+    /// Well under a second for most circuits
+    #[default]
+    Normal,
+    /// As good as it gets in minutes
+    High,
+}
+
+impl From<ObjectiveWord> for Objective {
+    fn from(word: ObjectiveWord) -> Self {
+        match word {
+            ObjectiveWord::Area => Self::Area,
+            ObjectiveWord::Delay => Self::Delay,
+            ObjectiveWord::Margin => Self::Margin,
+        }
+    }
+}
+
+impl From<EffortWord> for Effort {
+    fn from(word: EffortWord) -> Self {
+        match word {
+            EffortWord::Fast => Self::Fast,
+            EffortWord::Normal => Self::Normal,
+            EffortWord::High => Self::High,
+        }
+    }
+}
+
+/// The functions of these names.
+pub(super) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
+    let parse = |name: &String| {
+        Function::parse(name.trim()).ok_or_else(|| {
+            let names: Vec<_> = Function::all().map(Function::name).collect();
+            let fault = Diagnostic::without_place(Code::BadValue, format!("`{name}` is no function of two inputs"));
+            Failure::plain(fault.with_help(format!("the functions are {}", names.join(", "))))
+        })
+    };
+    names.iter().map(parse).collect()
+}
+
+/// Maps a netlist and proves the result; what is not proved is not written.
+pub(super) fn synthesize(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, Failure> {
+    let mapped = map_with(source, library, options).map_err(|error| {
+        let code = match error {
+            MapError::Netlist(_) => Code::CircuitFile,
+            MapError::Incomplete { .. } => Code::IncompleteLibrary,
+        };
+        let fault = Diagnostic::without_place(code, error.to_string());
+        Failure::plain(match error.help() {
+            Some(help) => fault.with_help(help),
+            None => fault,
+        })
+    })?;
+    if let Err(error) = prove(source, &mapped) {
+        panic!("a mapped circuit is always equal to its source, and this one is not: {error}");
+    }
+    Ok(mapped)
+}
