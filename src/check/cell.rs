@@ -1,5 +1,9 @@
 //! Values in the rows of tests and simulations.
 
+use std::num::IntErrorKind;
+
+use crate::check::constant;
+use crate::check::expression::counted;
 use crate::diag::{Code, Diagnostic};
 use crate::model::Column;
 use crate::syntax::tree::Name;
@@ -13,6 +17,9 @@ pub(crate) enum Cell {
     Pulse,
 }
 
+/// As many bits are shown as an example of how a value is written.
+const SHOWN: usize = 16;
+
 /// Reads a value for a column.
 pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
     match word.text.as_str() {
@@ -21,17 +28,26 @@ pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
         _ => {}
     }
     let bits = match word.text.split_once('\'') {
-        Some((width, digits)) => sized(word, width, digits)?,
+        Some((width, constant)) => sized(word, width, constant, column)?,
         None => plain(word)?,
     };
     if bits.len() == column.width {
-        return Ok(Cell::Bits(bits));
+        Ok(Cell::Bits(bits))
+    } else {
+        Err(wrong_width(word, &counted(bits.len(), "bit"), column))
     }
-    let message = format!("a value of {} bits for `{}`", bits.len(), column.name);
-    let label = format!("`{}` has {}", column.name, crate::check::expression::counted(column.width, "bit"));
-    let zeros = "0".repeat(column.width.min(16));
-    let help = format!("write every bit, as in `{zeros}`, or a number with its width, as in `{}'d0`", column.width);
-    Err(Diagnostic::new(Code::Width, message, word.span, label).with_help(help))
+}
+
+fn wrong_width(word: &Name, found: &str, column: &Column) -> Diagnostic {
+    let message = format!("a value of {found} for `{}`", column.name);
+    let label = format!("`{}` has {}", column.name, counted(column.width, "bit"));
+    let number = format!("a number with its width, as in `{}'d0`", column.width);
+    let help = if column.width > SHOWN {
+        format!("write every bit, or {number}")
+    } else {
+        format!("write every bit, as in `{}`, or {number}", "0".repeat(column.width))
+    };
+    Diagnostic::new(Code::Width, message, word.span, label).with_help(help)
 }
 
 fn plain(word: &Name) -> Result<Vec<Option<bool>>, Diagnostic> {
@@ -44,26 +60,35 @@ fn plain(word: &Name) -> Result<Vec<Option<bool>>, Diagnostic> {
     word.text.chars().filter(|&c| c != '_').map(bit).collect::<Option<_>>().ok_or_else(|| no_value(word))
 }
 
-fn sized(word: &Name, width: &str, digits: &str) -> Result<Vec<Option<bool>>, Diagnostic> {
-    let radix = match digits.chars().next() {
-        Some('b') => 2,
-        Some('d') => 10,
-        Some('h') => 16,
-        _ => return Err(no_value(word)),
-    };
-    let digits: String = digits[1..].chars().filter(|&c| c != '_').collect();
-    let width: u32 = width.parse().ok().filter(|width| (1..=128).contains(width)).ok_or_else(|| no_value(word))?;
-    let value = u128::from_str_radix(&digits, radix).map_err(|_| no_value(word))?;
-    if width < 128 && value >> width != 0 {
-        let message = format!("`{value}` does not fit into {width} bits");
-        return Err(Diagnostic::new(
-            Code::OutOfRange,
-            message,
-            word.span,
-            format!("expected at most {}", (1u128 << width) - 1),
-        ));
+/// A number of so many bits.
+fn sized(word: &Name, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
+    let mut digits = constant.chars();
+    let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word))?;
+    if width.is_empty() || !width.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err(no_value(word));
     }
-    Ok((0..width).rev().map(|bit| Some(value >> bit & 1 == 1)).collect())
+    let value = constant::value(digits.as_str(), radix).map_err(|error| match error {
+        IntErrorKind::PosOverflow => too_large(word),
+        _ => no_value(word),
+    })?;
+    let width = match width.parse() {
+        Ok(width) if width < 128 && value >> width != 0 => return Err(unfitting(word, value, width)),
+        Ok(width) if width == column.width => width,
+        Ok(width) => return Err(wrong_width(word, &counted(width, "bit"), column)),
+        Err(_) => return Err(wrong_width(word, &format!("{width} bits"), column)),
+    };
+    Ok((0..width).rev().map(|bit| Some(bit < 128 && value >> bit & 1 == 1)).collect())
+}
+
+fn unfitting(word: &Name, value: u128, width: usize) -> Diagnostic {
+    let message = format!("`{value}` does not fit into {}", counted(width, "bit"));
+    let label = format!("expected at most {}", (1u128 << width) - 1);
+    Diagnostic::new(Code::OutOfRange, message, word.span, label)
+}
+
+fn too_large(word: &Name) -> Diagnostic {
+    Diagnostic::new(Code::OutOfRange, "the value is too large", word.span, "expected less than 128 bits")
+        .with_help("write every bit, as in `0110`")
 }
 
 fn no_value(word: &Name) -> Diagnostic {

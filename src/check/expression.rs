@@ -1,6 +1,9 @@
 //! Expressions of circuits: nets and circuits looked up, operands counted, operators turned into circuits of the prelude.
 
+use std::num::IntErrorKind;
+
 use crate::check::circuit::CircuitChecker;
+use crate::check::constant;
 use crate::check::names::Home;
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
@@ -109,15 +112,10 @@ impl<'a> CircuitChecker<'a> {
 
     fn constant(&mut self, width: tree::SizeId, base: char, digits: &str, span: Span) -> ExpressionKind {
         let width = self.size(width);
-        let radix = match base {
-            'b' => 2,
-            'h' => 16,
-            _ => 10,
-        };
-        let digits: String = digits.chars().filter(|&c| c != '_').collect();
-        let value = u128::from_str_radix(&digits, radix).unwrap_or_else(|error| {
-            let fault = match error.kind() {
-                std::num::IntErrorKind::PosOverflow => {
+        let radix = constant::radix(base).expect("the grammar lets the three bases through only");
+        let value = constant::value(digits, radix).unwrap_or_else(|error| {
+            let fault = match error {
+                IntErrorKind::PosOverflow => {
                     Diagnostic::new(Code::OutOfRange, "the constant is too large", span, "expected less than 128 bits")
                         .with_help("put it together from parts: `{64'h…, 64'h…}`")
                 }

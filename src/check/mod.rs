@@ -2,6 +2,7 @@
 
 mod cell;
 mod circuit;
+mod constant;
 mod evolution;
 mod expression;
 mod fields;

@@ -1,0 +1,22 @@
+//! The digits of constants such as `4'b1010`.
+
+use std::num::IntErrorKind;
+
+/// The base that a letter stands for.
+pub(crate) fn radix(letter: char) -> Option<u32> {
+    match letter {
+        'b' => Some(2),
+        'd' => Some(10),
+        'h' => Some(16),
+        _ => None,
+    }
+}
+
+/// The value of digits in a base; underscores separate. A sign is no digit.
+pub(crate) fn value(digits: &str, radix: u32) -> Result<u128, IntErrorKind> {
+    let digits: String = digits.chars().filter(|&c| c != '_').collect();
+    if digits.starts_with('+') {
+        return Err(IntErrorKind::InvalidDigit);
+    }
+    u128::from_str_radix(&digits, radix).map_err(|error| *error.kind())
+}
