@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use petgraph::algo::tarjan_scc;
-use petgraph::visit::NodeFiltered;
-
+use crate::circuit::components::Components;
 use crate::circuit::{NetId, Netlist, Node};
 
 /// The loops of a netlist, and an order of its nodes in which drivers come first wherever there is no loop.
@@ -18,7 +16,7 @@ pub struct Loops {
 impl Loops {
     /// Finds the loops.
     pub fn of(netlist: &Netlist) -> Self {
-        let mut components = tarjan_scc(netlist.graph());
+        let mut components = Components::new(netlist).from(netlist.ids(), |_| true);
         components.reverse();
         let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
         for mut component in components {
@@ -39,13 +37,13 @@ impl Loops {
     /// In [`Loops::order`] nothing waits for a memory element here.
     pub fn memory(netlist: &Netlist) -> Self {
         let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
+        let mut rest = Components::new(netlist);
         for core in Self::of(netlist).cores {
-            let kept = memory_of(netlist, &core);
+            let kept = memory_of(netlist, &core, &mut rest);
             loops.core_of.extend(kept.iter().map(|&id| (id, loops.cores.len())));
             loops.cores.push(kept);
         }
-        let open = NodeFiltered::from_fn(netlist.graph(), |id| !loops.core_of.contains_key(&id));
-        let components = tarjan_scc(&open);
+        let components = Components::new(netlist).from(netlist.ids(), |id| !loops.core_of.contains_key(&id));
         loops.order = loops.cores.concat();
         loops.order.extend(components.into_iter().rev().flatten());
         loops
@@ -85,15 +83,14 @@ impl Loops {
     }
 }
 
-/// The cells of a strongly connected part that are memory.
-fn memory_of(netlist: &Netlist, core: &[NetId]) -> Vec<NetId> {
+/// The cells of a strongly connected part that are memory; `rest` has met no node of it.
+fn memory_of(netlist: &Netlist, core: &[NetId], rest: &mut Components) -> Vec<NetId> {
     let inside = |id: &NetId| core.binary_search(id).is_ok();
     let listeners = |id: NetId| netlist.fanout(id).into_iter().map(|(listener, _)| listener);
     let paired = |id: &NetId| listeners(*id).any(|listener| listener == *id || netlist.pins(*id).contains(&listener));
     let mut kept: Vec<NetId> = core.iter().copied().filter(paired).collect();
-    let rest = NodeFiltered::from_fn(netlist.graph(), |id| inside(&id) && kept.binary_search(&id).is_err());
-    let cyclic = |part: &Vec<NetId>| part.len() > 1;
-    let still: Vec<NetId> = tarjan_scc(&rest).into_iter().filter(cyclic).flatten().collect();
+    let parts = rest.from(core.iter().copied(), |id| inside(&id) && kept.binary_search(&id).is_err());
+    let still: Vec<NetId> = parts.into_iter().filter(|part| part.len() > 1).flatten().collect();
     kept.extend(still);
     kept.sort_unstable();
     kept

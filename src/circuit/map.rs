@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::circuit::cells::CellLibrary;
+use crate::circuit::elaborate::MAX_CELLS;
 use crate::circuit::loops::Loops;
 use crate::circuit::network::{Network, Signal, View};
 use crate::circuit::passes::{self, DissolveWires, Pass, Sweep};
@@ -18,6 +19,12 @@ pub enum MapError {
     /// The netlist is not well formed.
     #[error(transparent)]
     Netlist(#[from] NetlistError),
+    /// More cells than are mapped.
+    #[error("the circuit has {cells} cells, and at most {MAX_CELLS} are mapped")]
+    TooLarge {
+        /// How many.
+        cells: usize,
+    },
     /// The library's functions do not make what the circuit needs.
     #[error("`{}` cannot be made of {}", .missing.name(), list(.held, "no cells", " and "))]
     Incomplete {
@@ -88,6 +95,10 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
 /// # Errors
 /// When the netlist is not well formed or the library cannot make a function of it.
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
+    let cells = netlist.cells().count();
+    if cells as u64 > MAX_CELLS {
+        return Err(MapError::TooLarge { cells });
+    }
     let mut source = netlist.clone();
     passes::run(&mut source)?;
     if options.objective == Objective::Margin {
@@ -264,6 +275,7 @@ mod tests {
     use super::*;
     use crate::circuit::CellKind;
     use crate::circuit::example::{full_adder, latch};
+    use crate::circuit::proof::{Method, prove};
 
     fn library(names: &str) -> CellLibrary {
         CellLibrary::uniform(
@@ -307,6 +319,30 @@ mod tests {
              the library"
         );
         assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made of no cells");
+    }
+
+    /// A chain of exclusive ors with twenty inputs in turn.
+    fn chain(cells: usize) -> Netlist {
+        let mut netlist = Netlist::new("chain");
+        let inputs: Vec<_> = (0..20).map(|i| netlist.add_input(format!("i{i}"))).collect();
+        let sum = |sum, i| netlist.add_gate(Function::XOR, &[sum, inputs[1 + i % 19]]);
+        let last = (0..cells).fold(inputs[0], sum);
+        netlist.add_output("q", last);
+        netlist
+    }
+
+    #[test]
+    fn a_long_chain_is_mapped_and_proved_without_recursion() {
+        let source = chain(50_000);
+        let mapped = map(&source, &library("nand not")).unwrap();
+        assert_eq!(mapped.cells().count(), 200_000);
+        assert_eq!(prove(&source, &mapped).unwrap().method, Method::Structural);
+    }
+
+    #[test]
+    fn too_many_cells_are_refused_with_their_number() {
+        let error = map(&chain(1_000_001), &library("nand")).unwrap_err();
+        assert_eq!(error.to_string(), "the circuit has 1000001 cells, and at most 1000000 are mapped");
     }
 
     #[test]

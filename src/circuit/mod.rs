@@ -1,6 +1,7 @@
 //! Circuits: the netlist, what makes it, what changes it, what reads and writes it. Knows nothing of physics.
 
 pub mod cells;
+mod components;
 pub mod elaborate;
 #[cfg(test)]
 mod example;

@@ -105,6 +105,7 @@ pub(super) fn synthesize(source: &Netlist, library: &CellLibrary, options: MapOp
     let mapped = map_with(source, library, options).map_err(|error| {
         let code = match error {
             MapError::Netlist(_) => Code::CircuitFile,
+            MapError::TooLarge { .. } => Code::TooLarge,
             MapError::Incomplete { .. } => Code::IncompleteLibrary,
         };
         let fault = Diagnostic::without_place(code, error.to_string());

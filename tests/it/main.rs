@@ -17,6 +17,7 @@ mod hostile;
 mod language;
 mod library;
 mod manual;
+mod optima;
 mod page;
 mod physics;
 mod pictures;

@@ -24,7 +24,7 @@ use crate::model::{CircuitId, Column, Instance, Program};
 use build::Builder;
 use module::ModuleId;
 
-/// The most cells of a circuit.
+/// The most cells of a circuit, written in the language or read from a file: docs/compiler.md says what so many take ("Measured").
 pub const MAX_CELLS: u64 = 1_000_000;
 
 /// The most statements of a circuit, those in `for` counted once for each turn.

@@ -38,8 +38,10 @@ pub struct Sweep {
     gates: Vec<Gate>,
     /// The values of each signal, `values[signal][word]`.
     values: Vec<Vec<u64>>,
-    /// Signals by their values, those that are 1 in the first pattern turned over.
-    classes: BTreeMap<Vec<u64>, Signal>,
+    /// What each signal's values come to, turned over where they are 1 in the first pattern.
+    hashes: Vec<u64>,
+    /// Signals by their hashes. Different values with one hash are told apart by the solver, and then by the pattern that it finds.
+    classes: BTreeMap<u64, Signal>,
     /// What each gate became, by its function and pins.
     known: BTreeMap<(u8, [Signal; 2]), (Signal, bool)>,
     /// How often the solver was called.
@@ -57,11 +59,13 @@ impl Sweep {
             inputs,
             gates: Vec::new(),
             values: Vec::new(),
+            hashes: Vec::new(),
             classes: BTreeMap::new(),
             known: BTreeMap::new(),
             calls: 0,
         };
         sweep.values = (0..2 + inputs).map(|signal| sweep.source_values(signal)).collect();
+        sweep.hashes = sweep.values.iter().map(|values| hash(values)).collect();
         sweep.clause(&[sweep.literal(0, false)]);
         sweep.clause(&[sweep.literal(1, true)]);
         sweep.classify();
@@ -106,17 +110,18 @@ impl Sweep {
     fn gate(&mut self, function: Function, pins: [Signal; 2]) -> (Signal, bool) {
         let signal = self.values.len() as Signal;
         let [a, b] = pins.map(|pin| &self.values[pin as usize]);
-        let values = a.iter().zip(b).map(|(&a, &b)| word(function, a, b)).collect();
+        let values: Vec<u64> = a.iter().zip(b).map(|(&a, &b)| word(function, a, b)).collect();
+        self.hashes.push(hash(&values));
         self.values.push(values);
         self.gates.push(Gate { function, pins });
         self.define(signal, function, pins);
         loop {
-            let (key, inverted) = key(&self.values[signal as usize]);
-            let Some(&class) = self.classes.get(&key) else {
-                self.classes.insert(key, signal);
+            let hash = self.hashes[signal as usize];
+            let Some(&class) = self.classes.get(&hash) else {
+                self.classes.insert(hash, signal);
                 return (signal, false);
             };
-            let opposite = inverted != self::key(&self.values[class as usize]).1;
+            let opposite = self.is_turned(signal) != self.is_turned(class);
             match self.difference((class, opposite), (signal, false)) {
                 None => {
                     self.clause(&[self.literal(class, opposite), self.literal(signal, true)]);
@@ -127,6 +132,11 @@ impl Sweep {
                 Some(pattern) => self.learn(&pattern),
             }
         }
+    }
+
+    /// Whether a signal is 1 in the first pattern.
+    fn is_turned(&self, signal: Signal) -> bool {
+        self.values[signal as usize][0] & 1 == 1
     }
 
     /// The clauses of a gate: one for each pattern of its pins.
@@ -174,6 +184,8 @@ impl Sweep {
                     word(function, a, b)
                 }
             };
+            let turned = if self.is_turned(signal as Signal) { !value } else { value };
+            self.hashes[signal] = extended(self.hashes[signal], turned);
             self.values[signal].push(value);
         }
         self.classify();
@@ -188,17 +200,21 @@ impl Sweep {
         };
         self.classes.clear();
         for signal in members {
-            let key = key(&self.values[signal as usize]).0;
-            let class = self.classes.entry(key).or_insert(signal);
+            let class = self.classes.entry(self.hashes[signal as usize]).or_insert(signal);
             *class = signal.min(*class);
         }
     }
 }
 
-/// Values turned so that the first pattern is 0, and whether that turned them.
-fn key(values: &[u64]) -> (Vec<u64>, bool) {
-    let inverted = values[0] & 1 == 1;
-    (values.iter().map(|word| if inverted { !word } else { *word }).collect(), inverted)
+/// What values come to, those turned over that are 1 in the first pattern.
+fn hash(values: &[u64]) -> u64 {
+    let turn = if values[0] & 1 == 1 { !0 } else { 0 };
+    values.iter().fold(0, |hash, word| extended(hash, word ^ turn))
+}
+
+/// A hash with one more word: of two words each gives another one.
+fn extended(hash: u64, word: u64) -> u64 {
+    (hash.rotate_left(23) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
 #[cfg(test)]
