@@ -1,6 +1,6 @@
 //! The declarations of all files together: first their names, then each kind after those that it speaks of.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::circuit::{Header, Headers, circuit};
 use crate::check::evolution::{self, evolution};
@@ -47,6 +47,8 @@ struct Assembly<'a> {
     circuits: Names,
     swarms: Names,
     headers: Headers,
+    /// The place of each circuit by its name in the program.
+    places: BTreeMap<String, CircuitId>,
     /// For each circuit whether it and all it is made of are without faults of names.
     sound: Vec<bool>,
     /// Where each circuit comes from.
@@ -73,6 +75,7 @@ impl<'a> Assembly<'a> {
             circuits: Names::new("circuit"),
             swarms: Names::new("swarm"),
             headers: Headers::default(),
+            places: BTreeMap::new(),
             sound: Vec::new(),
             homes: Vec::new(),
         }
@@ -108,7 +111,7 @@ impl<'a> Assembly<'a> {
 
     fn stimulus(&mut self, name: &Name, home: Home) {
         // Redeclaring one of the prelude's stimuli names the same signal.
-        let known = self.program.stimuli.iter().position(|stimulus| *stimulus == name.text);
+        let known = self.stimuli.find(&name.text, home);
         let index = known.unwrap_or(self.program.stimuli.len());
         let declared = self.stimuli.declare(name, index, home);
         if !self.note(declared) || known.is_some() {
@@ -203,6 +206,9 @@ impl<'a> Assembly<'a> {
         self.faults.extend(faults);
         self.sound = sound;
         self.rename_redeclared();
+        for (at, header) in self.headers.circuits.iter().enumerate() {
+            self.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
+        }
         self.own_tests().filter_map(reference).collect()
     }
 
@@ -260,15 +266,14 @@ impl<'a> Assembly<'a> {
             inspector.inspect(CircuitId(at as u32));
         }
         for swarm in &program.swarms {
-            if self.is_sound(&swarm.circuit) {
-                inspector.ports(&swarm.circuit);
-            }
+            self.ports(&swarm.circuit, &mut inspector);
         }
         let simulations = self.simulations(&program, &mut inspector);
         let mut tests = Vec::new();
         let mut bodies = Vec::new();
+        let mut references = references.iter().peekable();
         for (span, test) in self.own_tests() {
-            let own = references.iter().find(|reference| std::ptr::eq(reference.test, test));
+            let own = references.next_if(|reference| std::ptr::eq(reference.test, test));
             let tested = self.test(span, test, &mut inspector, own.map(|own| own.body), &mut bodies);
             tests.extend(tested);
         }
@@ -285,8 +290,10 @@ impl<'a> Assembly<'a> {
         self.faults.extend(found);
     }
 
-    fn is_sound(&self, instance: &Instance) -> bool {
-        self.headers.circuits.iter().position(|header| header.name == instance.circuit).is_some_and(|at| self.sound[at])
+    /// The ports of an instance, if its circuit and all it is made of are sound.
+    fn ports(&self, instance: &Instance, inspector: &mut Inspector<'_>) -> Option<(Vec<Column>, Vec<Column>)> {
+        let circuit = *self.places.get(&instance.circuit)?;
+        if self.sound[circuit.0 as usize] { inspector.ports(circuit, &instance.arguments) } else { None }
     }
 
     fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
@@ -300,8 +307,8 @@ impl<'a> Assembly<'a> {
                     None
                 }
             };
-            let Some(swarm) = swarm.filter(|swarm| self.is_sound(&swarm.circuit)) else { continue };
-            let Some((inputs, _)) = inspector.ports(&swarm.circuit) else { continue };
+            let Some(swarm) = swarm else { continue };
+            let Some((inputs, _)) = self.ports(&swarm.circuit, inspector) else { continue };
             let spells =
                 simulate::spells(&source.with, &inputs, home, &self.schedules, &program.schedules, &mut self.faults);
             simulations.push(Simulation { swarm: swarm.name.clone(), span: source.swarm.span, spells });
@@ -318,7 +325,7 @@ impl<'a> Assembly<'a> {
         bodies: &mut Vec<crate::model::Circuit>,
     ) -> Option<CircuitTest> {
         let tested = self.instance(&source.circuit)?;
-        let (inputs, outputs) = inspector.ports(&tested)?;
+        let (inputs, outputs) = self.ports(&tested, inspector)?;
         let stimulation = match &source.kind {
             tree::TestKind::Table(table) => {
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
@@ -339,15 +346,10 @@ impl<'a> Assembly<'a> {
         Some(CircuitTest { circuit: tested, title, span, inputs, outputs, stimulation })
     }
 
-    /// A circuit that a test names, if it and all it is made of are sound.
+    /// A circuit that a test names.
     fn instance(&mut self, source: &tree::Instance) -> Option<Instance> {
-        match instance(source, Home::Own, &self.circuits, &self.headers) {
-            Ok(instance) => Some(instance).filter(|instance| self.is_sound(instance)),
-            Err(fault) => {
-                self.faults.push(fault);
-                None
-            }
-        }
+        let named = instance(source, Home::Own, &self.circuits, &self.headers);
+        named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
     fn against(
@@ -358,7 +360,7 @@ impl<'a> Assembly<'a> {
         ports: (&[Column], &[Column]),
     ) -> Option<Stimulation> {
         let reference = self.instance(other)?;
-        let (inputs, outputs) = inspector.ports(&reference)?;
+        let (inputs, outputs) = self.ports(&reference, inspector)?;
         let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
         if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
             let message = format!("`{}` and `{}` have different ports", tested.name.text, other.name.text);

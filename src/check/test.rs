@@ -96,19 +96,23 @@ impl Columns<'_> {
             faults.push(fault);
             return Vec::new();
         }
-        let before = faults.len();
-        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, faults);
-        let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, faults);
-        let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| faults.push(fault)).ok());
-        let expected = output_bits(&outputs, &row.outputs, faults);
+        let mut found = Vec::new();
+        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, &mut found);
+        let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, &mut found);
+        let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| found.push(fault)).ok());
+        let expected = output_bits(&outputs, &row.outputs, &mut found);
         let turns = if inputs.contains(&Some(Cell::Pulse)) { 2 } else { 1 };
         let mut rows = Vec::new();
         for turn in (0..turns).rev() {
-            let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, faults);
+            let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, &mut found);
             let expected = if turn == 0 { expected.clone() } else { vec![None; expected.len()] };
             rows.push(TestRow { inputs, expected, hold, span: row.span });
         }
-        if faults.len() > before { Vec::new() } else { rows }
+        if !found.is_empty() {
+            rows.clear();
+        }
+        faults.extend(found);
+        rows
     }
 
     fn shape_fault(&self, row: &tree::TestRow) -> Option<Diagnostic> {

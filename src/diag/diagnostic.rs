@@ -16,7 +16,7 @@ pub enum Severity {
 }
 
 /// A place with a word about it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Label {
     /// The place.
     pub span: Span,
@@ -28,7 +28,7 @@ pub struct Label {
 pub type Related = Label;
 
 /// One fault of the user's input: what, where, and what to do about it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Diagnostic {
     /// Which rule.
     pub code: Code,

@@ -153,6 +153,11 @@ fn hostile_files_are_refused_within_a_second_and_a_gigabyte() {
     refused("\"".repeat(8_000_000).as_bytes(), Code::Syntax);
     refused("// c\n".repeat(1_600_000).as_bytes(), Code::Empty);
     refused("circuit f {\n".repeat(20_000).as_bytes(), Code::Syntax);
+    let numbered = |line: &dyn Fn(usize) -> String| (0..10_000).map(line).collect::<String>();
+    refused(circuit(&("q = a\n".repeat(20_000))).as_bytes(), Code::MultipleDrivers);
+    refused(circuit(&numbered(&|i| format!("n{i} = nope{i} and a\n"))).as_bytes(), Code::Unknown);
+    refused(format!("test half_adder {{\n a b | s\n{}}}\n", " 0 - | 1\n".repeat(20_000)).as_bytes(), Code::Value);
+    refused(format!("stimulus s{}", numbered(&|i| format!(", t{i}"))).as_bytes(), Code::OutOfRange);
     refused_in_bounds(&bench, "/dev/zero", Code::Unreadable);
     refused_in_bounds(&bench, ".", Code::Unreadable);
 }

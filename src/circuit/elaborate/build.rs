@@ -1,6 +1,6 @@
 //! Builds modules, each once for each choice of parameters.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::circuit::elaborate::frame::{Frame, Item};
 use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
@@ -16,6 +16,8 @@ pub(super) struct Builder<'a> {
     /// The module of each circuit and its parameters; `None` where it cannot be built, or is just being built.
     known: BTreeMap<(CircuitId, Vec<i64>), Option<ModuleId>>,
     pub(super) diagnostics: Vec<Diagnostic>,
+    /// The same, to tell quickly what has been said.
+    noted: BTreeSet<Diagnostic>,
     depth: usize,
     /// The modules whose loops have been looked at.
     pub(super) inspected: Vec<bool>,
@@ -28,6 +30,7 @@ impl<'a> Builder<'a> {
             modules: Vec::new(),
             known: BTreeMap::new(),
             diagnostics: Vec::new(),
+            noted: BTreeSet::new(),
             depth: 0,
             inspected: Vec::new(),
         }
@@ -43,7 +46,7 @@ impl<'a> Builder<'a> {
 
     /// Notes a fault, once.
     pub(super) fn fault(&mut self, fault: Diagnostic) {
-        if !self.diagnostics.contains(&fault) {
+        if self.noted.insert(fault.clone()) {
             self.diagnostics.push(fault);
         }
     }
@@ -54,8 +57,12 @@ impl<'a> Builder<'a> {
             self.fault(unknown(self.program, instance));
             return None;
         };
-        let circuit = CircuitId(at as u32);
-        let mut given: Vec<_> = instance.arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
+        self.with_arguments(CircuitId(at as u32), &instance.arguments)
+    }
+
+    /// The module of a circuit with numbers for its first parameters.
+    pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64]) -> Option<ModuleId> {
+        let mut given: Vec<_> = arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
         given.resize(self.circuit(circuit).parameters.len(), None);
         let arguments = self.arguments(circuit, given, &[], self.circuit(circuit).span)?;
         self.build(circuit, arguments)

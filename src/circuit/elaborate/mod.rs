@@ -72,9 +72,9 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// The input and output ports of an instance, if it can be built.
-    pub fn ports(&mut self, instance: &Instance) -> Option<(Vec<Column>, Vec<Column>)> {
-        let module = self.0.instance(instance)?;
+    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built.
+    pub fn ports(&mut self, circuit: CircuitId, arguments: &[u64]) -> Option<(Vec<Column>, Vec<Column>)> {
+        let module = self.0.with_arguments(circuit, arguments)?;
         self.0.look_for_loops(module);
         Some(self.0.columns(module))
     }
