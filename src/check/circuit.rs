@@ -316,6 +316,9 @@ impl<'a> CircuitChecker<'a> {
             let signature = self.headers.circuits[circuit].signature();
             return diagnostic.with_help(format!("it is a circuit, to be called with operands: `{signature}`"));
         }
+        if self.diagnostics.len() >= suggest::MOST {
+            return diagnostic;
+        }
         match suggest::help(&name.text, self.nets_in_scope()) {
             Some(help) => diagnostic.with_help(help),
             None => diagnostic,

@@ -1,5 +1,6 @@
 //! Who is called what: one table of names for each kind of declaration. A file's names come before those of the prelude.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use crate::diag::{Code, Diagnostic, suggest};
@@ -23,6 +24,8 @@ pub(crate) struct Names {
     kind: &'static str,
     prelude: BTreeMap<String, Entry>,
     files: BTreeMap<String, Entry>,
+    /// How many names were asked for that nothing has.
+    unknown: Cell<usize>,
 }
 
 #[derive(Clone, Copy)]
@@ -33,7 +36,7 @@ struct Entry {
 
 impl Names {
     pub(crate) fn new(kind: &'static str) -> Self {
-        Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new() }
+        Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0) }
     }
 
     /// Takes a name in, unless it is taken.
@@ -59,11 +62,17 @@ impl Names {
         self.find(&name.text, home).ok_or_else(|| {
             let message = format!("no {} is called `{}`", self.kind, name.text);
             let diagnostic = Diagnostic::new(Code::Unknown, message, name.span, "not declared");
-            match suggest::help(&name.text, self.all()) {
+            match self.suggestion(&name.text) {
                 Some(help) => diagnostic.with_help(help),
                 None => diagnostic,
             }
         })
+    }
+
+    /// What may have been meant; the first unknown names are told.
+    fn suggestion(&self, name: &str) -> Option<String> {
+        self.unknown.set(self.unknown.get() + 1);
+        if self.unknown.get() <= suggest::MOST { suggest::help(name, self.all()) } else { None }
     }
 
     /// Every name, in order.

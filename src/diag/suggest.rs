@@ -1,9 +1,16 @@
 //! "Did you mean": the known name nearest to a misspelled one.
 
+/// Where there are more faults than these, the others are told without a suggestion: each would take a look at every name.
+pub const MOST: usize = 100;
+
+/// The most letters of a name that are compared.
+const LETTERS: usize = 64;
+
 /// The nearest of `known`, if it is near enough to be what was meant; the first of equally near ones.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (word.chars().count() / 3).clamp(1, 3);
-    let scored = known.into_iter().filter_map(|name| Some((distance(word, name, limit)?, name)));
+    let mut measure = Measure { word: letters(word).collect(), limit, name: Vec::new(), rows: Default::default() };
+    let scored = known.into_iter().filter_map(|name| Some((measure.distance(name)?, name)));
     scored.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
 }
 
@@ -34,31 +41,57 @@ pub fn join<S: AsRef<str>>(phrases: &[S], last: &str) -> String {
     }
 }
 
-/// The number of letters to change, add, drop or exchange, if it is within `limit`.
-fn distance(a: &str, b: &str, limit: usize) -> Option<usize> {
-    let a: Vec<char> = a.to_lowercase().chars().take(64).collect();
-    let b: Vec<char> = b.to_lowercase().chars().take(64).collect();
-    if a.len().abs_diff(b.len()) > limit {
-        return None;
-    }
-    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
-    for i in 0..=a.len() {
-        for j in 0..=b.len() {
-            rows[i][j] = edits(&rows, &a, &b, i, j);
-        }
-    }
-    // Where every letter changes, nothing tells that the name was meant.
-    Some(rows[a.len()][b.len()]).filter(|&edits| edits <= limit && edits < a.len().max(b.len()))
+/// The letters that are compared.
+fn letters(text: &str) -> impl Iterator<Item = char> {
+    text.chars().flat_map(char::to_lowercase).take(LETTERS)
 }
 
-fn edits(rows: &[Vec<usize>], a: &[char], b: &[char], i: usize, j: usize) -> usize {
-    if i == 0 || j == 0 {
-        return i + j;
+/// Measures how far names are from a word.
+struct Measure {
+    word: Vec<char>,
+    limit: usize,
+    /// The name's letters.
+    name: Vec<char>,
+    /// Edits from as many letters of the word, and from one and two fewer, to the name's beginnings.
+    rows: [Vec<usize>; 3],
+}
+
+impl Measure {
+    /// The number of letters to change, add, drop or exchange, if it is within the limit.
+    fn distance(&mut self, name: &str) -> Option<usize> {
+        // Most names are told by their length.
+        if name.is_ascii() && name.len().min(LETTERS).abs_diff(self.word.len()) > self.limit {
+            return None;
+        }
+        self.name.clear();
+        self.name.extend(letters(name));
+        self.rows[0] = (0..=self.name.len()).collect();
+        for i in 1..=self.word.len() {
+            self.advance(i);
+            // An exchange takes two letters at once, so that one row may be skipped.
+            let out = |row: &[usize], limit| row.iter().all(|&edits| edits > limit);
+            if out(&self.rows[0], self.limit) && out(&self.rows[1], self.limit - 1) {
+                return None;
+            }
+        }
+        // Where every letter changes, nothing tells that the name was meant.
+        let edits = self.rows[0][self.name.len()];
+        (edits <= self.limit && edits < self.word.len().max(self.name.len())).then_some(edits)
     }
-    let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-    let best = change.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
-    let exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-    if exchanged { best.min(rows[i - 2][j - 2] + 1) } else { best }
+
+    /// The row of one more letter of the word.
+    fn advance(&mut self, i: usize) {
+        self.rows.rotate_right(1);
+        let [row, last, last_but_one] = &mut self.rows;
+        row.clear();
+        row.push(i);
+        for (j, &letter) in (1..).zip(&self.name) {
+            let change = last[j - 1] + usize::from(self.word[i - 1] != letter);
+            let best = change.min(last[j] + 1).min(row[j - 1] + 1);
+            let exchanged = i > 1 && j > 1 && self.word[i - 1] == self.name[j - 2] && self.word[i - 2] == letter;
+            row.push(if exchanged { best.min(last_but_one[j - 2] + 1) } else { best });
+        }
+    }
 }
 
 #[cfg(test)]
@@ -70,6 +103,8 @@ mod tests {
         assert_eq!(nearest("latc", ["register", "latch"]), Some("latch"));
         assert_eq!(nearest("cicruit", ["circuit", "stimulus"]), Some("circuit"));
         assert_eq!(nearest("q", ["nq", "d"]), Some("nq"));
+        assert_eq!(nearest("Stmiulus", ["simulate", "stimulus"]), Some("stimulus"));
+        assert_eq!(nearest("register", ["regester2x", "registers", "regis"]), Some("registers"));
         assert_eq!(nearest("carry", ["sum", "out"]), None);
         assert_eq!(nearest("c", ["a", "b"]), None);
         assert_eq!(help("carry", ["sum", "out"]).unwrap(), "known here: `sum` and `out`");
