@@ -128,7 +128,7 @@ impl Quad {
     fn normal(&self, side: usize) -> Vector2<f64> {
         let [a, b] = self.segment(side);
         let e = b - a;
-        Vector2::new(-e.y, e.x) / e.norm()
+        Vector2::new(-e.y, e.x) / length(e)
     }
 }
 
@@ -148,8 +148,12 @@ fn crosses(first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], constants: &Cons
 /// How far a point is from the line through a segment.
 fn distance(point: Vector2<f64>, [a, b]: [Vector2<f64>; 2], constants: &Constants) -> f64 {
     let e = b - a;
-    let length = e.norm();
+    let length = length(e);
     if length < constants.shortest { constants.nowhere } else { e.perp(&(point - a)).abs() / length }
+}
+
+fn length(e: Vector2<f64>) -> f64 {
+    e.dot(&e).sqrt()
 }
 
 #[cfg(test)]
