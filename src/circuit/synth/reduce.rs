@@ -35,6 +35,9 @@ const SMALL_STARTS: usize = 6;
 const WHOLE_GATES: usize = 500;
 /// The most gates of a network that the walk roams as a whole.
 const MOST_ROAMED: usize = 1_000;
+/// Above so many gates, a search that no second one follows takes more of the work at normal effort: this part, where else it takes 2.
+const MANY_GATES: usize = 100;
+const SHARE_ALONE: u64 = 8;
 /// Above so many gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
@@ -56,7 +59,8 @@ pub fn reduce(
         return Ok(direct);
     }
     let exclusive = target.cost(Function::XOR).unwrap_or(4);
-    let mut best = course.search(&direct, 2, &mut random);
+    let alone = exclusive <= 1 && options.effort == Effort::Normal && direct.gates.len() > MANY_GATES;
+    let mut best = course.search(&direct, if alone { SHARE_ALONE } else { 2 }, &mut random);
     if exclusive > 1 && (options.effort == Effort::High || is_narrow(&direct)) {
         // Where an exclusive or is dear, first aim at few gates of any kind, then at cells.
         let ideal = Prices::abstracted(2 * exclusive - 1);
@@ -142,7 +146,7 @@ impl Course<'_> {
         let &Self { prices, stages, effort } = self;
         let (rounds, visits, steps) = match effort {
             Effort::Fast => (1, 20, 0),
-            Effort::Normal => ((1_000 / network.gates.len() as u64).clamp(2, 5), 50, 2),
+            Effort::Normal => ((1_000 / network.gates.len() as u64).clamp(2, 5) * share / 2, 50, 2),
             Effort::High => (3 * share, 400, 16),
         };
         let mut best = network.clone();
