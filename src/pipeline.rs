@@ -157,16 +157,19 @@ pub fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<D
     Ok((0..1 << bits).map(row).collect())
 }
 
-/// How long each row is held, and what it asks for.
+/// How long each row is held, and what it asks for. The first has the time on top in which robots find their feet.
 pub fn demands(rows: &[TestRow], protocol: Protocol, timing: &Timing) -> Vec<Demand> {
-    let needed = timing.hold + STEADY_EXTRA + (protocol.window - 1);
-    let usual = match protocol.hold {
-        Hold::Auto => needed,
-        Hold::Cycles(cycles) => cycles,
+    let usual = timing.hold + STEADY_EXTRA + (protocol.window - 1);
+    let demand = |(i, row): (usize, &TestRow)| {
+        let needed = if i == 0 { usual + swarm::START_CYCLES as u32 } else { usual };
+        let hold = match protocol.hold {
+            Hold::Auto => needed,
+            Hold::Cycles(cycles) => cycles,
+        };
+        let hold = row.hold.unwrap_or(hold).max(1) as usize;
+        Demand { hold, needed: needed as usize, expected: row.expected.clone() }
     };
-    let hold = |row: &TestRow| row.hold.unwrap_or(usual).max(1) as usize;
-    let demand = |row: &TestRow| Demand { hold: hold(row), needed: needed as usize, expected: row.expected.clone() };
-    rows.iter().map(demand).collect()
+    rows.iter().enumerate().map(demand).collect()
 }
 
 /// Runs a test in full physics, calling `observe` with the cycles done and the cycles in all after each.

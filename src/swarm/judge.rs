@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-use crate::swarm::SwarmTrace;
+use crate::swarm::{START_CYCLES, SwarmTrace};
 
 /// Cycles over which an output must have had its value when its row ends.
 const STEADY_CYCLES: usize = 2;
@@ -135,10 +135,11 @@ fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse
     cycles.flat_map(of_cycle).collect()
 }
 
-/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended.
+/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended; after its fresh start a robot has more time.
 fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
     let sensed = trace.cycles[cycle].sensed[k];
-    cycle + 1 >= clock && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
+    cycle + 1 >= clock.max(START_CYCLES)
+        && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
 }
 
 #[cfg(test)]

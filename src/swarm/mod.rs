@@ -17,5 +17,5 @@ pub use characterise::{characterise, screen};
 pub use evaluate::{Work, evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, Lapse, RowVerdict, TestVerdict, judge};
 pub use measure::{Measurement, measure};
-pub use simulate::{Exposure, setting, simulate};
+pub use simulate::{Exposure, START_CYCLES, setting, simulate};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};

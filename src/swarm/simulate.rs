@@ -31,10 +31,14 @@ pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
     Setting { world_width, ..Setting::paper() }
 }
 
+/// Cycles in which robots find their feet after their fresh start. Their motion means nothing before the last of them is over, so that
+/// the others hear their start values until then: a latch would else forget what it begins with (docs/physics.md 14).
+pub const START_CYCLES: usize = 2;
+
 /// Simulates a swarm in its [`setting`] through an exposure, calling `observe` with the number of finished cycles after each.
 ///
 /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the last `window` cycles, else 0; that bit is
-/// the stimulus of the robots it feeds during the next cycle (paper, section 4).
+/// the stimulus of the robots it feeds during the next cycle (paper, section 4), from the end of [`START_CYCLES`] on.
 ///
 /// # Panics
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.
@@ -48,15 +52,18 @@ pub fn simulate(
     let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
     let mut flock = simulator.flock(&setting(assembly, exposure.inputs.len()), &bodies);
     let mut trace = begin(assembly, &flock);
-    let mut bits: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
+    let mut heard: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
     for inputs in &exposure.inputs {
         assert_eq!(inputs.len(), assembly.inputs.len(), "a bit for each input port");
         let sensed: Vec<[bool; 2]> =
-            assembly.members.iter().map(|member| member.senses.map(|signal| read(signal, inputs, &bits))).collect();
+            assembly.members.iter().map(|member| member.senses.map(|signal| read(signal, inputs, &heard))).collect();
         advance_cycle(&mut flock, &sensed, exposure.cycle_steps, &mut trace.robots);
-        bits = trace.robots.iter().map(|robot| moved_right(robot, exposure.window)).collect();
+        let bits: Vec<bool> = trace.robots.iter().map(|robot| moved_right(robot, exposure.window)).collect();
         let outputs = assembly.outputs.iter().map(|&(_, signal)| read(signal, inputs, &bits)).collect();
-        trace.cycles.push(CycleTrace { inputs: inputs.clone(), sensed, bits: bits.clone(), outputs });
+        if trace.cycles.len() + 1 >= START_CYCLES {
+            heard.clone_from(&bits);
+        }
+        trace.cycles.push(CycleTrace { inputs: inputs.clone(), sensed, bits, outputs });
         observe(trace.cycles.len());
     }
     for (i, robot) in trace.robots.iter_mut().enumerate() {
