@@ -6,7 +6,7 @@ use crate::check::{self, Checked};
 use crate::circuit::logic::Logic;
 use crate::circuit::timing::Delays;
 use crate::circuit::{Netlist, Proof, Timing, elaborate, map, prove};
-use crate::diag::{Code, Diagnostic, render};
+use crate::diag::{Code, Diagnostic, counted, render};
 use crate::model::{CYCLE_STEPS, CircuitTest, Hold, Instance, Library, Origin, Program, Stimulation, TestRow};
 use crate::report;
 use crate::sim::Simulator;
@@ -293,8 +293,7 @@ fn short_holds(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compile
     let path: Vec<String> = compiled.timing.critical_path.iter().map(|&net| compiled.mapped.net_name(net)).collect();
     let short = rows.iter().zip(demands).find(|(_, demand)| demand.hold < needed);
     let warn = |(row, demand): (&TestRow, &Demand)| {
-        let cycles = if demand.hold == 1 { "cycle" } else { "cycles" };
-        let message = format!("a hold of {} {cycles} is too short, expected {needed} at least", demand.hold);
+        let message = format!("a hold of {} is too short, expected {needed} at least", counted(demand.hold, "cycle"));
         let place = if row.hold.is_some() { row.span } else { test.span };
         Diagnostic::new(Code::HoldTooShort, message, place, "held here")
             .with_help(format!("the slowest path is {}; `hold: auto` waits for it", path.join(" -> ")))

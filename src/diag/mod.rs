@@ -1,6 +1,7 @@
 //! Diagnostics: what is wrong with the user's input, as plain data with places; [`render`] is the only user of miette, [`suggest`] finds what was meant.
 
 mod code;
+mod counted;
 mod diagnostic;
 mod file;
 mod json;
@@ -8,5 +9,6 @@ pub mod render;
 pub mod suggest;
 
 pub use code::Code;
+pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
 pub use json::json;

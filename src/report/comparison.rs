@@ -1,6 +1,7 @@
 //! Performances by group of behaviors (paper, figure 5): every run as a dot, a cross at the mean, gaps where groups differ, and the
 //! statistics below.
 
+use crate::diag::counted;
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
 use crate::report::groups::{BehaviorGroup, GroupComparison};
@@ -61,7 +62,7 @@ fn draw_group(svg: &mut Svg, panel: &Panel, group: &BehaviorGroup, slot: f64) {
         svg.text((x, panel.bottom + 16.0 + 13.0 * i as f64), word, Type::new(11.0).anchored(Anchor::Middle));
     }
     let small = Type::new(9.5).colored(Color::GRAY).anchored(Anchor::Middle);
-    let runs = if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
+    let runs = counted(count, "run");
     svg.text((x, panel.bottom + 17.0 + 13.0 * words.len() as f64), &runs, small);
     if count > 0 {
         let (x, y) = panel.at((slot, group.values.iter().sum::<f64>() / count as f64));

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::circuit::timing::fan_out;
 use crate::circuit::{Memory, NetId, Netlist, Timing};
+use crate::diag::counted;
 use crate::swarm::{Assembly, Member};
 
 /// The static timing of a swarm, in cycles after its inputs switched.
@@ -101,11 +102,12 @@ impl SwarmTiming {
     /// The timing as lines for people.
     pub fn describe(&self) -> String {
         let step = |step: &PathStep| match &step.robot {
-            Some(robot) => format!("{} ({robot}, {} cycles)", step.net, step.cycles),
+            Some(robot) => format!("{} ({robot}, {})", step.net, counted(step.cycles as usize, "cycle")),
             None => step.net.clone(),
         };
         let path: Vec<String> = self.critical_path.iter().map(step).collect();
-        let mut text = format!("timing   right after {} cycles: {}\n", self.hold, path.join(" -> "));
+        let mut text =
+            format!("timing   right after {}: {}\n", counted(self.hold as usize, "cycle"), path.join(" -> "));
         for MemoryTimes { nets, pulse, setup, hold } in &self.memory {
             let nets = nets.join(" ");
             text.push_str(&format!("memory   {nets}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n"));
