@@ -47,8 +47,9 @@ pub(crate) fn load(world: &dyn World, sources: &mut Sources, file: FileId) -> Lo
 struct Loader<'a> {
     world: &'a dyn World,
     loaded: Loaded,
-    /// The files that are being loaded, outermost first.
-    open: Vec<String>,
+    /// The files that are being loaded, outermost first: each its identity, and its path as written.
+    open: Vec<(String, String)>,
+    /// The identities of those that were loaded.
     done: Vec<String>,
 }
 
@@ -61,36 +62,38 @@ impl Loader<'_> {
 
     fn file(&mut self, sources: &mut Sources, id: FileId, home: Home) {
         let name = normal(&sources.file(id).name);
+        let identity = self.world.identity(&name);
         let parsed = parse(sources, id);
         if home == Home::Own && parsed.tree.declarations.is_empty() && parsed.errors.is_empty() {
             self.loaded.faults.push(empty(sources, id));
         }
         self.loaded.faults.extend(parsed.errors);
-        self.open.push(name);
+        self.open.push((identity, name));
         for declaration in &parsed.tree.declarations {
             if let DeclarationKind::Use(path) = &declaration.kind {
                 self.used(sources, id, path);
             }
         }
-        self.done.extend(self.open.pop());
+        self.done.extend(self.open.pop().map(|(identity, _)| identity));
         self.loaded.trees.push((home, parsed.tree));
     }
 
     fn used(&mut self, sources: &mut Sources, from: FileId, path: &Text) {
         let name = beside(&sources.file(from).name, &path.text);
-        if let Some(at) = self.open.iter().position(|open| *open == name) {
+        let identity = self.world.identity(&name);
+        if let Some(at) = self.open.iter().position(|(open, _)| *open == identity) {
             self.loaded.faults.push(circular(&self.open[at..], path.span));
         } else if self.open.len() >= MAX_DEPTH {
             let message = format!("files use files more than {MAX_DEPTH} deep");
             self.loaded.faults.push(Diagnostic::new(Code::Nesting, message, path.span, "when it came to this one"));
-        } else if !self.done.contains(&name) {
+        } else if !self.done.contains(&identity) {
             match self.world.read(&name) {
                 Ok(text) => {
                     let id = sources.add(name, text);
                     self.file(sources, id, Home::Used);
                 }
                 Err(error) => {
-                    self.done.push(name.clone());
+                    self.done.push(identity);
                     let fault = Diagnostic::unreadable(&name, &error).with_label(path.span, "used here");
                     let help = "the path of a used file starts from the file that uses it";
                     self.loaded.faults.push(fault.with_help(help));
@@ -106,8 +109,8 @@ fn empty(sources: &Sources, id: FileId) -> Diagnostic {
         .with_help("declare a circuit: `circuit inverter(a) -> (q) { q = not a }`")
 }
 
-fn circular(open: &[String], span: Span) -> Diagnostic {
-    let circle: Vec<_> = open.iter().chain(open.first()).map(|name| format!("`{name}`")).collect();
+fn circular(open: &[(String, String)], span: Span) -> Diagnostic {
+    let circle: Vec<_> = open.iter().chain(open.first()).map(|(_, name)| format!("`{name}`")).collect();
     let message = format!("files use each other in a circle: {}", circle.join(" uses "));
     Diagnostic::new(Code::CircularUse, message, span, "this closes the circle")
         .with_help("put what both need into a file of its own")

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::{Context, Format, Status};
-use crate::diag::{Code, Diagnostic, render};
+use crate::diag::{Code, Diagnostic, io_words, render};
 use crate::source::Sources;
 
 /// Why a command could not be carried out.
@@ -34,8 +34,7 @@ impl Failure {
 
     /// A file or folder that cannot be written.
     pub fn unwritable(path: &Path, error: &io::Error) -> Self {
-        let message = format!("cannot write `{}`: {}", path.display(), error.to_string().to_lowercase());
-        Self::plain(Diagnostic::without_place(Code::Unwritable, message))
+        Self::plain(Diagnostic::unwritable(path, error))
     }
 
     /// Tells the user, and says how the program ends. Nobody reads a closed pipe, so that is a silent end.
@@ -53,7 +52,7 @@ impl Failure {
             }
             Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Done,
             Self::Output(error) => {
-                let message = format!("cannot write the output: {}", error.to_string().to_lowercase());
+                let message = format!("cannot write the output: {}", io_words(&error));
                 let diagnostic = Diagnostic::without_place(Code::Unwritable, message);
                 context.log(&render::text(&[diagnostic], &Sources::default(), context.color));
                 Status::BadInput

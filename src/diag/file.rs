@@ -1,4 +1,7 @@
-//! Files that cannot be read, as diagnostics.
+//! Files that cannot be read or written, as diagnostics.
+
+use std::io;
+use std::path::Path;
 
 use super::{Code, Diagnostic};
 use crate::source::FileError;
@@ -8,12 +11,63 @@ impl Diagnostic {
     pub fn unreadable(path: &str, error: &FileError) -> Self {
         let why = match error {
             FileError::NotFound => "there is no such file".to_owned(),
-            FileError::TooLarge { bytes, limit } => {
-                format!("it has {bytes} bytes, expected at most {limit}")
-            }
-            FileError::NotText { offset } => format!("it is no text: byte {offset} is not UTF-8"),
+            FileError::NotRegular(kind) => format!("it is {kind}, expected a regular file"),
+            FileError::TooLarge { limit } => format!("it is larger than {}, the most that is read", size(*limit)),
+            FileError::NotText { offset } => format!("it is not UTF-8 text (byte {offset})"),
             FileError::Io(words) => words.clone(),
         };
         Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {why}"))
+    }
+
+    /// A file or folder that cannot be written.
+    pub fn unwritable(path: &Path, error: &io::Error) -> Self {
+        Self::without_place(Code::Unwritable, format!("cannot write `{}`: {}", path.display(), io_words(error)))
+    }
+}
+
+/// What the operating system says, in plain words and without its numbers.
+pub fn io_words(error: &io::Error) -> String {
+    use io::ErrorKind;
+    let plain = match error.kind() {
+        ErrorKind::NotFound => "there is no such file or folder",
+        ErrorKind::PermissionDenied => "permission denied",
+        ErrorKind::AlreadyExists => "it exists already",
+        ErrorKind::IsADirectory => "it is a folder",
+        ErrorKind::NotADirectory => "a part of the path is not a folder",
+        ErrorKind::StorageFull => "the disk is full",
+        ErrorKind::ReadOnlyFilesystem => "the file system is read-only",
+        ErrorKind::InvalidFilename => "the name is too long or not allowed",
+        ErrorKind::FileTooLarge => "the file would be too large",
+        _ => "",
+    };
+    if !plain.is_empty() {
+        return plain.to_owned();
+    }
+    let words = error.to_string().to_lowercase();
+    words.split(" (os error").next().unwrap_or_default().to_owned()
+}
+
+/// A size in the largest unit that divides it.
+fn size(bytes: u64) -> String {
+    let units = [(30, "GB"), (20, "MB"), (10, "kB")];
+    let fitting = units.into_iter().find(|(shift, _)| bytes >= 1 << shift && bytes.trailing_zeros() >= *shift);
+    fitting.map_or_else(|| format!("{bytes} bytes"), |(shift, unit)| format!("{} {unit}", bytes >> shift))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_systems_words_are_plain() {
+        let words = |number| io_words(&io::Error::from_raw_os_error(number));
+        assert_eq!(io_words(&io::Error::from(io::ErrorKind::NotFound)), "there is no such file or folder");
+        assert!(!words(5).contains("os error"), "{}", words(5));
+        assert_eq!(io_words(&io::Error::other("No More")), "no more");
+    }
+
+    #[test]
+    fn sizes_are_said_in_their_unit() {
+        assert_eq!([8 << 20, 1 << 30, 1000, 3 << 10].map(size), ["8 MB", "1 GB", "1000 bytes", "3 kB"]);
     }
 }

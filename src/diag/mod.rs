@@ -11,4 +11,5 @@ pub mod suggest;
 pub use code::Code;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
+pub use file::io_words;
 pub use json::json;

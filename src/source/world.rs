@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 pub enum FileError {
     /// No file has that path.
     NotFound,
-    /// The file has more bytes than source text may have.
+    /// The path leads to a folder, a pipe, a device, with its article.
+    NotRegular(&'static str),
+    /// The file has more bytes than its reader takes.
     TooLarge {
-        /// The file's size in bytes.
-        bytes: u64,
         /// The largest size read, in bytes.
         limit: u64,
     },
@@ -27,6 +27,11 @@ pub enum FileError {
 pub trait World {
     /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
+
+    /// The one name of the file at `path`, however many paths and links lead to it.
+    fn identity(&self, path: &str) -> String {
+        path.to_owned()
+    }
 }
 
 /// Files kept in memory, for tests and for programs that make their source.

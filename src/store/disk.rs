@@ -1,12 +1,75 @@
-//! The disk as the world that source files come from.
+//! Reading files: regular ones only, each with the most bytes that its reader takes; and the disk as the world that sources come from.
 
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::fs::{self, File, FileType};
+use std::io::Read;
+use std::path::Path;
 
+use crate::diag::io_words;
 use crate::source::{FileError, World};
+use crate::syntax::MAX_SOURCE_BYTES;
 
-/// The largest source file read, in bytes.
-const LIMIT: u64 = 64 << 20;
+/// The largest robot file, in bytes; the largest body takes a tenth of it.
+pub const MAX_ROBOT_BYTES: u64 = 1 << 20;
+/// The largest checkpoint of an evolution run, in bytes.
+pub const MAX_CHECKPOINT_BYTES: u64 = 1 << 30;
+/// The largest record of a run's progress, in bytes.
+pub const MAX_PROGRESS_BYTES: u64 = 256 << 20;
+/// The largest circuit file (BLIF, AIGER, .bench, Verilog), in bytes.
+pub const MAX_CIRCUIT_BYTES: u64 = 256 << 20;
+
+/// The bytes of a regular file with at most `limit` bytes. Folders, pipes and devices are refused before they are opened, since a
+/// pipe waits for its writer and a device may never end.
+///
+/// # Errors
+/// When there is no such file, or it is not a regular one, too large, or the system refuses.
+pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+    let about = fs::metadata(path).map_err(|error| refusal(&error))?;
+    if !about.is_file() {
+        return Err(FileError::NotRegular(kind(about.file_type())));
+    }
+    if about.len() > limit {
+        return Err(FileError::TooLarge { limit });
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| refusal(&error))?;
+    // The system does not know the size of every file, so one byte more than allowed tells one that is too large.
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| refusal(&error))?;
+    if bytes.len() as u64 > limit { Err(FileError::TooLarge { limit }) } else { Ok(bytes) }
+}
+
+/// Like [`read`], for text.
+///
+/// # Errors
+/// As [`read`], and when the bytes are not UTF-8.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
+    let bytes = read(path, limit)?;
+    String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
+}
+
+fn refusal(error: &std::io::Error) -> FileError {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => FileError::NotFound,
+        _ => FileError::Io(io_words(error)),
+    }
+}
+
+/// What a path leads to that is not a regular file.
+fn kind(of: FileType) -> &'static str {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if of.is_fifo() {
+            return "a pipe";
+        }
+        if of.is_char_device() || of.is_block_device() {
+            return "a device";
+        }
+        if of.is_socket() {
+            return "a socket";
+        }
+    }
+    if of.is_dir() { "a folder" } else { "a special file" }
+}
 
 /// The files of this computer.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,31 +77,12 @@ pub struct DiskWorld;
 
 impl World for DiskWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
-        let bytes = read_bytes(path)?;
-        String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
+        read_text(Path::new(path), MAX_SOURCE_BYTES)
     }
-}
 
-fn read_bytes(path: &str) -> Result<Vec<u8>, FileError> {
-    if fs::metadata(path).map_err(refusal)?.is_dir() {
-        return Err(FileError::Io("it is a folder".to_owned()));
-    }
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(refusal)?;
-    // One byte more than allowed tells a file that is too large, even one whose size the system does not know.
-    file.take(LIMIT + 1).read_to_end(&mut bytes).map_err(refusal)?;
-    if bytes.len() as u64 > LIMIT {
-        let bytes = fs::metadata(path).map_or(LIMIT + 1, |about| about.len().max(LIMIT + 1));
-        return Err(FileError::TooLarge { bytes, limit: LIMIT });
-    }
-    Ok(bytes)
-}
-
-fn refusal(error: std::io::Error) -> FileError {
-    match error.kind() {
-        ErrorKind::NotFound => FileError::NotFound,
-        ErrorKind::PermissionDenied => FileError::Io("permission denied".to_owned()),
-        _ => FileError::Io(error.to_string().to_lowercase()),
+    fn identity(&self, path: &str) -> String {
+        // A file that is missing has no other name.
+        fs::canonicalize(path).map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
     }
 }
 
@@ -50,24 +94,52 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.nb");
         fs::write(&path, bytes).unwrap();
-        assert_eq!(DiskWorld.read(path.to_str().unwrap()), expected.map(str::to_owned));
+        assert_eq!(read_text(&path, 10), expected.map(str::to_owned));
     }
 
     #[test]
-    fn text_is_read_and_bytes_are_refused() {
+    fn text_is_read_and_other_bytes_are_refused() {
         check("circuit é".as_bytes(), Ok("circuit é"));
         check(b"circuit \xff", Err(FileError::NotText { offset: 8 }));
     }
 
     #[test]
-    fn missing_files_and_folders_are_told_apart() {
-        assert_eq!(DiskWorld.read("no/such/file"), Err(FileError::NotFound));
-        assert_eq!(DiskWorld.read("/"), Err(FileError::Io("it is a folder".to_owned())));
+    fn a_file_over_the_limit_is_refused() {
+        check(b"ten bytes.", Ok("ten bytes."));
+        check(b"eleven byte", Err(FileError::TooLarge { limit: 10 }));
     }
 
     #[test]
-    fn a_file_without_end_is_too_large() {
-        let expected = FileError::TooLarge { bytes: LIMIT + 1, limit: LIMIT };
-        assert_eq!(DiskWorld.read("/dev/zero"), Err(expected));
+    #[cfg(target_os = "linux")]
+    fn a_file_whose_size_the_system_does_not_know_is_read_up_to_the_limit() {
+        assert_eq!(fs::metadata("/proc/cpuinfo").unwrap().len(), 0);
+        assert_eq!(read(Path::new("/proc/cpuinfo"), 10), Err(FileError::TooLarge { limit: 10 }));
+    }
+
+    #[test]
+    fn missing_files_and_folders_are_told_apart() {
+        assert_eq!(DiskWorld.read("no/such/file"), Err(FileError::NotFound));
+        assert_eq!(DiskWorld.read("/"), Err(FileError::NotRegular("a folder")));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn pipes_and_devices_are_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe.nb");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert_eq!(read(&pipe, 10), Err(FileError::NotRegular("a pipe")));
+        assert_eq!(DiskWorld.read("/dev/zero"), Err(FileError::NotRegular("a device")));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_is_the_file_it_leads_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link] = ["a.nb", "b.nb"].map(|name| folder.path().join(name));
+        fs::write(&file, "x").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        let identity = |path: &Path| DiskWorld.identity(path.to_str().unwrap());
+        assert_eq!(identity(&file), identity(&link));
     }
 }

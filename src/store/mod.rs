@@ -10,7 +10,9 @@ mod yaml;
 
 pub use atomic::{create_folder, write, write_with};
 pub use checkpoint::Checkpoint;
-pub use disk::DiskWorld;
+pub use disk::{
+    DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
+};
 pub use library::{best_first, read_library, shipped_library};
 pub use robot::{FORMAT, print_robot, read_robot};
 pub use shape::read_body;
