@@ -2,19 +2,17 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::circuit::formats::{Design, aiger, bench, blif, dot, nb, verilog};
-use crate::circuit::{Netlist, levels, registers};
+use crate::circuit::formats::Design;
+use crate::circuit::{self, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions, synthesize};
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
-use crate::source::Sources;
-use crate::store;
+use crate::store::{self, CircuitFault};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -69,17 +67,6 @@ struct Report {
     what_if: BTreeMap<String, i64>,
 }
 
-/// The formats that can be written.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Target {
-    Blif,
-    AigerBinary,
-    AigerText,
-    Verilog,
-    Dot,
-    Nb,
-}
-
 impl Arguments {
     /// Reads, synthesizes, proves and writes.
     ///
@@ -87,21 +74,20 @@ impl Arguments {
     /// Input that cannot be read or mapped, and output that cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
-        let target = self.output.as_deref().map(target).transpose()?;
+        let target = self.output.as_deref().map(format).transpose()?;
         let library = self.mapping.library()?;
         let what_if = functions(&self.what_if)?;
-        let design = read(&self.input, self.clock.as_deref())?;
+        let design = store::read_circuit(&self.input, self.clock.as_deref())?;
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
-            None => matches!(target, Some(Target::Nb | Target::Dot)),
+            None => matches!(target, Some(circuit::formats::Format::Nb | circuit::formats::Format::Dot)),
         };
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let options = self.mapping.options();
         let mapped = synthesize(&source, &library, options)?;
         let result = Design { logic: mapped, registers: if expand { Vec::new() } else { design.registers.clone() } };
         if let (Some(path), Some(target)) = (&self.output, target) {
-            let bytes = write(&result, target)
-                .map_err(|message| Failure::plain(Diagnostic::without_place(Code::BadValue, message)))?;
+            let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
             store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
         }
         let mut report = Report::of(&design, &result.logic, started);
@@ -157,111 +143,18 @@ pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     Failure::plain(Diagnostic::without_place(Code::Unreadable, message))
 }
 
-fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    const MOST: u64 = 1 << 30;
-    let size = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?.len();
-    if size > MOST {
-        let message = format!("`{}` has {size} bytes, and at most {MOST} are read", path.display());
-        return Err(Failure::plain(Diagnostic::without_place(Code::Unreadable, message)));
-    }
-    std::fs::read(path).map_err(|error| unreadable(path, &error))
-}
-
-/// Reads a circuit by the ending of its name.
-fn read(path: &Path, clock: Option<&str>) -> Result<Design, Failure> {
+/// The format that a name's ending asks for.
+fn format(path: &Path) -> Result<circuit::formats::Format, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    match ending.as_str() {
-        "aig" | "aag" => aiger::read(&bytes(path)?, clock).map_err(Failure::plain),
-        "blif" | "bench" => read_text(path.display().to_string(), bytes(path)?, &ending, clock),
-        "v" | "sv" => read_verilog(path, clock),
-        _ => {
-            let message = format!("`{}` is of no format that can be read", path.display());
-            let fault = Diagnostic::without_place(Code::BadValue, message);
-            Err(Failure::plain(fault.with_help("expected a name that ends in .blif, .aig, .aag, .bench or .v")))
-        }
-    }
-}
-
-fn read_text(name: String, bytes: Vec<u8>, ending: &str, clock: Option<&str>) -> Result<Design, Failure> {
-    let text = match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let at = error.utf8_error().valid_up_to();
-            let message = format!("`{name}` is no text: byte {at} is not UTF-8");
-            return Err(Failure::plain(Diagnostic::without_place(Code::Unreadable, message)));
-        }
-    };
-    let mut sources = Sources::default();
-    let file = sources.add(name, text);
-    let text = &sources.file(file).text;
-    let read = if ending == "bench" { bench::read(text, file, clock) } else { blif::read(text, file, clock) };
-    read.map_err(|diagnostics| Failure::input(diagnostics, sources))
-}
-
-/// Reads Verilog through Yosys, which flattens it to gates, latches and flip-flops.
-fn read_verilog(path: &Path, clock: Option<&str>) -> Result<Design, Failure> {
-    bytes(path)?;
-    let folder = tempfile::tempdir().map_err(|error| unreadable(Path::new("a temporary folder"), &error))?;
-    let flat = folder.path().join("flat.blif");
-    let script = format!(
-        "read_verilog -sv \"{}\"; hierarchy -check -auto-top; proc; flatten; opt; memory; opt; techmap; \
-         dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; \
-         opt_clean; write_blif \"{}\"",
-        path.display(),
-        flat.display()
-    );
-    let message = |text: String| Failure::plain(Diagnostic::without_place(Code::CircuitFile, text));
-    match Command::new("yosys").args(["-q", "-p", &script]).output() {
-        Err(_) => {
-            let fault =
-                Diagnostic::without_place(Code::Unreadable, "Verilog is read through Yosys, which is not installed");
-            Err(Failure::plain(
-                fault.with_help("install it, on Debian with `apt-get install yosys`, or give a BLIF file"),
-            ))
-        }
-        Ok(output) if !output.status.success() => {
-            let said = String::from_utf8_lossy(&output.stderr).into_owned();
-            let error = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given");
-            Err(message(format!("yosys cannot read `{}`: {}", path.display(), error.trim())))
-        }
-        Ok(_) => read_text(format!("{} (as BLIF)", path.display()), bytes(&flat)?, "blif", clock),
-    }
-}
-
-fn target(path: &Path) -> Result<Target, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    Ok(match ending.as_str() {
-        "blif" => Target::Blif,
-        "aig" => Target::AigerBinary,
-        "aag" => Target::AigerText,
-        "v" | "sv" => Target::Verilog,
-        "dot" | "gv" => Target::Dot,
-        "nb" => Target::Nb,
-        _ => {
-            let message = format!("`{}` is of no format that can be written", path.display());
-            let fault = Diagnostic::without_place(Code::BadValue, message);
-            return Err(Failure::plain(
-                fault.with_help("expected a name that ends in .blif, .aig, .aag, .v, .dot or .nb"),
-            ));
-        }
+    circuit::formats::Format::of_ending(&ending).ok_or_else(|| {
+        let message =
+            format!("unrecognized circuit format of `{}`; expected .blif, .aig, .aag, .v, .dot or .nb", path.display());
+        Failure::plain(Diagnostic::without_place(Code::BadValue, message))
     })
 }
 
-/// A design in a format, or why it has no form in it.
-fn write(design: &Design, target: Target) -> Result<Vec<u8>, &'static str> {
-    let looped = !crate::circuit::Loops::of(&design.logic).cores().is_empty();
-    if looped && matches!(target, Target::AigerBinary | Target::AigerText) {
-        return Err("AIGER has no feedback loops: keep the registers with `--registers keep`");
+impl From<CircuitFault> for Failure {
+    fn from(fault: CircuitFault) -> Self {
+        Self::input(fault.diagnostics, fault.sources)
     }
-    if !design.registers.is_empty() && matches!(target, Target::Nb) {
-        return Err("a .nb file is written with its registers made of cells: leave out `--registers keep`");
-    }
-    Ok(match target {
-        Target::Blif => blif::write(design).into_bytes(),
-        Target::AigerBinary => aiger::write(design, true),
-        Target::AigerText => aiger::write(design, false),
-        Target::Verilog => verilog::write(design).into_bytes(),
-        Target::Dot => dot::write(&design.logic).into_bytes(),
-        Target::Nb => nb::write(&design.logic).into_bytes(),
-    })
 }

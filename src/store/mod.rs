@@ -2,14 +2,17 @@
 
 mod atomic;
 mod checkpoint;
+mod circuit_file;
 mod disk;
 mod library;
 mod robot;
 mod shape;
 mod yaml;
+mod yosys;
 
 pub use atomic::{create_folder, write, write_with};
 pub use checkpoint::Checkpoint;
+pub use circuit_file::{CircuitFault, encode_circuit, read_circuit};
 pub use disk::{
     DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
 };

@@ -133,10 +133,11 @@ fn the_same_source_gives_the_same_cells() {
     }
 }
 
-/// A Yosys that writes `flat.blif`, whatever it is given.
+/// A Yosys that notes what it is given, and writes the `flat.blif` beside it as the result.
 const FAKE_YOSYS: &str = "#!/bin/sh
-out=$(echo \"$3\" | sed 's/.*write_blif \"\\(.*\\)\"/\\1/')
-cp flat.blif \"$out\"
+here=$(dirname \"$0\")
+echo \"$@\" >> \"$here/given\"
+cp \"$here/flat.blif\" flat.blif
 ";
 
 #[cfg(unix)]
@@ -161,6 +162,55 @@ fn verilog_is_read_through_yosys() {
     assert_eq!(report["cells"], 5);
 }
 
+/// A name that ends the string of a Yosys script and begins a command.
+const HOSTILE_NAME: &str = "a.v\"; exec -- touch PWNED; read_verilog -sv \"a.v";
+
+#[cfg(unix)]
+#[test]
+fn a_file_name_is_no_part_of_what_yosys_is_told() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new();
+    let fake = bench.file("yosys", FAKE_YOSYS);
+    std::fs::set_permissions(fake, std::fs::Permissions::from_mode(0o755)).unwrap();
+    bench.file("flat.blif", FULL_ADDER);
+    let path = format!("{}:/usr/bin:/bin", bench.path().display());
+    for name in ["fa.v", HOSTILE_NAME, "$(touch PWNED).v", "-s.v", "new\nline.v"] {
+        bench.file(name, "module fa(input a, output y); assign y = a; endmodule\n");
+        let ran = bench.command(&["synth", "--cells", "all", "--", name]).env("PATH", &path).output().unwrap();
+        assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    }
+    let given = std::fs::read_to_string(bench.path().join("given")).unwrap();
+    let scripts: std::collections::BTreeSet<_> = given.lines().collect();
+    assert_eq!((scripts.len(), given.lines().count()), (1, 5), "{given}");
+    assert!(!given.contains("PWNED") && !bench.path().join("PWNED").exists());
+}
+
+/// Whether Yosys is installed; under CI it must be.
+fn has_yosys() -> bool {
+    let found = Command::new("yosys").arg("-V").output().is_ok();
+    assert!(found || std::env::var_os("CI").is_none(), "CI must have yosys");
+    found
+}
+
+#[test]
+fn yosys_runs_no_command_of_a_file_name_and_finds_what_is_included() {
+    if !has_yosys() {
+        eprintln!("yosys is not installed, so Verilog is not read");
+        return;
+    }
+    let bench = Bench::new();
+    bench.file("width.vh", "`define WIDTH 2\n");
+    bench.file(
+        HOSTILE_NAME,
+        "`include \"width.vh\"\nmodule m(input [`WIDTH-1:0] a, output y); assign y = ^a; endmodule\n",
+    );
+    let report = bench.run(&["synth", HOSTILE_NAME, "--cells", "all", "--format", "json"]).expect_json();
+    assert_eq!((&report["cells"], &report["inputs"]), (&1.into(), &2.into()));
+    assert!(!bench.path().join("PWNED").exists());
+    bench.file("broken.v", "module broken(input a);\nassign = a;\nendmodule\n");
+    bench.run(&["synth", "broken.v", "--cells", "all"]).expect_fault(&["yosys cannot read `broken.v`", "broken.v:2:"]);
+}
+
 /// A latch, and a flip-flop behind an adder.
 const REGISTERS: &str = "\
 module registers(input clk, en, input [1:0] a, output reg [1:0] sum, output reg held);
@@ -171,8 +221,7 @@ endmodule
 
 #[test]
 fn yosys_keeps_latches_and_flip_flops() {
-    if Command::new("yosys").arg("-V").output().is_err() {
-        assert!(std::env::var_os("CI").is_none(), "CI must have yosys");
+    if !has_yosys() {
         eprintln!("yosys is not installed, so Verilog is not read");
         return;
     }
@@ -194,7 +243,9 @@ fn refused(name: &str, text: &str, expected: &str) {
     bench.file(name, text);
     let ran = bench.run(&["synth", name, "-o", "out.blif", "--cells", "nand"]);
     assert_eq!(ran.status, 2, "{}", ran.err);
-    assert!(ran.err.contains(expected), "expected `{expected}`, found\n{}", ran.err);
+    // Long messages are broken into lines, with a bar before all but the first.
+    let said = ran.err.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+    assert!(said.contains(expected), "expected `{expected}`, found\n{}", ran.err);
     assert!(!bench.path().join("out.blif").exists());
 }
 
@@ -210,6 +261,34 @@ fn damaged_files_are_refused_with_a_reason() {
     refused("a.aag", "aag 1 1 0 1", "the file ends too early");
     refused("a.aag", "aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "depends on itself");
     refused("a.aig", "aig 9 1 0 1 8\n2\n", "the file ends too early");
+    refused("a.xyz", "", "unrecognized circuit format of `a.xyz`; expected .blif, .aig, .aag, .bench or .v");
+}
+
+#[test]
+fn faults_of_an_aiger_file_are_told_with_their_line() {
+    let told = |text: &str, message: &str, line: usize| {
+        refused("a.aag", text, &format!("{message}, line {line} of the AIGER file"));
+    };
+    told(
+        "aag 1 1 0\n",
+        "expected five numbers in the header, found 3 (properties and constraints are not supported)",
+        1,
+    );
+    told("aag a 1 0 0 0\n", "expected a header such as `aag 3 2 0 1 1`, found `aag a 1 0 0 0`", 1);
+    told("blif\n", "expected `aag` or `aig`, found `blif`", 1);
+    told(
+        "aag 1 2 0 0 0\n2\n4\n",
+        "2 inputs, 0 latches and 0 gates must not be more than the 1 variables of the header",
+        1,
+    );
+    told("aag 2 1 0 1 1\n2 4\n4\n4 2 2\n", "expected one literal for an input, found 2", 2);
+    told("aag 2 2 0 1 0\n2\n2\n4\n", "literal 2 cannot be an input or a latch", 3);
+    told("aag 2 1 1 1 0\n2\n4 2 7\n4\n", "expected the start value 0, 1 or 4 (any) of a latch, found 7", 3);
+    told("aag 3 1 0 1 1\n2\n6\n4 2 2\n", "nothing drives literal 6", 3);
+    told("aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "literal 6 depends on itself", 5);
+    told("aag 2 1 0 1 1\n2\n4\n4 2\n", "expected three literals of a gate, found 2", 4);
+    told("aag 2 1 0 1 1\n2\n4\n4 2 9\n", "literal 9 is more than the header allows", 4);
+    told("aag 2 1 0 1 1\n2\n4\n4 2 2\nx0 q\n", "`x0 q` names nothing", 5);
 }
 
 #[test]

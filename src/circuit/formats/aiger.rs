@@ -1,6 +1,6 @@
 //! AIGER, and-inverter graphs: ascii (`aag`) and binary (`aig`).
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::network::{Gate, View};
@@ -19,13 +19,36 @@ pub const MOST_PORTS: usize = 1_000_000;
 /// # Errors
 /// What is wrong with it, with the line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
-    Reader { bytes, at: 0, line: 1 }.read(clock)
+    Reader { bytes, at: 0, lines: 0, place: Place::Line(1) }.read(clock)
+}
+
+/// Where something stands: gates of a binary file have no lines.
+#[derive(Clone, Copy)]
+enum Place {
+    Line(usize),
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}
+
+fn fault<T>(message: impl fmt::Display, place: Place) -> Result<T, Diagnostic> {
+    Err(Diagnostic::without_place(Code::CircuitFile, format!("{message}, {place} of the AIGER file")))
 }
 
 struct Reader<'b> {
     bytes: &'b [u8],
     at: usize,
-    line: usize,
+    /// The lines read so far.
+    lines: usize,
+    /// Where what was read last begins.
+    place: Place,
 }
 
 /// The numbers of the header.
@@ -38,17 +61,42 @@ struct Header {
     ands: usize,
 }
 
+/// A literal, and where it stands.
+type Placed = (usize, Place);
+
 /// A latch: its literal, its next literal, its start value.
-type Latch = (usize, usize, Option<bool>);
+struct Latch {
+    literal: usize,
+    next: usize,
+    start: Option<bool>,
+    place: Place,
+}
+
+/// A gate: its literal and those of its pins.
+#[derive(Clone, Copy)]
+struct And {
+    out: usize,
+    pins: [usize; 2],
+    place: Place,
+}
+
+/// What a file holds before its symbols.
+struct Graph {
+    inputs: Vec<Placed>,
+    latches: Vec<Latch>,
+    outputs: Vec<Placed>,
+    ands: Vec<And>,
+}
 
 impl<'b> Reader<'b> {
-    fn fault<T>(&self, message: impl std::fmt::Display) -> Result<T, Diagnostic> {
-        let message = format!("{message}, line {} (byte {}) of the AIGER file", self.line, self.at);
-        Err(Diagnostic::without_place(Code::CircuitFile, message))
+    fn fault<T>(&self, message: impl fmt::Display) -> Result<T, Diagnostic> {
+        fault(message, self.place)
     }
 
     fn line(&mut self) -> Result<&'b str, Diagnostic> {
         let rest = &self.bytes[self.at..];
+        self.lines += 1;
+        self.place = Place::Line(self.lines);
         let Some(end) = rest.iter().position(|&byte| byte == b'\n') else {
             return self.fault("the file ends too early");
         };
@@ -56,7 +104,6 @@ impl<'b> Reader<'b> {
             return self.fault("expected text");
         };
         self.at += end + 1;
-        self.line += 1;
         Ok(line.trim_end_matches('\r'))
     }
 
@@ -65,6 +112,13 @@ impl<'b> Reader<'b> {
         match line.split(' ').map(str::parse).collect() {
             Ok(numbers) => Ok(numbers),
             Err(_) => self.fault(format!("expected numbers, found `{}`", excerpt(line))),
+        }
+    }
+
+    fn literal(&mut self, what: &str) -> Result<Placed, Diagnostic> {
+        match self.numbers()?[..] {
+            [literal] => Ok((literal, self.place)),
+            ref numbers => self.fault(format!("expected one literal for {what}, found {}", numbers.len())),
         }
     }
 
@@ -77,23 +131,30 @@ impl<'b> Reader<'b> {
             _ => return self.fault(format!("expected `aag` or `aig`, found `{}`", excerpt(line))),
         };
         let Ok(numbers) = words.map(str::parse).collect::<Result<Vec<usize>, _>>() else {
-            return self.fault("a header of a wrong form");
+            return self.fault(format!("expected a header such as `aag 3 2 0 1 1`, found `{}`", excerpt(line)));
         };
         let [variables, inputs, latches, outputs, ands] = numbers[..] else {
-            return self.fault("expected five numbers in the header (properties and constraints are not supported)");
+            return self.fault(format!(
+                "expected five numbers in the header, found {} (properties and constraints are not supported)",
+                numbers.len()
+            ));
         };
-        if numbers.iter().any(|&number| number > MOST_VARIABLES) {
-            return self.fault(format!("more than {MOST_VARIABLES} variables"));
+        if let Some(number) = numbers.iter().find(|&&number| number > MOST_VARIABLES) {
+            return self.fault(format!("the header says {number}, and at most {MOST_VARIABLES} variables are read"));
         }
         if inputs > MOST_PORTS || latches > MOST_PORTS {
             return self.fault(format!("more than {MOST_PORTS} inputs or latches"));
         }
-        if inputs + latches + ands > variables || binary && inputs + latches + ands != variables {
-            return self.fault("the numbers of the header contradict each other");
+        let used = inputs + latches + ands;
+        if used > variables || binary && used != variables {
+            let relation = if binary { "must be" } else { "must not be more than" };
+            return self.fault(format!(
+                "{inputs} inputs, {latches} latches and {ands} gates {relation} the {variables} variables of the header"
+            ));
         }
         // Every output takes two bytes at least, every gate two: a header cannot promise more than the file holds.
         if outputs + ands > self.bytes.len() {
-            return self.fault("the file ends too early");
+            return self.fault(format!("the file is too short for {outputs} outputs and {ands} gates"));
         }
         Ok(Header { binary, variables, inputs, latches, outputs, ands })
     }
@@ -102,12 +163,12 @@ impl<'b> Reader<'b> {
         let header = self.header()?;
         let mut inputs = Vec::with_capacity(header.inputs);
         for i in 0..header.inputs {
-            inputs.push(if header.binary { 2 * (i + 1) } else { self.numbers()?[0] });
+            inputs.push(if header.binary { (2 * (i + 1), self.place) } else { self.literal("an input")? });
         }
-        let latches = (0..header.latches).map(|i| self.latch(&header, i)).collect::<Result<Vec<_>, _>>()?;
-        let outputs = (0..header.outputs).map(|_| Ok(self.numbers()?[0])).collect::<Result<Vec<_>, _>>()?;
-        let ands = (0..header.ands).map(|i| self.and(&header, i)).collect::<Result<Vec<_>, _>>()?;
-        let mut design = self.build(&header, &inputs, &latches, &outputs, &ands, clock)?;
+        let latches = (0..header.latches).map(|i| self.latch(&header, i)).collect::<Result<_, _>>()?;
+        let outputs = (0..header.outputs).map(|_| self.literal("an output")).collect::<Result<_, _>>()?;
+        let ands = (0..header.ands).map(|i| self.and(&header, i)).collect::<Result<_, _>>()?;
+        let mut design = build(&header, &Graph { inputs, latches, outputs, ands }, clock)?;
         self.symbols(&mut design)?;
         Ok(design)
     }
@@ -117,31 +178,38 @@ impl<'b> Reader<'b> {
         if header.binary {
             numbers.insert(0, 2 * (header.inputs + i + 1));
         }
-        match numbers[..] {
-            [latch, next] => Ok((latch, next, Some(false))),
-            [latch, next, start @ (0 | 1)] => Ok((latch, next, Some(start == 1))),
-            [latch, next, start] if start == latch => Ok((latch, next, None)),
-            _ => self.fault("a latch of a wrong form"),
-        }
+        let (literal, next, start) = match numbers[..] {
+            [latch, next] => (latch, next, Some(false)),
+            [latch, next, start @ (0 | 1)] => (latch, next, Some(start == 1)),
+            [latch, next, start] if start == latch => (latch, next, None),
+            [latch, _, start] => {
+                return self.fault(format!("expected the start value 0, 1 or {latch} (any) of a latch, found {start}"));
+            }
+            _ => return self.fault("expected a latch: its literal, the next one and maybe its start value"),
+        };
+        Ok(Latch { literal, next, start, place: self.place })
     }
 
-    fn and(&mut self, header: &Header, i: usize) -> Result<[usize; 3], Diagnostic> {
+    fn and(&mut self, header: &Header, i: usize) -> Result<And, Diagnostic> {
         if !header.binary {
             return match self.numbers()?[..] {
-                [out, a, b] => Ok([out, a, b]),
-                _ => self.fault("expected three numbers of a gate"),
+                [out, a, b] => Ok(And { out, pins: [a, b], place: self.place }),
+                ref numbers => self.fault(format!("expected three literals of a gate, found {}", numbers.len())),
             };
         }
         let out = 2 * (header.inputs + header.latches + i + 1);
+        let place = Place::Byte(self.at);
         let (first, second) = (self.delta()?, self.delta()?);
+        self.place = place;
         match out.checked_sub(first).and_then(|a| Some((a, a.checked_sub(second)?))) {
-            Some((a, b)) if first > 0 => Ok([out, a, b]),
-            _ => self.fault("a gate that listens to a later one"),
+            Some((a, b)) if first > 0 => Ok(And { out, pins: [a, b], place }),
+            _ => self.fault(format!("gate {out} listens to itself or to a later literal")),
         }
     }
 
     /// A number in groups of seven bits, the lowest first.
     fn delta(&mut self) -> Result<usize, Diagnostic> {
+        self.place = Place::Byte(self.at);
         let mut value = 0;
         for shift in (0..35).step_by(7) {
             let Some(&byte) = self.bytes.get(self.at) else {
@@ -153,54 +221,7 @@ impl<'b> Reader<'b> {
                 return Ok(value);
             }
         }
-        self.fault("a number that is too long")
-    }
-
-    fn build(
-        &self,
-        header: &Header,
-        inputs: &[usize],
-        latches: &[Latch],
-        outputs: &[usize],
-        ands: &[[usize; 3]],
-        clock: Option<&str>,
-    ) -> Result<Design, Diagnostic> {
-        let mut logic = Netlist::new("circuit");
-        let mut nets: Vec<Option<NetId>> = vec![None; header.variables + 1];
-        let sources = inputs.iter().chain(latches.iter().map(|(latch, ..)| latch));
-        for (i, &literal) in sources.enumerate() {
-            let name = i.checked_sub(inputs.len()).map_or(format!("i{i}"), |latch| format!("l{latch}"));
-            match nets.get_mut(literal / 2).filter(|net| literal > 1 && literal & 1 == 0 && net.is_none()) {
-                Some(net) => *net = Some(logic.add_input(name)),
-                None => return self.fault(format!("literal {literal} cannot be an input or a latch")),
-            }
-        }
-        let mut literals = Literals { inverted: vec![None; header.variables + 1], constants: [None; 2], nets };
-        for [out, a, b] in sorted(ands, &literals.nets).or_else(|literal| {
-            self.fault(format!("literal {literal} is defined twice, not at all, or depends on itself"))
-        })? {
-            literals.and(&mut logic, out, [a, b]);
-        }
-        let mut names = Vec::new();
-        let drivers = outputs.iter().chain(latches.iter().map(|(_, next, _)| next));
-        for (i, &literal) in drivers.enumerate() {
-            let Some(net) = literals.net(&mut logic, literal) else {
-                return self.fault(format!("literal {literal} has no driver"));
-            };
-            names.push((i.checked_sub(outputs.len()).map_or(format!("o{i}"), |latch| format!("l{latch}_next")), net));
-        }
-        names.into_iter().for_each(|(name, net)| {
-            logic.add_output(name, net);
-        });
-        let clock = Some(clock.unwrap_or("clk").to_owned());
-        let register = |(i, &(_, _, start)): (usize, &Latch)| Register {
-            name: format!("l{i}"),
-            kind: RegisterKind::Rising,
-            clock: clock.clone(),
-            start,
-        };
-        let registers = latches.iter().enumerate().map(register).collect();
-        Ok(Design { logic, registers })
+        self.fault("a number of more than 35 bits")
     }
 
     /// Reads the names of ports and latches after the gates.
@@ -216,7 +237,7 @@ impl<'b> Reader<'b> {
                 Some((kind, number.parse::<usize>().ok()?, name))
             });
             let Some((kind, number, name)) = symbol.filter(|(_, _, name)| !name.is_empty()) else {
-                return self.fault(format!("expected a symbol, found `{}`", excerpt(line)));
+                return self.fault(format!("expected a symbol such as `i0 name`, found `{}`", excerpt(line)));
             };
             let known = match kind {
                 "i" if number < inputs => Some(design.logic.inputs()[number]),
@@ -241,35 +262,75 @@ fn excerpt(line: &str) -> String {
     line.chars().take(40).collect()
 }
 
-/// The gates with drivers first, or a literal in the way.
-fn sorted(ands: &[[usize; 3]], nets: &[Option<NetId>]) -> Result<Vec<[usize; 3]>, usize> {
-    let mut gate: Vec<Option<usize>> = vec![None; nets.len()];
-    for (i, &[out, ..]) in ands.iter().enumerate() {
-        let place = gate.get_mut(out / 2).filter(|_| out > 1 && out & 1 == 0 && nets[out / 2].is_none()).ok_or(out)?;
-        if place.replace(i).is_some() {
-            return Err(out);
+/// The design of a graph.
+fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, Diagnostic> {
+    let Graph { inputs, latches, outputs, ands } = graph;
+    let mut logic = Netlist::new("circuit");
+    let mut nets: Vec<Option<NetId>> = vec![None; header.variables + 1];
+    let ports = inputs.iter().enumerate().map(|(i, &placed)| (format!("i{i}"), placed));
+    let states = latches.iter().enumerate().map(|(i, latch)| (format!("l{i}"), (latch.literal, latch.place)));
+    for (name, (literal, place)) in ports.chain(states) {
+        match nets.get_mut(literal / 2).filter(|net| literal > 1 && literal & 1 == 0 && net.is_none()) {
+            Some(net) => *net = Some(logic.add_input(name)),
+            None => return fault(format!("literal {literal} cannot be an input or a latch"), place),
         }
     }
+    let mut literals = Literals { inverted: vec![None; header.variables + 1], constants: [None; 2], nets };
+    for And { out, pins, .. } in sorted(ands, &literals.nets)? {
+        literals.and(&mut logic, out, pins);
+    }
+    let shown = outputs.iter().enumerate().map(|(i, &placed)| (format!("o{i}"), placed));
+    let nexts = latches.iter().enumerate().map(|(i, latch)| (format!("l{i}_next"), (latch.next, latch.place)));
+    let drivers: Vec<_> = shown.chain(nexts).collect();
+    let mut driven = Vec::with_capacity(drivers.len());
+    for (name, (literal, place)) in drivers {
+        match literals.net(&mut logic, literal) {
+            Some(net) => driven.push((name, net)),
+            None => return fault(format!("nothing drives literal {literal}"), place),
+        }
+    }
+    driven.into_iter().for_each(|(name, net)| {
+        logic.add_output(name, net);
+    });
+    let clock = Some(clock.unwrap_or("clk").to_owned());
+    let register = |(i, latch): (usize, &Latch)| Register {
+        name: format!("l{i}"),
+        kind: RegisterKind::Rising,
+        clock: clock.clone(),
+        start: latch.start,
+    };
+    let registers = latches.iter().enumerate().map(register).collect();
+    Ok(Design { logic, registers })
+}
+
+/// The gates with drivers first.
+fn sorted(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<And>, Diagnostic> {
+    let gates = gates_by_variable(ands, nets)?;
     let mut state = vec![0u8; ands.len()];
     let mut order = Vec::with_capacity(ands.len());
     for root in 0..ands.len() {
         let mut open = vec![root];
         while let Some(&i) = open.last() {
-            let [out, a, b] = ands[i];
+            let And { out, pins, place } = ands[i];
             if state[i] == 2 {
                 open.pop();
                 continue;
             }
             state[i] = 1;
             let mut ready = true;
-            for literal in [a, b] {
-                match *gate.get(literal / 2).ok_or(literal)? {
-                    Some(pin) if state[pin] == 0 => {
-                        open.push(pin);
+            for literal in pins {
+                match gates.get(literal / 2) {
+                    Some(Some(pin)) if state[*pin] == 0 => {
+                        open.push(*pin);
                         ready = false;
                     }
-                    Some(pin) if state[pin] == 1 => return Err(out),
-                    None if literal > 1 && nets[literal / 2].is_none() => return Err(literal),
+                    Some(Some(pin)) if state[*pin] == 1 => {
+                        return fault(format!("literal {out} depends on itself"), place);
+                    }
+                    Some(None) if literal > 1 && nets[literal / 2].is_none() => {
+                        return fault(format!("nothing drives literal {literal}"), place);
+                    }
+                    None => return fault(format!("literal {literal} is more than the header allows"), place),
                     _ => {}
                 }
             }
@@ -278,11 +339,25 @@ fn sorted(ands: &[[usize; 3]], nets: &[Option<NetId>]) -> Result<Vec<[usize; 3]>
                 order.push(ands[i]);
                 open.pop();
             } else if open.len() > ands.len() + 2 {
-                return Err(out);
+                return fault(format!("literal {out} depends on itself"), place);
             }
         }
     }
     Ok(order)
+}
+
+/// The gate that defines each variable.
+fn gates_by_variable(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<Option<usize>>, Diagnostic> {
+    let mut gates: Vec<Option<usize>> = vec![None; nets.len()];
+    for (i, &And { out, place, .. }) in ands.iter().enumerate() {
+        let Some(gate) = gates.get_mut(out / 2).filter(|_| out > 1 && out & 1 == 0) else {
+            return fault(format!("literal {out} cannot be a gate"), place);
+        };
+        if nets[out / 2].is_some() || gate.replace(i).is_some() {
+            return fault(format!("literal {out} is defined twice"), place);
+        }
+    }
+    Ok(gates)
 }
 
 /// Nets by literal, inverters made where they are needed.

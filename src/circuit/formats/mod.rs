@@ -6,8 +6,10 @@ pub mod blif;
 mod design;
 pub mod dot;
 mod draft;
+mod format;
 mod names;
 pub mod nb;
 pub mod verilog;
 
 pub use design::{Design, Register, RegisterKind};
+pub use format::Format;

@@ -1,0 +1,144 @@
+//! The formats that a design can be written in, and what each of them cannot hold.
+
+use std::collections::BTreeSet;
+
+use crate::circuit::Loops;
+use crate::circuit::formats::{Design, RegisterKind, aiger, blif, dot, nb, verilog};
+use crate::diag::{Code, Diagnostic};
+
+/// A format that a design can be written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// BLIF.
+    Blif,
+    /// Binary AIGER.
+    AigerBinary,
+    /// AIGER as text.
+    AigerText,
+    /// Structural Verilog.
+    Verilog,
+    /// A drawing for Graphviz.
+    Dot,
+    /// The project's own language.
+    Nb,
+}
+
+impl Format {
+    /// The format that a file's ending asks for, in lower case and without the dot.
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        Some(match ending {
+            "blif" => Self::Blif,
+            "aig" => Self::AigerBinary,
+            "aag" => Self::AigerText,
+            "v" | "sv" => Self::Verilog,
+            "dot" | "gv" => Self::Dot,
+            "nb" => Self::Nb,
+            _ => return None,
+        })
+    }
+
+    /// A design in this format.
+    ///
+    /// # Errors
+    /// What of the design the format cannot hold.
+    pub fn encode(self, design: &Design) -> Result<Vec<u8>, Diagnostic> {
+        self.check(design)?;
+        Ok(match self {
+            Self::Blif => blif::write(design).into_bytes(),
+            Self::AigerBinary => aiger::write(design, true),
+            Self::AigerText => aiger::write(design, false),
+            Self::Verilog => verilog::write(design).into_bytes(),
+            Self::Dot => dot::write(&design.logic).into_bytes(),
+            Self::Nb => nb::write(&design.logic).into_bytes(),
+        })
+    }
+
+    fn check(self, design: &Design) -> Result<(), Diagnostic> {
+        match self {
+            Self::AigerBinary | Self::AigerText => fits_aiger(design),
+            Self::Nb => fits_nb(design),
+            Self::Blif | Self::Verilog | Self::Dot => Ok(()),
+        }
+    }
+}
+
+fn refused(message: impl Into<String>, help: &str) -> Result<(), Diagnostic> {
+    Err(Diagnostic::without_place(Code::BadValue, message).with_help(help))
+}
+
+/// AIGER has flip-flops of one clock without a name, and no loops.
+fn fits_aiger(design: &Design) -> Result<(), Diagnostic> {
+    const INSTEAD: &str = "write BLIF or Verilog, which keep every register";
+    if !Loops::of(&design.logic).cores().is_empty() {
+        return refused("AIGER has no feedback loops", "keep the registers with `--registers keep`, or write BLIF");
+    }
+    let other = |kind| match kind {
+        RegisterKind::Rising => None,
+        RegisterKind::Falling => Some("a flip-flop of the falling edge"),
+        RegisterKind::High | RegisterKind::Low => Some("a latch that follows its data"),
+    };
+    let register = design.registers.iter().find_map(|register| Some((&register.name, other(register.kind)?)));
+    if let Some((name, kind)) = register {
+        let message = format!("AIGER has flip-flops of the rising edge only, and `{name}` is {kind}");
+        return refused(message, INSTEAD);
+    }
+    let clocks: BTreeSet<_> = design.registers.iter().filter_map(|register| register.clock.as_deref()).collect();
+    if clocks.len() > 1 {
+        let names: Vec<_> = clocks.into_iter().map(|clock| format!("`{clock}`")).collect();
+        return refused(format!("AIGER has one clock, and the registers have {}", names.join(", ")), INSTEAD);
+    }
+    Ok(())
+}
+
+/// A circuit of the language is made of cells alone and shows something.
+fn fits_nb(design: &Design) -> Result<(), Diagnostic> {
+    if !design.registers.is_empty() {
+        let message = "a .nb file is written with its registers made of cells";
+        return refused(message, "leave out `--registers keep`");
+    }
+    if design.logic.outputs().is_empty() {
+        let message = format!("`{}` has no outputs, and a circuit of a .nb file needs one", design.logic.name);
+        return refused(message, "give the model an output");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::circuit::Netlist;
+    use crate::circuit::formats::Register;
+
+    /// Registers of these kinds and clocks, each of which takes its own value again.
+    fn design(registers: &[(RegisterKind, &str)]) -> Design {
+        let mut logic = Netlist::new("m");
+        let states: Vec<_> = (0..registers.len()).map(|i| logic.add_input(format!("q{i}"))).collect();
+        states.iter().enumerate().for_each(|(i, &state)| {
+            logic.add_output(format!("q{i}_next"), state);
+        });
+        let register = |(i, &(kind, clock)): (usize, &(RegisterKind, &str))| Register {
+            name: format!("q{i}"),
+            kind,
+            clock: Some(clock.to_owned()),
+            start: None,
+        };
+        Design { logic, registers: registers.iter().enumerate().map(register).collect() }
+    }
+
+    fn check(registers: &[(RegisterKind, &str)], expected: Option<&str>) {
+        for format in [Format::AigerText, Format::AigerBinary] {
+            let said = format.encode(&design(registers)).err().map(|fault| fault.message);
+            assert_eq!(said.as_deref(), expected);
+        }
+    }
+
+    #[test]
+    fn aiger_refuses_what_it_cannot_hold() {
+        use RegisterKind::{Falling, High, Rising};
+        check(&[(Rising, "clk"), (Rising, "clk")], None);
+        check(&[(Rising, "a"), (Rising, "b")], Some("AIGER has one clock, and the registers have `a`, `b`"));
+        let only = "AIGER has flip-flops of the rising edge only, and";
+        check(&[(Rising, "clk"), (Falling, "clk")], Some(&format!("{only} `q1` is a flip-flop of the falling edge")));
+        check(&[(High, "en")], Some(&format!("{only} `q0` is a latch that follows its data")));
+    }
+}

@@ -1,0 +1,122 @@
+//! Verilog through Yosys, which flattens it to gates, latches and flip-flops.
+//!
+//! Yosys is given a script that is always the same: the source lies under a name of our own in a folder of our own, and so does a link to
+//! the folder that its `include` lines mean. No name that a user chose becomes part of the script or of a shell's command.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::diag::{Code, Diagnostic, io_words};
+use crate::source::{Sources, Span};
+use crate::store::CircuitFault;
+
+/// The names in the temporary folder.
+const SOURCE: &str = "source.v";
+const INCLUDED: &str = "included";
+const FLAT: &str = "flat.blif";
+
+/// What Yosys does, with the names above.
+const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; flatten; opt; memory; opt; techmap; \
+                      dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; \
+                      opt_clean; write_blif flat.blif";
+
+/// The BLIF of a Verilog source that was read from `path`.
+///
+/// # Errors
+/// When Yosys is missing or refuses the source.
+pub(super) fn flatten(path: &Path, source: String) -> Result<String, CircuitFault> {
+    let folder = prepare(path, &source).map_err(|error| {
+        let message = format!("cannot write a temporary folder: {}", io_words(&error));
+        Diagnostic::without_place(Code::Unwritable, message)
+    })?;
+    let output = Command::new("yosys").args(["-q", "-p", SCRIPT]).current_dir(folder.path()).output();
+    let output = output.map_err(|_| {
+        Diagnostic::without_place(Code::Unreadable, "Verilog is read through Yosys, which is not installed")
+            .with_help("install it, on Debian with `apt-get install yosys`, or give a BLIF file")
+    })?;
+    if !output.status.success() {
+        return Err(fault(path, source, &String::from_utf8_lossy(&output.stderr)));
+    }
+    fs::read_to_string(folder.path().join(FLAT)).map_err(|_| {
+        let message = format!("yosys made no BLIF of `{}`", path.display());
+        Diagnostic::without_place(Code::CircuitFile, message).into()
+    })
+}
+
+/// A folder with the source and the way to what it includes.
+fn prepare(path: &Path, source: &str) -> std::io::Result<tempfile::TempDir> {
+    let folder = tempfile::tempdir()?;
+    fs::write(folder.path().join(SOURCE), source)?;
+    let parent = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
+    link(&fs::canonicalize(parent)?, &folder.path().join(INCLUDED))?;
+    Ok(folder)
+}
+
+#[cfg(unix)]
+fn link(folder: &Path, at: &Path) -> std::io::Result<()> {
+    std::os::unix::fs::symlink(folder, at)
+}
+
+#[cfg(windows)]
+fn link(folder: &Path, at: &Path) -> std::io::Result<()> {
+    std::os::windows::fs::symlink_dir(folder, at)
+}
+
+/// What Yosys said, at the line of the user's file that it named.
+fn fault(path: &Path, source: String, said: &str) -> CircuitFault {
+    let line = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
+    let message = format!("yosys cannot read `{}`", path.display());
+    let mut sources = Sources::default();
+    let file = sources.add(path.display().to_string(), source);
+    let diagnostic = match place(line) {
+        Some((number, reason)) => {
+            let text = &sources.file(file).text;
+            let start = text.split_inclusive('\n').take(number.saturating_sub(1)).map(str::len).sum::<usize>();
+            let width = text[start..].lines().next().map_or(0, |line| line.trim_end().len());
+            Diagnostic::new(Code::CircuitFile, message, Span::new(file, start, start + width), reason)
+        }
+        None => {
+            let parent = path.parent().unwrap_or(Path::new("")).join("").display().to_string();
+            let line = line.replace(&format!("{INCLUDED}/"), &parent);
+            Diagnostic::without_place(Code::CircuitFile, format!("{message}: {line}"))
+        }
+    };
+    CircuitFault { diagnostics: vec![diagnostic], sources }
+}
+
+/// The line of the source and the reason of a message such as `source.v:3: ERROR: syntax error`.
+fn place(line: &str) -> Option<(usize, &str)> {
+    let (number, reason) = line.strip_prefix(SOURCE)?.strip_prefix(':')?.split_once(": ")?;
+    Some((number.parse().ok()?, reason.trim_start_matches("ERROR: ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_script_has_the_names_of_the_folder_and_no_others() {
+        for name in [SOURCE, INCLUDED, FLAT] {
+            assert!(SCRIPT.contains(name));
+        }
+    }
+
+    #[test]
+    fn what_yosys_says_is_shown_at_the_line_of_the_users_file() {
+        let source = "module a;\nwrong\nendmodule\n".to_owned();
+        let CircuitFault { diagnostics, sources } =
+            fault(Path::new("my file.v"), source, "\nsource.v:2: ERROR: syntax error, unexpected TOK_ENDMODULE\n");
+        let label = &diagnostics[0].labels[0];
+        assert_eq!(sources.text(label.span), "wrong");
+        assert_eq!(label.text, "syntax error, unexpected TOK_ENDMODULE");
+        assert_eq!(diagnostics[0].message, "yosys cannot read `my file.v`");
+    }
+
+    #[test]
+    fn what_yosys_says_of_an_included_file_names_it_where_it_lies() {
+        let said = "included/part.vh:7: ERROR: syntax error";
+        let CircuitFault { diagnostics, .. } = fault(Path::new("folder/a.v"), String::new(), said);
+        assert_eq!(diagnostics[0].message, "yosys cannot read `folder/a.v`: folder/part.vh:7: ERROR: syntax error");
+    }
+}
