@@ -11,7 +11,7 @@ use nbc::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use nbc::sim::{InstructionSet, Kernel, Simulator};
 
 fn substeps(criterion: &mut Criterion) {
-    let setting = Setting::paper();
+    let setting = Setting::default();
     // One thread: the figures are those of one core.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
     let mut group = criterion.benchmark_group("substeps");

@@ -1,5 +1,7 @@
 //! Evolution runs. A field that is left out is the paper's; `from` takes those of another run.
 
+use std::sync::Arc;
+
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
@@ -107,7 +109,7 @@ fn paper() -> Evolution {
         name: String::new(),
         width: 5,
         height: 5,
-        palette: Palette::new(Vec::new()),
+        palette: Arc::new(Palette::new(Vec::new())),
         mutation: MutationWeights::default(),
         variable: Schedule::default(),
         fixed_steps: 10 * crate::model::CYCLE_STEPS,
@@ -145,7 +147,7 @@ fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
     Ok((side(width)?, side(height)?))
 }
 
-fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Palette, Diagnostic> {
+fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>, Diagnostic> {
     let mut materials: Vec<Material> = Vec::new();
     let values = fields::list(value);
     if values.is_empty() || values.len() > Palette::MAX_MATERIALS {
@@ -163,7 +165,7 @@ fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Palette, Diag
         }
         materials.extend(material.cloned());
     }
-    Ok(Palette::new(materials))
+    Ok(Arc::new(Palette::new(materials)))
 }
 
 fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {

@@ -113,7 +113,7 @@ fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
     let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
     let simulator = Simulator { kernel, probe, ..Simulator::default() };
-    let setting = Setting::paper();
+    let setting = Setting::default();
     // One thread takes all lanes as one batch.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
     pool.install(|| {

@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COLUMN")]
     start_x: Option<usize>,
     /// Ground voxels in a row
-    #[arg(long, value_name = "VOXELS", default_value_t = Setting::paper().world_width)]
+    #[arg(long, value_name = "VOXELS", default_value_t = Setting::default().world_width)]
     world_width: usize,
 }
 
@@ -54,8 +54,8 @@ impl Arguments {
     /// When the schedule, the body or the world makes no sense.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let schedule = read_schedule(&self.schedule)?;
-        let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::paper() };
-        let body = read_body(&self.robot, setting.palette.materials().len())?;
+        let setting = Setting { world_width: self.world_width, start_x: self.start_x };
+        let body = read_body(&self.robot)?;
         check_place(&setting, &body).map_err(Failure::plain)?;
         let trajectory = sim::run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
@@ -75,12 +75,12 @@ fn read_schedule(text: &str) -> Result<Schedule, Failure> {
 }
 
 /// The body in a file; failing a file, that of a robot of the library.
-pub(super) fn read_body(robot: &str, materials: usize) -> Result<Body, Failure> {
+pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
     let mut sources = Sources::default();
     match DiskWorld.read(robot) {
         Ok(text) => {
             let id = sources.add(robot, text);
-            store::read_body(sources.file(id), materials).map_err(|fault| Failure::input(vec![fault], sources))
+            store::read_body(sources.file(id)).map_err(|fault| Failure::input(vec![fault], sources))
         }
         Err(FileError::NotFound) if !robot.contains(['/', '.']) => {
             library::find(store::shipped_library(), robot).map(|robot| robot.body.clone())

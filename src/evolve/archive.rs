@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::evolve::{Descriptor, NicheKey};
 use crate::model::{Behavior, Body, Evolution, Genotype, Niche};
 
 /// A body that holds a niche, or a place in one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Elite {
     /// The two fitnesses.
     pub fitness: [f64; 2],
@@ -190,7 +189,7 @@ mod tests {
             fitness,
             behavior: crate::model::Function::new(behavior).into(),
             displacement: [0.0; 4],
-            body: Body::new(5, 5, codes),
+            body: Body::new(5, 5, codes, crate::model::Palette::paper()),
             genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
             generation: 0,
             evaluations: 0,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Axis, Behavior, Body, Count, Evolution, MaterialKind, Palette, Rules};
+use crate::model::{Axis, Behavior, Body, Count, Evolution, MaterialKind, Rules};
 
 /// A niche: the bin on each axis, from 0; on a behavior axis the bits of the function.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -12,7 +12,6 @@ pub struct NicheKey(pub Vec<u16>);
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descriptor {
     axes: Vec<Axis>,
-    palette: Palette,
     area: usize,
     rules: Rules,
 }
@@ -20,12 +19,7 @@ pub struct Descriptor {
 impl Descriptor {
     /// The descriptor of a declared run.
     pub fn new(evolution: &Evolution) -> Self {
-        Self {
-            axes: evolution.descriptors.clone(),
-            palette: evolution.palette.clone(),
-            area: evolution.width * evolution.height,
-            rules: evolution.rules,
-        }
+        Self { axes: evolution.descriptors.clone(), area: evolution.width * evolution.height, rules: evolution.rules }
     }
 
     /// Niches there are; some can never be filled, such as all voxels active and all sensory.
@@ -49,11 +43,11 @@ impl Descriptor {
     }
 
     fn count(&self, body: &Body, of: Count) -> usize {
-        body.codes().iter().filter(|&&code| code > 0 && self.counts(code, of)).count()
+        body.codes().iter().filter(|&&code| code > 0 && self.counts(body.palette().kind(code), code, of)).count()
     }
 
-    fn counts(&self, code: u8, of: Count) -> bool {
-        match (of, self.palette.kind(code)) {
+    fn counts(&self, kind: Option<MaterialKind>, code: u8, of: Count) -> bool {
+        match (of, kind) {
             (Count::Voxels, kind) => kind.is_some(),
             (Count::Active, kind) => matches!(kind, Some(MaterialKind::Actuator(_))),
             // The authors' code counts codes 5 and 6 alone (docs/physics.md 11).
@@ -68,10 +62,11 @@ impl Descriptor {
 mod tests {
     use super::*;
     use crate::evolve::search::tests::evolution;
+    use crate::model::Palette;
 
     fn check(rules: Rules, rows: &[&str], expected: [u16; 4]) {
         let descriptor = Descriptor::new(&Evolution { rules, ..evolution() });
-        let body = Body::parse(rows, 8).unwrap();
+        let body = Body::parse(rows, &Palette::paper()).unwrap();
         assert_eq!(descriptor.niche(&body, "RRRL".parse().unwrap()).0, expected);
     }
 

@@ -1,5 +1,7 @@
 //! Development: from a network to a body, or why there is none (docs/physics.md 11).
 
+use std::sync::Arc;
+
 use crate::evolve::cppn;
 use crate::model::{Body, Genotype, MaterialKind, Palette, Rules};
 
@@ -21,7 +23,10 @@ pub enum Undeveloped {
 }
 
 /// The body of a network: at each place the code with the highest score, the first of equals.
-pub fn phenotype(genotype: &Genotype, rules: Rules, width: usize, height: usize) -> Body {
+///
+/// # Panics
+/// When the network has an output for a code that the palette lacks.
+pub fn phenotype(genotype: &Genotype, palette: &Arc<Palette>, rules: Rules, width: usize, height: usize) -> Body {
     let maps = cppn::scores(genotype, rules, width, height);
     let best = |place: usize| {
         let mut best: Option<(u8, f64)> = None;
@@ -32,15 +37,15 @@ pub fn phenotype(genotype: &Genotype, rules: Rules, width: usize, height: usize)
         }
         best.map_or(0, |(code, _)| code)
     };
-    Body::new(width, height, (0..width * height).map(best).collect())
+    Body::new(width, height, (0..width * height).map(best).collect(), Arc::clone(palette))
 }
 
 /// Whether a body can be tried: at least three actuators, and in one piece.
 ///
 /// # Errors
 /// Says what is missing.
-pub fn validate(body: &Body, palette: &Palette) -> Result<(), Undeveloped> {
-    let is_actuator = |code: &&u8| matches!(palette.kind(**code), Some(MaterialKind::Actuator(_)));
+pub fn validate(body: &Body) -> Result<(), Undeveloped> {
+    let is_actuator = |code: &&u8| matches!(body.palette().kind(**code), Some(MaterialKind::Actuator(_)));
     let found = body.codes().iter().filter(is_actuator).count();
     if found < LEAST_ACTUATORS {
         Err(Undeveloped::FewActuators { found })
@@ -57,13 +62,13 @@ pub fn validate(body: &Body, palette: &Palette) -> Result<(), Undeveloped> {
 /// Says why its body cannot.
 pub fn develop(
     genotype: &Genotype,
-    palette: &Palette,
+    palette: &Arc<Palette>,
     rules: Rules,
     width: usize,
     height: usize,
 ) -> Result<Body, Undeveloped> {
-    let body = phenotype(genotype, rules, width, height);
-    validate(&body, palette).map(|()| body)
+    let body = phenotype(genotype, palette, rules, width, height);
+    validate(&body).map(|()| body)
 }
 
 #[cfg(test)]
@@ -77,7 +82,7 @@ mod tests {
     use crate::model::MutationWeights;
 
     fn check(rows: &[&str], expected: Result<(), Undeveloped>) {
-        assert_eq!(validate(&Body::parse(rows, 8).unwrap(), &Palette::paper()), expected);
+        assert_eq!(validate(&Body::parse(rows, &Palette::paper()).unwrap()), expected);
     }
 
     #[test]
@@ -89,7 +94,7 @@ mod tests {
 
     #[test]
     fn the_start_is_empty() {
-        let body = phenotype(&cppn::start(8, Rules::Paper), Rules::Paper, 5, 5);
+        let body = phenotype(&cppn::start(8, Rules::Paper), &Palette::paper(), Rules::Paper, 5, 5);
         assert!(body.codes().iter().all(|&code| code == 0), "equal scores give the first code");
     }
 
@@ -103,7 +108,7 @@ mod tests {
             for _ in 0..times {
                 mutate::mutate(&mut genotype, &MutationWeights::default(), rules, &mut rng);
             }
-            let body = phenotype(&genotype, rules, 6, 4);
+            let body = phenotype(&genotype, &palette, rules, 6, 4);
             let actuators = body.codes().iter().filter(|&&code| code == 3 || code == 4).count();
             match develop(&genotype, &palette, rules, 6, 4) {
                 Ok(developed) => prop_assert!(developed == body && body.is_connected() && actuators >= 3),

@@ -2,14 +2,13 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
 
 use crate::evolve::mutate::pick;
 use crate::evolve::{
     AddStatus, Archive, Counts, Descriptor, Elite, NicheKey, Outcome, Recoding, Scores, cppn, develop, mirrored,
     mutate, phenotype, recodings, validate,
 };
-use crate::model::{Body, Evolution, Genotype, NodeKind, Palette, Rules, Symmetry};
+use crate::model::{Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
@@ -53,8 +52,7 @@ pub struct Search {
 }
 
 /// What must be kept to go on with a search later.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SearchState {
     /// The run's seed.
     pub seed: u64,
@@ -258,8 +256,8 @@ impl Search {
         let mut genotype = start.clone();
         for undeveloped in 0..MOST_ATTEMPTS {
             mutate(&mut genotype, mutation, *rules, &mut rng);
-            let body = phenotype(&genotype, *rules, *width, *height);
-            match judge(*rules, parent.map(|elite| &elite.body), &body, palette) {
+            let body = phenotype(&genotype, palette, *rules, *width, *height);
+            match judge(*rules, parent.map(|elite| &elite.body), &body) {
                 Attempt::Done => return Some(Candidate { index, origin, genotype, body, undeveloped }),
                 Attempt::GoOn => {}
                 Attempt::Undo => genotype.clone_from(&start),
@@ -269,8 +267,8 @@ impl Search {
     }
 
     fn mirror(&self, index: u32, genotype: &Genotype) -> Candidate {
-        let Evolution { rules, width, height, .. } = self.evolution;
-        let body = phenotype(genotype, rules, width, height);
+        let Evolution { palette, rules, width, height, .. } = &self.evolution;
+        let body = phenotype(genotype, palette, *rules, *width, *height);
         Candidate { index, origin: Origin::Mirror, genotype: genotype.clone(), body, undeveloped: 0 }
     }
 
@@ -295,8 +293,8 @@ enum Attempt {
 
 /// By the paper's text a mutation of a parent that gives no body to try is undone, and an offspring differs from its parent. In the
 /// authors' code mutations add up until a body can be tried, were it the parent's again.
-fn judge(rules: Rules, parent: Option<&Body>, body: &Body, palette: &Palette) -> Attempt {
-    match (validate(body, palette), rules, parent) {
+fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
+    match (validate(body), rules, parent) {
         (Ok(()), Rules::Paper, Some(parent)) if parent == body => Attempt::GoOn,
         (Ok(()), _, _) => Attempt::Done,
         (Err(_), Rules::Paper, Some(_)) => Attempt::Undo,
@@ -320,6 +318,8 @@ fn image(recoding: &Recoding, elite: &Elite) -> Elite {
 
 #[cfg(test)]
 pub(crate) mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::model::{Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Pattern, Schedule, Spell};
 
@@ -369,7 +369,7 @@ pub(crate) mod tests {
         let mut search = Search::new(&evolution(), 1);
         for _ in 0..20 {
             for candidate in search.ask() {
-                assert_eq!(validate(&candidate.body, &Palette::paper()), Ok(()));
+                assert_eq!(validate(&candidate.body), Ok(()));
                 if let Origin::Offspring(key) = &candidate.origin {
                     let (_, elites) = search.archive().niches().find(|(niche, _)| *niche == key).unwrap();
                     assert_ne!(elites[0].body, candidate.body);
@@ -394,9 +394,9 @@ pub(crate) mod tests {
     #[test]
     fn invalid_mutations_are_undone_by_the_text_and_add_up_by_the_code() {
         use Attempt::{Done, GoOn, Undo};
-        let [same, other, apart] = ["3330", "3331", "3303"].map(|row| Body::parse(&[row], 8).unwrap());
+        let [same, other, apart] = ["3330", "3331", "3303"].map(|row| Body::parse(&[row], &Palette::paper()).unwrap());
         let check = |rules, parent: Option<&Body>, expected: [Attempt; 3]| {
-            let found = [&same, &other, &apart].map(|found| judge(rules, parent, found, &Palette::paper()));
+            let found = [&same, &other, &apart].map(|found| judge(rules, parent, found));
             assert_eq!(found, expected, "{rules:?}, {parent:?}");
         };
         check(Rules::Paper, Some(&same), [GoOn, Done, Undo]);
@@ -411,8 +411,7 @@ pub(crate) mod tests {
             let evolution = Evolution { symmetry, rules: Rules::Code, ..evolution() };
             let mut straight = Search::new(&evolution, 7);
             (0..12).for_each(|_| advance(&mut straight));
-            let text = serde_json::to_string(&straight.state()).unwrap();
-            let mut resumed = Search::resume(&evolution, serde_json::from_str(&text).unwrap());
+            let mut resumed = Search::resume(&evolution, straight.state());
             for search in [&mut straight, &mut resumed] {
                 (0..12).for_each(|_| advance(search));
             }
@@ -433,10 +432,10 @@ pub(crate) mod tests {
             assert!(!changed.fits(&evolution));
         };
         check(|state| state.niches[0].0.0[0] += 1);
-        check(|state| state.niches[0].1[0].body = Body::new(5, 5, vec![3; 25]));
+        check(|state| state.niches[0].1[0].body = Body::new(5, 5, vec![3; 25], Palette::paper()));
         check(|state| state.niches[0].1[0].genotype.links.clear());
         check(|state| state.mirrors[0].nodes.clear());
-        let poorer = Palette::new(Palette::paper().materials()[..4].to_vec());
+        let poorer = Arc::new(Palette::new(Palette::paper().materials()[..4].to_vec()));
         assert!(!state.fits(&Evolution { palette: poorer, ..evolution.clone() }));
     }
 
@@ -445,7 +444,7 @@ pub(crate) mod tests {
         let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 3);
         (0..6).for_each(|_| advance(&mut search));
         for elite in search.archive().elites() {
-            assert_eq!(phenotype(&elite.genotype, Rules::Paper, 5, 5), elite.body);
+            assert_eq!(phenotype(&elite.genotype, &Palette::paper(), Rules::Paper, 5, 5), elite.body);
             for recoding in recodings(&Palette::paper()) {
                 let (body, behavior) = (recoding.body(&elite.body), recoding.behavior(elite.behavior));
                 let held = !search.archive().could_take(&body, behavior, &elite.fitness);
@@ -457,7 +456,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_palette_that_cannot_walk_ends_the_search_without_candidates() {
-        let palette = Palette::new(Palette::paper().materials()[..2].to_vec());
+        let palette = Arc::new(Palette::new(Palette::paper().materials()[..2].to_vec()));
         let search = Search::new(&Evolution { palette, batch: 1, width: 2, height: 2, ..evolution() }, 1);
         assert!(search.ask().is_empty());
     }

@@ -166,12 +166,12 @@ mod tests {
         for rules in [Rules::Paper, Rules::Code] {
             for seed in 0..60 {
                 let genotype = network(rules, seed);
-                let body = phenotype(&genotype, rules, 7, 5);
+                let body = phenotype(&genotype, &Palette::paper(), rules, 7, 5);
                 for recoding in recodings(&Palette::paper()) {
-                    let image = phenotype(&recoding.genotype(&genotype), rules, 7, 5);
+                    let image = phenotype(&recoding.genotype(&genotype), &Palette::paper(), rules, 7, 5);
                     assert_eq!(image, recoding.body(&body));
                 }
-                assert_eq!(phenotype(&mirrored(&genotype), rules, 7, 5), body.mirrored());
+                assert_eq!(phenotype(&mirrored(&genotype), &Palette::paper(), rules, 7, 5), body.mirrored());
             }
         }
     }

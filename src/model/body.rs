@@ -1,16 +1,18 @@
 //! Bodies: rectangles of voxels.
 
-use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-use super::Palette;
+use super::{Material, Palette};
 
-/// A body: `height` rows of `width` material codes, row 0 on top; code 0 is empty (docs/physics.md 1).
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "Vec<String>", into = "Vec<String>")]
+/// A body: `height` rows of `width` material codes, row 0 on top, and the palette that says what the codes mean; code 0 is empty
+/// (docs/physics.md 1).
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Body {
     width: usize,
     height: usize,
     codes: Vec<u8>,
+    // Compared last: bodies side by side mostly share it.
+    palette: Arc<Palette>,
 }
 
 /// Why rows of text are no body.
@@ -58,23 +60,27 @@ impl Body {
     /// A body of `height` rows of `width` codes, row by row from the top.
     ///
     /// # Panics
-    /// When the number of codes is not `width * height`.
-    pub fn new(width: usize, height: usize, codes: Vec<u8>) -> Self {
+    /// When the number of codes is not `width * height`, or the palette lacks a code.
+    pub fn new(width: usize, height: usize, codes: Vec<u8>, palette: Arc<Palette>) -> Self {
         assert_eq!(codes.len(), width * height, "a body has a code for each place");
-        Self { width, height, codes }
+        let known = |&code: &u8| usize::from(code) <= palette.materials().len();
+        assert!(codes.iter().all(known), "a body's codes are of its palette");
+        Self { width, height, codes, palette }
     }
 
-    /// A square body of all eight materials in turn, for measurements of speed; `shift` makes others of the same box.
+    /// A square body of the paper's eight materials in turn, for measurements of speed; `shift` makes others of the same box.
     pub fn patchwork(side: usize, shift: usize) -> Self {
         const TURN: [u8; 9] = [3, 4, 2, 7, 6, 1, 5, 8, 3];
-        Self::new(side, side, (0..side * side).map(|i| TURN[(i + i / side + shift) % TURN.len()]).collect())
+        let codes = (0..side * side).map(|i| TURN[(i + i / side + shift) % TURN.len()]).collect();
+        Self::new(side, side, codes, Palette::paper())
     }
 
-    /// Reads rows of codes, top row first: a digit or lower-case letter a voxel, checked against a palette of `materials` materials.
+    /// Reads rows of codes of a palette, top row first: a digit or lower-case letter a voxel.
     ///
     /// # Errors
     /// [`BodyError`] names the first place that is wrong. A body whose places are all empty is [`BodyError::Empty`].
-    pub fn parse<S: AsRef<str>>(rows: &[S], materials: usize) -> Result<Self, BodyError> {
+    pub fn parse<S: AsRef<str>>(rows: &[S], palette: &Arc<Palette>) -> Result<Self, BodyError> {
+        let materials = palette.materials().len();
         let expected = rows.first().map_or(0, |row| row.as_ref().chars().count());
         if expected == 0 {
             return Err(BodyError::Empty);
@@ -100,7 +106,7 @@ impl Body {
         if codes.iter().all(|&code| code == 0) {
             return Err(BodyError::Empty);
         }
-        Ok(Self { width: expected, height: rows.len(), codes })
+        Ok(Self { width: expected, height: rows.len(), codes, palette: Arc::clone(palette) })
     }
 
     /// Columns.
@@ -124,6 +130,16 @@ impl Body {
         &self.codes
     }
 
+    /// What the codes mean.
+    pub fn palette(&self) -> &Arc<Palette> {
+        &self.palette
+    }
+
+    /// The materials that occur in it, each with its code, in order of the codes.
+    pub fn materials(&self) -> impl Iterator<Item = (u8, &Material)> {
+        (1..).zip(self.palette.materials()).filter(|(code, _)| self.codes.contains(code))
+    }
+
     /// The rows as text, top row first; read again by [`Body::parse`].
     pub fn rows(&self) -> Vec<String> {
         self.codes.chunks(self.width).map(|row| row.iter().map(|&code| code_digit(code)).collect()).collect()
@@ -132,12 +148,13 @@ impl Body {
     /// The same body seen in a mirror: left and right exchanged.
     pub fn mirrored(&self) -> Self {
         let codes = self.codes.chunks(self.width).flat_map(|row| row.iter().rev().copied()).collect();
-        Self { codes, ..*self }
+        Self { codes, ..self.clone() }
     }
 
-    /// The same shape with every code `k` replaced by `to(k)`.
+    /// The same shape with every code `k` replaced by `to(k)` of the same palette.
     pub fn recoded(&self, to: impl Fn(u8) -> u8) -> Self {
-        Self { codes: self.codes.iter().map(|&code| to(code)).collect(), ..*self }
+        let codes = self.codes.iter().map(|&code| to(code)).collect();
+        Self::new(self.width, self.height, codes, Arc::clone(&self.palette))
     }
 
     /// Whether there is a voxel and all voxels hang together by their sides.
@@ -174,26 +191,12 @@ fn parse_code(digit: char, materials: usize) -> Option<u8> {
     (code as usize <= materials).then_some(code as u8)
 }
 
-impl TryFrom<Vec<String>> for Body {
-    type Error = BodyError;
-
-    fn try_from(rows: Vec<String>) -> Result<Self, BodyError> {
-        Self::parse(&rows, Palette::MAX_MATERIALS)
-    }
-}
-
-impl From<Body> for Vec<String> {
-    fn from(body: Body) -> Self {
-        body.rows()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn check(rows: &[&str], expected: Result<&[&str], &str>) {
-        let found = Body::parse(rows, 8).map(|body| body.rows()).map_err(|error| error.to_string());
+        let found = Body::parse(rows, &Palette::paper()).map(|body| body.rows()).map_err(|error| error.to_string());
         assert_eq!(found, expected.map(|rows| rows.iter().map(|row| row.to_string()).collect()).map_err(str::to_owned));
     }
 
@@ -212,13 +215,13 @@ mod tests {
 
     #[test]
     fn diagonal_voxels_do_not_hang_together() {
-        assert!(!Body::parse(&["30", "03"], 8).unwrap().is_connected());
-        assert!(Body::parse(&["30", "33"], 8).unwrap().is_connected());
+        assert!(!Body::parse(&["30", "03"], &Palette::paper()).unwrap().is_connected());
+        assert!(Body::parse(&["30", "33"], &Palette::paper()).unwrap().is_connected());
     }
 
     #[test]
     fn a_mirror_image_of_a_mirror_image_is_the_body() {
-        let body = Body::parse(&["012", "345"], 8).unwrap();
+        let body = Body::parse(&["012", "345"], &Palette::paper()).unwrap();
         assert_eq!(body.mirrored().rows(), ["210", "543"]);
         assert_eq!(body.mirrored().mirrored(), body);
     }

@@ -1,11 +1,14 @@
 //! Evolution runs as declared data: everything the paper fixes in code.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Palette, Schedule};
 
 /// A declared evolution run (paper, Methods).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Evolution {
     /// The declaration's name.
     pub name: String,
@@ -14,7 +17,7 @@ pub struct Evolution {
     /// Rows of the bounding box.
     pub height: usize,
     /// The materials a body may use.
-    pub palette: Palette,
+    pub palette: Arc<Palette>,
     /// How often each kind of mutation is drawn.
     pub mutation: MutationWeights,
     /// The stimuli of the long simulation.
@@ -42,7 +45,8 @@ pub struct Evolution {
 }
 
 /// Which reading of the paper holds where its text and its code differ (docs/physics.md 11).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Rules {
     /// As the paper's text says.
     #[default]
@@ -79,7 +83,8 @@ pub enum Count {
 }
 
 /// How often each mutation operator is drawn, as weights (docs/physics.md 11).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MutationWeights {
     /// Put a node into a link.
     pub add_node: f64,
@@ -121,7 +126,8 @@ pub enum Objective {
 }
 
 /// What one evaluation may fill.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Symmetry {
     /// The body's own niche.
     #[default]
@@ -131,7 +137,8 @@ pub enum Symmetry {
 }
 
 /// What a niche keeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Niche {
     /// One elite, replaced by what is better in both fitnesses.
     #[default]

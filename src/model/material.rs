@@ -2,8 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Pattern;
+
 /// A declared material: a name and what it does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Record", into = "Record")]
 pub struct Material {
     /// The name in the program.
     pub name: String,
@@ -12,7 +15,7 @@ pub struct Material {
 }
 
 /// What a material does (docs/physics.md 3 and 4).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaterialKind {
     /// Passive and stiff.
     Rigid,
@@ -25,7 +28,7 @@ pub enum MaterialKind {
 }
 
 /// The sine that drives an actuator (docs/physics.md 10).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// Samples of one period, in env steps; both ends are samples, so the last and the first have one phase.
     pub period: u32,
@@ -38,7 +41,7 @@ pub struct Drive {
 }
 
 /// How a sensor answers its stimulus (docs/physics.md 10).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// The stimulus it senses, counted from 0.
     pub stimulus: usize,
@@ -48,53 +51,202 @@ pub struct Response {
     pub present: f64,
 }
 
-/// The materials a body may be made of: code 0 is empty, code `k` is the `k`-th material.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Palette {
-    materials: Vec<Material>,
+impl MaterialKind {
+    /// What it is by the bits of its numbers, for an order that is total.
+    pub(super) fn bits(&self) -> (u8, u64, [u64; 3]) {
+        match *self {
+            Self::Rigid => (0, 0, [0; 3]),
+            Self::Soft => (1, 0, [0; 3]),
+            Self::Actuator(Drive { period, phase, low, high }) => {
+                (2, period.into(), [phase, low, high].map(f64::to_bits))
+            }
+            Self::Sensor(Response { stimulus, absent, present }) => {
+                (3, stimulus as u64, [absent.to_bits(), present.to_bits(), 0])
+            }
+        }
+    }
+
+    /// Whether all its numbers are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        match self {
+            Self::Rigid | Self::Soft => true,
+            Self::Actuator(Drive { phase, low, high, .. }) => {
+                [phase, low, high].iter().all(|number| number.is_finite())
+            }
+            Self::Sensor(Response { absent, present, .. }) => absent.is_finite() && present.is_finite(),
+        }
+    }
 }
 
-impl Palette {
-    /// The most materials of a palette: codes are written as digits and lower-case letters, `0` for empty.
-    pub const MAX_MATERIALS: usize = 35;
+/// A material as data: one flat mapping with the fields of the language, in their order.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a mapping with the fields of a material")]
+struct Record {
+    name: String,
+    kind: Word,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    period: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    phase: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    range: Option<[f64; 2]>,
+    /// Counted from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    stimulus: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    absent: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    present: Option<f64>,
+}
 
-    /// A palette of these materials, in order of their codes.
-    ///
-    /// # Panics
-    /// When there are more than [`Palette::MAX_MATERIALS`].
-    pub fn new(materials: Vec<Material>) -> Self {
-        assert!(materials.len() <= Self::MAX_MATERIALS, "a palette holds at most 35 materials");
-        Self { materials }
+/// The words for kinds.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Word {
+    Rigid,
+    Soft,
+    Actuator,
+    Sensor,
+}
+
+/// Why a mapping is not a material.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MaterialError {
+    /// A field that the kind needs is missing.
+    #[error("the material `{material}` lacks the field `{field}`")]
+    Missing {
+        /// The material's name.
+        material: String,
+        /// The field.
+        field: &'static str,
+    },
+    /// A field that the kind does not have.
+    #[error("the material `{material}` cannot have the field `{field}`, as its kind has none")]
+    Foreign {
+        /// The material's name.
+        material: String,
+        /// The field.
+        field: &'static str,
+    },
+    /// A number that no material can have.
+    #[error("the material `{material}` has `{field}: {found}`, expected {expected}")]
+    OutOfRange {
+        /// The material's name.
+        material: String,
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        found: String,
+        /// What it may be.
+        expected: &'static str,
+    },
+}
+
+impl From<Material> for Record {
+    fn from(material: Material) -> Self {
+        let mut record = Self {
+            name: material.name,
+            kind: Word::Rigid,
+            period: None,
+            phase: None,
+            range: None,
+            stimulus: None,
+            absent: None,
+            present: None,
+        };
+        match material.kind {
+            MaterialKind::Rigid => {}
+            MaterialKind::Soft => record.kind = Word::Soft,
+            MaterialKind::Actuator(Drive { period, phase, low, high }) => {
+                record.kind = Word::Actuator;
+                (record.period, record.phase, record.range) = (Some(period), Some(phase), Some([low, high]));
+            }
+            MaterialKind::Sensor(Response { stimulus, absent, present }) => {
+                record.kind = Word::Sensor;
+                (record.stimulus, record.absent, record.present) = (Some(stimulus + 1), Some(absent), Some(present));
+            }
+        }
+        record
+    }
+}
+
+impl TryFrom<Record> for Material {
+    type Error = MaterialError;
+
+    fn try_from(record: Record) -> Result<Self, MaterialError> {
+        let kind = match record.kind {
+            Word::Rigid => MaterialKind::Rigid,
+            Word::Soft => MaterialKind::Soft,
+            Word::Actuator => {
+                let [low, high] = record.need("range", record.range)?;
+                let (period, phase) = (record.need("period", record.period)?, record.need("phase", record.phase)?);
+                MaterialKind::Actuator(Drive { period, phase, low, high })
+            }
+            Word::Sensor => MaterialKind::Sensor(Response {
+                stimulus: record.need("stimulus", record.stimulus)?.wrapping_sub(1),
+                absent: record.need("absent", record.absent)?,
+                present: record.need("present", record.present)?,
+            }),
+        };
+        record.refuse_foreign()?;
+        record.check_numbers()?;
+        Ok(Self { name: record.name, kind })
+    }
+}
+
+impl Record {
+    fn need<T>(&self, field: &'static str, value: Option<T>) -> Result<T, MaterialError> {
+        value.ok_or_else(|| MaterialError::Missing { material: self.name.clone(), field })
     }
 
-    /// The paper's eight materials (paper, Methods; codes as in docs/physics.md 1 and 10): 1 rigid, 2 soft, 3 active, 4 active in
-    /// antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.
-    pub fn paper() -> Self {
-        let named = |name: &str, kind| Material { name: name.to_owned(), kind };
-        let drive = |phase| MaterialKind::Actuator(Drive { period: super::CYCLE_STEPS, phase, low: 0.6, high: 1.6 });
-        let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response { stimulus, absent, present });
-        Self::new(vec![
-            named("bone", MaterialKind::Rigid),
-            named("flesh", MaterialKind::Soft),
-            named("muscle", drive(0.0)),
-            named("antimuscle", drive(180.0)),
-            named("s1_shrink", sensor(0, 1.6, 0.6)),
-            named("s2_shrink", sensor(1, 1.6, 0.6)),
-            named("s1_grow", sensor(0, 0.6, 1.6)),
-            named("s2_grow", sensor(1, 0.6, 1.6)),
-        ])
+    /// Refuses the fields of other kinds.
+    fn refuse_foreign(&self) -> Result<(), MaterialError> {
+        let (drives, senses) = (matches!(self.kind, Word::Actuator), matches!(self.kind, Word::Sensor));
+        let fields = [
+            ("period", self.period.is_some() && !drives),
+            ("phase", self.phase.is_some() && !drives),
+            ("range", self.range.is_some() && !drives),
+            ("stimulus", self.stimulus.is_some() && !senses),
+            ("absent", self.absent.is_some() && !senses),
+            ("present", self.present.is_some() && !senses),
+        ];
+        match fields.into_iter().find(|(_, foreign)| *foreign) {
+            Some((field, _)) => Err(MaterialError::Foreign { material: self.name.clone(), field }),
+            None => Ok(()),
+        }
     }
 
-    /// The materials in order of their codes, code 1 first.
-    pub fn materials(&self) -> &[Material] {
-        &self.materials
+    /// Refuses numbers that the language would refuse.
+    fn check_numbers(&self) -> Result<(), MaterialError> {
+        let bad = |field, found: String, expected| {
+            Err(MaterialError::OutOfRange { material: self.name.clone(), field, found, expected })
+        };
+        if let Some(period) = self.period.filter(|period| !(1..=MAX_PERIOD).contains(period)) {
+            return bad("period", period.to_string(), "1 to 100000000 env steps");
+        }
+        if let Some(phase) = self.phase.filter(|phase| !phase.is_finite()) {
+            return bad("phase", phase.to_string(), "a finite number of degrees");
+        }
+        if let Some([low, high]) = self.range.filter(|[low, high]| !(is_width(*low) && is_width(*high) && low <= high))
+        {
+            return bad("range", format!("[{low:?}, {high:?}]"), "widths from 0.6 to 1.6, the least first");
+        }
+        if let Some(stimulus) = self.stimulus.filter(|stimulus| !(1..=Pattern::MAX_STIMULI).contains(stimulus)) {
+            return bad("stimulus", stimulus.to_string(), "1 to 32");
+        }
+        for (field, width) in [("absent", self.absent), ("present", self.present)] {
+            if let Some(width) = width.filter(|width| !is_width(*width)) {
+                return bad(field, format!("{width:?}"), "a width from 0.6 to 1.6");
+            }
+        }
+        Ok(())
     }
+}
 
-    /// What code `code` does; `None` for empty.
-    ///
-    /// # Panics
-    /// When the palette has no such code.
-    pub fn kind(&self, code: u8) -> Option<MaterialKind> {
-        (code > 0).then(|| self.materials[usize::from(code) - 1].kind)
-    }
+/// The longest period of an actuator, in env steps.
+const MAX_PERIOD: u32 = 100_000_000;
+
+/// Whether a voxel can have that width, as a share of its width at rest (docs/physics.md 3).
+fn is_width(width: f64) -> bool {
+    (0.6..=1.6).contains(&width)
 }

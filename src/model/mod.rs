@@ -8,6 +8,7 @@ mod evolution;
 mod function;
 mod genotype;
 mod material;
+mod palette;
 mod program;
 mod robot;
 mod schedule;
@@ -24,11 +25,12 @@ pub use circuit::{
 pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Objective, Rules, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
-pub use material::{Drive, Material, MaterialKind, Palette, Response};
+pub use material::{Drive, Material, MaterialError, MaterialKind, Response};
+pub use palette::{Palette, PaletteError};
 pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Program, Simulation, Swarm};
 pub use robot::{Character, Library, Provenance, Robot, Transition};
 pub use schedule::{Schedule, Spell};
-pub use stimulus::Pattern;
+pub use stimulus::{Pattern, PatternError};
 pub use test::{CircuitTest, Column, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 

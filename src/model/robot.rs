@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Behavior, Body, Function, Genotype, Pattern};
 
 /// A body whose behavior is known, with where it comes from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// The robot's name, unique in its library.
     pub name: String,
@@ -21,7 +20,6 @@ pub struct Robot {
     /// Where it comes from.
     pub provenance: Provenance,
     /// The network it was developed from.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub genotype: Option<Genotype>,
 }
 

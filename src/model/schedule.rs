@@ -1,9 +1,12 @@
 //! Schedules: which stimuli are present, and for how long.
 
+use serde::{Deserialize, Serialize};
+
 use super::Pattern;
 
 /// One spell of a schedule: a pattern that stays for a number of env steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Spell {
     /// The stimuli present.
     pub pattern: Pattern,
@@ -12,7 +15,8 @@ pub struct Spell {
 }
 
 /// Spells one after another, without a reset between them.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Schedule {
     /// The spells in order of time.
     pub spells: Vec<Spell>,

@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 /// Which stimuli are present: bit `i` belongs to stimulus `i`, counted from 0 in the order of declaration.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Pattern(u32);
 
 impl Pattern {
@@ -35,6 +38,30 @@ impl Pattern {
     /// The pattern as digits, stimulus 1 first, `stimuli` of them.
     pub fn digits(self, stimuli: usize) -> String {
         (0..stimuli).map(|i| if self.has(i) { '1' } else { '0' }).collect()
+    }
+}
+
+/// Text which is not a pattern.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is not a pattern; expected a digit 0 or 1 for each of at most 32 stimuli, such as `01`")]
+pub struct PatternError(String);
+
+impl TryFrom<String> for Pattern {
+    type Error = PatternError;
+
+    fn try_from(digits: String) -> Result<Self, PatternError> {
+        let sized = (1..=Self::MAX_STIMULI).contains(&digits.len());
+        if !sized || digits.contains(|digit| !matches!(digit, '0' | '1')) {
+            return Err(PatternError(digits));
+        }
+        Ok(Self::new(&digits.chars().map(|digit| digit == '1').collect::<Vec<_>>()))
+    }
+}
+
+impl From<Pattern> for String {
+    /// Digits up to the last stimulus that is present, two at least.
+    fn from(pattern: Pattern) -> Self {
+        pattern.digits((32 - pattern.0.leading_zeros()).max(2) as usize)
     }
 }
 

@@ -2,25 +2,25 @@
 
 use serde::Serialize;
 
-use super::{Body, Palette, Schedule};
+use super::{Body, Schedule};
 
-/// The place where robots are tried: their materials and the strip of ground they walk on (docs/physics.md 1).
-#[derive(Clone, Debug, PartialEq)]
+/// The place where robots are tried: the strip of ground they walk on (docs/physics.md 1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// What the codes of bodies mean.
-    pub palette: Palette,
     /// Ground voxels in a row.
     pub world_width: usize,
     /// The ground column of a body's left column; `None` puts the body in the middle: half the world less half the body, rounded down.
     pub start_x: Option<usize>,
 }
 
-impl Setting {
-    /// The paper's world of 500 ground voxels with the paper's materials.
-    pub fn paper() -> Self {
-        Self { palette: Palette::paper(), world_width: 500, start_x: None }
+impl Default for Setting {
+    /// The paper's world of 500 ground voxels.
+    fn default() -> Self {
+        Self { world_width: 500, start_x: None }
     }
+}
 
+impl Setting {
     /// The start column of a body of that many columns.
     pub fn start_column(&self, body_width: usize) -> usize {
         self.start_x.unwrap_or_else(|| (self.world_width / 2).saturating_sub(body_width / 2))

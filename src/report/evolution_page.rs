@@ -86,7 +86,7 @@ fn record(entries: &[Entry<'_>]) -> (u32, Vec<Recorded>) {
     let spell = |pattern| Spell { pattern, steps: GAIT_CYCLES as u32 * CYCLE_STEPS };
     let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
     let bodies: Vec<Body> = entries.iter().map(|entry| entry.elite.body.clone()).collect();
-    let setting = Setting::paper();
+    let setting = Setting::default();
     let probe = Stage::of_trials(&setting, &bodies, &schedule, CYCLE_STEPS);
     let points: Vec<usize> = (0..bodies.len()).map(|i| probe.points(i).len()).collect();
     let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES * Pattern::PAIRS.len());

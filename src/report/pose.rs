@@ -49,12 +49,12 @@ fn moment_at(body: &Body, schedule: &Schedule, step: u32) -> Moment {
     spells.retain(|spell| spell.steps > 0);
     let cut = Schedule { spells };
     let stride = cut.steps().max(1);
-    Stage::of_trial(&Setting::paper(), body, &cut, stride).last().expect("a stage has its start")
+    Stage::of_trial(&Setting::default(), body, &cut, stride).last().expect("a stage has its start")
 }
 
 /// The center of mass of a body at the start.
 fn start_of(body: &Body) -> f64 {
-    let stage = &mut Stage::of_trial(&Setting::paper(), body, &Schedule::default(), 1);
+    let stage = &mut Stage::of_trial(&Setting::default(), body, &Schedule::default(), 1);
     stage.next().map_or(0.0, |moment| moment.centers[0][0])
 }
 

@@ -16,7 +16,7 @@ const MAX_ROWS: usize = 40;
 
 /// Draws the strip of a body under a schedule.
 pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme) -> Svg {
-    let setting = Setting { palette: crate::model::Palette::paper(), ..Setting::paper() };
+    let setting = Setting::default();
     let rows = snapshots(&setting, body, schedule);
     let side = body.width().max(body.height()) as f64;
     let scale = (110.0 / (side * 1.35)).min(16.0);

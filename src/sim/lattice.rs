@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::{Body, MaterialKind, Palette};
+use crate::model::{Body, MaterialKind};
 use crate::sim::constants::Constants;
 
 /// Corners and sides of a voxel are numbered clockwise: corner 0 top left, 1 top right, 2 bottom right, 3 bottom left; side 0 top,
@@ -81,14 +81,14 @@ pub struct DrivenEdge {
 }
 
 impl Lattice {
-    /// The lattice of a body whose codes mean what the palette says.
-    pub fn new(body: &Body, palette: &Palette) -> Self {
-        Self::with_constants(body, palette, &Constants::default())
+    /// The lattice of a body.
+    pub fn new(body: &Body) -> Self {
+        Self::with_constants(body, &Constants::default())
     }
 
     /// The lattice under other constants.
-    pub(crate) fn with_constants(body: &Body, palette: &Palette, constants: &Constants) -> Self {
-        Builder { body, palette, constants }.build()
+    pub(crate) fn with_constants(body: &Body, constants: &Constants) -> Self {
+        Builder { body, constants }.build()
     }
 
     /// Columns and rows of the body's box.
@@ -151,7 +151,6 @@ const ACROSS: [(isize, isize); CORNERS] = [(0, -1), (1, 0), (0, 1), (-1, 0)];
 /// What a lattice is built from.
 struct Builder<'a> {
     body: &'a Body,
-    palette: &'a Palette,
     constants: &'a Constants,
 }
 
@@ -179,7 +178,7 @@ impl Builder<'_> {
     }
 
     fn is_active(&self, code: u8) -> bool {
-        matches!(self.palette.kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
+        matches!(self.body.palette().kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
     }
 
     fn occupied(&self, column: isize, row: isize) -> bool {
@@ -216,7 +215,7 @@ impl Builder<'_> {
                     });
                 }
                 let surface = ACROSS.map(|(i, j)| !self.occupied(column as isize + i, row as isize + j));
-                let rigid = self.palette.kind(code) == Some(MaterialKind::Rigid);
+                let rigid = self.body.palette().kind(code) == Some(MaterialKind::Rigid);
                 voxels.push(Voxel { row, column, code, rigid, corners, surface });
             }
         }
@@ -259,7 +258,7 @@ impl Builder<'_> {
     /// Stiffness of a voxel's main edges, and its diagonals' share of that.
     fn stiffness(&self, code: u8) -> (f64, f64) {
         let constants = self.constants;
-        match self.palette.kind(code) {
+        match self.body.palette().kind(code) {
             Some(MaterialKind::Soft) => (constants.soft_stiffness, constants.soft_diagonal),
             Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)) => {
                 (constants.active_stiffness, constants.active_diagonal)
@@ -275,9 +274,10 @@ type End = ((usize, usize, bool), usize);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Palette;
 
     fn lattice(rows: &[&str]) -> Lattice {
-        Lattice::new(&Body::parse(rows, 8).unwrap(), &Palette::paper())
+        Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap())
     }
 
     fn check(rows: &[&str], points: usize, edges: usize, surface: usize) {

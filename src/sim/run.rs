@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::model::{Body, Fault, FaultKind, Pattern, Schedule, Setting};
+use crate::model::{Body, Fault, FaultKind, Palette, Pattern, Schedule, Setting};
 use crate::sim::batch::Batch;
 use crate::sim::constants::Constants;
 use crate::sim::lattice::Lattice;
@@ -19,8 +19,6 @@ use crate::sim::stiffness::Stiffness;
 pub struct World {
     /// The physics' numbers.
     pub constants: Constants,
-    /// What the materials ask for.
-    pub signals: Signals,
     /// Ground voxels.
     pub width: usize,
     /// Told where time goes.
@@ -34,6 +32,8 @@ pub struct Run {
     pub lattice: Arc<Lattice>,
     /// The body's number: runs of one number share a body.
     pub body: usize,
+    /// What its materials ask for.
+    signals: Arc<Signals>,
     /// Where it is.
     pub state: State,
     /// Env steps behind it.
@@ -48,9 +48,10 @@ pub struct Run {
 
 impl Run {
     /// A body at its start with nothing to do.
-    fn new(lattice: Arc<Lattice>, body: usize, start: usize, constants: &Constants) -> Self {
+    fn new(stock: &Stock, start: usize, constants: &Constants) -> Self {
+        let Stock { body, lattice, signals } = stock.clone();
         let state = State::start(&lattice, start, constants);
-        Self { lattice, body, state, clock: 0, fault: None, spells: Vec::new(), centers: Vec::new() }
+        Self { lattice, body, signals, state, clock: 0, fault: None, spells: Vec::new(), centers: Vec::new() }
     }
 
     /// Gives it a schedule to go through.
@@ -83,19 +84,34 @@ impl World {
     /// The world of a setting.
     pub fn new(simulator: &Simulator, setting: &Setting) -> Self {
         let constants = simulator.constants;
-        let signals = Signals::new(&setting.palette, &constants);
-        Self { constants, signals, width: setting.world_width, probe: simulator.probe }
+        Self { constants, width: setting.world_width, probe: simulator.probe }
     }
 }
 
-/// A run for each body, at its start with nothing to do; equal bodies share their lattice.
+/// What runs of equal bodies share.
+#[derive(Clone)]
+struct Stock {
+    body: usize,
+    lattice: Arc<Lattice>,
+    signals: Arc<Signals>,
+}
+
+/// A run for each body, at its start with nothing to do; equal bodies share their lattice, equal palettes their signals.
 pub fn runs<'a>(world: &World, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
-    let mut known: BTreeMap<&Body, (usize, Arc<Lattice>)> = BTreeMap::new();
+    let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
+    let mut known: BTreeMap<&Body, Stock> = BTreeMap::new();
     let run = |body: &'a Body| {
         let number = known.len();
-        let fresh = || (number, Arc::new(Lattice::with_constants(body, &setting.palette, &world.constants)));
-        let (number, lattice) = known.entry(body).or_insert_with(fresh);
-        Run::new(Arc::clone(lattice), *number, setting.start_column(body.width()), &world.constants)
+        let mut signals = || {
+            let fresh = || Arc::new(Signals::new(body.palette(), &world.constants));
+            Arc::clone(palettes.entry(body.palette()).or_insert_with(fresh))
+        };
+        let stock = known.entry(body).or_insert_with(|| Stock {
+            body: number,
+            lattice: Arc::new(Lattice::with_constants(body, &world.constants)),
+            signals: signals(),
+        });
+        Run::new(stock, setting.start_column(body.width()), &world.constants)
     };
     bodies.into_iter().map(run).collect()
 }
@@ -114,7 +130,7 @@ pub fn carry<R: Real, K: Stiffness<R>>(runs: &mut [&mut Run], world: &World, env
     while !runs.iter().any(|run| run.is_done()) {
         for (lane, run) in runs.iter().enumerate() {
             targets.clear();
-            targets.extend(world.signals.targets(run.clock, run.pattern()));
+            targets.extend(run.signals.targets(run.clock, run.pattern()));
             batch.set_targets(lane, &targets);
         }
         env_step(&mut batch);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::model::{MaterialKind, Palette, Pattern};
+use crate::model::{Drive, MaterialKind, Palette, Pattern};
 use crate::sim::constants::Constants;
 
 /// The target widths of a palette's materials over time.
@@ -17,8 +17,8 @@ pub struct Signals {
 enum Signal {
     /// The material is passive.
     Still,
-    /// One sample for each env step of the period.
-    Periodic(Vec<f64>),
+    /// A sample for each env step of the period.
+    Periodic { drive: Drive, clip: [f64; 2] },
     /// One of two, by whether a stimulus is present.
     Sensed { stimulus: usize, absent: f64, present: f64 },
 }
@@ -29,9 +29,9 @@ impl Signals {
         let clip = |target: f64| target.clamp(constants.least_target, constants.greatest_target);
         let signal = |kind| match kind {
             MaterialKind::Rigid | MaterialKind::Soft => Signal::Still,
+            // Sampled when asked for: a period may be as long as a run.
             MaterialKind::Actuator(drive) => {
-                let sample = |k| clip(sample(k, drive.period, drive.phase.to_radians(), drive.low, drive.high));
-                Signal::Periodic((0..drive.period.max(1)).map(sample).collect())
+                Signal::Periodic { drive, clip: [constants.least_target, constants.greatest_target] }
             }
             MaterialKind::Sensor(response) => Signal::Sensed {
                 stimulus: response.stimulus,
@@ -47,7 +47,7 @@ impl Signals {
     pub fn target(&self, code: u8, env_step: u32, pattern: Pattern) -> f64 {
         match &self.signals[usize::from(code)] {
             Signal::Still => 1.0,
-            Signal::Periodic(samples) => samples[env_step as usize % samples.len()],
+            Signal::Periodic { drive, clip: [least, greatest] } => sample(env_step, drive).clamp(*least, *greatest),
             Signal::Sensed { stimulus, absent, present } => {
                 if pattern.has(*stimulus) {
                     *present
@@ -64,9 +64,11 @@ impl Signals {
     }
 }
 
-/// Sample `k` of a sine of `period` samples, both ends included (docs/physics.md 10).
-fn sample(k: u32, period: u32, phase: f64, low: f64, high: f64) -> f64 {
-    let angle = phase + 2.0 * PI * f64::from(k) / f64::from(period.saturating_sub(1).max(1));
+/// A sine of `period` samples, both ends included, in env step `env_step` (docs/physics.md 10).
+fn sample(env_step: u32, drive: &Drive) -> f64 {
+    let Drive { period, phase, low, high } = *drive;
+    let k = env_step % period.max(1);
+    let angle = phase.to_radians() + 2.0 * PI * f64::from(k) / f64::from(period.saturating_sub(1).max(1));
     low + (libm::sin(angle) + 1.0) / 2.0 * (high - low)
 }
 

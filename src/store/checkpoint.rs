@@ -1,32 +1,27 @@
-//! Checkpoints of evolution runs: a line with format and checksum, then the state as JSON.
+//! Checkpoints of evolution runs: a line with format and checksum, then the declaration and the state as JSON.
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Search, SearchState};
-use crate::model::{Axis, Evolution, Objective, Schedule};
+use crate::model::{Axis, Evolution, Objective, Palette};
+use crate::store::first_checkpoint;
+use crate::store::search_state::Record as StateRecord;
 
-/// The version of checkpoints that this program writes and reads.
-const FORMAT: u32 = 1;
+/// The version of checkpoints that this program writes; it reads those before too.
+const FORMAT: &str = "2";
 /// What every checkpoint begins with, of any version.
 const MAGIC: &str = "nbc-checkpoint";
 
 /// What a checkpoint holds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// The version of the program that wrote it.
     pub version: String,
-    /// The name of the evolution declaration.
-    pub evolution: String,
-    /// The declaration, but for its name, seeds and number of generations, as text to compare.
-    declaration: String,
-    /// The archive's axes; none in checkpoints that did not yet say them.
-    #[serde(default)]
-    pub descriptors: Vec<Axis>,
-    /// What is rewarded.
-    #[serde(default)]
-    pub objective: Objective,
+    /// What its run was declared as.
+    pub declared: Declared,
     /// The search.
     pub state: SearchState,
     /// Env steps simulated so far.
@@ -35,50 +30,103 @@ pub struct Checkpoint {
     pub left_out: u64,
 }
 
-impl Checkpoint {
-    /// A checkpoint of a search, with the env steps simulated and left out so far.
-    pub fn of(search: &Search, env_steps: u64, left_out: u64) -> Self {
-        let evolution = search.evolution();
+/// A run's declaration as its checkpoint tells it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// The declaration's name.
+    pub name: String,
+    /// The archive's axes; none in the oldest checkpoints, which do not say them.
+    pub axes: Vec<Axis>,
+    /// What is rewarded.
+    pub objective: Objective,
+    /// What the codes of its bodies mean.
+    pub palette: Arc<Palette>,
+    pub(super) whole: Whole,
+}
+
+/// A declaration in full.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Whole {
+    /// As data.
+    Data(Box<Evolution>),
+    /// As the text by which checkpoints of format 1 are compared.
+    Text(String),
+}
+
+/// What stands in a checkpoint after its header.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    version: String,
+    evolution: Evolution,
+    state: StateRecord,
+    env_steps: u64,
+    left_out: u64,
+}
+
+impl Declared {
+    fn of(evolution: Evolution) -> Self {
         Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            evolution: evolution.name.clone(),
-            declaration: declaration(evolution),
-            descriptors: evolution.descriptors.clone(),
+            name: evolution.name.clone(),
+            axes: evolution.descriptors.clone(),
             objective: evolution.objective,
-            state: search.state(),
-            env_steps,
-            left_out,
+            palette: Arc::clone(&evolution.palette),
+            whole: Whole::Data(Box::new(evolution)),
         }
     }
 
-    /// The bytes of its file.
-    pub fn print(&self) -> Vec<u8> {
-        let state = serde_json::to_string(self).expect("a state has nothing that JSON cannot say");
-        format!("{MAGIC} {FORMAT} {:08x} {}\n{state}\n", crc32fast::hash(state.as_bytes()), state.len()).into_bytes()
+    /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be others.
+    fn fits(&self, evolution: &Evolution) -> bool {
+        match &self.whole {
+            Whole::Data(own) => {
+                let Evolution { name, generations, seeds, .. } = evolution.clone();
+                Evolution { name, generations, seeds, ..Evolution::clone(own) } == *evolution
+            }
+            Whole::Text(own) => *own == first_checkpoint::declaration(evolution),
+        }
+    }
+}
+
+impl Checkpoint {
+    /// The bytes of a search's checkpoint file, with the env steps simulated and left out so far.
+    pub fn print(search: &Search, env_steps: u64, left_out: u64) -> Vec<u8> {
+        let record = Record {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            evolution: search.evolution().clone(),
+            state: StateRecord::of(search.state()),
+            env_steps,
+            left_out,
+        };
+        let text = serde_json::to_string(&record).expect("a search has nothing that JSON cannot say");
+        format!("{MAGIC} {FORMAT} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
     }
 
     /// Reads the bytes of a checkpoint file called `name`.
     ///
     /// # Errors
-    /// A diagnostic for what is no checkpoint, of another format, or damaged.
+    /// A diagnostic for what is no checkpoint, of another format, damaged, or no search.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, Diagnostic> {
         let fault = |code, text: &str| Diagnostic::without_place(code, format!("`{name}` {text}"));
         let none = || fault(Code::Checkpoint, "is no checkpoint of an evolution run");
-        let end = bytes.iter().position(|&byte| byte == b'\n').ok_or_else(none)?;
+        let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n').ok_or_else(none)?;
         let (header, rest) = (std::str::from_utf8(&bytes[..end]).map_err(|_| none())?, &bytes[end + 1..]);
         let words: Vec<&str> = header.split(' ').collect();
         let [MAGIC, format, checksum, length] = words[..] else { return Err(none()) };
-        if format != FORMAT.to_string() {
-            let text = format!("is a checkpoint of format {format}, expected format {FORMAT}");
-            return Err(fault(Code::ForeignFormat, &text).with_help("resume it with the version that wrote it"));
-        }
+        let read = match format {
+            "1" => first_checkpoint::read,
+            FORMAT => read_record,
+            _ => {
+                let text = format!("is a checkpoint of format {format}, expected format {FORMAT}");
+                return Err(fault(Code::ForeignFormat, &text).with_help("resume it with the version that wrote it"));
+            }
+        };
         let damaged =
             || fault(Code::Checkpoint, "is damaged: its checksum does not fit").with_help("start the run afresh");
-        let state = length.parse().ok().and_then(|length: usize| rest.get(..length)).ok_or_else(damaged)?;
-        if rest[state.len()..] != *b"\n" || format!("{:08x}", crc32fast::hash(state)) != checksum {
+        let text = length.parse().ok().and_then(|length: usize| rest.get(..length)).ok_or_else(damaged)?;
+        if rest[text.len()..] != *b"\n" || format!("{:08x}", crc32fast::hash(text)) != checksum {
             return Err(damaged());
         }
-        serde_json::from_slice(state).map_err(|error| fault(Code::Checkpoint, &format!("cannot be read: {error}")))
+        read(text).map_err(|message| fault(Code::Checkpoint, &format!("cannot be read: {message}")))
     }
 
     /// The search as it was, for the declaration it was made by.
@@ -93,32 +141,33 @@ impl Checkpoint {
         if self.state.seed != seed {
             return Err(fault(format!("is of seed {}, expected seed {seed}", self.state.seed)));
         }
-        if self.declaration != declaration(evolution) {
+        if !self.declared.fits(evolution) {
             return Err(fault(format!("was made by another declaration than `{}` is now", evolution.name)));
         }
         if !self.state.fits(evolution) {
-            return Err(fault(format!("holds what no run of `{}` comes to", evolution.name)));
+            return Err(fault(format!("does not belong to evolution `{}`", evolution.name)));
         }
         Ok(Search::resume(evolution, self.state))
     }
 }
 
-/// Everything in a declaration that its archive depends on.
-fn declaration(evolution: &Evolution) -> String {
-    let Schedule { spells } = &evolution.variable;
-    let Evolution { width, height, palette, mutation, fixed_steps, descriptors, batch, newcomers, .. } = evolution;
-    let Evolution { rules, objective, symmetry, niche, .. } = evolution;
-    format!(
-        "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + {newcomers}; {rules:?}; \
-         {objective:?}; {symmetry:?}; {niche:?}"
-    )
+/// The longest header in bytes, so that a large file that is no checkpoint is refused at once.
+const MAX_HEADER: usize = 100;
+
+/// Reads what stands after the header of format 2.
+fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
+    let Record { version, evolution, state, env_steps, left_out } =
+        serde_json::from_slice(text).map_err(|error| error.to_string())?;
+    let declared = Declared::of(evolution);
+    let state = state.into_state(&declared)?;
+    Ok(Checkpoint { version, declared, state, env_steps, left_out })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::evolve::{Outcome, Scores};
-    use crate::model::{Behavior, Count, MutationWeights, Niche, Palette, Rules, Symmetry};
+    use crate::model::{Behavior, Count, MutationWeights, Niche, Rules, Schedule, Symmetry};
 
     fn evolution() -> Evolution {
         Evolution {
@@ -158,7 +207,7 @@ mod tests {
 
     #[test]
     fn a_search_comes_back_bit_for_bit() {
-        let bytes = Checkpoint::of(&search(), 7, 8).print();
+        let bytes = Checkpoint::print(&search(), 7, 8);
         let read = Checkpoint::read("a", &bytes).unwrap();
         assert_eq!((read.env_steps, read.left_out), (7, 8));
         assert_eq!(read.resume("a", &evolution(), 1), Ok(search()));
@@ -166,7 +215,7 @@ mod tests {
 
     #[test]
     fn every_damage_is_seen() {
-        let whole = Checkpoint::of(&search(), 7, 8).print();
+        let whole = Checkpoint::print(&search(), 7, 8);
         for place in (0..whole.len()).step_by(whole.len() / 300) {
             let mut damaged = whole.clone();
             damaged[place] ^= 1;
@@ -179,26 +228,27 @@ mod tests {
     #[test]
     fn the_foreign_is_named() {
         let refused = |evolution: &Evolution, seed| {
-            let checkpoint = Checkpoint::of(&search(), 0, 0);
+            let checkpoint = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
             checkpoint.resume("a", evolution, seed).unwrap_err().message
         };
         assert_eq!(refused(&evolution(), 2), "`a` is of seed 1, expected seed 2");
         let wider = Evolution { width: 5, ..evolution() };
         assert_eq!(refused(&wider, 1), "`a` was made by another declaration than `small` is now");
-        let mut forged = Checkpoint::of(&search(), 0, 0);
+        let mut forged = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
         forged.state.niches[0].1[0].genotype.links.clear();
         let message = forged.resume("a", &evolution(), 1).unwrap_err().message;
-        assert_eq!(message, "`a` holds what no run of `small` comes to");
-        let text = String::from_utf8(Checkpoint::of(&search(), 0, 0).print()).unwrap();
-        let later = text.replacen("nbc-checkpoint 1", "nbc-checkpoint 9", 1);
+        assert_eq!(message, "`a` does not belong to evolution `small`");
+        let text = String::from_utf8(Checkpoint::print(&search(), 0, 0)).unwrap();
+        let later = text.replacen("nbc-checkpoint 2", "nbc-checkpoint 9", 1);
         let message = Checkpoint::read("a", later.as_bytes()).unwrap_err().message;
-        assert_eq!(message, "`a` is a checkpoint of format 9, expected format 1");
+        assert_eq!(message, "`a` is a checkpoint of format 9, expected format 2");
         assert_eq!(Checkpoint::read("a", b"hello\n").unwrap_err().message, "`a` is no checkpoint of an evolution run");
     }
 
     #[test]
     fn more_generations_are_no_other_declaration() {
         let longer = Evolution { generations: 500, seeds: vec![1, 2], name: "renamed".to_owned(), ..evolution() };
-        assert!(Checkpoint::of(&search(), 0, 0).resume("a", &longer, 1).is_ok());
+        let checkpoint = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
+        assert!(checkpoint.resume("a", &longer, 1).is_ok());
     }
 }

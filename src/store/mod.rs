@@ -4,18 +4,20 @@ mod atomic;
 mod checkpoint;
 mod circuit_file;
 mod disk;
+mod first_checkpoint;
 mod library;
 mod robot;
+mod search_state;
 mod shape;
 mod yaml;
 mod yosys;
 
 pub use atomic::{create_folder, write, write_with};
-pub use checkpoint::Checkpoint;
+pub use checkpoint::{Checkpoint, Declared};
 pub use circuit_file::{CircuitFault, encode_circuit, read_circuit};
 pub use disk::{
     DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
 };
 pub use library::{best_first, read_library, shipped_library};
-pub use robot::{FORMAT, print_robot, read_robot};
+pub use robot::{FORMAT, RobotRecord, print_robot, read_robot};
 pub use shape::read_body;

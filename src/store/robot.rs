@@ -10,10 +10,10 @@ use crate::store::{shape, yaml};
 /// The version of robot files that this program writes and reads.
 pub const FORMAT: u32 = 1;
 
-/// A robot file's fields, in the order in which they are written.
+/// A robot as data: the fields of its file, in the order in which they are written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RobotFile {
+pub struct RobotRecord {
     format: u32,
     name: String,
     behavior: Behavior,
@@ -34,18 +34,24 @@ struct Version {
 
 /// A robot as the text of its file.
 pub fn print_robot(robot: &Robot) -> String {
-    let robot = robot.clone();
-    let file = RobotFile {
-        format: FORMAT,
-        name: robot.name,
-        behavior: robot.behavior,
-        body: robot.body.rows(),
-        displacement: robot.displacement,
-        character: robot.character,
-        provenance: robot.provenance,
-        genotype: robot.genotype,
-    };
-    serde_yaml::to_string(&file).expect("a robot has nothing that YAML cannot say")
+    serde_yaml::to_string(&RobotRecord::of(robot)).expect("a robot has nothing that YAML cannot say")
+}
+
+impl RobotRecord {
+    /// A robot as data.
+    pub fn of(robot: &Robot) -> Self {
+        let robot = robot.clone();
+        Self {
+            format: FORMAT,
+            name: robot.name,
+            behavior: robot.behavior,
+            body: robot.body.rows(),
+            displacement: robot.displacement,
+            character: robot.character,
+            provenance: robot.provenance,
+            genotype: robot.genotype,
+        }
+    }
 }
 
 /// Reads a robot file.
@@ -59,9 +65,8 @@ pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     if version.format != FORMAT {
         return Err(foreign(file, version.format));
     }
-    let read: RobotFile = serde_yaml::from_str(&file.text).map_err(read_fault)?;
-    let materials = Palette::paper().materials().len();
-    let body = Body::parse(&read.body, materials).map_err(|error| shape::fault(file, &read.body, &error))?;
+    let read: RobotRecord = serde_yaml::from_str(&file.text).map_err(read_fault)?;
+    let body = Body::parse(&read.body, &Palette::paper()).map_err(|error| shape::fault(file, &read.body, &error))?;
     Ok(Robot {
         name: read.name,
         behavior: read.behavior,
@@ -86,7 +91,7 @@ pub(crate) mod tests {
 
     /// A robot with every field filled.
     pub(crate) fn robot() -> Robot {
-        let body = Body::parse(&["00345", "33333"], 8).unwrap();
+        let body = Body::parse(&["00345", "33333"], &Palette::paper()).unwrap();
         Robot {
             name: "nand_1".to_owned(),
             behavior: "RRRL".parse().unwrap(),

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::diag::{Code, Diagnostic};
-use crate::model::{Body, BodyError};
+use crate::model::{Body, BodyError, Palette};
 use crate::source::{SourceFile, Span};
 use crate::store::yaml;
 
@@ -54,12 +54,12 @@ impl Row {
 ///
 /// # Errors
 /// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials.
-pub fn read_body(file: &SourceFile, materials: usize) -> Result<Body, Diagnostic> {
+pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
     let embodied: Embodied = serde_yaml::from_str(&file.text).map_err(|error| {
         yaml::fault(file, &error).with_help("give the body's rows, top row first: `body: [\"00345\", \"33333\"]`")
     })?;
     let rows = embodied.body.into_text();
-    Body::parse(&rows, materials).map_err(|error| fault(file, &rows, &error))
+    Body::parse(&rows, &Palette::paper()).map_err(|error| fault(file, &rows, &error))
 }
 
 /// What is wrong with a body, at the row where it can be found in the text.
@@ -96,7 +96,7 @@ mod tests {
     fn read(text: &str) -> Result<Vec<String>, (String, String)> {
         let mut sources = Sources::default();
         let id = sources.add("a.yaml", text);
-        read_body(sources.file(id), 8)
+        read_body(sources.file(id))
             .map(|body| body.rows())
             .map_err(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned()))
     }

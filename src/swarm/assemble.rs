@@ -121,7 +121,7 @@ mod tests {
         Robot {
             name: function.name().to_owned(),
             behavior: function.into(),
-            body: Body::parse(&["33"], 8).unwrap(),
+            body: Body::parse(&["33"], &crate::model::Palette::paper()).unwrap(),
             displacement: [0.0; 4],
             character: Character {
                 clock: 1,

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::evolve::{Candidate, Outcome, Scores, Search};
-use crate::model::{Behavior, Direction, Evolution, Objective, Pattern, Schedule, Setting, Trajectory, Trial};
+use crate::model::{Behavior, Direction, Objective, Pattern, Schedule, Setting, Trajectory, Trial};
 use crate::sim::Simulator;
 use crate::swarm::gate;
 
@@ -40,11 +40,6 @@ pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]
     }
 }
 
-/// The place where a run's bodies are tried: the paper's world with the run's materials.
-pub(crate) fn setting(evolution: &Evolution) -> Setting {
-    Setting { palette: evolution.palette.clone(), ..Setting::paper() }
-}
-
 /// Displacements under the four constant patterns, in voxels, or what ended a simulation early.
 ///
 /// # Errors
@@ -64,7 +59,7 @@ pub fn fixed_trials(body: &crate::model::Body, steps: u32) -> [Trial; 4] {
 /// The paper's two objectives: four fixed simulations, then the variable one for those whose fixed fitness can still win a niche.
 fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
     let evolution = search.evolution();
-    let setting = setting(evolution);
+    let setting = Setting::default();
     let trials: Vec<Trial> =
         candidates.iter().flat_map(|candidate| fixed_trials(&candidate.body, evolution.fixed_steps)).collect();
     let mut work = Work { env_steps: steps(&trials), left_out: 0 };

@@ -5,9 +5,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::{Candidate, Outcome, Scores, Search};
-use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern};
+use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern, Setting};
 use crate::sim::Simulator;
-use crate::swarm::evaluate::{self, Work};
+use crate::swarm::evaluate::Work;
 use crate::swarm::holds::{Hold, HoldPlan};
 
 /// Cycles of each hold of the walks.
@@ -66,7 +66,7 @@ fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], l
     let all = (attempts.len() * lanes.len()) as u64;
     let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
     let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![attempt.candidate.body.clone(); lanes.len()]).collect();
-    let mut flock = simulator.flock(&evaluate::setting(search.evolution()), &bodies);
+    let mut flock = simulator.flock(&Setting::default(), &bodies);
     let cycles = lanes[0].len();
     let mut work = Work::default();
     for cycle in 0..cycles {

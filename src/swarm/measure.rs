@@ -23,10 +23,10 @@ pub struct Measurement {
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
-pub fn measure(setting: &Setting, body: &Body) -> Result<Measurement, Fault> {
-    let trajectories = run_trials(setting, &fixed_trials(body, FIXED_STEPS));
+pub fn measure(body: &Body) -> Result<Measurement, Fault> {
+    let trajectories = run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
     let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
     let displacement = fixed_displacements(four)?;
     let behavior = Behavior::of(&displacement);
-    Ok(Measurement { displacement, behavior, character: characterise(setting, body, behavior)? })
+    Ok(Measurement { displacement, behavior, character: characterise(body, behavior)? })
 }

@@ -28,7 +28,7 @@ pub struct Exposure {
 pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
     let widest = assembly.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
     let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_WORLD);
-    Setting { world_width, ..Setting::paper() }
+    Setting { world_width, ..Setting::default() }
 }
 
 /// Cycles in which robots find their feet after their fresh start. Their motion means nothing before the last of them is over, so that

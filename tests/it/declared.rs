@@ -1,5 +1,7 @@
 //! An evolution declaration: each field is read from the text, and each makes another run.
 
+use std::sync::Arc;
+
 use nbc::evolve::Search;
 use nbc::model::{
     Axis, Count, Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Spell, Symmetry,
@@ -62,7 +64,7 @@ fn changes() -> Vec<Change> {
         ("materials: [muscle, bone, flesh, antimuscle, s1_shrink, s2_shrink, s1_grow, s2_grow]", |run| {
             let paper = Palette::paper().materials().to_vec();
             let order = [2, 0, 1, 3, 4, 5, 6, 7];
-            run.palette = Palette::new(order.map(|i: usize| paper[i].clone()).to_vec());
+            run.palette = Arc::new(Palette::new(order.map(|i: usize| paper[i].clone()).to_vec()));
         }),
         (
             "mutation: { add_node: 3, remove_node: 0.5, add_link: 2, remove_link: 0, change_activation: 4, change_weight: 5 }",

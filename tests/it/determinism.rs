@@ -1,9 +1,12 @@
 //! The same bits whatever runs beside, on whatever kernel and threads.
 
+use std::sync::Arc;
+
 use nbc::model::{
-    Body, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trajectory, Trial,
+    Body, Drive, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trajectory,
+    Trial,
 };
-use nbc::sim::{InstructionSet, Kernel, Simulator};
+use nbc::sim::{Constants, InstructionSet, Kernel, Simulator};
 use proptest::prelude::*;
 
 /// Every kernel of this processor.
@@ -24,13 +27,35 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
     numbers.map(|number| number.to_bits()).chain([fault]).collect()
 }
 
-/// A body of that box; `digits` are drawn over the codes, 9 standing for another active voxel so that most bodies move.
+/// A body of that box and one of two palettes; `digits` are drawn over the codes, 9 standing for another active voxel so that most bodies move.
 fn body(width: usize, height: usize) -> impl Strategy<Value = Body> {
-    proptest::collection::vec(0u8..10, width * height).prop_map(move |digits| {
+    let cells = proptest::collection::vec(0u8..10, width * height).prop_map(move |digits| {
         let mut codes: Vec<u8> = digits.iter().map(|&digit| if digit == 9 { 3 } else { digit }).collect();
         codes[width * height - 1] = 3;
-        Body::new(width, height, codes)
+        (width, height, codes)
+    });
+    (cells, any::<bool>()).prop_map(|((width, height, codes), own)| {
+        Body::new(width, height, codes, if own { own_palette() } else { Palette::paper() })
     })
+}
+
+/// Nine materials of which each code does something else than the paper's.
+fn own_palette() -> Arc<Palette> {
+    let named = |(i, kind): (usize, MaterialKind)| Material { name: format!("own_{i}"), kind };
+    let drive = |period, phase, low, high| MaterialKind::Actuator(Drive { period, phase, low, high });
+    let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response { stimulus, absent, present });
+    let kinds = vec![
+        MaterialKind::Soft,
+        drive(30, 45.0, 0.7, 1.5),
+        drive(84, 0.0, 0.9, 1.4),
+        drive(50, 90.0, 0.6, 1.6),
+        sensor(1, 1.2, 0.8),
+        sensor(0, 0.7, 1.3),
+        MaterialKind::Rigid,
+        sensor(1, 1.0, 1.5),
+        drive(84, 270.0, 0.6, 1.2),
+    ];
+    Arc::new(Palette::new(kinds.into_iter().enumerate().map(named).collect()))
 }
 
 fn schedule(cycles: u32) -> impl Strategy<Value = Schedule> {
@@ -55,7 +80,7 @@ proptest! {
 
     #[test]
     fn a_lane_is_the_scalar_run(trials in trials()) {
-        let setting = Setting::paper();
+        let setting = Setting::default();
         let alone: Vec<_> = simulate(Kernel::SCALAR, &setting, &trials).iter().map(bits).collect();
         for kernel in kernels() {
             let beside: Vec<_> = simulate(kernel, &setting, &trials).iter().map(bits).collect();
@@ -64,19 +89,21 @@ proptest! {
     }
 }
 
-/// A body of one material that asks for no number at all, which blows it up.
-fn broken_setting() -> Setting {
+/// The paper's materials and one that asks for a width beyond all bounds, which blows a body up where targets are not clipped.
+fn broken_palette() -> Arc<Palette> {
     let mut materials = Palette::paper().materials().to_vec();
-    let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: 0.6, present: f64::NAN });
+    let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: 0.6, present: f64::MAX });
     materials.push(Material { name: "broken".to_owned(), kind });
-    Setting { palette: Palette::new(materials), ..Setting::paper() }
+    Arc::new(Palette::new(materials))
 }
 
 #[test]
 fn a_faulting_lane_leaves_its_neighbors_alone() {
-    let setting = broken_setting();
-    let sound = Body::parse(&["343", "363", "507"], 9).unwrap();
-    let broken = Body::parse(&["349", "363", "507"], 9).unwrap();
+    let (setting, palette) = (Setting::default(), broken_palette());
+    let constants = Constants { greatest_target: f64::MAX, ..Constants::default() };
+    let simulate = |kernel, trials: &[Trial]| Simulator { constants, kernel, probe: None }.run_trials(&setting, trials);
+    let sound = Body::parse(&["343", "363", "507"], &palette).unwrap();
+    let broken = Body::parse(&["349", "363", "507"], &palette).unwrap();
     let trial = |body: &Body, pattern: usize| Trial {
         body: body.clone(),
         schedule: Schedule {
@@ -88,14 +115,34 @@ fn a_faulting_lane_leaves_its_neighbors_alone() {
     };
     let trials: Vec<Trial> = (0..8).map(|i| trial(if i == 3 { &broken } else { &sound }, 2 + i % 2)).collect();
     let alone: Vec<_> =
-        trials.iter().map(|trial| simulate(Kernel::SCALAR, &setting, std::slice::from_ref(trial)).remove(0)).collect();
+        trials.iter().map(|trial| simulate(Kernel::SCALAR, std::slice::from_ref(trial)).remove(0)).collect();
     assert_eq!(alone[3].fault.map(|fault| (fault.env_step, fault.kind)), Some((41, FaultKind::NonFinite)));
     assert_eq!(alone[3].com_x.len(), 41);
     for kernel in kernels() {
-        let found = simulate(kernel, &setting, &trials);
+        let found = simulate(kernel, &trials);
         for (alone, found) in alone.iter().zip(&found) {
             assert_eq!(bits(alone), bits(found), "{kernel:?}");
         }
+    }
+}
+
+#[test]
+fn bodies_of_different_palettes_run_side_by_side() {
+    let setting = Setting::default();
+    let palettes = [Palette::paper(), own_palette()];
+    let trial = |i: usize| Trial {
+        body: Body::parse(&["343", "363", "507"], &palettes[i % 2]).unwrap(),
+        schedule: Schedule::constant(Pattern::PAIRS[i / 2], 100),
+    };
+    let trials: Vec<Trial> = (0..8).map(trial).collect();
+    let alone: Vec<_> = trials
+        .iter()
+        .map(|trial| bits(&simulate(Kernel::SCALAR, &setting, std::slice::from_ref(trial)).remove(0)))
+        .collect();
+    assert!(alone.chunks(2).all(|pair| pair[0] != pair[1]), "the same codes of two palettes are two robots");
+    for kernel in kernels() {
+        let beside: Vec<_> = simulate(kernel, &setting, &trials).iter().map(bits).collect();
+        assert!(alone == beside, "{kernel:?} gives other bits than the scalar run");
     }
 }
 
@@ -119,7 +166,7 @@ const GOLDEN: u64 = 0xe925_c4e3_f4fa_23dd;
 
 #[test]
 fn golden_hash_on_every_kernel_and_number_of_threads() {
-    let (setting, trials) = (Setting::paper(), patchwork());
+    let (setting, trials) = (Setting::default(), patchwork());
     for kernel in kernels() {
         assert_eq!(hash(&simulate(kernel, &setting, &trials)), GOLDEN, "{kernel:?}");
     }
@@ -132,7 +179,7 @@ fn golden_hash_on_every_kernel_and_number_of_threads() {
 
 #[test]
 fn a_swarm_advances_as_its_robots_do_alone() {
-    let setting = Setting::paper();
+    let setting = Setting::default();
     let bodies: Vec<Body> = (0..9).map(|robot| Body::patchwork(5, robot / 6)).collect();
     let patterns = |turn: usize| (0..bodies.len()).map(|robot| Pattern::PAIRS[(robot + turn) % 4]).collect::<Vec<_>>();
     let mut swarm = Simulator::default().flock(&setting, &bodies);

@@ -6,7 +6,7 @@ use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
 use nbc::evolve::{Search, recodings};
-use nbc::model::{Body, Evolution, Pattern, Schedule, Setting, Spell, Trial};
+use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
 use nbc::pipeline;
 use nbc::sim::Simulator;
 use nbc::sim::run_trials;
@@ -137,10 +137,10 @@ fn a_checkpoint_that_does_not_fit_is_refused_and_left_alone() {
     check(&whole[..whole.len() / 2], &resume, "is damaged: its checksum does not fit");
     check(b"", &resume, "is no checkpoint");
     check(b"PK\x03\x04 something else\n", &resume, "is no checkpoint");
-    for format in ["0", "2"] {
+    for format in ["0", "3"] {
         let header = format!("nbc-checkpoint {format} ");
-        let other = String::from_utf8(whole.clone()).unwrap().replacen("nbc-checkpoint 1 ", &header, 1);
-        check(other.as_bytes(), &resume, &format!("is a checkpoint of format {format}, expected format 1"));
+        let other = String::from_utf8(whole.clone()).unwrap().replacen("nbc-checkpoint 2 ", &header, 1);
+        check(other.as_bytes(), &resume, &format!("is a checkpoint of format {format}, expected format 2"));
     }
     bench.file("runs.nb", RUNS.replace("batch:       6", "batch:       7"));
     check(&whole, &resume, "was made by another declaration than `walks` is now");
@@ -281,11 +281,11 @@ proptest! {
     fn exchanging_sensors_is_exact_to_the_bit(codes in prop::collection::vec(0u8..9, 12), order in Just([0, 1, 2, 3]).prop_shuffle()) {
         let mut codes = codes;
         codes[10] = 3;
-        let body = Body::new(4, 3, codes);
-        let setting = Setting::paper();
+        let body = Body::new(4, 3, codes, Palette::paper());
+        let setting = Setting::default();
         let schedule = |patterns: [Pattern; 4]| Schedule { spells: patterns.map(|pattern| Spell { pattern, steps: 60 }).to_vec() };
         let after = order.map(|i| Pattern::PAIRS[i]);
-        for recoding in recodings(&setting.palette) {
+        for recoding in recodings(body.palette()) {
             let before = after.map(|pattern| recoding.before(pattern));
             let trials = [
                 Trial { body: body.clone(), schedule: schedule(before) },

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-use nbc::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Spell};
+use nbc::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting, Spell};
 use nbc::report::{self, Color, Film, STRIDE, Scheme, Stage};
 
 use crate::pictures::latch;
@@ -16,7 +16,7 @@ fn schedule(cycles: u32) -> Schedule {
 }
 
 fn film(body: &Body, cycles: u32) -> (Film, Stage) {
-    let stage = Stage::of_trial(&Setting::paper(), body, &schedule(cycles), STRIDE);
+    let stage = Stage::of_trial(&Setting::default(), body, &schedule(cycles), STRIDE);
     let largest = body.width().max(body.height());
     (Film { title: "walker".to_owned(), lanes: vec!["01".to_owned()], scheme: Scheme::Paper, largest }, stage)
 }
@@ -56,7 +56,7 @@ fn put_over(picture: &mut [u8], line: &[u8]) {
 
 #[test]
 fn a_gif_has_twelve_frames_a_cycle_and_the_robot_moves() {
-    let body = Body::parse(&WALKER, 8).unwrap();
+    let body = Body::parse(&WALKER, &Palette::paper()).unwrap();
     let bytes = gif_bytes(&body, 2);
     let (pictures, palette) = decode_gif(&bytes);
     assert_eq!(pictures.len(), 2 * 12 + 1);
@@ -70,7 +70,7 @@ fn a_gif_has_twelve_frames_a_cycle_and_the_robot_moves() {
 
 #[test]
 fn an_apng_shows_the_same_film() {
-    let body = Body::parse(&WALKER, 8).unwrap();
+    let body = Body::parse(&WALKER, &Palette::paper()).unwrap();
     let (film, stage) = film(&body, 1);
     let mut bytes = Vec::new();
     report::write_apng(&film, stage, &mut bytes, &mut |_| ()).unwrap();
@@ -111,7 +111,7 @@ impl Write for Counter {
 
 #[test]
 fn frames_are_written_as_they_are_made() {
-    let body = Body::parse(&WALKER, 8).unwrap();
+    let body = Body::parse(&WALKER, &Palette::paper()).unwrap();
     for write in [report::write_gif, report::write_apng] {
         let (film, stage) = film(&body, 3);
         let written = Rc::new(Cell::new(0));
@@ -154,14 +154,14 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
 #[test]
 fn a_large_robot_has_its_film_too() {
     let rows: Vec<&str> = (0..10).map(|row| if row < 7 { "3434343434" } else { "3400000034" }).collect();
-    let bytes = gif_bytes(&Body::parse(&rows, 8).unwrap(), 2);
+    let bytes = gif_bytes(&Body::parse(&rows, &Palette::paper()).unwrap(), 2);
     assert_eq!(decode_gif(&bytes).0.len(), 2 * 12 + 1);
 }
 
 #[test]
 fn a_fault_stops_the_robot_and_not_the_film() {
-    let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], 8).unwrap();
-    let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::paper() };
+    let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], &Palette::paper()).unwrap();
+    let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::default() };
     let schedule = Schedule {
         spells: vec![Spell { pattern: Pattern::PAIRS[3], steps: 60 }, Spell { pattern: Pattern::PAIRS[0], steps: 60 }],
     };
@@ -176,9 +176,9 @@ fn a_fault_stops_the_robot_and_not_the_film() {
 
 #[test]
 fn no_time_at_all_is_one_frame() {
-    let body = Body::parse(&["33"], 8).unwrap();
+    let body = Body::parse(&["33"], &Palette::paper()).unwrap();
     let (film, _) = film(&body, 1);
-    let stage = Stage::of_trial(&Setting::paper(), &body, &Schedule::default(), STRIDE);
+    let stage = Stage::of_trial(&Setting::default(), &body, &Schedule::default(), STRIDE);
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
     assert_eq!(decode_gif(&bytes).0.len(), 1);
@@ -186,7 +186,7 @@ fn no_time_at_all_is_one_frame() {
 
 #[test]
 fn a_strip_has_a_row_for_each_pattern_with_ghosts() {
-    let body = Body::parse(&WALKER, 8).unwrap();
+    let body = Body::parse(&WALKER, &Palette::paper()).unwrap();
     let spells = [0, 3].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: 2 * 84 });
     let svg = report::draw_strip("walker", &body, &Schedule { spells: spells.to_vec() }, Scheme::Safe).finish();
     let document = roxmltree::Document::parse(&svg).unwrap();

@@ -38,7 +38,7 @@ fn wrong(robot: &Robot, holds: &[(Pattern, u32)], com_x: &[f64]) -> usize {
 #[test]
 fn each_gate_is_right_after_fifty_random_switches() {
     let robots = &shipped_library().robots;
-    let setting = Setting { world_width: 2000, ..Setting::paper() };
+    let setting = Setting { world_width: 2000, ..Setting::default() };
     let plans: Vec<_> = (0u64..).zip(robots).map(|(seed, robot)| holds(robot.character.clock, seed)).collect();
     let spells = |plan: &[(Pattern, u32)]| {
         plan.iter().map(|&(pattern, cycles)| Spell { pattern, steps: cycles * CYCLE_STEPS }).collect()

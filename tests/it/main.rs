@@ -19,6 +19,7 @@ mod library;
 mod manual;
 mod optima;
 mod page;
+mod palette;
 mod physics;
 mod pictures;
 mod plots;

@@ -15,7 +15,7 @@ pub fn robot(name: &str, function: Function) -> Robot {
     Robot {
         name: name.to_owned(),
         behavior: function.into(),
-        body: Body::parse(&rows, 8).unwrap(),
+        body: Body::parse(&rows, &nbc::model::Palette::paper()).unwrap(),
         displacement: [1.0; 4],
         character: Character {
             clock: 4,

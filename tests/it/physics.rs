@@ -58,7 +58,7 @@ fn pattern(digits: &str) -> Pattern {
 }
 
 fn setting(start_x: usize, world_width: usize) -> Setting {
-    Setting { palette: Palette::paper(), world_width, start_x: Some(start_x) }
+    Setting { world_width, start_x: Some(start_x) }
 }
 
 impl Case {
@@ -67,7 +67,7 @@ impl Case {
     }
 
     fn body(&self) -> Body {
-        Body::parse(&self.body, 8).unwrap()
+        Body::parse(&self.body, &Palette::paper()).unwrap()
     }
 
     fn schedule(&self) -> Schedule {
@@ -138,7 +138,7 @@ fn reference_substeps() {
         for &(substeps, point, at) in expected {
             let simulator =
                 Simulator { constants: Constants { substeps, ..Constants::default() }, ..Simulator::default() };
-            let mut flock = simulator.flock(&setting(start_x, 60), &[Body::parse(rows, 8).unwrap()]);
+            let mut flock = simulator.flock(&setting(start_x, 60), &[Body::parse(rows, &Palette::paper()).unwrap()]);
             flock.advance(&[pattern(digits)], 1);
             let found = flock.points(0)[point];
             let difference = greatest_difference(&at, &found);
@@ -225,7 +225,7 @@ struct PublishedRobot {
 fn published_robots_walk_as_published() {
     let published: Published = serde_json::from_str(include_str!("../golden/paper_robots.json")).unwrap();
     for robot in published.robots {
-        let body = Body::parse(&robot.body, 8).unwrap();
+        let body = Body::parse(&robot.body, &Palette::paper()).unwrap();
         let trial = |pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, 10 * CYCLE) };
         let found = run_trials(&setting(robot.start_x, robot.world_width), &Pattern::PAIRS.map(trial));
         let displacement = |i: usize| found[i].com_x.last().unwrap() - found[i].com_x[0];
@@ -300,7 +300,7 @@ fn is_clipped(knob: &Knob, factor: f64) -> bool {
 
 #[test]
 fn a_robot_beyond_the_ground_comes_to_rest_on_the_plane() {
-    let body = Body::parse(&["333", "303"], 8).unwrap();
+    let body = Body::parse(&["333", "303"], &Palette::paper()).unwrap();
     let case = Trial { body, schedule: Schedule::constant(Pattern::PAIRS[0], 3 * CYCLE) };
     let fall = |constants: Constants| {
         let simulator = Simulator { constants, ..Simulator::default() };

@@ -220,7 +220,7 @@ fn odd_netlists_draw_too() {
 
 #[test]
 fn a_sprite_has_a_square_for_each_voxel_in_its_materials_color() {
-    let body = Body::parse(&["00345", "33333"], 8).unwrap();
+    let body = Body::parse(&["00345", "33333"], &nbc::model::Palette::paper()).unwrap();
     for scheme in [Scheme::Paper, Scheme::Safe] {
         let svg = report::draw_portrait("walker", &body, scheme).finish();
         let document = roxmltree::Document::parse(&svg).unwrap();

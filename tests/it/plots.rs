@@ -22,7 +22,7 @@ fn elite(rows: &[&str], behavior: &str, fitness: f64) -> Elite {
         fitness: [fitness, fitness],
         behavior: behavior.parse().unwrap(),
         displacement: [1.0; 4],
-        body: Body::parse(rows, 8).unwrap(),
+        body: Body::parse(rows, &nbc::model::Palette::paper()).unwrap(),
         genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
         generation: 0,
         evaluations: 0,

@@ -13,7 +13,7 @@ use clap::Args;
 
 use crate::cli::{Context, Failure, Status, library, schedule, simulate};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{Behavior, Palette, Schedule};
+use crate::model::{Behavior, Schedule};
 use crate::report::Scheme;
 use crate::source::Sources;
 use crate::store;
@@ -103,7 +103,7 @@ impl Arguments {
     }
 
     fn robot(&self) -> Result<Subject, Failure> {
-        let body = simulate::read_body(&self.what, Palette::paper().materials().len())?;
+        let body = simulate::read_body(&self.what)?;
         match library::find(store::shipped_library(), &self.what) {
             Ok(robot) => Ok(Subject::of(robot)),
             Err(_) => {

@@ -26,7 +26,7 @@ impl Arguments {
         let schedule = self.schedule()?;
         match self.kind {
             Kind::Apng | Kind::Gif => {
-                let stage = Stage::of_trial(&Setting::paper(), body, &schedule, STRIDE);
+                let stage = Stage::of_trial(&Setting::default(), body, &schedule, STRIDE);
                 let lanes = vec![format!("{} x {}", body.width(), body.height())];
                 let largest = body.width().max(body.height());
                 canvas.film(&Film { title: title.clone(), lanes, scheme: self.scheme(), largest }, stage)
@@ -48,6 +48,6 @@ impl Arguments {
 
 fn diagram(title: &str, body: &Body, schedule: Schedule) -> Svg {
     let trial = Trial { body: body.clone(), schedule };
-    let trajectory = sim::run_trials(&Setting::paper(), std::slice::from_ref(&trial)).remove(0);
+    let trajectory = sim::run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
     report::draw_robot(title, &trial.schedule, &trajectory)
 }

@@ -14,6 +14,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::evolve::NicheKey;
 use crate::model::{Behavior, CYCLE_STEPS, Objective, Pattern, Schedule, Spell};
 use crate::report::{self, Harvest, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
+use crate::store::Declared;
 
 /// Whether a folder is that of a run: a seed's, or one with seeds.
 pub(super) fn is_run(folder: &Path) -> bool {
@@ -50,10 +51,10 @@ pub(in crate::cli) fn read(folder: &Path) -> Result<Harvest, Failure> {
             niches: checkpoint.state.niches,
             progress: SeedRun::read_progress(&progress),
         };
-        if checkpoint.descriptors.is_empty() {
+        if checkpoint.declared.axes.is_empty() {
             return Err(unusable(&path, "does not say the axes of its archive", "`nbc evolve --resume` writes them"));
         }
-        let (name, axes, objective) = (checkpoint.evolution, checkpoint.descriptors, checkpoint.objective);
+        let Declared { name, axes, objective, .. } = checkpoint.declared;
         let harvest = harvest.get_or_insert(Harvest { name, axes: axes.clone(), objective, runs: Vec::new() });
         if harvest.axes != axes || harvest.objective != objective {
             let help = "draw the folder of one seed";

@@ -63,7 +63,7 @@ impl Arguments {
         let largest = bodies.iter().map(|body| body.width().max(body.height())).max().unwrap_or(1);
         let lanes = several.robots.iter().map(|one| one.name.clone()).collect();
         let film = Film { title: several.title.clone(), lanes, scheme: self.scheme(), largest };
-        canvas.film(&film, Stage::of_trials(&Setting::paper(), &bodies, &self.schedule()?, STRIDE))
+        canvas.film(&film, Stage::of_trials(&Setting::default(), &bodies, &self.schedule()?, STRIDE))
     }
 }
 
@@ -71,7 +71,7 @@ impl Arguments {
 pub(super) fn champions(several: &Several, schedule: &Schedule) -> Svg {
     let trial = |one: &One| Trial { body: one.body.clone(), schedule: schedule.clone() };
     let trials: Vec<Trial> = several.robots.iter().map(trial).collect();
-    let trajectories = sim::run_trials(&Setting::paper(), &trials);
+    let trajectories = sim::run_trials(&Setting::default(), &trials);
     let mut paths: BTreeMap<u8, Champions> = BTreeMap::new();
     for (one, trajectory) in several.robots.iter().zip(trajectories) {
         let bits = one.behavior.function().bits();

@@ -114,7 +114,7 @@ impl Run {
 
     fn save(&self) -> Result<(), Failure> {
         let path = self.folder.join(CHECKPOINT);
-        let bytes = Checkpoint::of(&self.search, self.work.env_steps, self.work.left_out).print();
+        let bytes = Checkpoint::print(&self.search, self.work.env_steps, self.work.left_out);
         store::write(&path, &bytes).map_err(|error| Failure::unwritable(&path, &error))
     }
 

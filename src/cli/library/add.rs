@@ -9,7 +9,7 @@ use crate::cli::evolve::read_checkpoint;
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
-use crate::model::{Behavior, Provenance, Robot, Setting};
+use crate::model::{Behavior, Provenance, Robot};
 use crate::report::Listing;
 use crate::store::{self, Checkpoint};
 use crate::swarm::{self, Measurement};
@@ -95,8 +95,7 @@ impl Arguments {
 
     /// The best of some elites: the shortest clock in cheap sequences and the widest margin go on to the long measurement.
     fn best(&self, behavior: Behavior, entries: &[Entry]) -> Option<Robot> {
-        let setting = Setting::paper();
-        let screened = entries.iter().map(|entry| swarm::screen(&setting, &entry.elite.body, behavior, LONGEST_CLOCK));
+        let screened = entries.iter().map(|entry| swarm::screen(&entry.elite.body, behavior, LONGEST_CLOCK));
         let mut ranked: Vec<(u32, f64, &Entry)> = screened
             .zip(entries)
             .map(|(screened, entry)| match screened {
@@ -108,7 +107,7 @@ impl Arguments {
         ranked.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
         let finalists = ranked.into_iter().take(self.finalists);
         let measured = finalists.filter_map(|(_, _, entry)| {
-            let measurement = swarm::measure(&setting, &entry.elite.body).ok()?;
+            let measurement = swarm::measure(&entry.elite.body).ok()?;
             (measurement.behavior == behavior).then(|| robot(entry, measurement))
         });
         store::best_first(measured.collect()).robots.into_iter().next()
@@ -138,7 +137,7 @@ fn provenance(checkpoint: &Checkpoint, elite: &Elite) -> Provenance {
     Provenance {
         program: env!("CARGO_PKG_NAME").to_owned(),
         version: checkpoint.version.clone(),
-        evolution: checkpoint.evolution.clone(),
+        evolution: checkpoint.declared.name.clone(),
         seed: checkpoint.state.seed,
         generation: elite.generation,
         evaluations: elite.evaluations,

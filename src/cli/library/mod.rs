@@ -90,7 +90,7 @@ fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {
 
 fn show(robot: &Robot, context: &mut Context) -> Result<Status, Failure> {
     match context.format {
-        Format::Json => context.print_json(robot)?,
+        Format::Json => context.print_json(&store::RobotRecord::of(robot))?,
         Format::Text => context.print(report::describe_robot(robot))?,
     }
     Ok(Status::Done)

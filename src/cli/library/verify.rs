@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Progress, Status};
-use crate::model::{Library, Robot, Setting};
+use crate::model::{Library, Robot};
 use crate::swarm::{self, Measurement};
 
 /// What came of one robot.
@@ -54,7 +54,7 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
 
 /// What a new measurement says otherwise than the file.
 fn differences(robot: &Robot) -> Vec<&'static str> {
-    let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&Setting::paper(), &robot.body) else {
+    let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&robot.body) else {
         return vec!["the simulation has a fault"];
     };
     let same = [

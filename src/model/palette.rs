@@ -1,0 +1,192 @@
+//! Palettes: what the codes of a body mean.
+
+use std::cmp::Ordering;
+use std::hash::{Hash, Hasher};
+use std::sync::{Arc, LazyLock};
+
+use serde::{Deserialize, Serialize};
+
+use super::{Drive, Material, MaterialKind, Response};
+
+/// The materials a body may be made of: code 0 is empty, code `k` is the `k`-th material.
+///
+/// Palettes are equal when their materials have the same names and, to the bit, the same numbers.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Material>", into = "Vec<Material>")]
+pub struct Palette {
+    materials: Vec<Material>,
+}
+
+/// Why materials are not a palette.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PaletteError {
+    /// No materials, or more than codes can name.
+    #[error("{0} materials, expected 1 to {limit}", limit = Palette::MAX_MATERIALS)]
+    Size(usize),
+    /// Two materials of one name.
+    #[error("two materials are called `{0}`")]
+    Twice(String),
+    /// A name that the language could not write.
+    #[error("`{0}` is not the name of a material; expected a letter, then letters, digits and `_`")]
+    Name(String),
+}
+
+static PAPER: LazyLock<Arc<Palette>> = LazyLock::new(|| Arc::new(Palette::new(paper_materials())));
+
+impl Palette {
+    /// The most materials of a palette: codes are written as digits and lower-case letters, `0` for empty.
+    pub const MAX_MATERIALS: usize = 35;
+
+    /// A palette of these materials, in order of their codes.
+    ///
+    /// # Panics
+    /// When there are more than [`Palette::MAX_MATERIALS`], or a number of one is not finite.
+    pub fn new(materials: Vec<Material>) -> Self {
+        assert!(materials.len() <= Self::MAX_MATERIALS, "a palette holds at most 35 materials");
+        assert!(materials.iter().all(|material| material.kind.is_finite()), "the numbers of materials are finite");
+        Self { materials }
+    }
+
+    /// The paper's eight materials (paper, Methods; codes as in docs/physics.md 1 and 10): 1 rigid, 2 soft, 3 active, 4 active in
+    /// antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.
+    pub fn paper() -> Arc<Self> {
+        Arc::clone(&PAPER)
+    }
+
+    /// Whether these are the paper's materials.
+    pub fn is_paper(&self) -> bool {
+        *self == **PAPER
+    }
+
+    /// The materials in order of their codes, code 1 first.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The material of code `code`; `None` for empty.
+    ///
+    /// # Panics
+    /// When the palette has no such code.
+    pub fn material(&self, code: u8) -> Option<&Material> {
+        (code > 0).then(|| &self.materials[usize::from(code) - 1])
+    }
+
+    /// What code `code` does; `None` for empty.
+    ///
+    /// # Panics
+    /// When the palette has no such code.
+    pub fn kind(&self, code: u8) -> Option<MaterialKind> {
+        self.material(code).map(|material| material.kind)
+    }
+
+    /// Names and numbers in an order that is total.
+    fn key(&self) -> impl Iterator<Item = (&str, (u8, u64, [u64; 3]))> {
+        self.materials.iter().map(|material| (material.name.as_str(), material.kind.bits()))
+    }
+}
+
+fn paper_materials() -> Vec<Material> {
+    let named = |name: &str, kind| Material { name: name.to_owned(), kind };
+    let drive = |phase| MaterialKind::Actuator(Drive { period: super::CYCLE_STEPS, phase, low: 0.6, high: 1.6 });
+    let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response { stimulus, absent, present });
+    vec![
+        named("bone", MaterialKind::Rigid),
+        named("flesh", MaterialKind::Soft),
+        named("muscle", drive(0.0)),
+        named("antimuscle", drive(180.0)),
+        named("s1_shrink", sensor(0, 1.6, 0.6)),
+        named("s2_shrink", sensor(1, 1.6, 0.6)),
+        named("s1_grow", sensor(0, 0.6, 1.6)),
+        named("s2_grow", sensor(1, 0.6, 1.6)),
+    ]
+}
+
+impl TryFrom<Vec<Material>> for Palette {
+    type Error = PaletteError;
+
+    fn try_from(materials: Vec<Material>) -> Result<Self, PaletteError> {
+        if materials.is_empty() || materials.len() > Self::MAX_MATERIALS {
+            return Err(PaletteError::Size(materials.len()));
+        }
+        for (i, Material { name, .. }) in materials.iter().enumerate() {
+            if !is_name(name) {
+                return Err(PaletteError::Name(name.clone()));
+            }
+            if materials[..i].iter().any(|other| other.name == *name) {
+                return Err(PaletteError::Twice(name.clone()));
+            }
+        }
+        Ok(Self::new(materials))
+    }
+}
+
+impl From<Palette> for Vec<Material> {
+    fn from(palette: Palette) -> Self {
+        palette.materials
+    }
+}
+
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+impl PartialEq for Palette {
+    fn eq(&self, other: &Self) -> bool {
+        self.key().eq(other.key())
+    }
+}
+
+impl Eq for Palette {}
+
+impl PartialOrd for Palette {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Palette {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(other.key())
+    }
+}
+
+impl Hash for Palette {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key().for_each(|key| key.hash(state));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn palettes_that_differ_in_one_number_or_name_are_different() {
+        let paper = Palette::paper();
+        let changed = |change: fn(&mut Vec<Material>)| {
+            let mut materials = paper.materials().to_vec();
+            change(&mut materials);
+            Palette::new(materials)
+        };
+        assert!(changed(|_| ()).is_paper());
+        assert!(!changed(|materials| materials[0].name.push('s')).is_paper());
+        assert!(!changed(|materials| materials.swap(4, 5)).is_paper());
+        let next = |number: &mut f64| *number = f64::from_bits(number.to_bits() + 1);
+        let nudged = changed(|materials| {
+            let MaterialKind::Actuator(drive) = &mut materials[2].kind else { panic!("code 3 is an actuator") };
+            drive.high = f64::from_bits(drive.high.to_bits() + 1);
+        });
+        assert_ne!(nudged, *paper);
+        let mut high = 1.6;
+        next(&mut high);
+        assert_ne!(nudged.cmp(&paper), Ordering::Equal, "1.6 and {high} are different numbers");
+    }
+
+    #[test]
+    #[should_panic(expected = "the numbers of materials are finite")]
+    fn a_number_that_is_not_finite_is_no_material() {
+        let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: f64::NAN, present: 1.0 });
+        Palette::new(vec![Material { name: "broken".to_owned(), kind }]);
+    }
+}

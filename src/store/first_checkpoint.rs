@@ -1,0 +1,100 @@
+//! Checkpoints of format 1, which tell their declaration as text.
+
+use std::sync::Arc;
+
+use serde::Deserialize;
+
+use crate::model::{Axis, Drive, Evolution, Material, MaterialKind, Objective, Palette, Response};
+use crate::store::checkpoint::{Checkpoint, Declared, Whole};
+use crate::store::search_state::Record as StateRecord;
+
+/// What stands in such a checkpoint after its header.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    version: String,
+    evolution: String,
+    declaration: String,
+    #[serde(default)]
+    descriptors: Vec<Axis>,
+    #[serde(default)]
+    objective: Objective,
+    state: StateRecord,
+    env_steps: u64,
+    left_out: u64,
+}
+
+/// Reads what stands after the header.
+///
+/// # Errors
+/// Says what is wrong with it.
+pub(super) fn read(text: &[u8]) -> Result<Checkpoint, String> {
+    let Record { version, evolution, declaration, descriptors, objective, state, env_steps, left_out } =
+        serde_json::from_slice(text).map_err(|error| error.to_string())?;
+    let palette = palette(&declaration).ok_or("its declaration has no materials")?;
+    let whole = Whole::Text(declaration);
+    let declared = Declared { name: evolution, axes: descriptors, objective, palette: Arc::new(palette), whole };
+    let state = state.into_state(&declared)?;
+    Ok(Checkpoint { version, declared, state, env_steps, left_out })
+}
+
+/// Everything in a declaration that its archive depends on, as format 1 wrote it.
+pub(super) fn declaration(evolution: &Evolution) -> String {
+    let spells = &evolution.variable.spells;
+    let Evolution { width, height, palette, mutation, fixed_steps, descriptors, batch, newcomers, .. } = evolution;
+    let Evolution { rules, objective, symmetry, niche, .. } = evolution;
+    format!(
+        "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + {newcomers}; {rules:?}; \
+         {objective:?}; {symmetry:?}; {niche:?}"
+    )
+}
+
+/// The materials in the text of a declaration: `Palette { materials: [Material { name: "bone", kind: Rigid }, …] }`.
+fn palette(declaration: &str) -> Option<Palette> {
+    let (_, rest) = declaration.split_once("Palette { materials: [")?;
+    let (list, _) = rest.split_once("] }")?;
+    let materials = list.split("Material { ").skip(1).map(material).collect::<Option<Vec<_>>>()?;
+    Palette::try_from(materials).ok()
+}
+
+/// A material in such a text: `name: "muscle", kind: Actuator(Drive { period: 84, … }) }, `.
+fn material(text: &str) -> Option<Material> {
+    let (name, kind) = text.strip_prefix("name: \"")?.split_once("\", kind: ")?;
+    let number = |field: &str| {
+        let (_, rest) = kind.split_once(&format!("{field}: "))?;
+        rest.split([',', ' ']).next()
+    };
+    let real = |field| number(field)?.parse::<f64>().ok().filter(|number| number.is_finite());
+    let kind = match kind.split(['(', ' ']).next()? {
+        "Rigid" => MaterialKind::Rigid,
+        "Soft" => MaterialKind::Soft,
+        "Actuator" => MaterialKind::Actuator(Drive {
+            period: number("period")?.parse().ok()?,
+            phase: real("phase")?,
+            low: real("low")?,
+            high: real("high")?,
+        }),
+        "Sensor" => MaterialKind::Sensor(Response {
+            stimulus: number("stimulus")?.parse().ok()?,
+            absent: real("absent")?,
+            present: real("present")?,
+        }),
+        _ => return None,
+    };
+    Some(Material { name: name.to_owned(), kind })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_palette_reads_back_from_its_text() {
+        let mut materials = Palette::paper().materials().to_vec();
+        let drive = Drive { period: 42, phase: -12.5, low: 0.98, high: 1.02 };
+        materials.insert(3, Material { name: "heart".to_owned(), kind: MaterialKind::Actuator(drive) });
+        let own = Palette::new(materials);
+        assert_eq!(palette(&format!("5 x 5; {own:?}; MutationWeights {{ }}")), Some(own));
+        assert_eq!(palette("5 x 5; Palette { materials: [Material { name: \"a\", kind: Gas }] }"), None);
+    }
+}

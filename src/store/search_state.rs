@@ -1,0 +1,78 @@
+//! A search's state as data: what of it does not follow from the declaration, bodies as rows of codes.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::evolve::{Counts, Elite, NicheKey, SearchState};
+use crate::model::{Axis, Behavior, Body, Genotype, Palette};
+use crate::store::checkpoint::Declared;
+
+/// A search's state.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Record {
+    seed: u64,
+    generation: u32,
+    counts: Counts,
+    mirrors: Vec<Genotype>,
+    niches: Vec<(NicheKey, Vec<EliteRecord>)>,
+}
+
+/// An elite whose palette is that of the declaration.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EliteRecord {
+    fitness: [f64; 2],
+    behavior: Behavior,
+    displacement: [f64; 4],
+    body: Vec<String>,
+    genotype: Genotype,
+    generation: u32,
+    evaluations: u64,
+}
+
+impl Record {
+    pub(super) fn of(state: SearchState) -> Self {
+        let SearchState { seed, generation, counts, mirrors, niches } = state;
+        let record = |elites: Vec<Elite>| elites.into_iter().map(EliteRecord::of).collect();
+        let niches = niches.into_iter().map(|(key, elites)| (key, record(elites))).collect();
+        Self { seed, generation, counts, mirrors, niches }
+    }
+
+    /// The state of a search by that declaration.
+    ///
+    /// # Errors
+    /// Says which niche or body cannot be of it.
+    pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, String> {
+        let Self { seed, generation, counts, mirrors, niches } = self;
+        let niche = |(key, elites): (NicheKey, Vec<EliteRecord>)| {
+            if !declared.axes.is_empty() && !is_niche(&key, &declared.axes) {
+                return Err(format!("the archive has no niche {:?}", key.0));
+            }
+            let elites = elites.into_iter().map(|elite| elite.into_elite(&declared.palette));
+            Ok((key, elites.collect::<Result<Vec<_>, _>>()?))
+        };
+        let niches = niches.into_iter().map(niche).collect::<Result<_, String>>()?;
+        Ok(SearchState { seed, generation, counts, mirrors, niches })
+    }
+}
+
+/// Whether a key has a bin on each axis.
+fn is_niche(key: &NicheKey, axes: &[Axis]) -> bool {
+    let bins = |axis: &Axis| if let Axis::Count { bins, .. } = *axis { bins } else { 16 };
+    key.0.len() == axes.len() && key.0.iter().zip(axes).all(|(&bin, axis)| usize::from(bin) < bins(axis))
+}
+
+impl EliteRecord {
+    fn of(elite: Elite) -> Self {
+        let Elite { fitness, behavior, displacement, body, genotype, generation, evaluations } = elite;
+        Self { fitness, behavior, displacement, body: body.rows(), genotype, generation, evaluations }
+    }
+
+    fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, String> {
+        let Self { fitness, behavior, displacement, body, genotype, generation, evaluations } = self;
+        let body = Body::parse(&body, palette).map_err(|error| format!("an elite has no body: {error}"))?;
+        Ok(Elite { fitness, behavior, displacement, body, genotype, generation, evaluations })
+    }
+}
