@@ -3,8 +3,7 @@
 use std::num::IntErrorKind;
 
 use crate::check::constant;
-use crate::check::expression::counted;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, counted};
 use crate::model::Column;
 use crate::syntax::tree::Name;
 
@@ -25,6 +24,7 @@ pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
     match word.text.as_str() {
         "-" => return Ok(Cell::Bits(vec![None; column.width])),
         "^" if column.width == 1 => return Ok(Cell::Pulse),
+        "^" => return Err(wide_pulse(word, column)),
         _ => {}
     }
     let bits = match word.text.split_once('\'') {
@@ -36,6 +36,12 @@ pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
     } else {
         Err(wrong_width(word, &counted(bits.len(), "bit"), column))
     }
+}
+
+fn wide_pulse(word: &Name, column: &Column) -> Diagnostic {
+    let message = format!("`^` pulses one bit, and `{}` has {}", column.name, column.width);
+    Diagnostic::new(Code::Value, message, word.span, "expected a value of all bits")
+        .with_help(format!("write a number with its width, as in `{}'d0`", column.width))
 }
 
 fn wrong_width(word: &Name, found: &str, column: &Column) -> Diagnostic {

@@ -220,7 +220,11 @@ impl<'a> CircuitChecker<'a> {
 
     fn drive(&mut self, targets: &'a [tree::Target], value: tree::ExpressionId) -> Option<Statement> {
         let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
+        let span = self.body.expressions[value.0 as usize].span;
         let value = self.expression(value, targets.len());
+        if let Some(fault) = self.value_count(value, targets, span) {
+            self.diagnostics.push(fault);
+        }
         Some(Statement::Drive { targets: lowered.into_iter().collect::<Option<_>>()?, value })
     }
 
@@ -271,6 +275,8 @@ impl<'a> CircuitChecker<'a> {
 
     /// Nets that nothing drives, and nets that nothing listens to.
     fn loose_ends(&mut self) {
+        // While a name is unknown, nobody can say what it ought to have listened to.
+        let typo = self.diagnostics.iter().any(|fault| fault.code == Code::Unknown);
         for (slot, net) in self.circuit.nets.iter().enumerate() {
             if !self.driven[slot] {
                 let what = if slot < self.circuit.inputs + self.circuit.outputs { "output" } else { "net" };
@@ -278,7 +284,7 @@ impl<'a> CircuitChecker<'a> {
                 let help = format!("add a line `{} = …`", net.name);
                 self.diagnostics
                     .push(Diagnostic::new(Code::Undriven, message, net.span, "declared here").with_help(help));
-            } else if !self.used[slot] && self.home != Home::Prelude {
+            } else if !self.used[slot] && !typo && self.home != Home::Prelude {
                 let what = if slot < self.circuit.inputs { "input" } else { "net" };
                 let message = format!("nothing listens to the {what} `{}`", net.name);
                 let help = format!("take it out, or call it `_{}`", net.name);

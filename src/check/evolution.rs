@@ -1,16 +1,18 @@
 //! Evolution runs. A field that is left out is the paper's; `from` takes those of another run.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, suggest};
 use crate::model::{
-    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Objective, Palette, Program, Rules,
-    Schedule, Symmetry,
+    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Objective, Palette, Pattern, Program,
+    Rules, Schedule, Symmetry,
 };
-use crate::syntax::tree::{Number, RecordDeclaration, Value, ValueKind};
+use crate::source::Span;
+use crate::syntax::tree::{Name, Number, Quantity, RecordDeclaration, Value, ValueKind};
 
 /// The greatest width and height of a body's box, in voxels.
 const MAX_BOX: u32 = 64;
@@ -83,12 +85,12 @@ pub(crate) fn evolution(
         mutation: fields.read("mutation", base.mutation, mutation),
         variable: variable.unwrap_or(base.variable),
         fixed_steps: fields.read("fixed", base.fixed_steps, steps),
-        descriptors: fields.read("descriptors", base.descriptors, axes),
+        descriptors: fields.read_list("descriptors", axis).unwrap_or(base.descriptors),
         batch: fields.read("batch", base.batch as u32, |value| quantity::count(value, 1..=1_000_000)) as usize,
         newcomers: fields.read("newcomers", base.newcomers as u32, |value| quantity::count(value, 0..=1_000_000))
             as usize,
         generations: fields.read("generations", base.generations, |value| quantity::count(value, 1..=u32::MAX)),
-        seeds: fields.read("seed", base.seeds, seeds),
+        seeds: seeds(&mut fields).unwrap_or(base.seeds),
         rules: fields
             .read("as", base.rules, |value| fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])),
         objective: fields.read("objective", base.objective, objective),
@@ -171,7 +173,24 @@ fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>,
 fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {
     let name = fields::word(value, "the name of a schedule")?;
     let found: Option<&NamedSchedule> = known.program.schedules.get(known.schedules.resolve(name, home)?);
+    if let Some(fault) = found.and_then(|found| missing_patterns(found, name)) {
+        return Err(fault);
+    }
     Ok(found.map(|found| found.schedule.clone()).unwrap_or_default())
+}
+
+/// A behavior is what a body does under each of the four patterns of two stimuli.
+fn missing_patterns(schedule: &NamedSchedule, name: &Name) -> Option<Diagnostic> {
+    let shown = |pattern: &Pattern| {
+        schedule.schedule.spells.iter().any(|spell| spell.pattern.pair_index() == pattern.pair_index())
+    };
+    let missing: Vec<String> =
+        Pattern::PAIRS.iter().filter(|pattern| !shown(pattern)).map(Pattern::to_string).collect();
+    let first = missing.first()?;
+    let message = format!("the schedule `{}` never gives {}", name.text, suggest::alternatives(&missing, "or"));
+    let fault = Diagnostic::new(Code::Value, message, name.span, "a behavior is measured under all four patterns");
+    let cells: Vec<String> = first.chars().map(String::from).collect();
+    Some(fault.with_help(format!("add a row such as `{} for 10 cycles`", cells.join(" "))))
 }
 
 fn steps(value: &Value) -> Result<u32, Diagnostic> {
@@ -179,10 +198,6 @@ fn steps(value: &Value) -> Result<u32, Diagnostic> {
         ValueKind::Quantity(quantity) => quantity::steps(quantity),
         _ => Err(quantity::wrong_kind("a time such as `10 cycles`", value.span)),
     }
-}
-
-fn axes(value: &Value) -> Result<Vec<Axis>, Diagnostic> {
-    fields::list(value).iter().map(axis).collect()
 }
 
 fn axis(value: &Value) -> Result<Axis, Diagnostic> {
@@ -204,21 +219,33 @@ fn axis(value: &Value) -> Result<Axis, Diagnostic> {
 }
 
 /// A number, a list of numbers, or a range of them, both ends included.
-fn seeds(value: &Value) -> Result<Vec<u64>, Diagnostic> {
-    if let ValueKind::Range(first, last) = &value.kind {
-        let seed = |end| quantity::whole(quantity::bare(end)?, 0..=u32::MAX, end.span(), "");
-        let (first, last) = (seed(first)?, seed(last)?);
-        if first > last || last - first >= 10_000 {
-            return Err(Diagnostic::new(
-                Code::OutOfRange,
-                "a range of no or too many seeds",
-                value.span,
-                "expected 1 to 10000 seeds",
-            ));
-        }
-        return Ok((first..=last).map(u64::from).collect());
+fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
+    if let Some(Value { kind: ValueKind::Range(first, last), span }) = fields.value("seed") {
+        return fields.read("seed", None, |_| range_of_seeds(first, last, *span).map(Some));
     }
-    fields::list(value).iter().map(|seed| quantity::count(seed, 0..=u32::MAX).map(u64::from)).collect()
+    let mut known = BTreeMap::new();
+    fields.read_list("seed", |value| {
+        let seed = quantity::count(value, 0..=u32::MAX)?;
+        match known.insert(seed, value.span) {
+            None => Ok(u64::from(seed)),
+            Some(first) => {
+                let message = format!("the seed `{seed}` is listed twice");
+                let fault = Diagnostic::new(Code::Duplicate, message, value.span, "listed again here");
+                let fault = fault.with_label(first, "first listed here");
+                Err(fault.with_help("the same seed makes the same run, which would count twice"))
+            }
+        }
+    })
+}
+
+fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u64>, Diagnostic> {
+    let seed = |end| quantity::whole(quantity::bare(end)?, 0..=u32::MAX, Quantity::span(end), "");
+    let (first, last) = (seed(first)?, seed(last)?);
+    if first > last || last - first >= 10_000 {
+        let message = "a range of no or too many seeds";
+        return Err(Diagnostic::new(Code::OutOfRange, message, span, "expected 1 to 10000 seeds"));
+    }
+    Ok((first..=last).map(u64::from).collect())
 }
 
 fn objective(value: &Value) -> Result<Objective, Diagnostic> {

@@ -5,7 +5,7 @@ use std::num::IntErrorKind;
 use crate::check::circuit::CircuitChecker;
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
 use crate::source::Span;
 use crate::syntax::tree::{self, Infix};
@@ -40,20 +40,22 @@ impl<'a> CircuitChecker<'a> {
             let id = self.push(kind, expression.span);
             done.push(id);
         }
-        let id = done.pop().expect("an expression has a value");
-        self.value_count(id, outputs, body.expressions[root.0 as usize].span);
-        id
+        done.pop().expect("an expression has a value")
     }
 
     /// Several targets need a call of a circuit with as many outputs.
-    fn value_count(&mut self, id: ExpressionId, outputs: usize, span: Span) {
+    pub(crate) fn value_count(&self, id: ExpressionId, targets: &[tree::Target], span: Span) -> Option<Diagnostic> {
         let is_call = matches!(self.circuit.expressions[id.0 as usize].kind, ExpressionKind::Call { .. });
-        if outputs != 1 && !is_call {
-            let message = format!("one value for {outputs} nets");
-            let fault = Diagnostic::new(Code::Operands, message, span, "expected a call of a circuit");
-            self.diagnostics
-                .push(fault.with_help("drive each net in a line of its own, or bits of one net with `{a, b}`"));
+        if targets.len() == 1 || is_call {
+            return None;
         }
+        let message = format!("one value for {} nets", targets.len());
+        let bits = targets.iter().rev().enumerate().map(|(bit, target)| format!("`{} = t[{bit}]`", target.name.text));
+        let mut lines: Vec<_> = bits.filter(|line| !line.starts_with("`_ ")).collect();
+        lines.reverse();
+        lines.truncate(4);
+        let help = format!("give the value a name, `t = …`, and drive each net with a bit of it: {}", lines.join(", "));
+        Some(Diagnostic::new(Code::Operands, message, span, "expected a call of a circuit").with_help(help))
     }
 
     fn kind(
@@ -187,7 +189,11 @@ impl<'a> CircuitChecker<'a> {
         let circuit = match self.names.resolve(name, self.home) {
             Ok(circuit) => circuit,
             Err(fault) => {
-                self.diagnostics.push(fault);
+                let word = name.text.to_lowercase();
+                self.diagnostics.push(match Operator::parse(&word) {
+                    Some(_) => fault.with_help(format!("operators are written in lower case: `{word}(…)`")),
+                    None => fault,
+                });
                 return ExpressionKind::Bits(vec![false]);
             }
         };
@@ -248,11 +254,6 @@ pub(crate) fn parameter_place(
             Err(Diagnostic::new(Code::Operands, message, argument.span, "one too many"))
         }
     }
-}
-
-/// "1 operand", "2 operands".
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 fn operation(operator: Operator, operands: Vec<ExpressionId>) -> ExpressionKind {

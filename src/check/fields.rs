@@ -43,6 +43,22 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// A field that is a list of one entry at least, each read by `read`; every faulty entry is told.
+    pub(crate) fn read_list<T>(
+        &mut self,
+        field: &'static str,
+        read: impl FnMut(&'a Value) -> Result<T, Diagnostic>,
+    ) -> Option<Vec<T>> {
+        let value = self.value(field)?;
+        let (entries, faults): (Vec<_>, Vec<_>) = list(value).iter().map(read).partition(Result::is_ok);
+        self.faults.extend(faults.into_iter().filter_map(Result::err));
+        if list(value).is_empty() {
+            let message = format!("`{field}` is an empty list");
+            self.faults.push(Diagnostic::new(Code::OutOfRange, message, value.span, "expected one entry at least"));
+        }
+        Some(entries.into_iter().filter_map(Result::ok).collect())
+    }
+
     /// A field that must be there, read by `read`.
     pub(crate) fn need<T>(
         &mut self,

@@ -2,7 +2,7 @@
 
 use crate::check::names::Home;
 use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, Sources, Span, World};
+use crate::source::{FileError, FileId, Sources, Span, World};
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
 
@@ -14,6 +14,15 @@ pub const PRELUDE: [(&str, &str); 2] = [
 
 /// How deep files may use files.
 const MAX_DEPTH: usize = 64;
+
+/// The most files of a program.
+const MAX_FILES: usize = 256;
+
+/// The most bytes of all files of a program.
+const MAX_PROGRAM_BYTES: usize = 16 << 20;
+
+/// How the names of programs end: text of other files is never shown.
+const ENDING: &str = ".nb";
 
 /// The trees of a program, the prelude's first, the checked file's last.
 pub(crate) struct Loaded {
@@ -87,20 +96,56 @@ impl Loader<'_> {
             let message = format!("files use files more than {MAX_DEPTH} deep");
             self.loaded.faults.push(Diagnostic::new(Code::Nesting, message, path.span, "when it came to this one"));
         } else if !self.done.contains(&identity) {
-            match self.world.read(&name) {
-                Ok(text) => {
-                    let id = sources.add(name, text);
-                    self.file(sources, id, Home::Used);
-                }
-                Err(error) => {
-                    self.done.push(identity);
-                    let fault = Diagnostic::unreadable(&name, &error).with_label(path.span, "used here");
-                    let help = "the path of a used file starts from the file that uses it";
-                    self.loaded.faults.push(fault.with_help(help));
+            self.read(sources, name, identity, path.span);
+        }
+    }
+
+    /// Reads and parses a file that is used for the first time.
+    fn read(&mut self, sources: &mut Sources, name: String, identity: String, place: Span) {
+        let text = if [&name, &identity].iter().all(|path| path.ends_with(ENDING)) {
+            self.world.read(&name).map_err(|error| unreadable(&name, &error, place))
+        } else {
+            Err(no_program(&name, place))
+        };
+        let text = text.and_then(|text| within_limits(sources, &text, place).map_or(Ok(text), Err));
+        match text {
+            Ok(text) => {
+                let id = sources.add(name, text);
+                self.file(sources, id, Home::Used);
+            }
+            Err(fault) => {
+                self.done.push(identity);
+                // Behind the first file too many there may be thousands more.
+                if !self.loaded.faults.iter().any(|known| known.message == fault.message) {
+                    self.loaded.faults.push(fault);
                 }
             }
         }
     }
+}
+
+/// What is wrong with taking in one more file.
+fn within_limits(sources: &Sources, text: &str, place: Span) -> Option<Diagnostic> {
+    let bytes = sources.iter().map(|file| file.text.len()).sum::<usize>() + text.len();
+    let message = if sources.iter().count() - PRELUDE.len() >= MAX_FILES {
+        format!("a program of more than {MAX_FILES} files")
+    } else if bytes > MAX_PROGRAM_BYTES {
+        format!("a program of more than {} MB", MAX_PROGRAM_BYTES >> 20)
+    } else {
+        return None;
+    };
+    Some(Diagnostic::new(Code::TooLarge, message, place, "this file is one too many"))
+}
+
+fn unreadable(name: &str, error: &FileError, place: Span) -> Diagnostic {
+    let fault = Diagnostic::unreadable(name, error).with_label(place, "used here");
+    fault.with_help("the path of a used file starts from the file that uses it")
+}
+
+fn no_program(name: &str, place: Span) -> Diagnostic {
+    let message = format!("cannot use `{name}`: it is not a program");
+    Diagnostic::new(Code::Unreadable, message, place, "used here")
+        .with_help(format!("the names of programs, and of what links lead to, end in `{ENDING}`"))
 }
 
 fn empty(sources: &Sources, id: FileId) -> Diagnostic {
@@ -117,7 +162,7 @@ fn circular(open: &[(String, String)], span: Span) -> Diagnostic {
 }
 
 /// A path beside a file: relative to the folder that the file is in.
-fn beside(file: &str, path: &str) -> String {
+pub(crate) fn beside(file: &str, path: &str) -> String {
     match file.rfind(['/', '\\']) {
         Some(end) if !path.starts_with('/') => normal(&format!("{}/{path}", &file[..end])),
         _ => normal(path),

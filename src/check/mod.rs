@@ -51,6 +51,7 @@ pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked 
     let loaded = load::load(world, sources, file);
     let (program, mut diagnostics) = program::program(&loaded.trees);
     forget_consequences(&mut diagnostics, sources, &loaded);
+    diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();

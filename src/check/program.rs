@@ -266,7 +266,7 @@ impl<'a> Assembly<'a> {
             inspector.inspect(CircuitId(at as u32));
         }
         for swarm in &program.swarms {
-            self.ports(&swarm.circuit, &mut inspector);
+            self.ports(&swarm.circuit, swarm.span, &mut inspector);
         }
         let simulations = self.simulations(&program, &mut inspector);
         let mut tests = Vec::new();
@@ -291,9 +291,14 @@ impl<'a> Assembly<'a> {
     }
 
     /// The ports of an instance, if its circuit and all it is made of are sound.
-    fn ports(&self, instance: &Instance, inspector: &mut Inspector<'_>) -> Option<(Vec<Column>, Vec<Column>)> {
+    fn ports(
+        &self,
+        instance: &Instance,
+        place: Span,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<(Vec<Column>, Vec<Column>)> {
         let circuit = *self.places.get(&instance.circuit)?;
-        if self.sound[circuit.0 as usize] { inspector.ports(circuit, &instance.arguments) } else { None }
+        if self.sound[circuit.0 as usize] { inspector.ports(circuit, &instance.arguments, place) } else { None }
     }
 
     fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
@@ -308,7 +313,7 @@ impl<'a> Assembly<'a> {
                 }
             };
             let Some(swarm) = swarm else { continue };
-            let Some((inputs, _)) = self.ports(&swarm.circuit, inspector) else { continue };
+            let Some((inputs, _)) = self.ports(&swarm.circuit, source.swarm.span, inspector) else { continue };
             let spells =
                 simulate::spells(&source.with, &inputs, home, &self.schedules, &program.schedules, &mut self.faults);
             simulations.push(Simulation { swarm: swarm.name.clone(), span: source.swarm.span, spells });
@@ -325,7 +330,7 @@ impl<'a> Assembly<'a> {
         bodies: &mut Vec<crate::model::Circuit>,
     ) -> Option<CircuitTest> {
         let tested = self.instance(&source.circuit)?;
-        let (inputs, outputs) = self.ports(&tested, inspector)?;
+        let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
         let stimulation = match &source.kind {
             tree::TestKind::Table(table) => {
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
@@ -360,7 +365,7 @@ impl<'a> Assembly<'a> {
         ports: (&[Column], &[Column]),
     ) -> Option<Stimulation> {
         let reference = self.instance(other)?;
-        let (inputs, outputs) = self.ports(&reference, inspector)?;
+        let (inputs, outputs) = self.ports(&reference, other.name.span, inspector)?;
         let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
         if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
             let message = format!("`{}` and `{}` have different ports", tested.name.text, other.name.text);

@@ -1,9 +1,8 @@
 //! Schedules of stimuli, and rows of bits in general.
 
-use crate::check::expression::counted;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{NamedSchedule, Pattern, Schedule, Spell};
 use crate::source::Span;
 use crate::syntax::tree;

@@ -136,7 +136,7 @@ impl Columns<'_> {
                 row.bars[0],
                 "here",
             );
-            fault.with_help(format!("{} before it", crate::check::expression::counted(self.inputs.len(), "value")))
+            fault.with_help(format!("{} before it", crate::diag::counted(self.inputs.len(), "value")))
         })
     }
 }

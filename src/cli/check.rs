@@ -4,7 +4,7 @@ use clap::Args;
 
 use crate::check;
 use crate::cli::{Context, Failure, Format, Status};
-use crate::diag::{Diagnostic, json, render};
+use crate::diag::{Diagnostic, json};
 use crate::source::Sources;
 use crate::store::DiskWorld;
 
@@ -38,7 +38,7 @@ impl Arguments {
         let status = if all.iter().any(Diagnostic::is_error) { Status::BadInput } else { Status::Done };
         match context.format {
             Format::Json => context.print_json(&serde_json::json!({ "diagnostics": json(&all, &sources) }))?,
-            Format::Text => context.log(&render::text(&all, &sources, context.color)),
+            Format::Text => context.tell(&all, &sources),
         }
         Ok(status)
     }

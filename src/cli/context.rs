@@ -5,8 +5,11 @@ use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use serde_json::ser::Formatter;
 
 use crate::cli::Failure;
+use crate::diag::{Diagnostic, is_hidden, render, visible};
+use crate::source::Sources;
 
 /// Who reads the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -72,7 +75,7 @@ impl Context {
     /// # Errors
     /// When the output cannot be written; a closed pipe then ends the program quietly.
     pub fn print(&mut self, text: impl fmt::Display) -> Result<(), Failure> {
-        Ok(write!(self.out, "{text}")?)
+        Ok(self.out.write_all(visible(&text.to_string()).as_bytes())?)
     }
 
     /// Prints a value as one line of JSON.
@@ -80,7 +83,8 @@ impl Context {
     /// # Errors
     /// As [`Context::print`].
     pub fn print_json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
-        serde_json::to_writer(&mut self.out, value).map_err(io::Error::from)?;
+        let mut writer = serde_json::Serializer::with_formatter(&mut self.out, Visible);
+        value.serialize(&mut writer).map_err(io::Error::from)?;
         Ok(writeln!(self.out)?)
     }
 
@@ -94,6 +98,27 @@ impl Context {
 
     /// Writes a message to standard error; where that is closed, nobody wants it.
     pub fn log(&self, text: &str) {
-        let _ = io::stderr().write_all(text.as_bytes());
+        let _ = io::stderr().write_all(visible(text).as_bytes());
+    }
+
+    /// Writes diagnostics to standard error, with their excerpts of the sources.
+    pub fn tell(&self, diagnostics: &[Diagnostic], sources: &Sources) {
+        // What is of the user is made visible there; colors are ours.
+        let _ = io::stderr().write_all(render::text(diagnostics, sources, self.color).as_bytes());
+    }
+}
+
+/// JSON without characters that steer a terminal.
+struct Visible;
+
+impl Formatter for Visible {
+    fn write_string_fragment<W: ?Sized + Write>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()> {
+        let mut rest = fragment;
+        while let Some((at, hidden)) = rest.char_indices().find(|(_, c)| is_hidden(*c)) {
+            // All of them lie below U+10000, so that one unit of UTF-16 names each.
+            write!(writer, "{}\\u{:04x}", &rest[..at], u32::from(hidden))?;
+            rest = &rest[at + hidden.len_utf8()..];
+        }
+        writer.write_all(rest.as_bytes())
     }
 }

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::{Context, Format, Status};
-use crate::diag::{Code, Diagnostic, io_words, render};
+use crate::diag::{Code, Diagnostic, io_words};
 use crate::source::Sources;
 
 /// Why a command could not be carried out.
@@ -47,14 +47,14 @@ impl Failure {
                         .print_json(&serde_json::json!({ "diagnostics": diagnostics }))
                         .and_then(|()| context.flush());
                 }
-                context.log(&render::text(&diagnostics, &sources, context.color));
+                context.tell(&diagnostics, &sources);
                 Status::BadInput
             }
             Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Done,
             Self::Output(error) => {
                 let message = format!("cannot write the output: {}", io_words(&error));
                 let diagnostic = Diagnostic::without_place(Code::Unwritable, message);
-                context.log(&render::text(&[diagnostic], &Sources::default(), context.color));
+                context.tell(&[diagnostic], &Sources::default());
                 Status::BadInput
             }
         }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::cli::timings::{self, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
-use crate::diag::{Code, Diagnostic, render};
+use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitTest, Robot};
 use crate::pipeline::{self, Compiled, Loaded, Options, TestRun};
 use crate::report::{self, PageTest, Recording, Room, RunResult, Scheme, Stage, Svg, SwarmTiming, TestResult};
@@ -74,7 +74,7 @@ impl Arguments {
                 Err(faults) => return Err(Failure::input(faults, sources)),
             }
         }
-        context.log(&render::text(&warnings, &sources, context.color));
+        context.tell(&warnings, &sources);
         let status = timings::time(timings::Stage::Output, || self.report(&runs, &folder, context))?;
         self.timings.tell(started, context);
         Ok(status)

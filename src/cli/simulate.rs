@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Status, library, schedule};
-use crate::diag::{Code, Diagnostic, render};
+use crate::diag::{Code, Diagnostic};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Table};
 use crate::sim;
@@ -59,7 +59,7 @@ impl Arguments {
         check_place(&setting, &body).map_err(Failure::plain)?;
         let trajectory = sim::run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
-        context.log(&render::text(&warnings, &Sources::default(), context.color));
+        context.tell(&warnings, &Sources::default());
         match context.format {
             Format::Json => context.print_json(&Outcome::of(&schedule, &trajectory))?,
             Format::Text => context.print(describe(&schedule, &trajectory))?,

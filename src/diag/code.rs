@@ -68,7 +68,7 @@ codes! {
     Syntax = "syntax", Error: "The text does not follow the grammar.";
     TableIncomplete = "table-incomplete", Error: "A truth table that leaves a pattern out.";
     TableOverlap = "table-overlap", Error: "A truth table with two rows for one pattern.";
-    TooLarge = "too-large", Error: "A circuit with more cells than can be built.";
+    TooLarge = "too-large", Error: "A circuit with more cells than can be built, or a program with more text than is read.";
     Undriven = "undriven", Error: "A net that nothing drives.";
     Unit = "unit", Error: "A quantity with a wrong unit, or without the unit it needs.";
     Unknown = "unknown", Error: "A name that nothing declares.";

@@ -7,9 +7,11 @@ mod file;
 mod json;
 pub mod render;
 pub mod suggest;
+mod visible;
 
 pub use code::Code;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
 pub use file::io_words;
 pub use json::json;
+pub use visible::{is_hidden, visible};

@@ -1,5 +1,7 @@
 //! Diagnostics as text for people, through miette; JSON reads [`Diagnostic`] itself.
 
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use miette::{
@@ -7,6 +9,7 @@ use miette::{
     SpanContents,
 };
 
+use super::visible::{visible, visible_in_place};
 use super::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceFile, Sources};
 
@@ -19,22 +22,32 @@ const MOST_CHARACTERS: usize = 600;
 /// A message as it is shown.
 fn clipped(text: &str) -> String {
     match text.char_indices().nth(MOST_CHARACTERS) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
+        Some((end, _)) => format!("{}…", visible(&text[..end])),
+        None => visible(text).into_owned(),
     }
+}
+
+/// The texts that diagnostics point into, as they are shown.
+type Shown<'a> = BTreeMap<FileId, Cow<'a, str>>;
+
+fn shown<'a>(diagnostics: &[Diagnostic], sources: &'a Sources) -> Shown<'a> {
+    let labels = diagnostics.iter().take(MOST_SHOWN).flat_map(|told| told.labels.iter().chain(&told.related));
+    let files: BTreeSet<FileId> = labels.map(|label| label.span.file).collect();
+    files.into_iter().map(|file| (file, visible_in_place(&sources.file(file).text))).collect()
 }
 
 /// Diagnostics as text, in their order, each with its excerpt of the source; of very many the first ones, and how many follow.
 pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
+    let texts = shown(diagnostics, sources);
     let shown: String = diagnostics
         .iter()
         .take(MOST_SHOWN)
         .map(|diagnostic| {
             let mut text = String::new();
             handler
-                .render_report(&mut text, &Report::new(diagnostic, sources))
+                .render_report(&mut text, &Report::new(diagnostic, sources, &texts))
                 .expect("text can be written to a string");
             text + "\n"
         })
@@ -56,7 +69,7 @@ struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    fn new(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Self {
+    fn new(diagnostic: &'a Diagnostic, sources: &'a Sources, texts: &'a Shown<'_>) -> Self {
         let file = diagnostic.labels.first().map(|label| label.span.file);
         let (here, elsewhere): (Vec<_>, Vec<_>) =
             diagnostic.labels.iter().chain(&diagnostic.related).partition(|label| Some(label.span.file) == file);
@@ -64,13 +77,13 @@ impl<'a> Report<'a> {
             heading: Some(diagnostic),
             message: clipped(&diagnostic.message),
             labels: here,
-            excerpt: file.map(|file| Excerpt::new(sources, file)),
-            related: elsewhere.into_iter().map(|label| Self::elsewhere(label, sources)).collect(),
+            excerpt: file.map(|file| Excerpt::new(sources, texts, file)),
+            related: elsewhere.into_iter().map(|label| Self::elsewhere(label, sources, texts)).collect(),
         }
     }
 
-    fn elsewhere(label: &'a Label, sources: &'a Sources) -> Self {
-        let excerpt = Some(Excerpt::new(sources, label.span.file));
+    fn elsewhere(label: &'a Label, sources: &'a Sources, texts: &'a Shown<'_>) -> Self {
+        let excerpt = Some(Excerpt::new(sources, texts, label.span.file));
         Self { heading: None, message: clipped(&label.text), labels: vec![label], excerpt, related: Vec::new() }
     }
 }
@@ -121,25 +134,29 @@ impl miette::Diagnostic for Report<'_> {
 
 /// A source file of which only the surroundings of a span are shown, even where one line is megabytes long.
 #[derive(Debug)]
-struct Excerpt<'a>(&'a SourceFile);
+struct Excerpt<'a> {
+    file: &'a SourceFile,
+    /// The file's text as it is shown.
+    text: &'a str,
+}
 
 /// The most bytes of one line shown on either side of a span.
 const MARGIN: usize = 60;
 
 impl<'a> Excerpt<'a> {
-    fn new(sources: &'a Sources, file: FileId) -> Self {
-        Self(sources.file(file))
+    fn new(sources: &'a Sources, texts: &'a Shown<'_>, file: FileId) -> Self {
+        Self { file: sources.file(file), text: &texts[&file] }
     }
 
     /// The nearest offset with a character to point at: the end of a text has none.
     fn visible(&self, offset: usize) -> usize {
-        let text = &self.0.text;
+        let text = self.text;
         text.floor_char_boundary(offset.min(text.len().saturating_sub(1)))
     }
 
     /// The bytes shown for a span: whole lines with their neighbors where they are short, else the nearest part of the line.
     fn range(&self, span: &SourceSpan, before: usize, after: usize) -> std::ops::Range<usize> {
-        let text = &self.0.text;
+        let text = self.text;
         let start = span.offset().min(text.len());
         let end = (start + span.len()).min(text.len());
         let from = nth_line_start(text, start, before);
@@ -176,11 +193,11 @@ impl SourceCode for Excerpt<'_> {
     ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
         let range = self.range(span, before, after);
         // Without context lines miette asks for the place of the span itself.
-        let place = self.0.line_column(if before == 0 { span.offset() } else { range.start });
-        let data = if self.0.text.is_empty() { b" " } else { &self.0.text.as_bytes()[range.clone()] };
-        let lines = self.0.text[range.clone()].lines().count();
+        let place = self.file.line_column(if before == 0 { span.offset() } else { range.start });
+        let data = if self.text.is_empty() { b" " } else { &self.text.as_bytes()[range.clone()] };
+        let lines = self.text[range.clone()].lines().count();
         let shown = SourceSpan::new(range.start.into(), data.len());
-        let name = self.0.name.clone();
+        let name = visible(&self.file.name).into_owned();
         Ok(Box::new(MietteSpanContents::new_named(name, data, shown, place.line - 1, place.column - 1, lines)))
     }
 }

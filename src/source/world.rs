@@ -28,6 +28,9 @@ pub trait World {
     /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
+    /// The names of what is in a folder, in order.
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
+
     /// The one name of the file at `path`, however many paths and links lead to it.
     fn identity(&self, path: &str) -> String {
         path.to_owned()
@@ -50,5 +53,11 @@ impl MemoryWorld {
 impl World for MemoryWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
         self.files.get(path).cloned().ok_or(FileError::NotFound)
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        let inside = |path: &String| Some(path.strip_prefix(folder)?.strip_prefix('/')?.to_owned());
+        let names: Vec<_> = self.files.keys().filter_map(inside).collect();
+        if names.is_empty() { Err(FileError::NotFound) } else { Ok(names) }
     }
 }

@@ -17,14 +17,17 @@ pub const MAX_PROGRESS_BYTES: u64 = 256 << 20;
 /// The largest circuit file (BLIF, AIGER, .bench, Verilog), in bytes.
 pub const MAX_CIRCUIT_BYTES: u64 = 256 << 20;
 
+/// The name of standard input where it is a file.
+const STANDARD_INPUT: &str = "/dev/stdin";
+
 /// The bytes of a regular file with at most `limit` bytes. Folders, pipes and devices are refused before they are opened, since a
-/// pipe waits for its writer and a device may never end.
+/// pipe waits for its writer and a device may never end. Standard input by its name is what the user puts there.
 ///
 /// # Errors
 /// When there is no such file, or it is not a regular one, too large, or the system refuses.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let about = fs::metadata(path).map_err(|error| refusal(&error))?;
-    if !about.is_file() {
+    if !about.is_file() && path != Path::new(STANDARD_INPUT) {
         return Err(FileError::NotRegular(kind(about.file_type())));
     }
     if about.len() > limit {
@@ -78,6 +81,17 @@ pub struct DiskWorld;
 impl World for DiskWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
         read_text(Path::new(path), MAX_SOURCE_BYTES)
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        if Path::new(folder).is_file() {
+            return Err(FileError::Io("it is not a folder".to_owned()));
+        }
+        let entries = fs::read_dir(folder).and_then(|entries| entries.collect::<Result<Vec<_>, _>>());
+        let entries = entries.map_err(|error| refusal(&error))?;
+        let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        Ok(names)
     }
 
     fn identity(&self, path: &str) -> String {

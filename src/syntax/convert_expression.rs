@@ -35,13 +35,18 @@ impl Waiting {
 impl Converter<'_> {
     pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
         let mut stacks = Stacks::default();
-        for part in parts(pair) {
+        let mut parts = parts(pair).peekable();
+        while let Some(part) = parts.next() {
             let span = self.span(&part);
             match part.as_rule() {
-                Rule::prefix => stacks.waiting.push(Waiting::Not(span)),
+                Rule::prefix => {
+                    self.slip_prefix(&part, span, &stacks);
+                    stacks.waiting.push(Waiting::Not(span));
+                }
                 Rule::operator | Rule::sum | Rule::comparison | Rule::slip_infix => {
                     let infix = self.infix(&part);
-                    self.push_infix(infix, span, &mut stacks, arena);
+                    let next = parts.peek().map_or("…", |next| next.as_str());
+                    self.push_infix((infix, span), next, &mut stacks, arena);
                 }
                 _ => {
                     let value = self.operand(part, arena);
@@ -55,13 +60,29 @@ impl Converter<'_> {
         stacks.values.pop().expect("an expression has an operand")
     }
 
-    fn push_infix(&mut self, infix: Infix, place: Span, stacks: &mut Stacks, arena: &mut Arena) {
+    /// `~` and `!` are told once for each run of them.
+    fn slip_prefix(&mut self, prefix: &Pair<Rule>, span: Span, stacks: &Stacks) {
+        let sign = prefix.as_str();
+        let follows = matches!(stacks.waiting.last(), Some(Waiting::Not(before)) if before.end - before.start == 1);
+        if sign != "not" && !follows {
+            self.syntax(format!("unexpected `{sign}`"), span, "expected `not`", "write `not`");
+        }
+    }
+
+    /// Takes an operator in; `next` is what stands behind it.
+    fn push_infix(&mut self, (infix, place): (Infix, Span), next: &str, stacks: &mut Stacks, arena: &mut Arena) {
         while let Some(&top) = stacks.waiting.last().filter(|top| top.precedence() >= infix.precedence()) {
             if let Waiting::Infix(before, before_place) = top
                 && before.precedence() == infix.precedence()
                 && !infix.chains_after(before)
             {
-                self.errors.push(ambiguous(before, before_place, infix, place));
+                let [.., left, middle] = stacks.values[..] else { unreachable!("an operator has two operands") };
+                let [left, middle] = [left, middle].map(|value| brief(&self.text[arena.span(value).range()]));
+                let readings = [
+                    format!("({left} {} {middle}) {} {}", before.word(), infix.word(), brief(next)),
+                    format!("{left} {} ({middle} {} {})", before.word(), infix.word(), brief(next)),
+                ];
+                self.errors.push(ambiguous((before, before_place), (infix, place), &readings));
             }
             stacks.reduce(arena);
         }
@@ -97,22 +118,9 @@ impl Converter<'_> {
             Rule::group => ExpressionKind::Group(self.expression(parts(pair).next().expect("an expression"), arena)),
             Rule::concatenation => ExpressionKind::Concatenation(self.expressions(pair, arena)),
             Rule::repetition => self.repetition(pair, arena),
-            Rule::slip_value => return self.slip_value(pair, arena),
             rule => unreachable!("an operand is not {rule:?}"),
         };
         arena.expression(kind, span)
-    }
-
-    fn slip_value(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
-        let span = self.span(&pair);
-        let sign = &pair.as_str()[..1];
-        let place = Span::new(span.file, span.start as usize, span.start as usize + 1);
-        self.syntax(format!("unexpected `{sign}`"), place, "expected `not`", "write `not`");
-        let mut value = None;
-        for part in parts(pair).filter(|part| part.as_rule() != Rule::prefix) {
-            value = Some(self.operand(part, arena));
-        }
-        arena.expression(ExpressionKind::Not(value.expect("an operand")), span)
     }
 
     fn expressions(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ExpressionId> {
@@ -241,11 +249,15 @@ impl Stacks {
     }
 }
 
-fn ambiguous(before: Infix, before_place: Span, infix: Infix, place: Span) -> Diagnostic {
-    let (before, after) = (before.word(), infix.word());
-    let message = format!("`{before}` and `{after}` side by side may be read in two ways");
-    let help = format!("write `(a {before} b) {after} c` or `a {before} (b {after} c)`");
-    Diagnostic::new(Code::Ambiguous, message, place, "this one, or")
-        .with_label(before_place, "this one first?")
+fn ambiguous(before: (Infix, Span), after: (Infix, Span), readings: &[String; 2]) -> Diagnostic {
+    let message = format!("`{}` and `{}` side by side may be read in two ways", before.0.word(), after.0.word());
+    let help = format!("write `{}` or `{}`", readings[0], readings[1]);
+    Diagnostic::new(Code::Ambiguous, message, after.1, "or this one?")
+        .with_label(before.1, "is this one meant first,")
         .with_help(help)
+}
+
+/// An operand as it is shown in advice.
+fn brief(operand: &str) -> &str {
+    if operand.len() > 24 || operand.contains('\n') { "…" } else { operand.trim_end() }
 }

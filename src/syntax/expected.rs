@@ -5,6 +5,7 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 use crate::diag::{Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
+use crate::syntax::slips;
 use crate::syntax::split::{KEYWORDS, Piece};
 
 /// The diagnostic for a declaration that does not follow the grammar.
@@ -19,12 +20,18 @@ pub(crate) fn diagnostic(text: &str, file: FileId, piece: &Piece, error: &Error<
     if found.is_empty() {
         return unexpected_end(file, piece, error);
     }
+    if let Some(slip) = slips::look(text, file, &piece.range, at, found, error) {
+        return slip;
+    }
     if at == piece.range.start {
         return no_declaration(found, span);
     }
     if let ErrorVariant::CustomError { .. } = error.variant {
         return Diagnostic::new(Code::Nesting, "text is nested too deep", span, "here")
             .with_help("give inner parts names: `t = …`");
+    }
+    if found.starts_with(['\n', '\r']) {
+        return Diagnostic::new(Code::Syntax, "the line ends too early", span, expected(error));
     }
     Diagnostic::new(Code::Syntax, format!("unexpected `{found}`"), span, expected(error))
 }

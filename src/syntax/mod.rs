@@ -9,9 +9,10 @@ mod expected;
 mod format;
 mod grammar;
 mod parse;
+mod slips;
 mod split;
 pub mod tree;
 
 pub use format::format;
-pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, Parsed, parse};
+pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse};
 pub use split::KEYWORDS;

@@ -15,11 +15,11 @@ use crate::syntax::tree::{Declaration, Tree};
 /// The largest source text, in bytes.
 pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
 
-/// How deep brackets may nest.
-pub const MAX_NESTING: usize = 256;
+/// How deep brackets and choices may nest. Parser, checker and formatter need no more stack for it than any thread has.
+pub const MAX_NESTING: usize = 64;
 
-/// The stack that one level of nesting may take, in bytes, with room to spare.
-const STACK_PER_LEVEL: usize = 32 << 10;
+/// The most words and signs of one declaration, which bound what parsing it takes.
+pub const MAX_WORDS: usize = 2_000_000;
 
 /// What a text holds, and what is wrong with it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,28 +85,19 @@ fn parse_piece(
     if piece.depth > MAX_NESTING {
         return (None, vec![too_deep(file, piece)]);
     }
+    if piece.words > MAX_WORDS {
+        return (None, vec![too_long(file, piece)]);
+    }
     let source = &text[piece.range.clone()];
     let mut converter = Converter { file, text, comments, offset: piece.range.start, errors: Vec::new() };
-    let declaration = on_a_stack_for(piece.depth, || match NbParser::parse(Rule::declaration, source) {
+    let declaration = match NbParser::parse(Rule::declaration, source) {
         Ok(pairs) => converter.declaration(pairs),
         Err(error) => {
             converter.errors.push(expected::diagnostic(text, file, piece, &error));
             None
         }
-    });
+    };
     (declaration, converter.errors)
-}
-
-/// Runs `work` where brackets may nest `depth` deep: nearly always right here, else on a thread with a stack to match.
-fn on_a_stack_for<T: Send>(depth: usize, work: impl FnOnce() -> T + Send) -> T {
-    const HERE: usize = 24;
-    if depth <= HERE {
-        return work();
-    }
-    std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size((depth + HERE) * STACK_PER_LEVEL).spawn_scoped(scope, work);
-        thread.expect("a thread can be started").join().expect("parsing does not panic")
-    })
 }
 
 fn too_deep(file: FileId, piece: &Piece) -> Diagnostic {
@@ -114,4 +105,11 @@ fn too_deep(file: FileId, piece: &Piece) -> Diagnostic {
     let message = format!("brackets nest {} deep", piece.depth);
     Diagnostic::new(Code::Nesting, message, span, format!("in this declaration; at most {MAX_NESTING} is allowed"))
         .with_help("give inner parts names: `t = …`")
+}
+
+fn too_long(file: FileId, piece: &Piece) -> Diagnostic {
+    let span = Span::new(file, piece.range.start, piece.range.start + 1);
+    let message = format!("a declaration of {} words and signs", piece.words);
+    Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {MAX_WORDS}"))
+        .with_help("split it into several, or say with `for` and circuits what repeats")
 }

@@ -27,8 +27,10 @@ pub struct Piece {
     pub unclosed: Vec<usize>,
     /// The first bracket that closes nothing.
     pub unopened: Option<usize>,
-    /// How deep brackets and prefixes nest at most.
+    /// How deep brackets and choices nest at most.
     pub depth: usize,
+    /// How many words and signs there are.
+    pub words: usize,
 }
 
 /// Cuts a text into declarations.
@@ -105,9 +107,10 @@ impl Splitter<'_> {
     }
 
     fn extend(&mut self, start: usize, end: usize) {
-        let piece =
-            self.piece.get_or_insert(Piece { range: start..end, unclosed: Vec::new(), unopened: None, depth: 0 });
+        let empty = || Piece { range: start..end, unclosed: Vec::new(), unopened: None, depth: 0, words: 0 };
+        let piece = self.piece.get_or_insert_with(empty);
         piece.range.end = end;
+        piece.words += 1;
     }
 
     fn bracket(&mut self, at: usize, first: char) {

@@ -16,12 +16,16 @@ const GENERATIONS: u32 = 4;
 const DECLARATIONS: &str = "
 schedule short(s1, s2) {
     0 0 for 1 cycles
+    0 1 for 1 cycles
+    1 0 for 1 cycles
     1 1 for 1 cycles
 }
 
 schedule other(s1, s2) {
     0 1 for 60 steps
     1 0 for 70 steps
+    0 0 for 50 steps
+    1 1 for 40 steps
 }
 
 evolution base {
@@ -81,7 +85,7 @@ fn changes() -> Vec<Change> {
         ),
         ("variable: other", |run| {
             let spell = |pattern: usize, steps| Spell { pattern: nbc::model::Pattern::PAIRS[pattern], steps };
-            run.variable = Schedule { spells: vec![spell(1, 60), spell(2, 70)] };
+            run.variable = Schedule { spells: vec![spell(1, 60), spell(2, 70), spell(0, 50), spell(3, 40)] };
         }),
         ("fixed: 100 steps", |run| run.fixed_steps = 100),
         ("descriptors: [active in 3 bins, behavior, sensory in 2 bins]", |run| {

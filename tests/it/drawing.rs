@@ -12,6 +12,8 @@ const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
 const RUN: &str = "
 schedule short(s1, s2) {
     0 0 for 1 cycles
+    0 1 for 1 cycles
+    1 0 for 1 cycles
     1 1 for 1 cycles
 }
 

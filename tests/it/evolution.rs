@@ -20,6 +20,8 @@ use crate::cli::Bench;
 const RUNS: &str = "
 schedule short(s1, s2) {
     0 0 for 1 cycles
+    0 1 for 1 cycles
+    1 0 for 1 cycles
     1 1 for 1 cycles
 }
 

@@ -37,7 +37,10 @@ fn nesting_is_bounded() {
 
 #[test]
 fn long_chains_are_no_nesting() {
-    let long = 10_000;
+    let long = 20_000;
+    for sign in ["~", "! ", "!not "] {
+        refused(circuit(&format!("q = {}a", sign.repeat(long))), Code::Syntax);
+    }
     assert_eq!(found(circuit(&format!("q = {}a", "not ".repeat(long)))), []);
     assert_eq!(found(circuit(&format!("q = a{}", " and a".repeat(long)))), []);
     let sum = format!("{}1", "0 + ".repeat(long));
@@ -46,7 +49,7 @@ fn long_chains_are_no_nesting() {
 
 #[test]
 fn nested_choices_are_parsed_or_refused() {
-    for depth in [10, 100] {
+    for depth in [10, 60] {
         let text = circuit(&format!("q = {}a{}", "if a then ".repeat(depth), " else a".repeat(depth)));
         assert_eq!(found(text), [], "{depth} deep");
     }
@@ -109,6 +112,67 @@ fn a_circle_of_many_files_is_refused() {
     assert!(diagnostics.iter().any(|diagnostic| diagnostic.code == Code::Nesting), "{diagnostics:?}");
 }
 
+/// What is found in `main.nb` of a world.
+fn found_in(world: &MemoryWorld) -> Vec<Diagnostic> {
+    let mut sources = Sources::default();
+    let file = check::open(world, "main.nb", &mut sources).unwrap();
+    check::check(world, &mut sources, file).diagnostics
+}
+
+#[test]
+fn programs_of_many_or_large_files_are_refused() {
+    let mut world = MemoryWorld::default();
+    let uses = |files: usize| (0..files).map(|at| format!("use \"{at}.nb\"\n")).collect::<String>();
+    for at in 0..300 {
+        world.insert(format!("{at}.nb"), "circuit f(a) -> (q) { q = a }".replace('f', &format!("f{at}")));
+    }
+    world.insert("main.nb", uses(255));
+    assert_eq!(found_in(&world), []);
+    world.insert("main.nb", uses(300));
+    let codes = |world: &MemoryWorld| found_in(world).iter().map(|fault| fault.code).collect::<Vec<_>>();
+    assert_eq!(codes(&world), [Code::TooLarge], "one message for all files that are too many");
+    for at in 0..3 {
+        world.insert(format!("{at}.nb"), "// a comment of some length\n".repeat(250_000));
+    }
+    world.insert("main.nb", uses(3));
+    assert_eq!(codes(&world), [Code::TooLarge]);
+}
+
+#[test]
+#[cfg(unix)]
+fn links_to_folders_do_not_multiply_files() {
+    let bench = Bench::new();
+    // Through links to its own folder each file has as many paths as one cares to write.
+    for link in ["x", "y"] {
+        std::os::unix::fs::symlink(".", bench.path().join(link)).unwrap();
+    }
+    for at in 0..40 {
+        let next = at + 1;
+        bench.file(&format!("{at}.nb"), format!("use \"x/{next}.nb\"\nuse \"y/{next}.nb\"\n"));
+    }
+    bench.file("40.nb", "circuit f(a) -> (q) { q = a }");
+    let ran = bench.run(&["check", "0.nb"]);
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
+}
+
+#[test]
+#[cfg(unix)]
+fn pipes_are_not_waited_for_and_other_files_not_shown() {
+    let bench = Bench::new();
+    assert!(std::process::Command::new("mkfifo").arg(bench.path().join("pipe.nb")).status().unwrap().success());
+    bench.run(&["check", "pipe.nb"]).expect_fault(&["it is a pipe, expected a regular file"]);
+    bench.file("user.nb", "use \"pipe.nb\"");
+    bench.run(&["check", "user.nb"]).expect_fault(&["it is a pipe, expected a regular file", "user.nb:1:5"]);
+    bench.file("shadow", "root:secret:1::::");
+    std::os::unix::fs::symlink("shadow", bench.path().join("link.nb")).unwrap();
+    for path in ["shadow", "link.nb"] {
+        bench.file("user.nb", format!("use \"{path}\""));
+        let ran = bench.run(&["check", "user.nb"]);
+        ran.expect_fault(&["it is not a program"]);
+        assert!(!ran.err.contains("secret"), "{}", ran.err);
+    }
+}
+
 /// The program refuses a file with this code, within a second of the processor and a gigabyte of address space.
 #[track_caller]
 fn refused_in_bounds(bench: &Bench, file: &str, code: Code) {
@@ -148,9 +212,11 @@ fn hostile_files_are_refused_within_a_second_and_a_gigabyte() {
     refused(&vec![b'\n'; 100_000_000], Code::Unreadable);
     refused("circuit f(a) -> (q) { q = a }\n".repeat(3_500_000).as_bytes(), Code::Unreadable);
     refused("(".repeat(8_000_000).as_bytes(), Code::Nesting);
-    refused("a ".repeat(4_000_000).as_bytes(), Code::Syntax);
-    refused("}\n".repeat(4_000_000).as_bytes(), Code::Syntax);
-    refused("\"".repeat(8_000_000).as_bytes(), Code::Syntax);
+    refused("a ".repeat(4_000_000).as_bytes(), Code::TooLarge);
+    refused("a ".repeat(900_000).as_bytes(), Code::Syntax);
+    refused("}\n".repeat(4_000_000).as_bytes(), Code::TooLarge);
+    refused("\"".repeat(8_000_000).as_bytes(), Code::TooLarge);
+    refused(circuit(&format!("q = {}1", "1+".repeat(4_000_000))).as_bytes(), Code::TooLarge);
     refused("// c\n".repeat(1_600_000).as_bytes(), Code::Empty);
     refused("circuit f {\n".repeat(20_000).as_bytes(), Code::Syntax);
     let numbered = |line: &dyn Fn(usize) -> String| (0..10_000).map(line).collect::<String>();
@@ -158,6 +224,10 @@ fn hostile_files_are_refused_within_a_second_and_a_gigabyte() {
     refused(circuit(&numbered(&|i| format!("n{i} = nope{i} and a\n"))).as_bytes(), Code::Unknown);
     refused(format!("test half_adder {{\n a b | s\n{}}}\n", " 0 - | 1\n".repeat(20_000)).as_bytes(), Code::Value);
     refused(format!("stimulus s{}", numbered(&|i| format!(", t{i}"))).as_bytes(), Code::OutOfRange);
+    let signs = bench.file("signs.nb", circuit(&format!("q = {}a", "~".repeat(20_000))));
+    for command in ["check", "fmt", "build", "test", "run", "evolve"] {
+        refused_by(&bench, &[command, signs.to_str().unwrap()], Code::Syntax);
+    }
     refused_in_bounds(&bench, "/dev/zero", Code::Unreadable);
     refused_in_bounds(&bench, ".", Code::Unreadable);
 }

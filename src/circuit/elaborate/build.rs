@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::circuit::elaborate::frame::{Frame, Item};
 use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
 use crate::circuit::elaborate::{MAX_CELLS, MAX_HIERARCHY, module_id, unknown};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Label};
 use crate::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use crate::source::Span;
 
@@ -51,20 +51,33 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// Shows what was found since then in another file than `place` is of at that place, where the circuit is used: what its
+    /// declaration asks for stands in a file that the user may not know.
+    pub(super) fn show_at(&mut self, place: Span, known: usize) {
+        for fault in &mut self.diagnostics[known..] {
+            if fault.labels.first().is_some_and(|label| label.span.file != place.file) {
+                let inside =
+                    std::mem::replace(&mut fault.labels, vec![Label { span: place, text: "used here".to_owned() }]);
+                fault.related.splice(0..0, inside);
+            }
+        }
+    }
+
     /// The module of a circuit that is named from outside.
     pub(super) fn instance(&mut self, instance: &Instance) -> Option<ModuleId> {
         let Some(at) = self.program.circuits.iter().position(|circuit| circuit.name == instance.circuit) else {
             self.fault(unknown(self.program, instance));
             return None;
         };
-        self.with_arguments(CircuitId(at as u32), &instance.arguments)
+        let circuit = CircuitId(at as u32);
+        self.with_arguments(circuit, &instance.arguments, self.circuit(circuit).span)
     }
 
-    /// The module of a circuit with numbers for its first parameters.
-    pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64]) -> Option<ModuleId> {
+    /// The module of a circuit with numbers for its first parameters; it is named at `place`.
+    pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<ModuleId> {
         let mut given: Vec<_> = arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
         given.resize(self.circuit(circuit).parameters.len(), None);
-        let arguments = self.arguments(circuit, given, &[], self.circuit(circuit).span)?;
+        let arguments = self.arguments(circuit, given, &[], place)?;
         self.build(circuit, arguments)
     }
 

@@ -1,6 +1,7 @@
 //! Expressions to gates, bit by bit; the lowest bit of a value comes first.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
+use crate::circuit::elaborate::fault::Operand;
 use crate::circuit::elaborate::module::{Bit, ModuleId, NONE, Signal, Site};
 use crate::circuit::elaborate::{fault, instance};
 use crate::diag::{Code, Diagnostic};
@@ -56,9 +57,9 @@ impl ModuleBuilder<'_, '_> {
             return;
         };
         if value.len() as u32 != count {
-            let target_span = target.span;
-            let fault = fault::width(&format!("the value of `{name}`"), count, value.len() as u32, span);
-            self.fault(fault.with_label(target_span, fault::bits(count.into())));
+            let found = Operand { span, ..self.operand(self.items[by as usize].value, value) };
+            let fault = fault::width(&format!("the value of `{name}`"), count, &found);
+            self.fault(fault.with_label(target.span, fault::bits(count.into())));
             return;
         }
         let first = self.module.nets[net].first + low;
@@ -224,9 +225,8 @@ impl ModuleBuilder<'_, '_> {
     ) -> Option<Vec<Bit>> {
         let width = values[0].len();
         if let Some(at) = values.iter().position(|value| value.len() != width) {
-            let first = (width as u32, self.span(operands[0]));
-            let second = (values[at].len() as u32, self.span(operands[at]));
-            self.fault(fault::operands(&format!("operands of `{operator}`"), first, second));
+            let [first, second] = [0, at].map(|at| self.operand(operands[at], &values[at]));
+            self.fault(fault::operands(&format!("operands of `{operator}`"), &first, &second));
             return None;
         }
         Some((0..width).map(|bit| self.operation_bit(operator, values.iter().map(|value| value[bit]), span)).collect())
@@ -256,14 +256,17 @@ impl ModuleBuilder<'_, '_> {
     fn choice(&mut self, parts: [ExpressionId; 3], values: Vec<Vec<Bit>>, span: Span) -> Option<Vec<Bit>> {
         let [condition, then, otherwise] = &values[..] else { unreachable!("a choice has three parts") };
         if condition.len() != 1 {
-            let fault = fault::width("the condition", 1, condition.len() as u32, self.span(parts[0]));
-            self.fault(fault.with_help("ask for all, any or a value: `all(a)`, `any(a)`, `a == 4'd3`"));
+            let found = self.operand(parts[0], condition);
+            let fault = fault::width("the condition", 1, &found);
+            let net = found.net.as_deref().unwrap_or("…");
+            let width = found.width;
+            let help = format!("ask for all, any or a value: `all({net})`, `any({net})`, `{net} == {width}'d3`");
+            self.fault(fault.with_help(help));
             return None;
         }
         if then.len() != otherwise.len() {
-            let first = (then.len() as u32, self.span(parts[1]));
-            let second = (otherwise.len() as u32, self.span(parts[2]));
-            self.fault(fault::operands("branches", first, second));
+            let (first, second) = (self.operand(parts[1], then), self.operand(parts[2], otherwise));
+            self.fault(fault::operands("branches", &first, &second));
             return None;
         }
         Some(
@@ -297,6 +300,15 @@ impl ModuleBuilder<'_, '_> {
         Some(outputs.into_iter().map(&mut output).collect())
     }
 
+    /// A value with the name that advice calls it by.
+    fn operand(&self, id: ExpressionId, value: &[Bit]) -> Operand {
+        let net = match self.circuit.expressions[id.0 as usize].kind {
+            ExpressionKind::Net(slot) => Some(self.circuit.nets[slot.0 as usize].name.clone()),
+            _ => None,
+        };
+        Operand { width: value.len() as u32, span: self.span(id), net }
+    }
+
     /// The module of a called circuit, if its parameters and the widths of the operands fit.
     fn callee(&mut self, call: &Call, values: &[Vec<Bit>]) -> Option<ModuleId> {
         let mut arguments = Vec::new();
@@ -307,15 +319,17 @@ impl ModuleBuilder<'_, '_> {
             });
         }
         let widths: Vec<_> = values.iter().map(|value| Some(value.len() as u32)).collect();
-        let arguments = self.builder.arguments(call.callee, arguments, &widths, call.span)?;
-        let id = self.builder.build(call.callee, arguments)?;
+        let known = self.builder.diagnostics.len();
+        let arguments = self.builder.arguments(call.callee, arguments, &widths, call.span);
+        let id = arguments.and_then(|arguments| self.builder.build(call.callee, arguments));
+        self.builder.show_at(call.span, known);
+        let id = id?;
         let inputs = self.builder.module(id).inputs.clone();
         for (port, (value, expected)) in values.iter().zip(inputs).enumerate() {
-            let found = value.len() as u32;
-            if found != expected {
-                let operand = self.span(call.operands[port]);
+            if value.len() as u32 != expected {
+                let found = self.operand(call.operands[port], value);
                 let circuit = self.builder.circuit(call.callee);
-                self.fault(instance::operand_fault(circuit, port, expected, found, operand));
+                self.fault(instance::operand_fault(circuit, port, expected, &found));
                 return None;
             }
         }

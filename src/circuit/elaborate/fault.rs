@@ -5,40 +5,59 @@ use crate::source::Span;
 
 /// "1 bit", "8 bits".
 pub(super) fn bits(width: u64) -> String {
-    format!("{width} bit{}", if width == 1 { "" } else { "s" })
+    crate::diag::counted(width as usize, "bit")
 }
 
-/// A width that ought to be another.
-pub(super) fn width(what: &str, expected: u32, found: u32, span: Span) -> Diagnostic {
-    let message = format!("{what} is {} wide, expected {}", bits(found.into()), bits(expected.into()));
-    let fault = Diagnostic::new(Code::Width, message, span, bits(found.into()));
-    match (expected, found) {
-        (_, 1) => fault.with_help(format!(
-            "repeat the bit with `{{{expected}{{a}}}}`, or put zeros before it with `{{{}'d0, a}}`",
-            expected - 1
-        )),
-        _ if found > expected => {
-            fault.with_help(format!("take some of its bits with `a[{}..0]`", expected.saturating_sub(1)))
+/// A value as advice speaks of it: a net's own name where it is one.
+#[derive(Clone, Debug)]
+pub(super) struct Operand {
+    pub(super) width: u32,
+    pub(super) span: Span,
+    pub(super) net: Option<String>,
+}
+
+impl Operand {
+    /// How it is made as wide as something else, which is wider.
+    fn widened(&self, to: u32) -> String {
+        let net = self.net.as_deref().unwrap_or("…");
+        let zeros = format!("`{{{}'d0, {net}}}`", to - self.width);
+        match self.width {
+            1 => format!("repeat the bit with `{{{to}{{{net}}}}}`, or put zeros before it with {zeros}"),
+            _ => format!("put zeros before it with {zeros}"),
         }
-        _ => fault.with_help(format!("put zeros before it with `{{{}'d0, a}}`", expected - found)),
+    }
+
+    /// How it is made as narrow as something else.
+    fn narrowed(&self, to: u32) -> String {
+        let bits = if to == 1 { "0".to_owned() } else { format!("{}..0", to.saturating_sub(1)) };
+        match &self.net {
+            Some(net) => format!("take some of its bits with `{net}[{bits}]`"),
+            None => format!("name the value, `t = …`, and take some of its bits with `t[{bits}]`"),
+        }
     }
 }
 
+/// A width that ought to be another.
+pub(super) fn width(what: &str, expected: u32, found: &Operand) -> Diagnostic {
+    let message = format!("{what} is {} wide, expected {}", bits(found.width.into()), bits(expected.into()));
+    let help = if found.width > expected { found.narrowed(expected) } else { found.widened(expected) };
+    Diagnostic::new(Code::Width, message, found.span, bits(found.width.into())).with_help(help)
+}
+
 /// Two operands that ought to be equally wide.
-pub(super) fn operands(what: &str, first: (u32, Span), second: (u32, Span)) -> Diagnostic {
-    let message = format!("{what} of {} and of {}", bits(first.0.into()), bits(second.0.into()));
-    let narrow = first.0.min(second.0);
-    let wide = first.0.max(second.0);
-    let help = match narrow {
-        1 => format!("repeat the bit: `{{{wide}{{a}}}}`"),
+pub(super) fn operands(what: &str, first: &Operand, second: &Operand) -> Diagnostic {
+    let message = format!("{what} of {} and of {}", bits(first.width.into()), bits(second.width.into()));
+    let (narrow, wide) = if first.width < second.width { (first, second) } else { (second, first) };
+    let help = match narrow.width {
+        1 => narrow.widened(wide.width),
         _ => format!(
-            "make them equally wide: `{{{}'d0, a}}` is wider by zeros, `a[{}..0]` narrower",
-            wide - narrow,
-            narrow.saturating_sub(1)
+            "{}, or {}",
+            narrow.widened(wide.width),
+            wide.narrowed(narrow.width).replace("its bits", "the other's bits")
         ),
     };
-    Diagnostic::new(Code::Width, message, second.1, bits(second.0.into()))
-        .with_label(first.1, bits(first.0.into()))
+    Diagnostic::new(Code::Width, message, second.span, bits(second.width.into()))
+        .with_label(first.span, bits(first.width.into()))
         .with_help(help)
 }
 

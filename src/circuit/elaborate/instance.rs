@@ -67,7 +67,7 @@ pub(super) fn output_widths(circuit: &Circuit, arguments: &[i64]) -> Option<Vec<
 }
 
 /// An operand that is not as wide as its port.
-pub(super) fn operand_fault(circuit: &Circuit, port: usize, expected: u32, found: u32, span: Span) -> Diagnostic {
+pub(super) fn operand_fault(circuit: &Circuit, port: usize, expected: u32, found: &fault::Operand) -> Diagnostic {
     let name = &circuit.nets[port].name;
-    fault::width(&format!("the operand `{name}` of `{}`", circuit.name), expected, found, span)
+    fault::width(&format!("the operand `{name}` of `{}`", circuit.name), expected, found)
 }

@@ -20,6 +20,7 @@ mod width;
 use crate::circuit::Netlist;
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitId, Column, Instance, Program};
+use crate::source::Span;
 
 use build::Builder;
 use module::ModuleId;
@@ -72,9 +73,12 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built.
-    pub fn ports(&mut self, circuit: CircuitId, arguments: &[u64]) -> Option<(Vec<Column>, Vec<Column>)> {
-        let module = self.0.with_arguments(circuit, arguments)?;
+    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built; it is named at `place`.
+    pub fn ports(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<(Vec<Column>, Vec<Column>)> {
+        let known = self.0.diagnostics.len();
+        let module = self.0.with_arguments(circuit, arguments, place);
+        self.0.show_at(place, known);
+        let module = module?;
         self.0.look_for_loops(module);
         Some(self.0.columns(module))
     }

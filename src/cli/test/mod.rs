@@ -11,7 +11,7 @@ use clap::Args;
 use crate::cli::test::case::{Case, Level};
 use crate::cli::test::outcome::Outcome;
 use crate::cli::{Context, Failure, Format, Progress, Status};
-use crate::diag::{Code, Diagnostic, render};
+use crate::diag::{Code, Diagnostic};
 use crate::pipeline::{self, Loaded};
 use crate::store::DiskWorld;
 
@@ -101,7 +101,7 @@ impl File {
 
     /// Tells what is legal in it and surely not meant.
     fn warn(&self, warnings: &[Diagnostic], context: &Context) {
-        context.log(&render::text(warnings, &self.loaded.sources, context.color));
+        context.tell(warnings, &self.loaded.sources);
     }
 }
 

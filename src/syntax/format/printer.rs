@@ -64,10 +64,8 @@ impl<'a> Printer<'a> {
     /// Prints an item that prints the comments after `head` itself.
     pub(super) fn item_with_inside(&mut self, span: Span, head: u32, print: impl FnOnce(&mut Self)) {
         // A comment right after the opening brace belongs to what is inside.
-        let head = self.source[..head as usize]
-            .rfind('{')
-            .filter(|&brace| brace as u32 >= span.start)
-            .map_or(head, |brace| if head == span.end { head } else { brace as u32 });
+        let brace = self.source[span.start as usize..head as usize].rfind('{').filter(|_| head != span.end);
+        let head = brace.map_or(head, |brace| span.start + brace as u32);
         self.comments_until(head);
         self.new_line(span.start);
         print(self);

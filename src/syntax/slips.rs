@@ -1,0 +1,407 @@
+//! Habits of other languages and common slips, told by what stands around the place where a declaration leaves the grammar.
+
+use pest::error::{Error, ErrorVariant};
+
+use crate::diag::{Code, Diagnostic, suggest};
+use crate::source::{FileId, Span};
+use crate::syntax::grammar::Rule;
+
+/// The words that are never names.
+pub(crate) const RESERVED: [&str; 16] = [
+    "and", "else", "for", "if", "in", "init", "log2", "nand", "net", "nor", "not", "or", "table", "then", "xnor", "xor",
+];
+
+/// What may stand between two operands of an expression.
+const BETWEEN: [&str; 8] = ["and", "else", "nand", "nor", "or", "then", "xnor", "xor"];
+
+/// Words that other languages write before a port.
+const KINDS: [&str; 8] = ["bit", "bool", "input", "int", "logic", "output", "reg", "wire"];
+
+/// A place where a declaration leaves the grammar.
+pub(crate) struct Place<'a> {
+    file: FileId,
+    /// The text of the file.
+    text: &'a str,
+    /// Where the declaration begins and ends.
+    start: usize,
+    end: usize,
+    /// Where the grammar gave up, and the word or sign that stands there.
+    at: usize,
+    found: &'a str,
+    /// What would have been right.
+    wanted: &'a [Rule],
+    /// The brackets that are open there, as offsets.
+    open: Vec<usize>,
+}
+
+/// In order: the first that recognizes the place words its message.
+const LOOKS: [fn(&Place<'_>) -> Option<Diagnostic>; 16] = [
+    block_comment,
+    letters,
+    unclosed_quote,
+    single_quote,
+    reserved_word,
+    colon_in_brackets,
+    question_mark,
+    width_before_name,
+    port_kind,
+    width_of_constant,
+    nets_in_braces,
+    space_before_operands,
+    misspelled_operator,
+    missing_operator,
+    blank_in_pattern,
+    missing_comma,
+];
+
+/// The message for a known slip.
+pub(crate) fn look(
+    text: &str,
+    file: FileId,
+    range: &std::ops::Range<usize>,
+    at: usize,
+    found: &str,
+    error: &Error<Rule>,
+) -> Option<Diagnostic> {
+    let ErrorVariant::ParsingError { positives, .. } = &error.variant else { return None };
+    let open = open_brackets(text, range.start, at);
+    let place = Place { file, text, start: range.start, end: range.end, at, found, wanted: positives, open };
+    LOOKS.iter().find_map(|look| look(&place))
+}
+
+/// The brackets that are open at `at`, without those in comments and texts.
+fn open_brackets(text: &str, start: usize, at: usize) -> Vec<usize> {
+    let mut open = Vec::new();
+    let mut here = start;
+    while here < at {
+        let rest = &text[here..at];
+        match rest.as_bytes()[0] {
+            b'/' if rest.starts_with("//") => here += rest.find(['\n', '\r']).unwrap_or(rest.len()),
+            b'"' => here += rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
+            b'(' | b'[' | b'{' => {
+                open.push(here);
+                here += 1;
+            }
+            b')' | b']' | b'}' => {
+                open.pop();
+                here += 1;
+            }
+            _ => here += 1 + rest[1..].bytes().take_while(|byte| (0x80..0xc0).contains(byte)).count(),
+        }
+    }
+    open
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// The word that a text ends with, and what stands before it.
+fn last_word(text: &str) -> (&str, &str) {
+    text.split_at(text.trim_end_matches(is_word).len())
+}
+
+/// Text as it is shown in advice.
+fn brief(text: &str) -> &str {
+    let text = text.trim();
+    if text.is_empty() || text.len() > 40 || text.contains(['\n', '\r']) { "…" } else { text }
+}
+
+impl<'a> Place<'a> {
+    fn before(&self) -> &'a str {
+        &self.text[self.start..self.at]
+    }
+
+    fn after(&self) -> &'a str {
+        &self.text[self.at..self.end]
+    }
+
+    fn span(&self, start: usize, end: usize) -> Span {
+        Span::new(self.file, start, end)
+    }
+
+    fn here(&self) -> Span {
+        self.span(self.at, self.at + self.found.len())
+    }
+
+    fn fault(&self, label: &str) -> Diagnostic {
+        Diagnostic::new(Code::Syntax, format!("unexpected `{}`", self.found), self.here(), label)
+    }
+
+    fn wants(&self, rules: &[Rule]) -> bool {
+        self.wanted.iter().any(|rule| rules.contains(rule))
+    }
+
+    /// The innermost bracket that is open.
+    fn inside(&self) -> Option<(usize, u8)> {
+        self.open.last().map(|&at| (at, self.text.as_bytes()[at]))
+    }
+
+    /// Whether the place is among the ports of a circuit.
+    fn in_ports(&self) -> bool {
+        self.text[self.start..].starts_with("circuit")
+            && self.open.first().is_some_and(|&at| self.text.as_bytes()[at] == b'(')
+    }
+
+    /// Whether the place is in the body of a circuit.
+    fn in_body(&self) -> bool {
+        self.open.first().is_some_and(|&at| self.text.as_bytes()[at] == b'{')
+            && ["circuit", "test"].iter().any(|keyword| self.text[self.start..].starts_with(keyword))
+    }
+
+    /// The word before the place, where it starts, and what stands before it on its line.
+    fn word_before(&self) -> Option<(&'a str, usize, &'a str)> {
+        let (rest, word) = last_word(self.before().trim_end());
+        let line = rest.rsplit(['\n', '\r']).next().unwrap_or_default();
+        (!word.is_empty()).then(|| (word, self.start + rest.len(), line.trim_end()))
+    }
+}
+
+/// Whether a text ends as an operand does.
+fn ends_operand(text: &str) -> bool {
+    let word = last_word(text).1;
+    let ends = text.ends_with(|c: char| is_word(c) || matches!(c, ')' | ']' | '}'));
+    ends && !RESERVED.contains(&word)
+}
+
+fn block_comment(place: &Place<'_>) -> Option<Diagnostic> {
+    place.after().starts_with("/*").then(|| {
+        let span = place.span(place.at, place.at + 2);
+        Diagnostic::new(Code::Syntax, "unexpected `/*`", span, "expected a comment that begins with `//`")
+            .with_help("a comment runs from `//` to the end of its line")
+    })
+}
+
+fn letters(place: &Place<'_>) -> Option<Diagnostic> {
+    let foreign = |word: &str| word.chars().any(|c| !c.is_ascii());
+    let (rest, head) = last_word(place.before());
+    let tail = place.after().find(|c| !is_word(c)).unwrap_or(place.after().len());
+    let word = &place.text[place.start + rest.len()..place.at + tail];
+    (foreign(word) && foreign(place.found) && word.chars().all(is_word)).then(|| {
+        let span = place.span(place.at - head.len(), place.at + tail);
+        let label = "names are made of the letters `a` to `z`, digits and `_`";
+        Diagnostic::new(Code::Syntax, format!("`{word}` cannot be a name"), span, label)
+            .with_help("write it with ASCII letters")
+    })
+}
+
+fn unclosed_quote(place: &Place<'_>) -> Option<Diagnostic> {
+    let line = place.after().lines().next().unwrap_or_default();
+    (place.found == "\"" && !line[1..].contains('"')).then(|| {
+        Diagnostic::new(Code::Syntax, "the text is never closed", place.here(), "opened here")
+            .with_help("close it with `\"` on the same line")
+    })
+}
+
+fn single_quote(place: &Place<'_>) -> Option<Diagnostic> {
+    (place.found == "'" && place.wants(&[Rule::text]))
+        .then(|| place.fault("expected `\"`").with_help("texts stand in double quotes"))
+}
+
+fn reserved_word(place: &Place<'_>) -> Option<Diagnostic> {
+    let assigned = |rest: &str| rest.trim_start().starts_with('=') && !rest.trim_start().starts_with("==");
+    let (word, start) = if RESERVED.contains(&place.found) {
+        let name = place.wants(&[Rule::name, Rule::port, Rule::target, Rule::parameter]);
+        let named = name || assigned(&place.after()[place.found.len()..]) || place.in_ports();
+        named.then_some((place.found, place.at))?
+    } else {
+        let (word, start, line) = place.word_before()?;
+        (assigned(place.after()) && RESERVED.contains(&word) && !line.ends_with(is_word)).then_some((word, start))?
+    };
+    let span = place.span(start, start + word.len());
+    let message = format!("`{word}` is a reserved word");
+    Some(
+        Diagnostic::new(Code::Syntax, message, span, "expected a name")
+            .with_help(format!("choose another name, such as `{word}_1`")),
+    )
+}
+
+fn colon_in_brackets(place: &Place<'_>) -> Option<Diagnostic> {
+    let (open, b'[') = place.inside()? else { return None };
+    if place.found != ":" {
+        return None;
+    }
+    let name = last_word(&place.text[place.start..open]).1;
+    let close = place.after().find(']')?;
+    let (high, low) = (&place.text[open + 1..place.at], &place.after()[1..close]);
+    if place.in_ports() {
+        return width_before_name(place).or_else(|| Some(width_of_port(place, name, high, low)));
+    }
+    let help = format!("write `{name}[{}..{}]`", brief(high), brief(low));
+    Some(place.fault("expected `..`").with_help(help))
+}
+
+/// The width that `[high:low]` has in Verilog.
+fn width(high: &str, low: &str) -> String {
+    match (high.trim().parse::<u32>(), low.trim().parse::<u32>()) {
+        (Ok(high), Ok(low)) => (u64::from(high.abs_diff(low)) + 1).to_string(),
+        _ => "8".to_owned(),
+    }
+}
+
+fn width_of_port(place: &Place<'_>, name: &str, high: &str, low: &str) -> Diagnostic {
+    let help = format!("a port has the number of its bits: `{name}[{}]`", width(high, low));
+    place.fault("expected `]`").with_help(help)
+}
+
+fn question_mark(place: &Place<'_>) -> Option<Diagnostic> {
+    if place.found != "?" {
+        return None;
+    }
+    let line = place.after().lines().next().unwrap_or_default();
+    let condition = place.before().rsplit(['=', '(', ',', '{', '\n']).next().unwrap_or_default();
+    let (then, rest) = line[1..].split_once(':').unwrap_or(("a", "b"));
+    let otherwise = rest.split([')', '}', ',']).next().unwrap_or_default();
+    let help = format!("write `if {} then {} else {}`", brief(condition), brief(then), brief(otherwise));
+    Some(place.fault("expected an operator").with_help(help))
+}
+
+fn width_before_name(place: &Place<'_>) -> Option<Diagnostic> {
+    let open = match place.inside()? {
+        (_, b'(') if place.found == "[" => place.at,
+        (open, b'[') => open,
+        _ => return None,
+    };
+    let rest = place.text[open..place.end].strip_prefix('[')?;
+    let (range, name) = rest.split_once(']')?;
+    let name = name.trim_start_matches([' ', '\t']);
+    let name = &name[..name.find(|c| !is_word(c)).unwrap_or(name.len())];
+    let before = place.text[place.start..open].trim_end();
+    if name.is_empty() || !before.ends_with(['(', ',']) && !KINDS.contains(&last_word(before).1) {
+        return None;
+    }
+    let bits = range.split_once(':').map_or_else(|| brief(range).to_owned(), |(high, low)| width(high, low));
+    let span = place.span(open, open + 1);
+    Some(
+        Diagnostic::new(Code::Syntax, "unexpected `[`", span, "expected a name")
+            .with_help(format!("the width stands behind the name: `{name}[{bits}]`")),
+    )
+}
+
+fn port_kind(place: &Place<'_>) -> Option<Diagnostic> {
+    let (word, start, _) = place.word_before()?;
+    let named = place.in_ports() && KINDS.contains(&word) && place.found.starts_with(is_word);
+    named.then(|| {
+        let span = place.span(start, start + word.len());
+        Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected the name of a port")
+            .with_help(format!("write the name alone: `{}`", place.found))
+    })
+}
+
+fn width_of_constant(place: &Place<'_>) -> Option<Diagnostic> {
+    let before = place.before();
+    let open = before.strip_suffix(')').and_then(|inside| inside.rfind('(')).filter(|_| place.found == "'")?;
+    let sum = brief(&before[open + 1..before.len() - 1]);
+    let digits = place.after()[1..].trim_start_matches(['b', 'd', 'h']);
+    let digits = &digits[..digits.find(|c| !is_word(c)).unwrap_or(digits.len())];
+    let help = if !digits.is_empty() && digits.bytes().all(|digit| digit == b'0') {
+        format!("repeat a zero: `{{({sum}){{0}}}}`")
+    } else {
+        format!("give the width a name, as in `circuit name[w = {sum}](…)`, and write `w'd{}`", brief(digits))
+    };
+    Some(place.fault("the width of a constant is a number or a name").with_help(help))
+}
+
+fn nets_in_braces(place: &Place<'_>) -> Option<Diagnostic> {
+    let close = place.after().find('}')?;
+    let assigned = place.after()[close + 1..].trim_start();
+    if place.found != "{" || !place.in_body() || !assigned.starts_with('=') || assigned.starts_with("==") {
+        return None;
+    }
+    let names: Vec<&str> = place.after()[1..close].split(',').map(str::trim).collect();
+    let bits = names.iter().rev().enumerate().map(|(bit, name)| format!("`{name} = t[{bit}]`"));
+    let bits: Vec<String> = bits.collect::<Vec<_>>().into_iter().rev().take(4).collect();
+    let help = format!(
+        "a circuit's outputs are taken with `({}) = …`; for the bits of a value write `t = …` and then {}",
+        brief(&names.join(", ")),
+        suggest::join(&bits, "and")
+    );
+    Some(place.fault("a net, or nets in parentheses, stand before `=`").with_help(help))
+}
+
+fn space_before_operands(place: &Place<'_>) -> Option<Diagnostic> {
+    let before = place.before().trim_end();
+    let open = if place.found == "(" { place.at } else { place.start + opening(before.strip_suffix(')')?)? };
+    let head = &place.text[place.start..open];
+    let callee = head.trim_end_matches([' ', '\t']);
+    let name = last_word(callee).1;
+    if name.is_empty() || callee.len() == head.len() || RESERVED.contains(&name) || !place.in_body() {
+        return None;
+    }
+    let close = place.text[open..place.end].find(')').map_or(place.end, |close| open + close + 1);
+    let span = place.span(place.start + callee.len(), open);
+    let help = format!("write `{name}{}`: a name and its parentheses stand together", brief(&place.text[open..close]));
+    Some(Diagnostic::new(Code::Syntax, "unexpected space before `(`", span, "here").with_help(help))
+}
+
+/// Where the bracket opens that is closed at the end of a text, which is without it.
+fn opening(inside: &str) -> Option<usize> {
+    let mut depth = 0;
+    inside.bytes().enumerate().rev().find_map(|(at, byte)| {
+        match byte {
+            b')' => depth += 1,
+            b'(' if depth == 0 => return Some(at),
+            b'(' => depth -= 1,
+            _ => {}
+        }
+        None
+    })
+}
+
+fn misspelled_operator(place: &Place<'_>) -> Option<Diagnostic> {
+    let operator = |word| suggest::nearest(word, BETWEEN);
+    let (word, start, near) = match place.word_before() {
+        Some((word, start, line)) if ends_operand(line) && operator(word).is_some() => (word, start, operator(word)?),
+        _ if place.wants(&[Rule::operator]) && ends_operand(place.before().trim_end()) => {
+            (place.found, place.at, operator(place.found)?)
+        }
+        _ => return None,
+    };
+    if !place.in_body() || RESERVED.contains(&word) {
+        return None;
+    }
+    let span = place.span(start, start + word.len());
+    Some(
+        Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected an operator")
+            .with_help(format!("did you mean `{near}`?")),
+    )
+}
+
+fn missing_operator(place: &Place<'_>) -> Option<Diagnostic> {
+    let (word, start, line) = place.word_before()?;
+    let drives = place.wants(&[Rule::index, Rule::slip_arrow]) && place.in_body();
+    (drives && ends_operand(line) && line.contains('=') && !RESERVED.contains(&word)).then(|| {
+        let span = place.span(start, start + word.len());
+        Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected an operator or a new line")
+    })
+}
+
+fn blank_in_pattern(place: &Place<'_>) -> Option<Diagnostic> {
+    let is_pattern = |word: &str| !word.is_empty() && word.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-'));
+    let (open, b'{') = place.inside()? else { return None };
+    let in_table = place.text[place.start..open].trim_end().ends_with(')') && place.open.len() > 1;
+    let rest = place.after();
+    let pattern = &rest[..rest.find([':', ',', '}', '\n']).unwrap_or(rest.len())];
+    let words: Vec<&str> = pattern.split_whitespace().collect();
+    let before = place.before().trim_end();
+    let first = before.rsplit(|c: char| !matches!(c, '0' | '1' | '-')).next().unwrap_or_default();
+    (in_table && is_pattern(first) && !words.is_empty() && words.iter().all(|word| is_pattern(word))).then(|| {
+        let help = format!("a pattern has no blanks: `{first}{}`", words.concat());
+        place.fault("expected `:`").with_help(help)
+    })
+}
+
+fn missing_comma(place: &Place<'_>) -> Option<Diagnostic> {
+    let (_, bracket) = place.inside()?;
+    let follows = ends_operand(place.before().trim_end()) && place.found.starts_with(is_word);
+    let close = match bracket {
+        b'(' => ")",
+        b'[' => "]",
+        _ => return None,
+    };
+    (follows && !place.wants(&[Rule::operator, Rule::size_infix])).then(|| {
+        let (word, ..) = place.word_before().unwrap_or_default();
+        let fault = place.fault(&format!("expected `,` or `{close}`"));
+        if word.is_empty() { fault } else { fault.with_help(format!("write `{word}, {}`", place.found)) }
+    })
+}
