@@ -1,8 +1,6 @@
-//! Netlists that the tests of this folder share, and how they answer with delays.
+//! Netlists that the tests of this folder share.
 
-use std::collections::BTreeMap;
-
-use crate::circuit::{NetId, Netlist, Node};
+use crate::circuit::Netlist;
 use crate::model::Function;
 
 /// The paper's D latch as elaboration writes it: two wires for the feedback.
@@ -36,45 +34,4 @@ pub fn full_adder() -> Netlist {
     netlist.add_output("sum", sum);
     netlist.add_output("carry", carry);
     netlist
-}
-
-/// A netlist whose cells each answer after their own number of cycles.
-pub struct Delayed {
-    netlist: Netlist,
-    delay: BTreeMap<NetId, usize>,
-    /// The values of all nets, the latest last.
-    past: Vec<BTreeMap<NetId, bool>>,
-}
-
-impl Delayed {
-    /// A netlist at its start values, with a delay drawn for each cell.
-    pub fn new(netlist: Netlist, mut draw: impl FnMut() -> usize) -> Self {
-        let delay = netlist.cells().map(|(id, _)| (id, draw())).collect();
-        let start = |id| netlist.cell(id).and_then(|cell| cell.start).unwrap_or(false);
-        let past = vec![netlist.ids().map(|id| (id, start(id))).collect()];
-        Self { netlist, delay, past }
-    }
-
-    /// Holds the inputs for some cycles, and gives the first output after them.
-    pub fn run(&mut self, inputs: &[bool], cycles: usize) -> bool {
-        for _ in 0..cycles {
-            let ago = |cycles: usize, id: &NetId| self.past[self.past.len().saturating_sub(cycles)][id];
-            let mut now: BTreeMap<NetId, bool> = BTreeMap::new();
-            for id in self.netlist.ids() {
-                let value = match self.netlist.node(id) {
-                    Node::Input(_) => inputs[self.netlist.inputs().iter().position(|&input| input == id).unwrap()],
-                    Node::Constant(value) => *value,
-                    Node::Cell(cell) => {
-                        let pins = self.netlist.pins(id);
-                        let a = ago(self.delay[&id], &pins[0]);
-                        cell.function.output(a, pins.get(1).map_or(a, |pin| ago(self.delay[&id], pin)))
-                    }
-                    Node::Output(_) | Node::Wire { .. } => ago(1, &self.netlist.pins(id)[0]),
-                };
-                now.insert(id, value);
-            }
-            self.past.push(now);
-        }
-        self.past[self.past.len() - 1][&self.netlist.outputs()[0]]
-    }
 }

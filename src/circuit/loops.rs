@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::circuit::components::Components;
-use crate::circuit::{NetId, Netlist, Node};
+use crate::circuit::{NetId, Netlist};
 
 /// The loops of a netlist, and an order of its nodes in which drivers come first wherever there is no loop.
 #[derive(Clone, Debug)]
@@ -68,19 +68,6 @@ impl Loops {
     pub fn order(&self) -> &[NetId] {
         &self.order
     }
-
-    /// The cells that drive a loop core from outside: a glitch on them can flip the state, so they stay as written too.
-    pub fn guards(&self, netlist: &Netlist) -> Vec<NetId> {
-        let mut guards: Vec<_> = self
-            .core_of
-            .keys()
-            .flat_map(|&id| netlist.pins(id))
-            .filter(|&pin| !self.contains(pin) && matches!(netlist.node(pin), Node::Cell(_)))
-            .collect();
-        guards.sort_unstable();
-        guards.dedup();
-        guards
-    }
 }
 
 /// The cells of a strongly connected part that are memory; `rest` has met no node of it.
@@ -102,13 +89,12 @@ mod tests {
     use crate::circuit::example::latch;
 
     #[test]
-    fn a_latch_has_one_core_of_two_cells_and_two_guards() {
+    fn a_latch_has_one_core_of_two_cells() {
         let mut netlist = latch();
         crate::circuit::passes::DissolveWires.run_on(&mut netlist).unwrap();
         let loops = Loops::of(&netlist);
         assert_eq!(loops.cores().len(), 1);
         assert_eq!(loops.cores()[0].len(), 2);
-        assert_eq!(loops.guards(&netlist).len(), 2);
         assert_eq!(loops.order().len(), netlist.ids().count());
     }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::circuit::cells::CellLibrary;
 use crate::circuit::elaborate::MAX_CELLS;
+use crate::circuit::guarded::Guarded;
 use crate::circuit::loops::Loops;
 use crate::circuit::network::{Network, Signal, View};
 use crate::circuit::passes::{self, DissolveWires, Pass, Sweep};
@@ -125,10 +126,10 @@ fn map_widest(source: &Netlist, library: &CellLibrary, options: MapOptions) -> R
 struct Mapper<'a> {
     source: &'a Netlist,
     library: &'a CellLibrary,
-    loops: Loops,
+    guarded: Guarded,
     recipes: Recipes,
     mapped: Netlist,
-    /// The cells that stay as written: loop cores and guards.
+    /// The cells that stay as written, in order.
     kept: Vec<NetId>,
     /// Where the nets are in the mapped netlist that its logic starts from.
     net: BTreeMap<NetId, NetId>,
@@ -136,15 +137,12 @@ struct Mapper<'a> {
 
 impl<'a> Mapper<'a> {
     fn new(source: &'a Netlist, library: &'a CellLibrary) -> Self {
-        let loops = Loops::memory(source);
-        let guards = loops.guards(source);
-        let kept =
-            |id: &NetId| matches!(source.node(*id), Node::Cell(_)) && (loops.contains(*id) || guards.contains(id));
+        let guarded = Guarded::of(source);
         Self {
             source,
             library,
-            kept: loops.order().iter().copied().filter(kept).collect(),
-            loops,
+            kept: guarded.cells().collect(),
+            guarded,
             recipes: Recipes::of(library),
             mapped: Netlist::new(&source.name),
             net: BTreeMap::new(),
@@ -156,11 +154,12 @@ impl<'a> Mapper<'a> {
             let net = self.mapped.add_input(self.source.net_name(id));
             self.net.insert(id, net);
         }
-        let names = core_names(self.source, &self.loops);
+        let memory = self.guarded.memory();
+        let names = core_names(self.source, memory);
         for &id in &self.kept {
             // A guard has a wire without a name, which leaves no trace; a core cell keeps its name and start value.
             let name = names.get(&id).cloned().unwrap_or_default();
-            let start = self.source.cell(id).and_then(|cell| cell.start).filter(|_| self.loops.contains(id));
+            let start = self.source.cell(id).and_then(|cell| cell.start).filter(|_| memory.contains(id));
             let wire = self.mapped.add_wire(name, start, None);
             self.net.insert(id, wire);
         }
@@ -200,7 +199,7 @@ impl<'a> Mapper<'a> {
             let members = loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &loops.cores()[core]);
             let pins = members.iter().flat_map(|&member| self.source.pins(member)).filter(|pin| !members.contains(pin));
             let latest = pins.map(|pin| stages.get(&pin).copied().unwrap_or(0)).max().unwrap_or(0);
-            stages.insert(id, latest + u32::from(self.kept.contains(&id)));
+            stages.insert(id, latest + u32::from(self.guarded.role(id).is_some()));
         }
         self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
     }

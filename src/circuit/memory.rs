@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use crate::circuit::guarded::elements;
 use crate::circuit::loops::Loops;
 use crate::circuit::{NetId, Netlist, Node, Timing};
 
@@ -46,26 +47,6 @@ impl Memory {
     }
 }
 
-/// The parts of a loop's memory that are connected among themselves: a state machine has one for each of its registers' latches.
-fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
-    let mut rest: Vec<NetId> = core.to_vec();
-    let mut elements = Vec::new();
-    while let Some(first) = rest.first().copied() {
-        let mut element = vec![first];
-        let mut at = 0;
-        while at < element.len() {
-            let pins = netlist.pins(element[at]);
-            let near = |&&net: &&NetId| netlist.pins(net).contains(&element[at]) && pins.contains(&net);
-            let new: Vec<NetId> = rest.iter().filter(near).filter(|net| !element.contains(net)).copied().collect();
-            element.extend(new);
-            at += 1;
-        }
-        rest.retain(|net| !element.contains(net));
-        elements.push(element);
-    }
-    elements
-}
-
 /// The fewest cycles after which a switch of an input can be noticed at each net: one for each cell on the way.
 fn fastest(netlist: &Netlist) -> BTreeMap<NetId, u32> {
     let mut fastest: BTreeMap<NetId, u32> = netlist.inputs().iter().map(|&input| (input, 0)).collect();
@@ -87,9 +68,9 @@ mod tests {
 
     use super::*;
     use crate::circuit::cells::{CellKind, CellLibrary};
-    use crate::circuit::example::{Delayed, latch};
+    use crate::circuit::example::latch;
     use crate::circuit::map::map;
-    use crate::circuit::{Delays, registers};
+    use crate::circuit::{Delayed, Delays, registers};
     use crate::model::Function;
 
     const CLOCK: u32 = 3;
@@ -107,11 +88,11 @@ mod tests {
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(5);
         let mut forgets = || {
             let mut draw = || 1 + (rand::Rng::next_u32(&mut random) % CLOCK) as usize;
-            let mut latch = Delayed::new(netlist.clone(), &mut draw);
+            let mut latch = Delayed::new(netlist, |_| draw());
             latch.run(&[!data, true], 60);
             latch.run(&[data, true], setup as usize);
             latch.run(&[data, false], hold as usize);
-            latch.run(&[!data, false], 60) != data
+            latch.run(&[!data, false], 60)[0] != data
         };
         (0..300).filter(|_| forgets()).count()
     }

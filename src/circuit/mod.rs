@@ -2,10 +2,12 @@
 
 pub mod cells;
 mod components;
+pub mod delayed;
 pub mod elaborate;
 #[cfg(test)]
 mod example;
 pub mod formats;
+pub mod guarded;
 pub mod levels;
 pub mod logic;
 pub mod loops;
@@ -22,7 +24,9 @@ pub mod synth;
 pub mod timing;
 
 pub use cells::{CellKind, CellLibrary};
+pub use delayed::Delayed;
 pub use elaborate::{Inspector, elaborate};
+pub use guarded::{Guarded, Role};
 pub use logic::{Logic, Restless};
 pub use loops::Loops;
 pub use map::{MapError, MapOptions, Objective, map, map_with};

@@ -1,6 +1,7 @@
 //! Integration tests, in one binary.
 
 mod benchmarks;
+mod broken_circuits;
 mod circuit;
 mod cli;
 mod declared;
@@ -17,6 +18,7 @@ mod hostile;
 mod language;
 mod library;
 mod manual;
+mod memory;
 mod optima;
 mod page;
 mod palette;
@@ -30,3 +32,4 @@ mod testing;
 mod tidy;
 mod ui;
 mod waves;
+mod written;

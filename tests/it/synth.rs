@@ -257,7 +257,7 @@ fn damaged_files_are_refused_with_a_reason() {
     refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names x y\n11 1\n", "a row of the wrong width");
     refused("a.blif", ".model a\n.inputs x\n.outputs y\n.subckt gone a=x b=y\n", "model `gone` is missing");
     refused("a.blif", ".model a\n.inputs x\n.outputs y\n.latch x y 0\n", "latch `y` has no clock");
-    refused("a.bench", "OUTPUT(y)\ny = MUX(a, b)\n", "`MUX` of 2 nets is no gate of .bench");
+    refused("a.bench", "OUTPUT(y)\ny = MUX(a, b)\n", "`MUX` of 2 nets is not a gate of .bench");
     refused("a.aag", "aag 1 1 0 1", "the file ends too early");
     refused("a.aag", "aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "depends on itself");
     refused("a.aig", "aig 9 1 0 1 8\n2\n", "the file ends too early");

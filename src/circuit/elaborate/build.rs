@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::circuit::elaborate::frame::{Frame, Item};
 use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
-use crate::circuit::elaborate::{MAX_CELLS, MAX_HIERARCHY, module_id, unknown};
+use crate::circuit::elaborate::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, module_id, unknown};
 use crate::diag::{Code, Diagnostic, Label};
 use crate::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use crate::source::Span;
@@ -212,7 +212,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
     /// Makes a net that wide.
     pub(super) fn give_width(&mut self, net: usize, width: u32) {
         let first = self.module.signals.len() as u32;
-        if u64::from(first) + u64::from(width) > 8 * MAX_CELLS {
+        if u64::from(first) + u64::from(width) > MAX_NETS {
             let span = self.module.nets[net].span;
             self.fault(Diagnostic::new(
                 Code::TooLarge,
@@ -264,10 +264,13 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         let cells = gates.saturating_add(inside(|module| module.cells));
         let size = (self.module.signals.len() as u64).saturating_add(inside(|module| module.size));
         (self.module.cells, self.module.size) = (cells, size);
-        if cells > MAX_CELLS || size > 8 * MAX_CELLS {
-            let message = format!("`{}` needs {cells} cells", self.circuit.name);
-            let label = format!("expected at most {MAX_CELLS}");
-            self.fault(Diagnostic::new(Code::TooLarge, message, self.circuit.span, label));
+        for (count, what, most) in [(cells, "cells", MAX_CELLS), (size, "nets", MAX_NETS)] {
+            if count > most {
+                let message = format!("`{}` needs {count} {what}", self.circuit.name);
+                let label = format!("expected at most {most}");
+                self.fault(Diagnostic::new(Code::TooLarge, message, self.circuit.span, label));
+                break;
+            }
         }
     }
 

@@ -28,6 +28,9 @@ use module::ModuleId;
 /// The most cells of a circuit, written in the language or read from a file: docs/compiler.md says what so many take ("Measured").
 pub const MAX_CELLS: u64 = 1_000_000;
 
+/// The most bits of nets and gates of a circuit, those of the circuits inside it included.
+pub const MAX_NETS: u64 = 8 * MAX_CELLS;
+
 /// The most statements of a circuit, those in `for` counted once for each turn.
 pub const MAX_STATEMENTS: usize = 500_000;
 

@@ -3,6 +3,7 @@
 use std::fmt::{self, Write};
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
+use crate::circuit::formats::names::Names;
 use crate::circuit::network::{Gate, View};
 use crate::circuit::{NetId, Netlist};
 use crate::diag::{Code, Diagnostic};
@@ -476,8 +477,11 @@ impl Ands {
                 bytes.extend(format!("{out} {a} {b}\n").bytes());
             }
         }
+        let readable = |name: &str| name.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
+        let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
+        let names = Names::new(&design.logic, &design.registers, &[], legal);
         let label = |kind: &str, ids: &[NetId]| {
-            let line = |(i, &id)| format!("{kind}{i} {}\n", design.logic.net_name(id).replace('\n', "_"));
+            let line = |(i, &id)| format!("{kind}{i} {}\n", names.net(id));
             ids.iter().enumerate().map(line).collect::<String>()
         };
         let (inputs, states) = design.logic.inputs().split_at(ports);

@@ -1,8 +1,8 @@
 //! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no name.
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
-use crate::circuit::formats::draft::{Definition, Draft, DraftRegister};
-use crate::diag::Diagnostic;
+use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
+use crate::diag::{Diagnostic, counted};
 use crate::model::Function;
 use crate::source::{FileId, Span};
 
@@ -36,10 +36,21 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
     let Some((word, arguments)) = call.strip_suffix(')').and_then(|call| call.split_once('(')) else {
         return draft.fault("not a statement of .bench", span, "expected `INPUT(a)`, `OUTPUT(b)` or `b = NAND(a, c)`");
     };
-    let pins: Vec<_> = arguments.split(',').map(str::trim).map(|pin| draft.name(pin)).collect();
     if arguments.split(',').any(|pin| pin.trim().is_empty()) || target == Some("") {
         return draft.fault("a net without a name", span, "expected a name between the commas");
     }
+    if target.is_some_and(|target| target.contains(char::is_whitespace)) || pins_have_blanks(arguments) {
+        return draft.fault("a name with a blank", span, "expected a comma between names");
+    }
+    if let Some(long) = target.into_iter().chain(arguments.split(',')).find(|name| name.len() > MOST_NAME_BYTES) {
+        let start = Span { end: span.start + 20, ..span };
+        return draft.fault(
+            format!("a name of {} bytes", long.len()),
+            start,
+            format!("expected at most {MOST_NAME_BYTES}"),
+        );
+    }
+    let pins: Vec<_> = arguments.split(',').map(|pin| draft.name(pin.trim())).collect();
     let word = word.trim().to_ascii_uppercase();
     match (target, word.as_str(), &pins[..]) {
         (None, "INPUT", &[net]) => draft.inputs.push((net, span)),
@@ -55,10 +66,23 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
                 let output = draft.name(target);
                 draft.define(output, Definition::Gate(function, inverted, pins.to_vec()), span);
             }
-            None => draft.fault(format!("`{word}` of {} nets is no gate of .bench", pins.len()), span, "unknown gate"),
+            None => {
+                let message = format!("`{word}` of {} is not a gate of .bench", counted(pins.len(), "net"));
+                let label = "expected AND, NAND, OR, NOR, XOR or XNOR of any nets, NOT, BUFF or DFF of one";
+                draft.fault(message, span, label);
+            }
         },
-        (None, ..) => draft.fault(format!("`{word}` is no port"), span, "expected `INPUT(net)` or `OUTPUT(net)`"),
+        (None, "INPUT" | "OUTPUT", pins) => {
+            draft.fault(format!("a port of {} nets", pins.len()), span, format!("expected `{word}(net)` for each"));
+        }
+        (None, ..) => {
+            draft.fault(format!("nothing takes the value of `{word}`"), span, format!("expected `net = {word}(…)`"))
+        }
     }
+}
+
+fn pins_have_blanks(arguments: &str) -> bool {
+    arguments.split(',').any(|pin| pin.trim().contains(char::is_whitespace))
 }
 
 /// The function of a gate's word, and whether it is inverted in the end.

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
-use crate::circuit::formats::draft::{Definition, Draft, DraftRegister};
-use crate::circuit::formats::names::{cells_in_order, names, stand_ins};
-use crate::circuit::{NetId, Netlist, Node};
+use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
+use crate::circuit::formats::names::{ClockName, Names, cells_in_order, stand_ins, visible};
+use crate::circuit::{Logic, Loops, NetId, Netlist, Node};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Span};
 
@@ -50,7 +50,7 @@ type Words<'t> = Vec<(&'t str, Span)>;
 
 /// A statement of a model.
 enum Statement<'t> {
-    Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool },
+    Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool, start: Option<bool> },
     Latch(Words<'t>),
     Subcircuit(Words<'t>),
 }
@@ -84,7 +84,6 @@ struct Models<'t> {
 /// Directives that say nothing of the logic.
 const IGNORED: &[&str] = &[
     ".area",
-    ".attr",
     ".cname",
     ".default_input_arrival",
     ".default_input_drive",
@@ -155,6 +154,16 @@ impl<'t> Models<'t> {
     fn read(&mut self, text: &'t str, file: FileId) {
         for words in lines(text, file) {
             let (first, span) = words[0];
+            let row = !first.starts_with('.');
+            if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && word.len() > MOST_NAME_BYTES) {
+                let start = Span { end: span.start + 20, ..span };
+                self.fault(
+                    format!("a name of {} bytes", span.end - span.start),
+                    start,
+                    format!("expected at most {MOST_NAME_BYTES}"),
+                );
+                return;
+            }
             if first.starts_with('.') {
                 if first == ".exdc" {
                     self.fault("`.exdc` is not supported", span, "external don't-cares");
@@ -192,8 +201,10 @@ impl<'t> Models<'t> {
             ".clock" => model.clocks.extend(rest),
             ".names" if rest.is_empty() => self.fault("`.names` without a net", span, "expected the name of a net"),
             ".names" => {
-                model.statements.push((Statement::Names { signals: rest, cubes: Vec::new(), value: true }, span));
+                let names = Statement::Names { signals: rest, cubes: Vec::new(), value: true, start: None };
+                model.statements.push((names, span));
             }
+            ".attr" => self.attribute(&rest),
             ".latch" if rest.len() < 2 => self.fault("`.latch` is cut short", span, "expected an input and an output"),
             ".latch" => model.statements.push((Statement::Latch(rest), span)),
             ".subckt" if rest.is_empty() => {
@@ -205,23 +216,35 @@ impl<'t> Models<'t> {
                 span,
                 "write its function with `.names`",
             ),
-            _ => self.fault(format!("`{first}` is no BLIF directive"), span, "unknown"),
+            _ => self.fault(format!("unknown BLIF directive `{first}`"), span, "not supported"),
+        }
+    }
+
+    /// An attribute of the last statement; the one that matters is the start value of a net on a feedback loop.
+    fn attribute(&mut self, words: &Words<'t>) {
+        let statement = self.all.last_mut().and_then(|model| model.statements.last_mut());
+        let (&[("init", _), (value, span)], Some((Statement::Names { start, .. }, _))) = (&words[..], statement) else {
+            return;
+        };
+        match value {
+            "0" | "1" => *start = Some(value == "1"),
+            _ => self.fault(format!("`{value}` is not a start value of a net"), span, "expected 0 or 1"),
         }
     }
 
     fn cube(&mut self, words: &Words<'t>) {
         let span = words[0].1.to(words[words.len() - 1].1);
-        let Some((Statement::Names { signals, cubes, value }, _)) =
+        let Some((Statement::Names { signals, cubes, value, .. }, _)) =
             self.all.last_mut().and_then(|model| model.statements.last_mut())
         else {
-            let message = format!("`{}` is no directive", words[0].0);
+            let message = format!("`{}` is not a directive", words[0].0);
             return self.fault(message, span, "expected a directive such as `.names`, or a row after one");
         };
         let wanted = signals.len() - 1;
         let (inputs, output) = match words[..] {
             [(output, _)] if wanted == 0 => ("", output),
             [(inputs, _), (output, _)] => (inputs, output),
-            _ => return self.fault("a row of a wrong form", span, "expected the inputs' digits and the output's"),
+            _ => return self.fault("malformed row", span, "expected the inputs' digits and the output's"),
         };
         if inputs.len() != wanted || !inputs.bytes().all(|digit| b"01-".contains(&digit)) {
             let label = format!("expected {wanted} digits `0`, `1` or `-`, found `{inputs}`");
@@ -291,7 +314,10 @@ impl<'m, 't> Flat<'m, 't> {
         }
         for (statement, span) in &model.statements {
             match statement {
-                Statement::Names { signals, cubes, value } => self.names(signals, cubes, *value, prefix, ports),
+                Statement::Names { signals, cubes, value, start } => {
+                    let output = self.names(signals, cubes, *value, prefix, ports);
+                    start.iter().for_each(|&start| self.draft.start(output, start));
+                }
                 Statement::Latch(words) => self.latch(model, words, *span, prefix, ports),
                 Statement::Subcircuit(words) => self.subcircuit(words, prefix, ports),
             }
@@ -314,11 +340,12 @@ impl<'m, 't> Flat<'m, 't> {
         value: bool,
         prefix: &str,
         ports: &BTreeMap<&'t str, String>,
-    ) {
+    ) -> u32 {
         let mut nets: Vec<_> = signals.iter().map(|(name, _)| self.net(name, prefix, ports)).collect();
         let output = nets.pop().expect("`.names` has an output");
-        let span = signals[signals.len() - 1].1;
+        let span = signals[0].1.to(signals[signals.len() - 1].1);
         self.draft.define(output, Definition::Cover { pins: nets, cubes: cubes.to_vec(), value }, span);
+        output
     }
 
     fn latch(
@@ -330,25 +357,24 @@ impl<'m, 't> Flat<'m, 't> {
         ports: &BTreeMap<&'t str, String>,
     ) {
         let (next, output) = (self.net(words[0].0, prefix, ports), self.net(words[1].0, prefix, ports));
-        let start = words.get(if words.len() % 2 == 1 { words.len() - 1 } else { usize::MAX }).map(|&(word, _)| word);
-        let start = match start {
-            None | Some("2" | "3") => None,
-            Some("0") => Some(false),
-            Some("1") => Some(true),
-            Some(word) => {
-                let message = format!("`{word}` is no start value of a latch");
+        let start = match words.last().filter(|_| words.len() % 2 == 1) {
+            None | Some(("2" | "3", _)) => None,
+            Some(("0", _)) => Some(false),
+            Some(("1", _)) => Some(true),
+            Some(&(word, span)) => {
+                let message = format!("invalid start value `{word}` of a latch");
                 return self.draft.fault(message, span, "expected 0, 1, 2 (any) or 3 (unknown)");
             }
         };
         let (kind, clock) = match (words.get(2), words.get(3)) {
-            (Some((kind, _)), Some((clock, _))) => {
-                let kind = match *kind {
+            (Some(&(kind, span)), Some((clock, _))) => {
+                let kind = match kind {
                     "re" => RegisterKind::Rising,
                     "fe" => RegisterKind::Falling,
                     "ah" => RegisterKind::High,
                     "al" => RegisterKind::Low,
                     _ => {
-                        let message = format!("`{kind}` is no kind of latch that can be clocked");
+                        let message = format!("invalid kind `{kind}` of a latch");
                         return self.draft.fault(message, span, "expected re, fe, ah or al");
                     }
                 };
@@ -382,7 +408,7 @@ impl<'m, 't> Flat<'m, 't> {
         if self.path.contains(&model) {
             return self.draft.fault(format!("model `{name}` contains itself"), span, "instantiated here");
         }
-        let mut inner = BTreeMap::new();
+        let mut inner: BTreeMap<&str, String> = BTreeMap::new();
         for &(word, at) in &words[1..] {
             let Some((formal, actual)) = word.split_once('=') else {
                 return self.draft.fault(format!("`{word}` connects nothing"), at, "expected `port=net`");
@@ -393,7 +419,14 @@ impl<'m, 't> Flat<'m, 't> {
                 return self.draft.fault(format!("model `{name}` has no port `{formal}`"), at, "connected here");
             }
             let number = self.net(actual, prefix, ports);
-            inner.insert(formal, self.draft.text(number).to_owned());
+            if inner.insert(formal, self.draft.text(number).to_owned()).is_some() {
+                return self.draft.fault(format!("port `{formal}` is connected twice"), at, "the second connection");
+            }
+        }
+        let open = self.models.all[model].inputs.iter().find(|(port, _)| !inner.contains_key(port));
+        if let Some((port, _)) = open {
+            let message = format!("input `{port}` of model `{name}` is not connected");
+            return self.draft.fault(message, span, format!("expected `{port}=net`"));
         }
         let instance = format!("{prefix}{name}@{}.", span.start);
         self.instantiate(model, &instance, &inner);
@@ -403,24 +436,23 @@ impl<'m, 't> Flat<'m, 't> {
 /// Writes a design.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
-    let legal = |name: &str| name.replace(|c: char| c.is_whitespace() || c == '#' || c == '\\' || c == '=', "_");
-    let names = names(netlist, design.registers.len(), legal);
-    let stand_ins = stand_ins(netlist, design.registers.len());
+    let legal = |name: &str| visible(name, &['#', '\\', '=']);
+    let names = Names::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], legal);
+    let starts = starts(netlist);
+    let mut stand_ins = stand_ins(netlist, design.registers.len());
+    // A memory element keeps its own name, by which it is compared.
+    stand_ins.retain(|cell, output| !starts.contains_key(cell) || netlist.net_name(*cell) == netlist.net_name(*output));
     let name = |id: NetId| match netlist.node(id) {
         Node::Constant(value) => constant(*value),
-        _ => names[stand_ins.get(&id).unwrap_or(&id)].as_str(),
+        _ => names.net(*stand_ins.get(&id).unwrap_or(&id)),
     };
-    let list = |ids: &[NetId]| ids.iter().map(|id| format!(" {}", names[id])).collect::<String>();
+    let list = |ids: &[NetId]| ids.iter().map(|id| format!(" {}", names.net(*id))).collect::<String>();
     let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
     let (inputs, states) = netlist.inputs().split_at(design.inputs());
     let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
     let mut text = format!(".model {title}\n.inputs{}\n.outputs{}\n", list(inputs), list(outputs));
-    let known: Vec<_> = inputs.iter().map(|id| names[id].as_str()).collect();
-    let mut clocks: Vec<_> = design.registers.iter().filter_map(|register| register.clock.as_deref()).collect();
-    clocks.sort_unstable();
-    clocks.dedup();
-    for clock in clocks.into_iter().filter(|clock| !known.contains(clock)) {
-        let _ = writeln!(text, ".clock {}", legal(clock));
+    for clock in names.own_clocks() {
+        let _ = writeln!(text, ".clock {clock}");
     }
     for ((register, state), next) in design.registers.iter().zip(states).zip(nexts) {
         let kind = match register.kind {
@@ -429,12 +461,19 @@ pub fn write(design: &Design) -> String {
             RegisterKind::High => "ah",
             RegisterKind::Low => "al",
         };
-        let clock = register.clock.as_ref().map_or(String::new(), |clock| format!(" {kind} {}", legal(clock)));
+        let clock = match names.clock(register) {
+            Some(ClockName::Net(id)) => format!(" {kind} {}", name(id)),
+            Some(ClockName::Own(clock)) => format!(" {kind} {clock}"),
+            None => String::new(),
+        };
         let start = register.start.map_or(2, u8::from);
-        let _ = writeln!(text, ".latch {} {}{clock} {start}", names[next], name(*state));
+        let _ = writeln!(text, ".latch {} {}{clock} {start}", names.net(*next), name(*state));
     }
     for id in cells_in_order(netlist) {
         write_cell(&mut text, netlist, id, &name);
+        if let Some(&start) = starts.get(&id) {
+            let _ = writeln!(text, ".attr init {}", u8::from(start));
+        }
     }
     for value in [false, true] {
         let used = |id: NetId| *netlist.node(id) == Node::Constant(value) && !netlist.fanout(id).is_empty();
@@ -445,11 +484,22 @@ pub fn write(design: &Design) -> String {
     for &output in netlist.outputs() {
         let driver = netlist.pins(output)[0];
         if stand_ins.get(&driver) != Some(&output) {
-            let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names[&output]);
+            let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names.net(output));
         }
     }
     text.push_str(".end\n");
     text
+}
+
+/// The value before the first cycle of every cell of a memory element.
+fn starts(netlist: &Netlist) -> BTreeMap<NetId, bool> {
+    let memory = Loops::memory(netlist).cores().concat();
+    let own = |id: NetId| netlist.cell(id).and_then(|cell| cell.start);
+    if memory.iter().all(|&id| own(id).is_some()) {
+        return memory.into_iter().filter_map(|id| Some((id, own(id)?))).collect();
+    }
+    let before = Logic::new(netlist);
+    memory.into_iter().map(|id| (id, before.value(id))).collect()
 }
 
 /// A cell as the rows at which it is 1.

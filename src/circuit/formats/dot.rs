@@ -7,7 +7,10 @@ use crate::circuit::{Loops, Netlist, Node};
 /// Writes a netlist; cells on feedback loops are drawn with a double border.
 pub fn write(netlist: &Netlist) -> String {
     let loops = Loops::of(netlist);
-    let quoted = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
+    let quoted = |text: &str| {
+        let shown = text.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
+        shown.replace('\\', "\\\\").replace('"', "\\\"")
+    };
     let mut text = format!("digraph \"{}\" {{\n    rankdir=LR;\n    node [shape=box];\n", quoted(&netlist.name));
     for id in netlist.ids() {
         let name = quoted(&netlist.net_name(id));

@@ -26,6 +26,14 @@ impl Definition {
             Self::Gate(_, _, pins) | Self::Cover { pins, .. } => pins,
         }
     }
+
+    /// The pins of the gates that it comes to.
+    fn size(&self) -> usize {
+        match self {
+            Self::Gate(_, _, pins) => pins.len(),
+            Self::Cover { pins, cubes, .. } => pins.len() * cubes.len().max(1),
+        }
+    }
 }
 
 /// A register of a draft.
@@ -55,9 +63,19 @@ pub struct Draft {
     names: Vec<String>,
     numbers: BTreeMap<String, Name>,
     definitions: Vec<Option<(Definition, Span)>>,
+    /// The nets with a start value: feedback may pass through them.
+    starts: BTreeMap<Name, bool>,
     /// What is wrong with it.
     pub errors: Vec<Diagnostic>,
+    /// The nets and the pins of definitions so far.
+    size: usize,
 }
+
+/// The most nets and pins of gates, taken together.
+pub const MOST_PINS: usize = 16_000_000;
+
+/// The longest name of a net, in bytes.
+pub const MOST_NAME_BYTES: usize = 1_000;
 
 /// After so many errors no more are reported.
 const MOST_ERRORS: usize = 20;
@@ -94,6 +112,14 @@ impl Draft {
 
     /// Defines a net, or reports its second definition.
     pub fn define(&mut self, name: Name, definition: Definition, span: Span) {
+        self.size += 1 + definition.size();
+        if self.size > MOST_PINS {
+            if self.errors.last().is_none_or(|fault| fault.code != Code::TooLarge) {
+                let message = format!("the circuit has more than {MOST_PINS} pins of gates");
+                self.errors.push(Diagnostic::new(Code::TooLarge, message, span, "when it came to this one"));
+            }
+            return;
+        }
         if let Some((_, first)) = self.definitions[name as usize] {
             let message = format!("`{}` is defined twice", self.text(name));
             if self.errors.len() < MOST_ERRORS {
@@ -105,11 +131,53 @@ impl Draft {
         }
     }
 
+    /// Gives a net its value before the first cycle; a feedback loop needs one.
+    pub fn start(&mut self, name: Name, value: bool) {
+        self.starts.insert(name, value);
+    }
+
+    /// The net behind wires: `name` itself, or what it is a copy of.
+    fn source(&self, name: Name) -> Name {
+        let mut at = name;
+        for _ in 0..self.names.len() {
+            match &self.definitions[at as usize] {
+                Some((Definition::Cover { pins, cubes, value: true }, _)) if pins.len() == 1 && *cubes == [b"1"] => {
+                    at = pins[0];
+                }
+                _ => break,
+            }
+        }
+        at
+    }
+
+    /// Registers are clocked by inputs and by registers: logic between them would be lost where registers stay registers.
+    fn resolve_clocks(&mut self) {
+        for at in 0..self.registers.len() {
+            let DraftRegister { register, span, .. } = self.registers[at].clone();
+            let Some(&number) = register.clock.as_ref().and_then(|clock| self.numbers.get(clock)) else { continue };
+            let source = self.source(number);
+            if self.definitions[source as usize].is_some() {
+                let (clock, name) = (self.text(number).to_owned(), register.name);
+                self.fault(
+                    format!("the clock `{clock}` of `{name}` is made by logic"),
+                    span,
+                    "expected an input or a register as clock",
+                );
+            } else {
+                self.registers[at].register.clock = Some(self.text(source).to_owned());
+            }
+        }
+    }
+
     /// The design, if the draft is sound.
     ///
     /// # Errors
     /// Nets that are used and not defined, defined twice, or that depend on themselves.
     pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
+        if self.size > MOST_PINS {
+            return Err(self.errors);
+        }
+        self.resolve_clocks();
         let mut logic = Netlist::new(self.title.clone());
         let mut nets: Vec<Option<NetId>> = vec![None; self.names.len()];
         let sources: Vec<_> = self
@@ -133,8 +201,15 @@ impl Draft {
             .chain(self.registers.iter().map(|register| (register.next, register.span)))
             .collect();
         let sinks_count = self.outputs.len();
+        let feedback = self.feedback(&mut logic, &mut nets);
         for &(name, span) in &sinks {
             self.build(name, span, &mut logic, &mut nets);
+        }
+        for (name, wire) in feedback {
+            let (definition, span) = self.definitions[name as usize].clone().expect("feedback is defined");
+            definition.pins().iter().for_each(|&pin| self.build(pin, span, &mut logic, &mut nets));
+            let driver = add(&mut logic, &definition, &nets);
+            logic.drive(wire, 0, driver);
         }
         if !self.errors.is_empty() {
             return Err(self.errors);
@@ -147,6 +222,19 @@ impl Draft {
             logic.add_output(label, nets[name as usize].expect("every output was built"));
         }
         Ok(Design { logic, registers: self.registers.into_iter().map(|register| register.register).collect() })
+    }
+
+    /// A wire for each net with a start value, to be driven when all is built.
+    fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(Name, NetId)> {
+        let mut wires = Vec::new();
+        for (&name, &start) in &self.starts {
+            if nets[name as usize].is_none() && self.definitions[name as usize].is_some() {
+                let wire = logic.add_wire(self.text(name), Some(start), None);
+                nets[name as usize] = Some(wire);
+                wires.push((name, wire));
+            }
+        }
+        wires
     }
 
     /// Builds a net and all it depends on, without recursion.
@@ -174,7 +262,11 @@ impl Draft {
                 Some(next) if on_path.insert(next) => open.push((next, span, 0)),
                 Some(next) => {
                     let message = format!("`{}` depends on itself", self.text(next));
-                    self.fault(message, span, "this closes the cycle");
+                    self.fault(message, span, "this closes the loop");
+                    if let Some(fault) = self.errors.last_mut() {
+                        fault.help =
+                            Some("feedback needs a start value: in BLIF `.attr init 0` after its `.names`".to_owned());
+                    }
                     nets[next as usize] = Some(logic.add_constant(false));
                 }
                 None => {

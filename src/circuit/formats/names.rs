@@ -2,28 +2,86 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::circuit::formats::Register;
 use crate::circuit::{NetId, Netlist, Node};
 
-/// A name for every input, output and cell; `legal` turns a wish into what the format can read.
-///
-/// Ports choose first, then the values and next values of `registers`, which are the last inputs and outputs, then cells.
-pub fn names(netlist: &Netlist, registers: usize, legal: impl Fn(&str) -> String) -> BTreeMap<NetId, String> {
-    let mut taken = BTreeSet::new();
-    let mut names = BTreeMap::new();
-    let (inputs, states) = netlist.inputs().split_at(netlist.inputs().len() - registers);
-    let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - registers);
-    let ports = [inputs, outputs, states, nexts].concat().into_iter();
-    let others = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. }));
-    for id in ports.chain(others) {
-        // A net that drives its namesake output needs another name only where the two are told apart.
-        let wish = legal(&netlist.net_name(id));
-        let numbered = (1..).map(|i| format!("{wish}_{i}"));
-        let free = std::iter::once(wish.clone()).chain(numbered).find(|name| !taken.contains(name));
-        let free = free.expect("there are more numbers than nets");
-        taken.insert(free.clone());
-        names.insert(id, free);
+/// The names of a design's nets and clocks in one file.
+#[derive(Clone, Debug)]
+pub struct Names {
+    nets: BTreeMap<NetId, String>,
+    /// The nets that clock registers, by the names that the registers have for them.
+    clocked: BTreeMap<String, NetId>,
+    /// The clocks that are no nets of the design, likewise.
+    clocks: BTreeMap<String, String>,
+}
+
+/// Where a register's clock comes from.
+pub enum ClockName<'n> {
+    /// From an input or a register's value.
+    Net(NetId),
+    /// From outside: the name that it has in the file.
+    Own(&'n str),
+}
+
+impl Names {
+    /// A name for every input, output, cell and clock; `legal` turns a wish into what the format can read, and `kept` are words
+    /// that the file uses otherwise.
+    ///
+    /// Ports choose first, then clocks that are no ports, then the values and next values of registers, which are the last inputs and
+    /// outputs, then cells.
+    pub fn new(netlist: &Netlist, registers: &[Register], kept: &[&str], legal: impl Fn(&str) -> String) -> Self {
+        let mut taken: BTreeSet<String> = kept.iter().map(|&word| word.to_owned()).collect();
+        let mut nets = BTreeMap::new();
+        let (inputs, states) = netlist.inputs().split_at(netlist.inputs().len() - registers.len());
+        let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - registers.len());
+        for &id in inputs.iter().chain(outputs) {
+            nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
+        }
+        let wanted: BTreeSet<&String> = registers.iter().filter_map(|register| register.clock.as_ref()).collect();
+        let sources = || inputs.iter().chain(states);
+        let source = |clock: &&String| sources().copied().find(|&id| netlist.net_name(id) == **clock);
+        let clocked = wanted.iter().filter_map(|clock| Some(((*clock).clone(), source(clock)?))).collect();
+        let own = wanted.iter().filter(|clock| source(clock).is_none());
+        let clocks = own.map(|clock| ((*clock).clone(), free(&mut taken, legal(clock)))).collect();
+        let others = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. }));
+        for id in states.iter().chain(nexts).copied().chain(others) {
+            nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
+        }
+        Self { nets, clocked, clocks }
     }
-    names
+
+    /// The name of a net.
+    pub fn net(&self, id: NetId) -> &str {
+        &self.nets[&id]
+    }
+
+    /// The clocks that are no nets of the design, in order.
+    pub fn own_clocks(&self) -> impl Iterator<Item = &str> {
+        self.clocks.values().map(String::as_str)
+    }
+
+    /// The clock of a register, if it has one.
+    pub fn clock(&self, register: &Register) -> Option<ClockName<'_>> {
+        let clock = register.clock.as_ref()?;
+        let net = self.clocked.get(clock).map(|&id| ClockName::Net(id));
+        net.or_else(|| self.clocks.get(clock).map(|name| ClockName::Own(name)))
+    }
+}
+
+/// A wish, or the first number behind it that nothing has taken.
+fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
+    let numbered = (1..).map(|i| format!("{wish}_{i}"));
+    let name = std::iter::once(wish.clone()).chain(numbered).find(|name| !taken.contains(name));
+    let name = name.expect("there are more numbers than nets");
+    taken.insert(name.clone());
+    name
+}
+
+/// A name in visible ASCII characters, those that a format cannot read replaced.
+pub fn visible(name: &str, unreadable: &[char]) -> String {
+    let readable = |c: char| c.is_ascii_graphic() && !unreadable.contains(&c);
+    let visible: String = name.chars().map(|c| if readable(c) { c } else { '_' }).collect();
+    if visible.is_empty() { "_".to_owned() } else { visible }
 }
 
 /// For each cell or register's value that drives outputs, the output that can stand for it: the first.
@@ -43,4 +101,22 @@ pub fn stand_ins(netlist: &Netlist, registers: usize) -> BTreeMap<NetId, NetId> 
 pub fn cells_in_order(netlist: &Netlist) -> Vec<NetId> {
     let loops = crate::circuit::Loops::of(netlist);
     loops.order().iter().copied().filter(|&id| matches!(netlist.node(id), Node::Cell(_))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Function;
+
+    #[test]
+    fn wishes_that_come_to_the_same_are_numbered() {
+        let mut netlist = Netlist::new("m");
+        let a = netlist.add_input("a b");
+        let b = netlist.add_input("a_b");
+        let gate = netlist.add_gate(Function::AND, &[a, b]);
+        netlist.rename(gate, "a\u{1b}b");
+        let output = netlist.add_output("", gate);
+        let names = Names::new(&netlist, &[], &["_"], |name| visible(name, &[]));
+        assert_eq!([a, b, gate, output].map(|id| names.net(id)), ["a_b", "a_b_1", "a_b_2", "__1"]);
+    }
 }

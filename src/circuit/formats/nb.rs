@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::circuit::formats::names::{cells_in_order, names, stand_ins};
+use crate::circuit::formats::names::{Names, cells_in_order, stand_ins};
 use crate::circuit::{Loops, NetId, Netlist, Node};
 
 /// Words of the language that no net may be called.
@@ -18,8 +18,10 @@ const RESERVED: &[&str] = &[
     "init",
     "latch",
     "library",
+    "log2",
     "material",
     "nand",
+    "net",
     "nor",
     "not",
     "or",
@@ -39,13 +41,13 @@ const RESERVED: &[&str] = &[
 /// Writes a netlist; feedback keeps its start values.
 pub fn write(netlist: &Netlist) -> String {
     let loops = Loops::of(netlist);
-    let names = names(netlist, 0, word);
+    let names = Names::new(netlist, &[], &[], word);
     let stand_ins = stand_ins(netlist, 0);
     let net = |id: NetId| match netlist.node(id) {
         Node::Constant(value) => u8::from(*value).to_string(),
-        _ => names[stand_ins.get(&id).unwrap_or(&id)].clone(),
+        _ => names.net(*stand_ins.get(&id).unwrap_or(&id)).to_owned(),
     };
-    let ports = |ids: &[NetId]| ids.iter().map(|id| names[id].clone()).collect::<Vec<_>>().join(", ");
+    let ports = |ids: &[NetId]| ids.iter().map(|&id| names.net(id).to_owned()).collect::<Vec<_>>().join(", ");
     let title = if netlist.name.is_empty() { "main".to_owned() } else { word(&netlist.name) };
     let mut text = format!("circuit {title}({}) -> ({}) {{\n", ports(netlist.inputs()), ports(netlist.outputs()));
     for id in cells_in_order(netlist) {
@@ -60,7 +62,7 @@ pub fn write(netlist: &Netlist) -> String {
     for &id in netlist.outputs() {
         let driver = netlist.pins(id)[0];
         if stand_ins.get(&driver) != Some(&id) {
-            let _ = writeln!(text, "    {} = {}", names[&id], net(driver));
+            let _ = writeln!(text, "    {} = {}", names.net(id), net(driver));
         }
     }
     text.push_str("}\n");
@@ -94,7 +96,8 @@ fn expression(bits: u8, pins: &[String]) -> String {
 /// A name as the language reads it.
 fn word(name: &str) -> String {
     let mut word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    if word.is_empty() || word.starts_with(|c: char| c.is_ascii_digit()) || RESERVED.contains(&word.as_str()) {
+    let nameless = word.chars().all(|c| c == '_');
+    if nameless || word.starts_with(|c: char| c.is_ascii_digit()) || RESERVED.contains(&word.as_str()) {
         word.insert_str(0, "n_");
     }
     word

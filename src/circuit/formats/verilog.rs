@@ -1,53 +1,51 @@
 //! Structural Verilog: an `assign` a cell, an `always` block a register.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, RegisterKind};
-use crate::circuit::formats::names::{cells_in_order, names};
+use crate::circuit::formats::names::{ClockName, Names, cells_in_order, visible};
 use crate::circuit::{NetId, Netlist, Node};
 
 /// Writes a design.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     // Escaped last: a number behind an escaped name would stand outside of it.
-    let names = names(netlist, design.registers.len(), str::to_owned);
-    let names: BTreeMap<_, _> = names.into_iter().map(|(id, name)| (id, escaped(&name))).collect();
+    let names = Names::new(netlist, &design.registers, &[], |name| visible(name, &[]));
+    let name = |id: NetId| escaped(names.net(id));
     let (inputs, states) = netlist.inputs().split_at(design.inputs());
     let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
-    let known: Vec<_> = inputs.iter().map(|&id| netlist.net_name(id)).collect();
-    let mut clocks: Vec<_> = design.registers.iter().filter_map(|register| register.clock.clone()).collect();
-    clocks.sort_unstable();
-    clocks.dedup();
-    clocks.retain(|clock| !known.contains(clock));
-    let clocks = clocks.iter().map(|clock| escaped(clock));
-    let input_names: Vec<_> = clocks.chain(inputs.iter().map(|id| names[id].clone())).collect();
-    let output_names: Vec<_> = outputs.iter().map(|id| names[id].clone()).collect();
+    let clocks = names.own_clocks().map(escaped);
+    let input_names: Vec<_> = clocks.chain(inputs.iter().map(|&id| name(id))).collect();
+    let output_names: Vec<_> = outputs.iter().map(|&id| name(id)).collect();
     let ports = input_names.iter().map(|name| format!("input {name}"));
     let ports: Vec<_> = ports.chain(output_names.iter().map(|name| format!("output {name}"))).collect();
-    let title = if netlist.name.is_empty() { "circuit".to_owned() } else { escaped(&netlist.name) };
+    let title = if netlist.name.is_empty() { "circuit".to_owned() } else { escaped(&visible(&netlist.name, &[])) };
     let mut text = format!("module {title}({});\n", ports.join(", "));
     for (state, register) in states.iter().zip(&design.registers) {
         let start = register.start.map_or(String::new(), |start| format!(" = 1'b{}", u8::from(start)));
-        let _ = writeln!(text, "    reg {}{start};", names[state]);
+        let _ = writeln!(text, "    reg {}{start};", name(*state));
     }
     let cells = cells_in_order(netlist);
-    for id in cells.iter().chain(nexts) {
-        let _ = writeln!(text, "    wire {};", names[id]);
+    for &id in cells.iter().chain(nexts) {
+        let _ = writeln!(text, "    wire {};", name(id));
     }
     let net = |id: NetId| match netlist.node(id) {
         Node::Constant(value) => format!("1'b{}", u8::from(*value)),
-        _ => names[&id].clone(),
+        _ => name(id),
     };
     for &id in &cells {
-        let _ = writeln!(text, "    assign {} = {};", names[&id], expression(netlist, id, &net));
+        let _ = writeln!(text, "    assign {} = {};", name(id), expression(netlist, id, &net));
     }
     for &id in netlist.outputs() {
-        let _ = writeln!(text, "    assign {} = {};", names[&id], net(netlist.pins(id)[0]));
+        let _ = writeln!(text, "    assign {} = {};", name(id), net(netlist.pins(id)[0]));
     }
     for ((register, state), next) in design.registers.iter().zip(states).zip(nexts) {
-        let clock = escaped(register.clock.as_deref().unwrap_or("clk"));
-        let (state, next) = (&names[state], &names[next]);
+        let clock = match names.clock(register) {
+            Some(ClockName::Net(id)) => name(id),
+            Some(ClockName::Own(clock)) => escaped(clock),
+            None => "clk".to_owned(),
+        };
+        let (state, next) = (name(*state), name(*next));
         let _ = match register.kind {
             RegisterKind::Rising => writeln!(text, "    always @(posedge {clock}) {state} <= {next};"),
             RegisterKind::Falling => writeln!(text, "    always @(negedge {clock}) {state} <= {next};"),
@@ -84,10 +82,256 @@ fn expression(netlist: &Netlist, id: NetId, net: &impl Fn(NetId) -> String) -> S
     }
 }
 
-/// Words that Verilog keeps for itself and that circuits like to use.
+/// The words that Verilog and SystemVerilog keep for themselves.
 const RESERVED: &[&str] = &[
-    "always", "and", "assign", "begin", "buf", "case", "default", "else", "end", "for", "if", "initial", "inout",
-    "input", "module", "nand", "nor", "not", "or", "output", "reg", "table", "wire", "xnor", "xor",
+    "accept_on",
+    "alias",
+    "always",
+    "always_comb",
+    "always_ff",
+    "always_latch",
+    "and",
+    "assert",
+    "assign",
+    "assume",
+    "automatic",
+    "before",
+    "begin",
+    "bind",
+    "bins",
+    "binsof",
+    "bit",
+    "break",
+    "buf",
+    "bufif0",
+    "bufif1",
+    "byte",
+    "case",
+    "casex",
+    "casez",
+    "cell",
+    "chandle",
+    "checker",
+    "class",
+    "clocking",
+    "cmos",
+    "config",
+    "const",
+    "constraint",
+    "context",
+    "continue",
+    "cover",
+    "covergroup",
+    "coverpoint",
+    "cross",
+    "deassign",
+    "default",
+    "defparam",
+    "design",
+    "disable",
+    "dist",
+    "do",
+    "edge",
+    "else",
+    "end",
+    "endcase",
+    "endchecker",
+    "endclass",
+    "endclocking",
+    "endconfig",
+    "endfunction",
+    "endgenerate",
+    "endgroup",
+    "endinterface",
+    "endmodule",
+    "endpackage",
+    "endprimitive",
+    "endprogram",
+    "endproperty",
+    "endsequence",
+    "endspecify",
+    "endtable",
+    "endtask",
+    "enum",
+    "event",
+    "eventually",
+    "expect",
+    "export",
+    "extends",
+    "extern",
+    "final",
+    "first_match",
+    "for",
+    "force",
+    "foreach",
+    "forever",
+    "fork",
+    "forkjoin",
+    "function",
+    "generate",
+    "genvar",
+    "global",
+    "highz0",
+    "highz1",
+    "if",
+    "iff",
+    "ifnone",
+    "ignore_bins",
+    "illegal_bins",
+    "implements",
+    "implies",
+    "import",
+    "incdir",
+    "include",
+    "initial",
+    "inout",
+    "input",
+    "inside",
+    "instance",
+    "int",
+    "integer",
+    "interconnect",
+    "interface",
+    "intersect",
+    "join",
+    "join_any",
+    "join_none",
+    "large",
+    "let",
+    "liblist",
+    "library",
+    "local",
+    "localparam",
+    "logic",
+    "longint",
+    "macromodule",
+    "matches",
+    "medium",
+    "modport",
+    "module",
+    "nand",
+    "negedge",
+    "nettype",
+    "new",
+    "nexttime",
+    "nmos",
+    "nor",
+    "noshowcancelled",
+    "not",
+    "notif0",
+    "notif1",
+    "null",
+    "or",
+    "output",
+    "package",
+    "packed",
+    "parameter",
+    "pmos",
+    "posedge",
+    "primitive",
+    "priority",
+    "program",
+    "property",
+    "protected",
+    "pull0",
+    "pull1",
+    "pulldown",
+    "pullup",
+    "pulsestyle_ondetect",
+    "pulsestyle_onevent",
+    "pure",
+    "rand",
+    "randc",
+    "randcase",
+    "randsequence",
+    "rcmos",
+    "real",
+    "realtime",
+    "ref",
+    "reg",
+    "reject_on",
+    "release",
+    "repeat",
+    "restrict",
+    "return",
+    "rnmos",
+    "rpmos",
+    "rtran",
+    "rtranif0",
+    "rtranif1",
+    "s_always",
+    "s_eventually",
+    "s_nexttime",
+    "s_until",
+    "s_until_with",
+    "scalared",
+    "sequence",
+    "shortint",
+    "shortreal",
+    "showcancelled",
+    "signed",
+    "small",
+    "soft",
+    "solve",
+    "specify",
+    "specparam",
+    "static",
+    "string",
+    "strong",
+    "strong0",
+    "strong1",
+    "struct",
+    "super",
+    "supply0",
+    "supply1",
+    "sync_accept_on",
+    "sync_reject_on",
+    "table",
+    "tagged",
+    "task",
+    "this",
+    "throughout",
+    "time",
+    "timeprecision",
+    "timeunit",
+    "tran",
+    "tranif0",
+    "tranif1",
+    "tri",
+    "tri0",
+    "tri1",
+    "triand",
+    "trior",
+    "trireg",
+    "type",
+    "typedef",
+    "union",
+    "unique",
+    "unique0",
+    "unsigned",
+    "until",
+    "until_with",
+    "untyped",
+    "use",
+    "uwire",
+    "var",
+    "vectored",
+    "virtual",
+    "void",
+    "wait",
+    "wait_order",
+    "wand",
+    "weak",
+    "weak0",
+    "weak1",
+    "while",
+    "wildcard",
+    "wire",
+    "with",
+    "within",
+    "wor",
+    "xnor",
+    "xor",
 ];
 
 /// A name as Verilog reads it, with a backslash and a space where it is no plain word.
@@ -97,8 +341,7 @@ fn escaped(name: &str) -> String {
     if word && !RESERVED.contains(&name) {
         return name.to_owned();
     }
-    let visible: String = name.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect();
-    format!("\\{visible} ")
+    format!("\\{name} ")
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! Works out what constants, repeated pins and double inversion make of a cell.
 
-use crate::circuit::loops::Loops;
+use crate::circuit::guarded::{Guarded, Role};
 use crate::circuit::passes::Pass;
 use crate::circuit::{Cell, NetId, Netlist, NetlistError, Node};
 use crate::model::Function;
 
-/// Cells outside memory that constants or repeated pins decide become constants, inverters or nothing.
+/// Cells that constants or repeated pins decide become constants, inverters or nothing. Memory and its guards stay as written, whatever is
+/// constant around them; of what makes an enable, only constants are taken out.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldConstants;
 
@@ -22,17 +23,23 @@ impl Pass for FoldConstants {
     }
 
     fn description(&self) -> &'static str {
-        "simplify cells whose pins are constant, equal or ignored, and double inversion, outside memory"
+        "simplify cells whose pins are constant, equal or ignored, and double inversion, outside guarded memory"
     }
 
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        let loops = Loops::memory(netlist);
-        for &id in loops.order() {
-            let Some(cell) = netlist.cell(id).filter(|_| !loops.contains(id)) else {
+        let mut guarded = Guarded::of(netlist);
+        for id in guarded.memory().order().to_vec() {
+            let role = guarded.role(id);
+            let Some(cell) = netlist.cell(id).filter(|_| matches!(role, None | Some(Role::Control))) else {
                 continue;
             };
-            match fold(netlist, cell.function, &netlist.pins(id)) {
-                Folded::Cell(function, pins) => rewrite(netlist, id, function, &pins),
+            // An inverter of a control net is later than the net, which may be what its listeners rely on.
+            let free = |net: NetId| role.is_none() && guarded.role(net).is_none();
+            match fold(netlist, cell.function, &netlist.pins(id), free) {
+                Folded::Cell(function, pins) => {
+                    let new = rewrite(netlist, id, function, &pins);
+                    guarded.replace(id, new);
+                }
                 Folded::Net(net) => replace(netlist, id, net),
                 Folded::Constant(value) => {
                     let net = netlist.add_constant(value);
@@ -44,7 +51,8 @@ impl Pass for FoldConstants {
     }
 }
 
-fn fold(netlist: &Netlist, function: Function, pins: &[NetId]) -> Folded {
+/// What a cell comes to; an inverter may be looked through where its net is `free`.
+fn fold(netlist: &Netlist, function: Function, pins: &[NetId], free: impl Fn(NetId) -> bool) -> Folded {
     let a = pins[0];
     let b = pins.get(1).copied().unwrap_or(a);
     let outputs = [(false, false), (false, true), (true, false), (true, true)]
@@ -64,7 +72,7 @@ fn fold(netlist: &Netlist, function: Function, pins: &[NetId]) -> Folded {
             return Folded::Net(net);
         }
         if follows(true) {
-            return inverted(netlist, net);
+            return inverted(netlist, net, free(net));
         }
     }
     Folded::Cell(function, vec![a, b])
@@ -76,24 +84,23 @@ fn possible(netlist: &Netlist, a: NetId, b: NetId, x: bool, y: bool) -> bool {
     allowed(a, x) && allowed(b, y) && (a != b || x == y)
 }
 
-/// The opposite of a net: of an inverter, what it inverts.
-fn inverted(netlist: &Netlist, net: NetId) -> Folded {
+/// The opposite of a net: of an inverter that is free, what it inverts.
+fn inverted(netlist: &Netlist, net: NetId, free: bool) -> Folded {
     match netlist.cell(net) {
-        Some(Cell { function: Function::NOT, .. }) => Folded::Net(netlist.pins(net)[0]),
+        Some(Cell { function: Function::NOT, .. }) if free => Folded::Net(netlist.pins(net)[0]),
         _ => Folded::Cell(Function::NOT, vec![net]),
     }
 }
 
-fn rewrite(netlist: &mut Netlist, id: NetId, function: Function, pins: &[NetId]) {
-    let same = netlist.cell(id).is_some_and(|cell| cell.function == function);
-    if same && netlist.pins(id) == pins {
-        return;
+/// Makes a cell another function of other pins; gives the cell that takes its place.
+fn rewrite(netlist: &mut Netlist, id: NetId, function: Function, pins: &[NetId]) -> NetId {
+    let cell = netlist.cell(id).cloned().expect("only cells are folded");
+    if cell.function == function && netlist.pins(id) == pins {
+        return id;
     }
-    let Some(cell) = netlist.cell(id).cloned() else {
-        return;
-    };
     let new = netlist.add_cell(Cell { function, ..cell }, pins);
     replace(netlist, id, new);
+    new
 }
 
 fn replace(netlist: &mut Netlist, id: NetId, net: NetId) {

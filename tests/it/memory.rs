@@ -1,0 +1,260 @@
+//! Memory made of cells remembers what it should, whatever its data is and however long its cells take; in physics too.
+
+use nbc::check;
+use nbc::circuit::formats::{Design, blif};
+use nbc::circuit::passes::DissolveWires;
+use nbc::circuit::{CellLibrary, Delayed, Guarded, Logic, Loops, Netlist, Role, elaborate, map, prove};
+use nbc::model::{Function, Instance, Program};
+use nbc::source::{FileId, MemoryWorld, Sources};
+use nbc::store::DiskWorld;
+use proptest::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::language::programs;
+
+/// The inputs of a random circuit.
+const INPUTS: [&str; 4] = ["a", "b", "clk", "en"];
+const CLOCK: usize = 2;
+const ENABLE: usize = 3;
+
+/// What a memory element takes: of nets that are numbered with `a` and `b` first, then the elements.
+#[derive(Clone, Copy, Debug)]
+enum Data {
+    Constant(bool),
+    Net(usize, bool),
+    Xor(usize, usize),
+    /// The first net while `en` is on, else the second.
+    Choice(usize, usize),
+}
+
+/// When a memory element takes it.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// A register; whether its clock is turned over.
+    Register(bool),
+    /// A latch that is open while `en` is that value.
+    Latch(bool),
+    /// A latch that is always open, or never.
+    Fixed(bool),
+}
+
+/// A memory element of a random circuit.
+#[derive(Clone, Copy, Debug)]
+struct Element {
+    kind: Kind,
+    data: Data,
+    start: bool,
+}
+
+impl Data {
+    fn text(self) -> String {
+        let name = |net: usize| if net < 2 { INPUTS[net].to_owned() } else { format!("q{}", net - 2) };
+        match self {
+            Self::Constant(value) => u8::from(value).to_string(),
+            Self::Net(net, false) => name(net),
+            Self::Net(net, true) => format!("not {}", name(net)),
+            Self::Xor(a, b) => format!("{} xor {}", name(a), name(b)),
+            Self::Choice(a, b) => format!("if en then {} else {}", name(a), name(b)),
+        }
+    }
+
+    fn value(self, inputs: &[bool], state: &[bool]) -> bool {
+        let net = |net: usize| if net < 2 { inputs[net] } else { state[net - 2] };
+        match self {
+            Self::Constant(value) => value,
+            Self::Net(one, inverted) => net(one) != inverted,
+            Self::Xor(a, b) => net(a) != net(b),
+            Self::Choice(a, b) => net(if inputs[ENABLE] { a } else { b }),
+        }
+    }
+}
+
+fn text(elements: &[Element]) -> String {
+    let outputs: Vec<_> = (0..elements.len()).map(|i| format!("q{i}")).collect();
+    let mut text = format!("circuit memory({}) -> ({}) {{\n", INPUTS.join(", "), outputs.join(", "));
+    for (i, Element { kind, data, start }) in elements.iter().enumerate() {
+        let (word, control) = match kind {
+            Kind::Register(false) => ("register", "clk"),
+            Kind::Register(true) => ("register", "not clk"),
+            Kind::Latch(true) => ("latch", "en"),
+            Kind::Latch(false) => ("latch", "not en"),
+            Kind::Fixed(true) => ("latch", "1"),
+            Kind::Fixed(false) => ("latch", "0"),
+        };
+        text += &format!("    q{i} = {word}[start = {}]({}, {control})\n", u8::from(*start), data.text());
+    }
+    text + "}\n"
+}
+
+/// The state after the inputs came to what they are: registers take their data where their clock rose, then latches follow.
+fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut Vec<bool>) {
+    let old = state.clone();
+    for (i, element) in elements.iter().enumerate() {
+        if let Kind::Register(inverted) = element.kind
+            && before[CLOCK] == inverted
+            && inputs[CLOCK] != inverted
+        {
+            state[i] = element.data.value(inputs, &old);
+        }
+    }
+    for (i, element) in elements.iter().enumerate() {
+        let open = match element.kind {
+            Kind::Register(_) => false,
+            Kind::Latch(value) => inputs[ENABLE] == value,
+            Kind::Fixed(open) => open,
+        };
+        if open {
+            state[i] = element.data.value(inputs, state);
+        }
+    }
+}
+
+/// One to five elements. A register takes any net, itself too; a latch takes inputs and the elements before it, so that none chases
+/// itself, and none that changes with the enable that closes it.
+fn elements() -> impl Strategy<Value = Vec<Element>> {
+    let element = (0..9u8, 0..8u8, 0..100usize, 0..100usize, any::<bool>(), any::<bool>());
+    proptest::collection::vec(element, 1..6).prop_map(|drawn| {
+        let all = drawn.len() + 2;
+        let build = |(i, &(kind, data, x, y, inverted, start)): (usize, &(u8, u8, usize, usize, bool, bool))| {
+            let kind = match kind {
+                0..4 => Kind::Register(false),
+                4 => Kind::Register(true),
+                5 | 6 => Kind::Latch(inverted),
+                _ => Kind::Fixed(kind == 7),
+            };
+            let nets = if matches!(kind, Kind::Register(_)) { all } else { i + 2 };
+            let data = match (data, kind) {
+                (0 | 1, _) => Data::Constant(inverted),
+                (2 | 3, Kind::Register(_)) => Data::Xor(x % nets, y % nets),
+                (4, Kind::Register(_)) => Data::Choice(x % nets, y % nets),
+                (_, Kind::Register(_)) => Data::Net(x % nets, inverted),
+                _ => Data::Net(x % 2, start),
+            };
+            Element { kind, data, start }
+        };
+        drawn.iter().enumerate().map(build).collect()
+    })
+}
+
+/// Checks a text without looking at warnings, such as that of an input that nothing uses.
+fn program(text: &str) -> Program {
+    let mut sources = Sources::default();
+    let file = sources.add("memory.nb", text);
+    let checked = check::check(&MemoryWorld::default(), &mut sources, file);
+    assert!(!checked.has_errors(), "{:?}\n{text}", checked.diagnostics);
+    checked.program
+}
+
+fn mapped(text: &str, cells: &CellLibrary) -> Netlist {
+    let source = elaborate(&program(text), &Instance::from("memory")).unwrap();
+    let mapped = map(&source, cells).unwrap();
+    prove(&source, &mapped).unwrap();
+    mapped
+}
+
+/// Switches one input after another, each held until all has come to rest, and compares every output with what the elements mean.
+fn remembers(elements: &[Element], netlist: &Netlist, random: &mut ChaCha8Rng) {
+    let guarded = Guarded::of(netlist);
+    // One to three cycles; but what makes a clock is no slower than two other cells, or a register would hear the next value of another.
+    let most = |id| if guarded.role(id) == Some(Role::Control) { 2 } else { 3 };
+    let mut delayed = Delayed::new(netlist, |id| random.random_range(1..=most(id)));
+    let rest = 6 * netlist.cells().count() + 30;
+    let mut inputs = [false; 4];
+    let mut state: Vec<bool> = elements.iter().map(|element| element.start).collect();
+    next(elements, &inputs, &inputs, &mut state);
+    assert_eq!(delayed.run(&inputs, rest), state, "at the start\n{}", text(elements));
+    for row in 0..16 {
+        let before = inputs;
+        inputs[random.random_range(0..4)] ^= true;
+        next(elements, &before, &inputs, &mut state);
+        let found = delayed.run(&inputs, rest);
+        assert_eq!(found, state, "row {row}, {before:?} to {inputs:?}\n{}{netlist}", text(elements));
+    }
+}
+
+fn libraries() -> [CellLibrary; 3] {
+    let all = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
+    [
+        CellLibrary::uniform([Function::NAND, Function::NOT]),
+        CellLibrary::uniform([Function::AND, Function::OR, Function::NOT]),
+        CellLibrary::uniform(all),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn registers_and_latches_of_any_data_remember_whatever_the_delays(elements in elements(), seed: u64) {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        for library in libraries() {
+            let netlist = mapped(&text(&elements), &library);
+            (0..4).for_each(|_| remembers(&elements, &netlist, &mut random));
+        }
+    }
+}
+
+/// A register that takes 1, for which constants made one of its guards hear the clock too early.
+#[test]
+fn a_register_of_a_constant_has_its_guards_as_written() {
+    let netlist = mapped("circuit memory(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n", &libraries()[0]);
+    let guarded = Guarded::of(&netlist);
+    let count = |role| netlist.ids().filter(|&id| guarded.role(id) == Some(role)).count();
+    assert_eq!([Role::Memory, Role::Guard, Role::Control].map(count), [4, 4, 1], "{netlist}");
+}
+
+fn run(program: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("memory.nb");
+    std::fs::write(&path, program).unwrap();
+    nbc::run_file(&path, &nbc::Options::default()).unwrap_or_else(|error| panic!("{error}")).assert_passed();
+}
+
+#[test]
+fn a_register_of_a_constant_takes_it_in_physics() {
+    run("circuit once(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n\
+         test once \"takes 1 at the first rise\" {\n    clk | q\n    0   | 0\n    1   | 1\n    0   | 1\n    1   | 1\n}\n");
+}
+
+#[test]
+fn ones_are_shifted_in_one_by_one_in_physics() {
+    run("circuit ones(clk) -> (q[3]) {\n    q = register({q[1], q[0], 1}, clk)\n}\n\
+         test ones \"counts rises\" {\n    clk | q\n    0 | 000\n    1 | 001\n    0 | 001\n    1 | 011\n}\n");
+}
+
+/// The circuits of the gallery that hold a bit, mapped.
+fn gallery(library: &CellLibrary) -> Vec<Netlist> {
+    let mut found = Vec::new();
+    for path in programs("circuits") {
+        let loaded = nbc::pipeline::load(&DiskWorld, path.to_str().unwrap());
+        let program = &loaded.checked.program;
+        let circuits: std::collections::BTreeSet<_> =
+            program.tests.iter().map(|test| test.circuit.to_string()).collect();
+        let of = |name: &String| program.tests.iter().find(|test| test.circuit.to_string() == *name).unwrap();
+        let netlists =
+            circuits.iter().map(|name| map(&elaborate(program, &of(name).circuit).unwrap(), library).unwrap());
+        found.extend(netlists.filter(|netlist| !Loops::memory(netlist).cores().is_empty()));
+    }
+    assert!(found.len() > 5, "the gallery has memory");
+    found
+}
+
+#[test]
+fn blif_of_robots_that_remember_reads_back_equal() {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    for netlist in libraries().iter().flat_map(gallery) {
+        let text = blif::write(&Design { logic: netlist.clone(), registers: Vec::new() });
+        let read = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
+        let mut again = read.logic;
+        DissolveWires.run_on(&mut again).unwrap();
+        let proof = prove(&netlist, &again).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(proof.cuts.len(), Loops::memory(&netlist).cores().concat().len());
+        let mut both = [Logic::new(&netlist), Logic::new(&again)];
+        for _ in 0..100 {
+            let inputs: Vec<bool> = netlist.inputs().iter().map(|_| random.random_range(0..2) == 1).collect();
+            let [one, two] = &mut both;
+            assert_eq!(one.settle(&inputs), two.settle(&inputs), "{text}");
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What is written for other tools and for the language itself: legal names that never collide, canonical programs, the same function.
+
+use nbc::circuit::formats::{Design, Format, aiger, blif};
+use nbc::circuit::{Logic, Netlist, elaborate};
+use nbc::model::{Function, Instance};
+use nbc::source::{FileId, MemoryWorld, Sources};
+use nbc::{check, store, syntax};
+use proptest::prelude::*;
+
+/// Names that some format cannot read, or that come to the same where they are made readable.
+const NAMES: &[&str] = &[
+    "a",
+    "b",
+    "a b",
+    "a_b",
+    "a\tb",
+    "",
+    "_",
+    "__",
+    "n_",
+    "net",
+    "log2",
+    "if",
+    "init",
+    "and",
+    "circuit",
+    "test",
+    "use",
+    "wire",
+    "always",
+    "logic",
+    "1",
+    "1'b1",
+    "$true",
+    "$false",
+    "q[0]",
+    "q[1]",
+    "q_0_",
+    "\u{1b}[31mPASS",
+    "line\nbreak",
+    "größe",
+    "#",
+    "\\",
+    "x=y",
+    "NIL",
+    "\"",
+    "a/b",
+    "register",
+    "all",
+    "begin",
+    "module",
+    "n5",
+    "n6",
+    "*/",
+    "`define",
+];
+
+/// A network of gates with two inputs, whose nets have names of the list.
+fn netlists() -> impl Strategy<Value = Netlist> {
+    let name = || 0..NAMES.len();
+    let gate = (0..16u8, 0..100usize, 0..100usize, proptest::option::of(name()));
+    let gates = proptest::collection::vec(gate, 0..12);
+    let outputs = proptest::collection::vec((0..100usize, name()), 1..5);
+    (name(), proptest::collection::vec(name(), 1..5), gates, outputs).prop_map(|(title, inputs, gates, outputs)| {
+        let mut netlist = Netlist::new(NAMES[title]);
+        let mut nets: Vec<_> = inputs.into_iter().map(|name| netlist.add_input(NAMES[name])).collect();
+        for (bits, a, b, name) in gates {
+            let net = netlist.add_gate(Function::new(bits), &[nets[a % nets.len()], nets[b % nets.len()]]);
+            name.into_iter().for_each(|name| netlist.rename(net, NAMES[name]));
+            nets.push(net);
+        }
+        for (net, name) in outputs {
+            netlist.add_output(NAMES[name], nets[net % nets.len()]);
+        }
+        netlist
+    })
+}
+
+/// Two netlists give the same outputs, port by port, for every input.
+fn same(one: &Netlist, two: &Netlist, text: &str) {
+    let bits = one.inputs().len();
+    let (mut first, mut second) = (Logic::new(one), Logic::new(two));
+    for pattern in 0..1u32 << bits {
+        let inputs: Vec<bool> = (0..bits).map(|bit| pattern >> bit & 1 == 1).collect();
+        assert_eq!(first.settle(&inputs), second.settle(&inputs), "at {inputs:?}\n{text}");
+    }
+}
+
+/// The text of a design as a program, checked to be what `nbc fmt` would make of it, and its circuit.
+fn as_program(design: &Design) -> (String, Netlist) {
+    let text = String::from_utf8(store::encode_circuit(design, Format::Nb).unwrap()).unwrap();
+    let mut sources = Sources::default();
+    let file = sources.add("written.nb", text.clone());
+    let parsed = syntax::parse(&sources, file);
+    assert_eq!(parsed.errors, [], "{text}");
+    assert_eq!(syntax::format(&sources, file, &parsed.tree), text);
+    let checked = check::check(&MemoryWorld::default(), &mut sources, file);
+    assert!(!checked.has_errors(), "{:?}\n{text}", checked.diagnostics);
+    let own = checked.program.circuits.iter().find(|circuit| circuit.span.file == file).unwrap();
+    let netlist = elaborate(&checked.program, &Instance::from(own.name.as_str())).unwrap();
+    (text, netlist)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn programs_are_written_in_canonical_form_and_mean_the_same(netlist in netlists()) {
+        let design = Design { logic: netlist, registers: Vec::new() };
+        let (text, again) = as_program(&design);
+        same(&design.logic, &again, &text);
+    }
+
+    #[test]
+    fn blif_and_aiger_with_any_names_read_back_the_same(netlist in netlists()) {
+        let design = Design { logic: netlist, registers: Vec::new() };
+        let text = blif::write(&design);
+        let again = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
+        same(&design.logic, &again.logic, &text);
+        for binary in [false, true] {
+            let bytes = aiger::write(&design, binary);
+            let again = aiger::read(&bytes, None).unwrap_or_else(|fault| panic!("{fault:?}"));
+            same(&design.logic, &again.logic, "AIGER");
+        }
+    }
+
+    #[test]
+    fn verilog_names_are_legal_and_different(netlist in netlists()) {
+        let ports = netlist.inputs().len() + netlist.outputs().len();
+        let text = String::from_utf8(Format::Verilog.encode(&Design { logic: netlist, registers: Vec::new() }).unwrap()).unwrap();
+        assert!(text.chars().all(|c| c == '\n' || c == ' ' || c.is_ascii_graphic()), "{text}");
+        let head = text.lines().next().unwrap();
+        // An escaped name and the plain one are the same name.
+        let names: std::collections::BTreeSet<String> = head
+            .split_once('(').unwrap().1
+            .split("put ").skip(1)
+            .map(|name| name.trim_start_matches('\\').split([' ', ',']).next().unwrap().trim_end_matches(");").to_owned())
+            .collect();
+        assert_eq!(names.len(), ports, "{head}");
+    }
+}
+
+#[test]
+fn a_model_without_outputs_is_no_program() {
+    let mut logic = Netlist::new("silent");
+    logic.add_input("a");
+    let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, Format::Nb).unwrap_err();
+    assert_eq!(fault.message, "`silent` has no outputs, and a circuit of a .nb file needs one");
+}
