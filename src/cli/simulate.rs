@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Status, library, schedule};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Table};
 use crate::sim;
@@ -97,13 +97,15 @@ fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
         return bad(format!("`--world-width {world}` is too wide, expected at most {MAX_WORLD_WIDTH}"));
     }
     if world < width {
-        return bad(format!("`--world-width {world}` is too narrow for a body of {width} columns"));
+        return bad(format!("`--world-width {world}` is too narrow for a body of {}", counted(width, "column")));
     }
     let start = setting.start_column(width);
     if start > world - width {
         let last = world - width;
         return bad(format!(
-            "`--start-x {start}` is off the ground, expected at most {last} for {width} columns on {world} voxels"
+            "`--start-x {start}` is off the ground, expected at most {last} for {} on {}",
+            counted(width, "column"),
+            counted(world, "voxel")
         ));
     }
     Ok(())
@@ -145,8 +147,8 @@ fn describe(schedule: &Schedule, trajectory: &Trajectory) -> String {
     let mut table = Table::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
     for (spell, walked) in schedule.spells.iter().zip(displacements(schedule, trajectory)) {
         let length = match spell.steps % CYCLE_STEPS {
-            0 => format!("{} cycles", spell.steps / CYCLE_STEPS),
-            _ => format!("{} steps", spell.steps),
+            0 => counted((spell.steps / CYCLE_STEPS) as usize, "cycle"),
+            _ => counted(spell.steps as usize, "step"),
         };
         let (walked, direction) = match walked {
             Some(walked) => (format!("{walked:+.6}"), format!("{:?}", Direction::of(walked)).to_lowercase()),

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::diag::counted;
 use crate::model::{Library, Palette, Pattern, Robot};
 use crate::report::{Align, Table};
 
@@ -96,7 +97,8 @@ pub fn describe_robot(robot: &Robot) -> String {
         .zip(robot.displacement)
         .map(|(pattern, voxels)| format!("{pattern} {voxels:+.2}"))
         .collect();
-    let clock = format!("{} cycles, margin {:.3} voxels a cycle", character.clock, character.margin);
+    let clock =
+        format!("{}, margin {:.3} voxels a cycle", counted(character.clock as usize, "cycle"), character.margin);
     let errors = format!(
         "{} of {} switches, glitches {}",
         percent(character.error_rate),

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::Builder;
+use crate::store::draft::{Draft, keep_owner_and_mode};
 
 /// Writes a file so that at any moment its path holds either what was there before or all of `bytes`: a new file in the same
 /// folder, flushed to the disk, takes the old one's name.
@@ -34,22 +34,20 @@ fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>
         Some(folder) if folder != Path::new("") => folder.to_owned(),
         _ => PathBuf::from("."),
     };
-    let mut builder = Builder::new();
-    builder.prefix(".nbc-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Read and write for all, less what the umask takes away, as for any other new file.
-        builder.permissions(fs::Permissions::from_mode(0o666));
+    let before = fs::metadata(target).ok();
+    if before.as_ref().is_some_and(|before| before.permissions().readonly()) {
+        return Err(io::Error::other("it is read-only"));
     }
-    // The name of the new file is nothing that the user wrote.
-    let mut file = builder.tempfile_in(&folder).map_err(|error| io::Error::from(error.kind()))?;
-    let mut buffer = BufWriter::new(file.as_file_mut());
+    let mut draft = Draft::create(&folder)?;
+    let mut buffer = BufWriter::new(draft.file());
     content(&mut buffer)?;
     buffer.flush()?;
     drop(buffer);
-    file.as_file().sync_all()?;
-    file.persist(target).map_err(|error| error.error)?;
+    if let Some(before) = before {
+        keep_owner_and_mode(draft.file(), &before)?;
+    }
+    draft.file().sync_all()?;
+    draft.persist(&folder, target)?;
     fs::File::open(&folder)?.sync_all()
 }
 
@@ -72,6 +70,42 @@ mod tests {
         write(&path, b"old").unwrap();
         write(&path, b"new").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_file_keeps_its_mode_and_its_owner_and_a_read_only_one_stays() {
+        use std::os::unix::fs::{MetadataExt, PermissionsExt};
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.nb");
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
+        // Only the superuser may give files away.
+        let _ = std::os::unix::fs::chown(&path, Some(12_345), Some(54_321));
+        let about = |path: &Path| fs::metadata(path).map(|about| (about.mode(), about.uid(), about.gid())).unwrap();
+        let before = about(&path);
+        write(&path, b"new").unwrap();
+        assert_eq!(about(&path), before);
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o440)).unwrap();
+        assert_eq!(write(&path, b"newer").unwrap_err().to_string(), "it is read-only");
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_file_has_no_name_before_it_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        for path in ["new.gif", "new.gif"].map(|name| folder.path().join(name)) {
+            let before = fs::read_dir(folder.path()).unwrap().count();
+            write_with(&path, |out| {
+                out.write_all(&[0; 100_000])?;
+                // A program that ended here would leave nothing.
+                assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before);
+                Ok(())
+            })
+            .unwrap();
+        }
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

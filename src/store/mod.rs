@@ -4,6 +4,7 @@ mod atomic;
 mod checkpoint;
 mod circuit_file;
 mod disk;
+mod draft;
 mod first_checkpoint;
 mod library;
 mod robot;

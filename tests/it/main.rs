@@ -28,6 +28,7 @@ mod plots;
 mod speed;
 mod swarms;
 mod synth;
+mod terminal;
 mod testing;
 mod tidy;
 mod ui;

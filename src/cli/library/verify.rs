@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::diag::counted;
 use crate::model::{Library, Robot};
 use crate::swarm::{self, Measurement};
 
@@ -46,7 +47,7 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
                     if finding.verified { "ok".to_owned() } else { format!("differs: {}", finding.differs.join(", ")) };
                 context.print(format_args!("{:<24} {verdict}\n", finding.name))?;
             }
-            context.print(format_args!("{} robots, {failed} differ from their files\n", findings.len()))?;
+            context.print(format_args!("{}, {failed} not as in its file\n", counted(findings.len(), "robot")))?;
         }
     }
     Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
