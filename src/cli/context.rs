@@ -1,13 +1,14 @@
 //! What every command is given: where and how to print.
 
 use std::fmt;
-use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
+use std::io::{self, IsTerminal, Write};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::ser::Formatter;
 
 use crate::cli::Failure;
+use crate::cli::output::Output;
 use crate::diag::{Diagnostic, is_hidden, render, visible};
 use crate::source::Sources;
 
@@ -62,18 +63,18 @@ pub struct Context {
     pub format: Format,
     /// Whether messages are colored.
     pub color: bool,
-    out: BufWriter<StdoutLock<'static>>,
+    out: Output,
 }
 
 impl Context {
     pub(super) fn new(global: &GlobalArguments) -> Self {
-        Self { format: global.format, color: global.color.on(), out: BufWriter::new(io::stdout().lock()) }
+        Self { format: global.format, color: global.color.on(), out: Output::new(io::stdout().lock()) }
     }
 
-    /// Prints to standard output.
+    /// Prints to standard output. Into a closed pipe nothing is printed any more; the work goes on, since it decides the exit status.
     ///
     /// # Errors
-    /// When the output cannot be written; a closed pipe then ends the program quietly.
+    /// When the output cannot be written, for example on a full disk.
     pub fn print(&mut self, text: impl fmt::Display) -> Result<(), Failure> {
         Ok(self.out.write_all(visible(&text.to_string()).as_bytes())?)
     }

@@ -37,7 +37,7 @@ impl Failure {
         Self::plain(Diagnostic::unwritable(path, error))
     }
 
-    /// Tells the user, and says how the program ends. Nobody reads a closed pipe, so that is a silent end.
+    /// Tells the user, and says how the program ends.
     pub fn report(self, context: &mut Context) -> Status {
         match self {
             Self::Input { diagnostics, sources } => {
@@ -50,15 +50,18 @@ impl Failure {
                 context.tell(&diagnostics, &sources);
                 Status::BadInput
             }
-            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Done,
             Self::Output(error) => {
-                let message = format!("cannot write the output: {}", io_words(&error));
-                let diagnostic = Diagnostic::without_place(Code::Unwritable, message);
-                context.tell(&[diagnostic], &Sources::default());
+                context.tell(&[unprintable(&error)], &Sources::default());
                 Status::BadInput
             }
         }
     }
+}
+
+/// Standard output that cannot be written.
+pub(super) fn unprintable(error: &io::Error) -> Diagnostic {
+    let message = format!("cannot write the output: {}", io_words(error));
+    Diagnostic::without_place(Code::Unwritable, message)
 }
 
 impl From<io::Error> for Failure {

@@ -15,6 +15,7 @@ mod fmt;
 mod interrupt;
 mod library;
 mod mapping;
+mod output;
 mod progress;
 mod run;
 mod schedule;
@@ -22,12 +23,18 @@ mod simulate;
 mod status;
 mod synth;
 mod test;
+mod threads;
 mod timings;
+mod workers;
 
 use std::ffi::OsString;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use crate::diag::render;
+use crate::source::Sources;
 
 pub use context::{Context, Format};
 pub use failure::Failure;
@@ -95,13 +102,25 @@ pub fn main() -> ExitCode {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
-        Err(error) => {
-            // A closed pipe leaves nobody to tell.
-            let _ = error.print();
-            return if error.use_stderr() { Status::BadInput.into() } else { Status::Done.into() };
-        }
+        Err(told) => return tell(&told).into(),
     };
     let mut context = Context::new(&cli.global);
-    let outcome = cli.command.run(&mut context).and_then(|status| context.flush().map(|()| status));
+    let outcome = threads::start(&context)
+        .and_then(|()| cli.command.run(&mut context))
+        .and_then(|status| context.flush().map(|()| status));
     outcome.unwrap_or_else(|failure| failure.report(&mut context)).into()
+}
+
+/// Prints what clap has to tell instead of a command: help, the version, or a fault of usage.
+fn tell(told: &clap::Error) -> Status {
+    match told.print().and_then(|()| io::stdout().flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            // The status says the same where standard error is closed too.
+            let fault = failure::unprintable(&error);
+            let _ = io::stderr().write_all(render::text(&[fault], &Sources::default(), false).as_bytes());
+            Status::BadInput
+        }
+        _ if told.use_stderr() => Status::BadInput,
+        _ => Status::Done,
+    }
 }

@@ -1,62 +1,196 @@
-//! Progress on standard error, for work of more than a second; silent where that is no terminal.
+//! Progress on standard error: a bar on a terminal; elsewhere, such as in a log file, a line now and then.
 
-use std::time::Duration;
+use std::io::{self, Write};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A progress bar, gone without a trace when dropped.
-pub struct Progress(ProgressBar);
+/// How far some work is. A bar is gone without a trace when this is dropped.
+pub struct Progress {
+    bar: ProgressBar,
+    started: Instant,
+    state: Mutex<State>,
+}
+
+/// What there is to tell.
+#[derive(Clone, Debug)]
+struct State {
+    /// What is being done, such as `measuring`.
+    what: &'static str,
+    /// Done before this began.
+    from: u64,
+    done: u64,
+    total: u64,
+    /// A remark, such as the speed.
+    note: String,
+    pace: Pace,
+}
+
+/// When the next line is due where there is no terminal.
+#[derive(Clone, Debug)]
+struct Pace {
+    next: Duration,
+}
 
 impl Progress {
-    /// A bar over `total` pieces of work, with a word for what is being done.
+    /// Progress of `total` pieces of work, with a word for what is being done.
     pub fn new(what: &'static str, total: u64) -> Self {
-        Self::with_template(total, "{msg:>12} [{bar:30}] {pos}/{len}, {eta} left").message(what)
+        Self::resumed(what, 0, total)
     }
 
-    /// A bar with a template of indicatif's.
-    ///
-    /// # Panics
-    /// When the template is malformed.
-    pub fn with_template(total: u64, template: &'static str) -> Self {
+    /// Progress of work of which `from` pieces were done earlier, so that they say nothing about the speed.
+    pub fn resumed(what: &'static str, from: u64, total: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
-        bar.set_style(ProgressStyle::with_template(template).expect("a well-formed template").progress_chars("=> "));
-        bar.enable_steady_tick(Duration::from_millis(200));
-        Self(bar)
-    }
-
-    fn message(self, what: &'static str) -> Self {
-        self.0.set_message(what);
-        self
+        let style = ProgressStyle::with_template("{prefix:>12} [{bar:30}] {pos}/{len}{msg}");
+        bar.set_style(style.expect("a well-formed template").progress_chars("=> "));
+        bar.set_prefix(what);
+        bar.set_position(from);
+        let state = State { what, from, done: from, total, note: String::new(), pace: Pace::default() };
+        Self { bar, started: Instant::now(), state: Mutex::new(state) }
     }
 
     /// Says how much is done by now.
     pub fn set(&self, done: u64) {
-        self.0.set_position(done);
+        self.change(|state| state.done = done);
     }
 
     /// Says how much there is to do.
     pub fn set_total(&self, total: u64) {
-        self.0.set_length(total);
+        self.change(|state| state.total = total);
     }
 
     /// Says that `more` is done.
     pub fn add(&self, more: u64) {
-        self.0.inc(more);
+        self.change(|state| state.done += more);
     }
 
-    /// Replaces the word for what is being done.
-    pub fn set_message(&self, message: impl Into<String>) {
-        self.0.set_message(message.into());
+    /// Says how much is done by now, with a remark.
+    pub fn set_with_note(&self, done: u64, note: String) {
+        self.change(|state| (state.done, state.note) = (done, note));
     }
 
     /// Does something that prints, with the bar out of the way.
     pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
-        self.0.suspend(work)
+        self.bar.suspend(work)
+    }
+
+    fn change(&self, change: impl FnOnce(&mut State)) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        change(&mut state);
+        let elapsed = self.started.elapsed();
+        if self.bar.is_hidden() {
+            if let Some(line) = state.line(elapsed) {
+                // Where standard error is closed, nobody wants to know.
+                let _ = io::stderr().write_all(line.as_bytes());
+            }
+        } else {
+            self.bar.set_length(state.total);
+            self.bar.set_position(state.done);
+            self.bar.set_message(state.rest(elapsed));
+        }
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
+    }
+}
+
+impl State {
+    /// The line for a log, when it is time for one.
+    fn line(&mut self, elapsed: Duration) -> Option<String> {
+        let due = self.done < self.total && self.pace.is_due(elapsed);
+        due.then(|| format!("{}: {} of {}{}\n", self.what, self.done, self.total, self.rest(elapsed)))
+    }
+
+    /// The remark and the time that is left, as far as they are known.
+    fn rest(&self, elapsed: Duration) -> String {
+        let left = self.left(elapsed).map(|left| format!("about {} left", duration(left)));
+        [Some(self.note.clone()).filter(|note| !note.is_empty()), left]
+            .into_iter()
+            .flatten()
+            .map(|text| format!(", {text}"))
+            .collect()
+    }
+
+    /// The time that is left, at the speed so far; unknown before anything is done, or too little to tell.
+    fn left(&self, elapsed: Duration) -> Option<Duration> {
+        let (made, rest) = (self.done.saturating_sub(self.from), self.total.saturating_sub(self.done));
+        if made == 0 || rest == 0 || elapsed < Duration::from_secs(1) {
+            return None;
+        }
+        Duration::try_from_secs_f64(elapsed.as_secs_f64() * rest as f64 / made as f64).ok()
+    }
+}
+
+impl Pace {
+    /// Before the first line, and between lines at first.
+    const LEAST: Duration = Duration::from_secs(10);
+    /// Between lines of long work.
+    const MOST: Duration = Duration::from_secs(60);
+
+    fn is_due(&mut self, elapsed: Duration) -> bool {
+        let due = elapsed >= self.next;
+        if due {
+            self.next = elapsed + elapsed.clamp(Self::LEAST, Self::MOST);
+        }
+        due
+    }
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self { next: Self::LEAST }
+    }
+}
+
+/// A duration in the unit that suits it, never none at all.
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    if seconds < 99.5 {
+        format!("{:.0} s", seconds.max(1.0))
+    } else if seconds < 99.5 * 60.0 {
+        format!("{:.0} min", seconds / 60.0)
+    } else {
+        format!("{:.1} h", seconds / 3600.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state(from: u64, done: u64, total: u64) -> State {
+        State { what: "measuring", from, done, total, note: String::new(), pace: Pace::default() }
+    }
+
+    fn rest(state: &State, seconds: f64) -> String {
+        state.rest(Duration::from_secs_f64(seconds))
+    }
+
+    #[test]
+    fn the_time_left_is_told_when_it_is_known_and_never_none() {
+        assert_eq!(rest(&state(0, 0, 64), 50.0), "", "nothing is done yet");
+        assert_eq!(rest(&state(0, 16, 64), 60.0), ", about 3 min left");
+        assert_eq!(rest(&state(0, 16, 64), 0.2), "", "too early to tell");
+        assert_eq!(rest(&state(0, 9_999, 10_000), 2.0), ", about 1 s left");
+        assert_eq!(rest(&state(0, 64, 64), 60.0), "", "all is done");
+        assert_eq!(rest(&state(500, 510, 1000), 60.0), ", about 49 min left", "what was there before took no time");
+        let noted = State { note: "2 behaviors".to_owned(), ..state(0, 1, 5) };
+        assert_eq!(rest(&noted, 10_000.0), ", 2 behaviors, about 11.1 h left");
+    }
+
+    #[test]
+    fn a_log_has_a_line_after_ten_seconds_and_then_ever_less_often() {
+        let mut state = state(0, 16, 64);
+        let mut told = Vec::new();
+        for second in 0..240 {
+            told.extend(state.line(Duration::from_secs(second)).map(|line| (second, line)));
+        }
+        let times: Vec<u64> = told.iter().map(|(second, _)| *second).collect();
+        assert_eq!(times, [10, 20, 40, 80, 140, 200]);
+        assert_eq!(told[2].1, "measuring: 16 of 64, about 2 min left\n");
     }
 }

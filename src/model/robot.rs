@@ -1,5 +1,7 @@
 //! Robots: bodies whose behavior is known, and libraries of them.
 
+use std::cmp::Ordering;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Behavior, Body, Function, Genotype, Pattern};
@@ -48,6 +50,15 @@ pub struct Character {
     pub topples: bool,
     /// Settle times, one entry for each of the twelve transitions between different patterns.
     pub settle: Vec<Transition>,
+}
+
+impl Character {
+    /// The more reliable first, then the shorter clock, then the greater margin.
+    pub fn compare(&self, other: &Self) -> Ordering {
+        (self.error_rate.total_cmp(&other.error_rate))
+            .then(self.clock.cmp(&other.clock))
+            .then(other.margin.total_cmp(&self.margin))
+    }
 }
 
 /// The settle time of one input transition.

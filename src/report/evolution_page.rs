@@ -54,9 +54,10 @@ pub fn draw_evolution_page(harvest: &Harvest, plates: &[Plate], scheme: Scheme) 
 }
 
 fn verdict(harvest: &Harvest, behaviors: usize, filled: usize) -> String {
-    let runs = match harvest.runs.len() {
-        1 => format!("seed {}", harvest.runs[0].seed),
-        several => format!("{several} seeds together"),
+    let seeds: Vec<u64> = harvest.runs.keys().copied().collect();
+    let runs = match seeds[..] {
+        [seed] => format!("seed {seed}"),
+        _ => format!("{} seeds together", seeds.len()),
     };
     let niches = harvest.niche_count();
     format!(

@@ -1,6 +1,7 @@
 //! The paper's comparison of behaviors (paper, section 3 and figure 5): groups of equal difficulty, the exact Mann-Whitney U test
 //! between each two, Holm's correction, and the effect size A12.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
@@ -55,10 +56,11 @@ fn group_of(behavior: Behavior) -> usize {
     }
 }
 
-/// The groups' values, one for each run: champions of one run are no independent samples.
-pub fn behavior_groups(runs: &[Vec<Champion>]) -> Vec<BehaviorGroup> {
+/// The groups' values, one for each run: champions of one run are not independent samples, and neither are two runs of one seed, so
+/// runs come by their seeds.
+pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup> {
     let values = |place: usize| {
-        runs.iter().filter_map(move |run| {
+        runs.values().filter_map(move |run| {
             let champions = run.iter().filter(|champion| group_of(champion.behavior) == place);
             let distances: Vec<f64> = champions.map(|champion| champion.fitness[0]).collect();
             (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
@@ -197,6 +199,11 @@ mod tests {
         distances.iter().map(champion).collect()
     }
 
+    /// Runs of the seeds 1, 2, …
+    fn seeds(runs: impl IntoIterator<Item = Vec<Champion>>) -> BTreeMap<u64, Vec<Champion>> {
+        (1..).zip(runs).collect()
+    }
+
     #[test]
     fn behaviors_fall_into_the_papers_groups() {
         let counts = Behavior::all().fold([0; 4], |mut counts, behavior| {
@@ -211,11 +218,9 @@ mod tests {
 
     #[test]
     fn three_runs_a_group_reach_a_tenth_and_no_further() {
-        let runs: Vec<Vec<Champion>> = (0..3)
-            .map(|i| {
-                run(&[("LLLL", 30.0 + f64::from(i)), ("LLRR", 20.0 + f64::from(i)), ("RRLL", 22.0 + f64::from(i))])
-            })
-            .collect();
+        let runs = seeds((0..3).map(|i| {
+            run(&[("LLLL", 30.0 + f64::from(i)), ("LLRR", 20.0 + f64::from(i)), ("RRLL", 22.0 + f64::from(i))])
+        }));
         let groups = behavior_groups(&runs);
         assert_eq!(groups[1].values, [21.0, 22.0, 23.0]);
         let comparisons = compare_groups(&groups);
@@ -268,12 +273,10 @@ mod tests {
 
     #[test]
     fn ten_runs_a_group_reach_the_papers_threshold() {
-        let runs: Vec<Vec<Champion>> = (0..10)
-            .map(|i| {
-                let shift = 0.01 * f64::from(i);
-                run(&[("LLLL", 40.0 + shift), ("LLRR", 20.0 + shift), ("LRRR", 10.0 + shift), ("LRRL", 1.0 + shift)])
-            })
-            .collect();
+        let runs = seeds((0..10).map(|i| {
+            let shift = 0.01 * f64::from(i);
+            run(&[("LLLL", 40.0 + shift), ("LLRR", 20.0 + shift), ("LRRR", 10.0 + shift), ("LRRL", 1.0 + shift)])
+        }));
         let groups = behavior_groups(&runs);
         let comparisons = compare_groups(&groups);
         assert_eq!(comparisons.len(), 6);
@@ -284,7 +287,8 @@ mod tests {
 
     #[test]
     fn ties_are_told() {
-        let groups = behavior_groups(&[run(&[("LLLL", 2.0), ("LLRR", 2.0)]), run(&[("LLLL", 3.0), ("LLRR", 1.0)])]);
+        let runs = [run(&[("LLLL", 2.0), ("LLRR", 2.0)]), run(&[("LLLL", 3.0), ("LLRR", 1.0)])];
+        let groups = behavior_groups(&seeds(runs));
         let comparisons = compare_groups(&groups);
         assert!(comparisons[0].is_approximate);
         assert!(describe_groups(&groups, &comparisons).contains("approximate"));

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
-
 use crate::evolve::{Champion, Elite, NicheKey};
 use crate::model::{Axis, Behavior, Count, Objective};
+use crate::report::history::ProgressLine;
 use crate::report::progress::Course;
 
 /// Runs of one declaration.
@@ -17,38 +16,20 @@ pub struct Harvest {
     pub axes: Vec<Axis>,
     /// What was rewarded.
     pub objective: Objective,
-    /// The runs, in order of their seeds.
-    pub runs: Vec<SeedRun>,
+    /// The runs by their seeds: a seed is one run, however often it was read.
+    pub runs: BTreeMap<u64, SeedRun>,
 }
 
 /// The run of one seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeedRun {
-    /// The seed.
-    pub seed: u64,
     /// Filled niches and their elites.
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
     /// The run after each generation.
     pub progress: Vec<ProgressLine>,
 }
 
-/// What is read of a line of `progress.jsonl`.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-pub struct ProgressLine {
-    /// Generations done.
-    pub generation: u32,
-    /// Filled niches as a share of all.
-    pub coverage: f64,
-    /// Sum over filled niches of the best first fitness.
-    pub qd_score: f64,
-}
-
 impl SeedRun {
-    /// The lines of a file of progress, as far as they can be read: the last one of a run that was killed may be cut.
-    pub fn read_progress(text: &str) -> Vec<ProgressLine> {
-        text.lines().map_while(|line| serde_json::from_str(line).ok()).collect()
-    }
-
     /// The fittest elite of a behavior; the first of equals.
     pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
         let own = self.niches.iter().flat_map(|(_, elites)| elites).filter(|elite| elite.behavior == behavior);
@@ -78,12 +59,12 @@ impl Harvest {
     /// The fittest elite of each niche over all seeds, with its seed.
     pub fn best(&self) -> BTreeMap<&NicheKey, (u64, &Elite)> {
         let mut best: BTreeMap<&NicheKey, (u64, &Elite)> = BTreeMap::new();
-        for run in &self.runs {
+        for (&seed, run) in &self.runs {
             for (key, elites) in &run.niches {
                 let Some(elite) = fittest(elites.iter()) else { continue };
-                let held = best.entry(key).or_insert((run.seed, elite));
+                let held = best.entry(key).or_insert((seed, elite));
                 if elite.fitness[0] > held.1.fitness[0] {
-                    *held = (run.seed, elite);
+                    *held = (seed, elite);
                 }
             }
         }
@@ -92,7 +73,7 @@ impl Harvest {
 
     /// The fittest elite of a behavior over all seeds.
     pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
-        fittest(self.runs.iter().filter_map(|run| run.champion(behavior)))
+        fittest(self.runs.values().filter_map(|run| run.champion(behavior)))
     }
 
     /// Niches there are.
@@ -106,7 +87,7 @@ impl Harvest {
             let points = |run: &SeedRun| {
                 run.progress.iter().map(|line| (f64::from(line.generation), value(line))).collect::<Vec<_>>()
             };
-            self.runs.iter().map(points).collect()
+            self.runs.values().map(points).collect()
         };
         [
             Course {

@@ -1,5 +1,6 @@
 //! Reports: what was found, as text, pictures and data. Everything here is text or bytes; who writes them where is decided above.
 
+mod answer;
 mod champions;
 mod chart;
 mod color;
@@ -11,6 +12,7 @@ mod groups;
 mod harvest;
 mod heatmap;
 mod heights;
+mod history;
 mod html;
 mod layers;
 mod listing;
@@ -33,6 +35,7 @@ mod timing;
 mod vcd;
 mod verdict;
 
+pub use answer::{Answer, Outcome};
 pub use champions::{Champions, draw_champions};
 pub use chart::{Panel, Scale, range_of, tick_label};
 pub use color::Color;
@@ -41,8 +44,9 @@ pub use evolution::{EvolutionLine, evolution_table};
 pub use evolution_page::{Plate, draw_evolution_page};
 pub use film::{Film, STRIDE, write_apng, write_gif};
 pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
-pub use harvest::{Harvest, ProgressLine, SeedRun, axis_word};
+pub use harvest::{Harvest, SeedRun, axis_word};
 pub use heatmap::{Terrain, draw_heatmap, heat};
+pub use history::{History, ProgressLine};
 pub use listing::{Listing, describe_robot};
 pub use portraits::{Portrait, draw_portraits};
 pub use pose::draw_pose;

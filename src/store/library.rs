@@ -65,12 +65,7 @@ pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
 /// the greatest margin.
 pub fn best_first(mut robots: Vec<Robot>) -> Library {
     robots.sort_by(|a, b| {
-        let (left, right) = (&a.character, &b.character);
-        (a.function().cmp(&b.function()))
-            .then(left.error_rate.total_cmp(&right.error_rate))
-            .then(left.clock.cmp(&right.clock))
-            .then(right.margin.total_cmp(&left.margin))
-            .then(a.name.cmp(&b.name))
+        (a.function().cmp(&b.function())).then(a.character.compare(&b.character)).then(a.name.cmp(&b.name))
     });
     Library { robots }
 }

@@ -7,6 +7,7 @@ mod disk;
 mod draft;
 mod first_checkpoint;
 mod library;
+mod lock;
 mod robot;
 mod search_state;
 mod shape;
@@ -20,5 +21,6 @@ pub use disk::{
     DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
 };
 pub use library::{best_first, read_library, shipped_library};
+pub use lock::{FolderLock, LockFault, lock_folder};
 pub use robot::{FORMAT, RobotRecord, print_robot, read_robot};
 pub use shape::read_body;

@@ -8,6 +8,7 @@ mod gate;
 mod holds;
 mod judge;
 mod measure;
+mod selection;
 mod simulate;
 mod trace;
 
@@ -17,5 +18,6 @@ pub use characterise::{characterise, screen};
 pub use evaluate::{Work, evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, Lapse, RowVerdict, TestVerdict, judge};
 pub use measure::{Measurement, measure};
+pub use selection::{Nominee, Selected, Selection};
 pub use simulate::{Exposure, START_CYCLES, setting, simulate};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};

@@ -231,13 +231,95 @@ fn a_closed_pipe_ends_the_program_quietly() {
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
 }
 
+/// A file whose test of `flip` passes or fails.
+fn flip(passes: bool) -> String {
+    let low = u8::from(passes);
+    format!("circuit flip(a) -> (y) {{\n    y = not a\n}}\n\ntest flip {{\n    a | y\n    0 | {low}\n}}\n")
+}
+
+/// How the program ends, and what it says on standard error, when nobody reads its output from the start.
+fn unread(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = bench.command(arguments).stdout(writer).stderr(Stdio::piped()).output().unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn a_closed_pipe_changes_no_verdict() {
+    let bench = Bench::new();
+    bench.file("failing.nb", flip(false));
+    bench.file("passing.nb", flip(true));
+    bench.file("wide.nb", flip(true).replace("not a", "not  a"));
+    bench.file("wrong.nb", "circuit");
+    let check = |arguments: &[&str], status| assert_eq!(unread(&bench, arguments).0, Some(status), "{arguments:?}");
+    check(&["test", "--logic", "failing.nb", "failing.nb"], 1);
+    check(&["test", "--logic", "failing.nb", "passing.nb", "--format", "json"], 1);
+    check(&["test", "--logic", "passing.nb"], 0);
+    check(&["run", "failing.nb", "--no-report"], 1);
+    check(&["run", "passing.nb", "--no-report"], 0);
+    check(&["fmt", "--check", "wide.nb", "passing.nb"], 1);
+    check(&["check", "wrong.nb", "--format", "json"], 2);
+}
+
+#[test]
+fn a_closed_pipe_ends_no_work_early() {
+    let bench = Bench::new();
+    bench.file("small.nb", "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 2, seed: 1..3 }\n");
+    assert_eq!(unread(&bench, &["evolve", "small.nb"]).0, Some(0));
+    for seed in 1..=3 {
+        let path = bench.path().join(format!("out/small/seed-{seed}/progress.jsonl"));
+        assert_eq!(std::fs::read_to_string(path).unwrap().lines().count(), 2, "seed {seed} was run");
+    }
+}
+
 #[test]
 fn a_full_disk_is_told() {
     let bench = Bench::new();
-    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let output = bench.command(&["completions", "bash"]).stdout(full).output().unwrap();
+    for arguments in [&["completions", "bash"][..], &["--help"], &["--version"], &["evolve", "--help"], &["explain"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = bench.command(arguments).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(String::from_utf8(output.stderr).unwrap().contains("cannot write the output"), "{arguments:?}");
+    }
+}
+
+/// The program, run by a user who may start no more threads. Root always may, so root becomes nobody.
+#[cfg(target_os = "linux")]
+fn without_threads(bench: &Bench, arguments: &[&str]) -> Output {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    std::fs::set_permissions(bench.path(), std::fs::Permissions::from_mode(0o777)).unwrap();
+    let program = bench.path().join("nbc");
+    std::fs::copy(env!("CARGO_BIN_EXE_nbc"), &program).unwrap();
+    let is_root = std::fs::metadata("/proc/self").unwrap().uid() == 0;
+    let mut command = Command::new(if is_root { "setpriv" } else { "env" });
+    command.args(if is_root { &["--reuid=65534", "--clear-groups"][..] } else { &[] });
+    command.args(["prlimit", "--nproc=1"]).arg(program).args(arguments);
+    command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "8").output().unwrap()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn where_threads_are_refused_fewer_do_the_work() {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    bench.file("passing.nb", flip(true));
+    let arguments = ["simulate", "walker.yaml", "--schedule", "00*1", "--format", "json"];
+    let alone = without_threads(&bench, &arguments);
+    let told = String::from_utf8(alone.stderr).unwrap();
+    assert!(alone.status.success() && told.contains("1 of 8 threads"), "{told}");
+    assert_eq!(String::from_utf8(alone.stdout).unwrap(), bench.run(&arguments).out);
+    let tests = without_threads(&bench, &["test", "--physics", "passing.nb", "passing.nb"]);
+    assert!(tests.status.success(), "{}", String::from_utf8_lossy(&tests.stderr));
+}
+
+#[test]
+fn a_number_of_threads_that_is_none_is_named() {
+    let bench = Bench::new();
+    let output = bench.command(&["library", "list"]).env("RAYON_NUM_THREADS", "two").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("cannot write the output"));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.contains("`RAYON_NUM_THREADS` is `two`, expected a number of threads"), "{told}");
 }
 
 #[test]

@@ -154,6 +154,57 @@ fn a_checkpoint_that_does_not_fit_is_refused_and_left_alone() {
 }
 
 #[test]
+fn a_folder_in_use_is_left_alone_and_its_holder_named() {
+    let bench = bench();
+    let mut first = start(&bench, "shared", &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 2);
+    let arguments = ["evolve", "runs.nb", "--run", "walks", "--out", "shared", "--resume"];
+    let said = format!("`shared/walks/seed-3` is in use by process {}", first.id());
+    bench.run(&arguments).expect_fault(&["unwritable", &said]);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    // The system frees the folder of a process that was killed.
+    assert_eq!(bench.run(&arguments).status, 0);
+    let text = fs::read_to_string(bench.path().join("shared/walks/seed-3/progress.jsonl")).unwrap();
+    let generation = |line: &str| serde_json::from_str::<serde_json::Value>(line).unwrap()["generation"].as_u64();
+    assert!(text.lines().map(generation).eq((1..=text.lines().count() as u64).map(Some)), "{text}");
+}
+
+#[test]
+fn a_damaged_history_is_told_and_set_aside() {
+    let bench = bench();
+    let arguments = ["evolve", "runs.nb", "--run", "walks", "--resume"];
+    assert_eq!(bench.run(&[&arguments[..], &["--generations", "6"]].concat()).status, 0);
+    let path = bench.path().join("out/walks/seed-3/progress.jsonl");
+    let whole = fs::read_to_string(&path).unwrap();
+    let mut lines: Vec<&[u8]> = whole.lines().map(str::as_bytes).collect();
+    lines[2] = b"\xff\0 nothing";
+    let damaged = lines.join(&b'\n');
+    fs::write(&path, &damaged).unwrap();
+    let said = "`out/walks/seed-3/progress.jsonl` has no readable line for 1 of 6 generations, the first of";
+    let drawn = bench.run(&["draw", "out/walks", "--as", "progress", "-o", "a.svg"]);
+    assert!(drawn.status == 0 && drawn.err.contains(said), "{}", drawn.err);
+    let resumed = bench.run(&arguments);
+    assert!(resumed.status == 0 && resumed.err.contains(said), "{}", resumed.err);
+    assert!(resumed.err.contains("progress.jsonl.damaged"), "{}", resumed.err);
+    assert_eq!(fs::read(path.with_extension("jsonl.damaged")).unwrap(), damaged);
+    let text = fs::read_to_string(&path).unwrap();
+    let kept: Vec<&str> = text.lines().collect();
+    let before: Vec<&str> = whole.lines().collect();
+    assert_eq!((kept.len(), &kept[..2], &kept[2..5]), (11, &before[..2], &before[3..]));
+}
+
+#[test]
+fn one_run_is_never_counted_twice() {
+    let bench = bench();
+    assert_eq!(bench.run(&["evolve", "runs.nb", "--run", "walks", "--generations", "2"]).status, 0);
+    let (own, copy) = (bench.path().join("out/walks/seed-3"), bench.path().join("out/walks/seed-4"));
+    fs::create_dir_all(&copy).unwrap();
+    fs::copy(own.join("checkpoint.nbc"), copy.join("checkpoint.nbc")).unwrap();
+    let ran = bench.run(&["draw", "out/walks", "--as", "comparison", "-o", "a.svg"]);
+    ran.expect_fault(&["`out/walks/seed-4/checkpoint.nbc` is of seed 3, as another run of the folder is"]);
+}
+
+#[test]
 fn a_folder_that_cannot_be_written_is_named() {
     let bench = bench();
     bench.file("taken", "a file");
@@ -185,7 +236,7 @@ fn a_full_disk_leaves_the_last_checkpoint_to_go_on_from() {
     assert_eq!(straight.status, 0, "{}", straight.err);
     assert_eq!(fs::read(path).unwrap(), fs::read(bench.path().join("roomy").join(CHECKPOINTS[0])).unwrap());
     let left: Vec<_> = fs::read_dir(bench.path().join("out/walks/seed-3")).unwrap().collect();
-    assert_eq!(left.len(), 2, "no half-written files stay: {left:?}");
+    assert_eq!(left.len(), 3, "no half-written files stay: {left:?}");
 }
 
 #[test]

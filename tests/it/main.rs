@@ -1,5 +1,6 @@
 //! Integration tests, in one binary.
 
+mod adding;
 mod benchmarks;
 mod broken_circuits;
 mod circuit;

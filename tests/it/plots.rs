@@ -121,7 +121,7 @@ fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
             champion("RRRL", 5.0 + if i.is_multiple_of(2) { -0.5 } else { 0.5 }),
         ]
     };
-    let groups = report::behavior_groups(&(0..10).map(run).collect::<Vec<_>>());
+    let groups = report::behavior_groups(&(1..).zip((0..10).map(run)).collect());
     let comparisons = report::compare_groups(&groups);
     let svg = report::draw_comparison("groups", "distance (voxels)", &groups, &comparisons).finish();
     let document = Document::parse(&svg).unwrap();

@@ -70,13 +70,13 @@ impl Arguments {
     ///
     /// # Errors
     /// When what is to be drawn makes no sense, is not to be had of this subject, or cannot be written.
-    pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let canvas = Canvas::new(&self.output, self.kind).map_err(Failure::plain)?;
         let what = Path::new(&self.what);
         if self.what.ends_with(".nb") {
             self.draw_swarm(&canvas)?
         } else if run::is_run(what) {
-            let harvest = run::read(what)?;
+            let harvest = run::read(what, context)?;
             match self.behavior {
                 Some(behavior) => self.draw_robot(&canvas, &self.champion(&harvest, behavior)?)?,
                 None => self.draw_run(&canvas, &harvest)?,

@@ -1,19 +1,21 @@
 //! Pictures of an evolution run: of one seed's folder, or of all seeds of a declaration.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::Failure;
 use crate::cli::draw::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::robot::Subject;
 use crate::cli::draw::several::{One, Several, champions};
-use crate::cli::evolve::{CHECKPOINT, PROGRESS, read_checkpoint};
+use crate::cli::evolve::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
+use crate::cli::{Context, Failure};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::NicheKey;
 use crate::model::{Behavior, CYCLE_STEPS, Objective, Pattern, Schedule, Spell};
-use crate::report::{self, Harvest, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
+use crate::report::{self, Harvest, History, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
+use crate::source::Sources;
 use crate::store::Declared;
 
 /// Whether a folder is that of a run: a seed's, or one with seeds.
@@ -41,26 +43,30 @@ fn seeds(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// What the runs in a folder found.
-pub(in crate::cli) fn read(folder: &Path) -> Result<Harvest, Failure> {
+pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Harvest, Failure> {
     let mut harvest: Option<Harvest> = None;
     for path in seeds(folder) {
         let Some(checkpoint) = read_checkpoint(&path)? else { continue };
-        let progress = fs::read_to_string(path.with_file_name(PROGRESS)).unwrap_or_default();
-        let run = SeedRun {
-            seed: checkpoint.state.seed,
-            niches: checkpoint.state.niches,
-            progress: SeedRun::read_progress(&progress),
-        };
+        let (seed, progress) = (checkpoint.state.seed, path.with_file_name(PROGRESS));
+        let bytes = read_progress(&progress)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let history = History::read(&text, checkpoint.state.generation);
+        let damage = history.damage().map(|damage| damaged(&progress, &damage, "curves over time leave it out"));
+        context.tell(&Vec::from_iter(damage), &Sources::default());
+        let run = SeedRun { niches: checkpoint.state.niches, progress: history.lines().collect() };
         if checkpoint.declared.axes.is_empty() {
             return Err(unusable(&path, "does not say the axes of its archive", "`nbc evolve --resume` writes them"));
         }
         let Declared { name, axes, objective, .. } = checkpoint.declared;
-        let harvest = harvest.get_or_insert(Harvest { name, axes: axes.clone(), objective, runs: Vec::new() });
+        let harvest = harvest.get_or_insert(Harvest { name, axes: axes.clone(), objective, runs: BTreeMap::new() });
         if harvest.axes != axes || harvest.objective != objective {
             let help = "draw the folder of one seed";
             return Err(unusable(&path, "was made by another declaration than those before it", help));
         }
-        harvest.runs.push(run);
+        if harvest.runs.insert(seed, run).is_some() {
+            let help = "a run counts once: move the copy out of the folder";
+            return Err(unusable(&path, &format!("is of seed {seed}, as another run of the folder is"), help));
+        }
     }
     harvest.ok_or_else(|| unusable(folder, "holds no run", "name the folder of a run, such as `out/gates`"))
 }
@@ -123,9 +129,9 @@ impl Arguments {
 /// The champions of every seed, by behavior.
 fn each_champion(harvest: &Harvest) -> Several {
     let one = |behavior: Behavior| {
-        harvest.runs.iter().filter_map(move |run| {
+        harvest.runs.iter().filter_map(move |(seed, run)| {
             let body = run.champion(behavior)?.body.clone();
-            Some(One { behavior, name: format!("seed {}", run.seed), body })
+            Some(One { behavior, name: format!("seed {seed}"), body })
         })
     };
     let title = match harvest.runs.len() {
@@ -157,7 +163,7 @@ fn progress(harvest: &Harvest) -> Svg {
 }
 
 fn comparison(harvest: &Harvest) -> Svg {
-    let champions: Vec<_> = harvest.runs.iter().map(SeedRun::champions).collect();
+    let champions = harvest.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
     let groups = report::behavior_groups(&champions);
     let title = format!("{}: champions by group of behaviors", harvest.name);
     report::draw_comparison(&title, harvest.unit(), &groups, &report::compare_groups(&groups))

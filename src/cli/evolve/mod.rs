@@ -2,6 +2,7 @@
 
 mod run;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -21,7 +22,7 @@ use crate::sim::Simulator;
 use crate::store::{self, DiskWorld};
 use crate::swarm;
 
-pub(super) use run::{CHECKPOINT, PROGRESS, read_checkpoint};
+pub(super) use run::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
 
 /// A run with `--quick`.
 const QUICK_SEEDS: usize = 3;
@@ -115,11 +116,11 @@ impl Arguments {
         results: &mut Results,
         context: &mut Context,
     ) -> Result<bool, Failure> {
-        let mut champions = Vec::new();
+        let mut champions = BTreeMap::new();
         for &seed in &evolution.seeds {
-            let mut run = Run::open(self, evolution, seed)?;
+            let mut run = Run::open(self, evolution, seed, context)?;
             let finished = run.make(interrupt)?;
-            champions.push(run.archive_stats().champions);
+            champions.insert(seed, run.archive_stats().champions);
             results.runs.push(run.ended(finished));
             if context.format == Format::Text {
                 context.print(run.summary(finished))?;
@@ -146,7 +147,7 @@ impl Arguments {
     fn write_report(&self, evolution: &Evolution, context: &mut Context) -> Result<(), Failure> {
         let folder = self.out.join(&evolution.name);
         let path = folder.join("report.html");
-        let page = run_page(&read_run(&folder)?, Scheme::default());
+        let page = run_page(&read_run(&folder, context)?, Scheme::default());
         store::write(&path, page.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
         if context.format == Format::Text {
             context.print(format_args!("report  {}\n", path.display()))?;
@@ -165,7 +166,7 @@ impl Results {
 }
 
 impl Comparison {
-    fn of(evolution: &Evolution, champions: &[Vec<Champion>]) -> Self {
+    fn of(evolution: &Evolution, champions: &BTreeMap<u64, Vec<Champion>>) -> Self {
         let groups = behavior_groups(champions);
         let pairs = compare_groups(&groups);
         Self { run: evolution.name.clone(), seeds: champions.len(), groups, pairs }

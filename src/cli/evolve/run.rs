@@ -9,13 +9,14 @@ use serde::Serialize;
 
 use crate::cli::evolve::Arguments;
 use crate::cli::timings::{self, Stage};
-use crate::cli::{Failure, Interrupt, Progress};
-use crate::diag::{Code, Diagnostic};
+use crate::cli::{Context, Failure, Interrupt, Progress};
+use crate::diag::{Code, Diagnostic, Severity};
 use crate::evolve::{ArchiveStats, Search};
 use crate::model::Evolution;
-use crate::report::{EvolutionLine, evolution_table};
+use crate::report::{EvolutionLine, History, evolution_table};
 use crate::sim::Simulator;
-use crate::store::{self, Checkpoint};
+use crate::source::{FileError, Sources};
+use crate::store::{self, Checkpoint, FolderLock, LockFault, MAX_CHECKPOINT_BYTES, MAX_PROGRESS_BYTES};
 use crate::swarm::{self, Work};
 
 /// The file in a run's folder that it is resumed from.
@@ -48,16 +49,23 @@ pub(super) struct Run {
     work_before: Work,
     /// What [`searching`] said then.
     searching_before: f64,
+    _lock: FolderLock,
 }
 
 impl Run {
     /// A run that has done nothing yet, or goes on from its checkpoint.
     ///
     /// # Errors
-    /// When its folder holds a run that is not to be resumed, or cannot be used.
-    pub(super) fn open(arguments: &Arguments, evolution: &Evolution, seed: u64) -> Result<Self, Failure> {
+    /// When its folder is in use by another process, holds a run that is not to be resumed, or cannot be used.
+    pub(super) fn open(
+        arguments: &Arguments,
+        evolution: &Evolution,
+        seed: u64,
+        context: &Context,
+    ) -> Result<Self, Failure> {
         let folder = arguments.out.join(&evolution.name).join(format!("seed-{seed}"));
         store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
+        let _lock = store::lock_folder(&folder).map_err(|fault| not_ours(&folder, fault))?;
         let path = folder.join(CHECKPOINT);
         let (search, work) = match read_checkpoint(&path)? {
             None => (Search::new(evolution, seed), Work::default()),
@@ -79,22 +87,22 @@ impl Run {
             evaluations_before,
             work_before: work,
             searching_before: searching(),
+            _lock,
         };
-        run.trim_progress()?;
+        run.trim_progress(context)?;
         Ok(run)
     }
 
     /// Makes the generations that are left; whether it got to the end.
     pub(super) fn make(&mut self, interrupt: &Interrupt) -> Result<bool, Failure> {
         let generations = u64::from(self.search.evolution().generations);
-        let bar = Progress::with_template(generations, "{bar:24} {pos}/{len} generations, {msg}, {eta} left");
+        let bar = Progress::resumed("generations", u64::from(self.search.generation()), generations);
         let mut saved = Instant::now();
         while !self.search.is_done() && !interrupt.is_raised() {
             self.advance();
             let line = EvolutionLine::of(&self.search, self.work);
             timings::time(Stage::Output, || self.append(&line))?;
-            bar.set(u64::from(line.generation));
-            bar.set_message(self.message(&line));
+            bar.set_with_note(u64::from(line.generation), self.message(&line));
             if saved.elapsed() >= self.checkpoint_every {
                 timings::time(Stage::Output, || self.save())?;
                 saved = Instant::now();
@@ -125,13 +133,25 @@ impl Run {
         open.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| Failure::unwritable(&path, &error))
     }
 
-    /// Drops the lines of generations that come after the checkpoint and will be made again.
-    fn trim_progress(&self) -> Result<(), Failure> {
+    /// Drops the lines of generations that come after the checkpoint and will be made again. A damaged file is set aside, and told.
+    fn trim_progress(&self, context: &Context) -> Result<(), Failure> {
+        let write =
+            |path: &Path, bytes: &[u8]| store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error));
         let path = self.folder.join(PROGRESS);
-        let text = fs::read_to_string(&path).unwrap_or_default();
-        let kept = text.lines().take(self.search.generation() as usize);
-        let kept: String = kept.flat_map(|line| [line, "\n"]).collect();
-        store::write(&path, kept.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))
+        let bytes = read_progress(&path)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let history = History::read(&text, self.search.generation());
+        if let Some(damage) = history.damage() {
+            let aside = path.with_extension("jsonl.damaged");
+            let mut help = "the run goes on without them".to_owned();
+            if !bytes.is_empty() {
+                write(&aside, &bytes)?;
+                help += &format!("; the file as it was is kept as `{}`", aside.display());
+            }
+            let warning = damaged(&path, &damage, &help);
+            context.tell(&[warning], &Sources::default());
+        }
+        write(&path, history.print().as_bytes())
     }
 
     fn message(&self, line: &EvolutionLine) -> String {
@@ -189,14 +209,39 @@ fn searching() -> f64 {
 
 /// The checkpoint at a path, if there is one.
 pub(in crate::cli) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {
-    match fs::read(path) {
-        Ok(bytes) => Checkpoint::read(&path.display().to_string(), &bytes).map(Some).map_err(Failure::plain),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => {
-            let message = format!("cannot read `{}`: {}", path.display(), error.to_string().to_lowercase());
-            Err(Failure::plain(Diagnostic::without_place(Code::Unreadable, message)))
-        }
+    let name = path.display().to_string();
+    match store::read(path, MAX_CHECKPOINT_BYTES) {
+        Ok(bytes) => Checkpoint::read(&name, &bytes).map(Some).map_err(Failure::plain),
+        Err(FileError::NotFound) => Ok(None),
+        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&name, &error))),
     }
+}
+
+/// The bytes of a file of progress, none where there is no file.
+pub(in crate::cli) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
+    match store::read(path, MAX_PROGRESS_BYTES) {
+        Ok(bytes) => Ok(bytes),
+        Err(FileError::NotFound) => Ok(Vec::new()),
+        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&path.display().to_string(), &error))),
+    }
+}
+
+/// A warning of a file of progress that lacks what the checkpoint beside it has done.
+pub(in crate::cli) fn damaged(path: &Path, damage: &str, help: &str) -> Diagnostic {
+    let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{}` {damage}", path.display()));
+    Diagnostic { severity: Severity::Warning, ..fault.with_help(help) }
+}
+
+fn not_ours(folder: &Path, fault: LockFault) -> Failure {
+    let folder_name = folder.display();
+    let who = match fault {
+        LockFault::Held { process: Some(process) } => format!("process {process}"),
+        LockFault::Held { process: None } => "another process".to_owned(),
+        LockFault::Io(error) => return Failure::unwritable(&folder.join("lock"), &error),
+    };
+    let message = format!("`{folder_name}` is in use by {who}");
+    let help = "wait until it has ended, or choose another folder with `--out`";
+    Failure::plain(Diagnostic::without_place(Code::Unwritable, message).with_help(help))
 }
 
 fn would_overwrite(path: &Path) -> Failure {

@@ -4,24 +4,25 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde::Serialize;
 
 use crate::cli::evolve::read_checkpoint;
-use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::cli::{Context, Failure, Format, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Provenance, Robot};
-use crate::report::Listing;
+use crate::report::Answer;
 use crate::store::{self, Checkpoint};
-use crate::swarm::{self, Measurement};
-
-/// The longest clock that makes a gate worth a long measurement, in cycles.
-const LONGEST_CLOCK: u32 = 4;
+use crate::swarm::{Nominee, Selected, Selection};
 
 /// Measure the best gates of evolution runs and write them as robot files
 #[derive(Args)]
-#[command(
-    after_help = "Example:\n  nbc library add out/gates5/seed-1 --into library/robots --behavior RRRL --behavior RRLL"
-)]
+#[command(after_help = "Examples:
+  nbc library add out/gates5/seed-1 --into library/robots --behavior RRRL --behavior RRLL
+  nbc library add out/gates5/seed-* --into robots --max-error 0.01
+
+Each behavior is answered: the robot that was added, or why there is none.
+Exit status: 0 done, 1 when a behavior named by --behavior got no robot, or none got one, 2 bad input.")]
 pub struct Arguments {
     /// Folders of runs, each with its checkpoint
     #[arg(required = true)]
@@ -33,17 +34,21 @@ pub struct Arguments {
     #[arg(long, value_name = "BEHAVIOR")]
     behavior: Vec<Behavior>,
     /// Elites of each behavior that are tried
-    #[arg(long, value_name = "N", default_value_t = 8)]
-    tries: usize,
+    #[arg(long, value_name = "N", default_value = "8", value_parser = clap::value_parser!(u32).range(1..))]
+    tries: u32,
     /// Of these, how many are measured at length
-    #[arg(long, value_name = "N", default_value_t = 2)]
-    finalists: usize,
+    #[arg(long, value_name = "N", default_value = "2", value_parser = clap::value_parser!(u32).range(1..))]
+    finalists: u32,
+    /// The largest share of wrong outputs, 0 to 1, that a robot may have over the measured switches
+    #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
+    max_error: f64,
 }
 
-/// An elite with the run it comes from.
-struct Entry {
-    elite: Elite,
-    provenance: Provenance,
+/// What programs are told.
+#[derive(Serialize)]
+struct Answers<'a> {
+    folder: &'a Path,
+    answers: Vec<Answer>,
 }
 
 impl Arguments {
@@ -53,84 +58,73 @@ impl Arguments {
     /// When a run has no checkpoint, or a file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         store::create_folder(&self.into).map_err(|error| Failure::unwritable(&self.into, &error))?;
-        let entries = self.entries()?;
-        let bar = Progress::new("measuring", entries.len() as u64);
-        let mut robots = Vec::new();
-        for (behavior, entries) in entries {
-            bar.set_message(behavior.to_string());
-            if let Some(robot) = self.best(behavior, &entries) {
-                write(&self.into, &robot)?;
-                robots.push(robot);
+        let selection = self.selection();
+        let asked = self.asked(&selection)?;
+        let bar = Progress::new("measuring", asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum());
+        let select = |(behavior, nominees): &(Behavior, Vec<Nominee>)| {
+            (*behavior, selection.select(*behavior, nominees, &|more| bar.add(more)))
+        };
+        let mut answers = Vec::new();
+        let mut tell = |(behavior, selected): (Behavior, Selected)| {
+            if let Selected::Robot(robot) = &selected {
+                write(&self.into, robot)?;
             }
-            bar.add(1);
-        }
+            let answer = Answer::of(behavior, &selected, self.max_error);
+            if context.format == Format::Text {
+                context.print(&answer)?;
+                context.flush()?;
+            }
+            answers.push(answer);
+            Ok::<(), Failure>(())
+        };
+        workers::in_order(&asked, select, |selected| bar.suspend(|| tell(selected)))?;
         drop(bar);
-        let list = Listing::all(&store::best_first(robots));
-        match context.format {
-            Format::Json => context.print_json(&list)?,
-            Format::Text => context.print(Listing::table(&list))?,
-        }
-        Ok(Status::Done)
+        self.end(answers, context)
     }
 
-    /// The elites of the wanted behaviors, the fittest first.
-    fn entries(&self) -> Result<BTreeMap<Behavior, Vec<Entry>>, Failure> {
-        let mut entries: BTreeMap<Behavior, Vec<Entry>> = BTreeMap::new();
+    /// Says what was added in all, and how the command ends.
+    fn end(&self, answers: Vec<Answer>, context: &mut Context) -> Result<Status, Failure> {
+        let (asked, added) = (answers.len(), answers.iter().filter(|answer| answer.is_added()).count());
+        match context.format {
+            Format::Json => context.print_json(&Answers { folder: &self.into, answers })?,
+            Format::Text => {
+                let folder = self.into.display();
+                context.print(format_args!("{added} of {asked} behaviors have a robot in {folder}\n"))?;
+            }
+        }
+        let missed = if self.behavior.is_empty() { added == 0 } else { added < asked };
+        Ok(if missed { Status::TestFailed } else { Status::Done })
+    }
+
+    fn selection(&self) -> Selection {
+        Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error: self.max_error }
+    }
+
+    /// The behaviors asked for, in order of their functions' bits, with the elites of each that are tried.
+    fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<Nominee>)>, Failure> {
+        let is_asked = |behavior: &Behavior| self.behavior.is_empty() || self.behavior.contains(behavior);
+        let mut nominees: BTreeMap<Behavior, Vec<Nominee>> =
+            Behavior::all().filter(is_asked).map(|behavior| (behavior, Vec::new())).collect();
         for folder in &self.runs {
             let path = folder.join(crate::cli::evolve::CHECKPOINT);
             let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
-            let provenance = |elite: &Elite| provenance(&checkpoint, elite);
-            let elites = checkpoint.state.niches.iter().flat_map(|(_, elites)| elites);
-            for elite in elites.filter(|elite| self.behavior.is_empty() || self.behavior.contains(&elite.behavior)) {
-                let entry = Entry { elite: elite.clone(), provenance: provenance(elite) };
-                entries.entry(elite.behavior).or_default().push(entry);
+            for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
+                if let Some(found) = nominees.get_mut(&elite.behavior) {
+                    found.push(Nominee { elite: elite.clone(), provenance: provenance(&checkpoint, elite) });
+                }
             }
         }
-        for found in entries.values_mut() {
-            found.sort_by(|a, b| worth(&b.elite).total_cmp(&worth(&a.elite)));
-            found.truncate(self.tries);
-        }
-        Ok(entries)
-    }
-
-    /// The best of some elites: the shortest clock in cheap sequences and the widest margin go on to the long measurement.
-    fn best(&self, behavior: Behavior, entries: &[Entry]) -> Option<Robot> {
-        let screened = entries.iter().map(|entry| swarm::screen(&entry.elite.body, behavior, LONGEST_CLOCK));
-        let mut ranked: Vec<(u32, f64, &Entry)> = screened
-            .zip(entries)
-            .map(|(screened, entry)| match screened {
-                Ok(Some((clock, margin))) => (clock, margin, entry),
-                // A fault or errors at every clock: last, but better than no robot at all.
-                Ok(None) | Err(_) => (LONGEST_CLOCK + 1, worth(&entry.elite), entry),
-            })
-            .collect();
-        ranked.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        let finalists = ranked.into_iter().take(self.finalists);
-        let measured = finalists.filter_map(|(_, _, entry)| {
-            let measurement = swarm::measure(&entry.elite.body).ok()?;
-            (measurement.behavior == behavior).then(|| robot(entry, measurement))
-        });
-        store::best_first(measured.collect()).robots.into_iter().next()
+        let mut asked: Vec<_> =
+            nominees.into_iter().map(|(behavior, found)| (behavior, selection.nominate(found))).collect();
+        asked.sort_by_key(|(behavior, _)| behavior.function());
+        Ok(asked)
     }
 }
 
-/// What elites are ranked by before they are measured: both fitnesses count alike.
-fn worth(elite: &Elite) -> f64 {
-    elite.fitness[0] + elite.fitness[1]
-}
-
-fn robot(entry: &Entry, measurement: Measurement) -> Robot {
-    let Measurement { displacement, behavior, character } = measurement;
-    let (body, function) = (&entry.elite.body, behavior.function());
-    Robot {
-        name: format!("{function}_{}x{}", body.width(), body.height()),
-        behavior,
-        body: body.clone(),
-        displacement,
-        character,
-        provenance: entry.provenance.clone(),
-        genotype: Some(entry.elite.genotype.clone()),
-    }
+/// A share between 0 and 1.
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| "expected a number from 0 to 1, such as 0.01 for one per cent".to_owned())
 }
 
 fn provenance(checkpoint: &Checkpoint, elite: &Elite) -> Provenance {

@@ -2,7 +2,6 @@
 
 mod case;
 mod outcome;
-mod workers;
 
 use std::path::PathBuf;
 
@@ -10,7 +9,7 @@ use clap::Args;
 
 use crate::cli::test::case::{Case, Level};
 use crate::cli::test::outcome::Outcome;
-use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::cli::{Context, Failure, Format, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic};
 use crate::pipeline::{self, Loaded};
 use crate::store::DiskWorld;

@@ -8,6 +8,8 @@ use std::thread;
 /// Does the work for each item and hands the results on in order of the items, each as soon as it and those before it are there.
 /// Where handing on fails, no more work is begun.
 ///
+/// Where there is one thread for simulation, or no other can be started, the work is done on the caller's.
+///
 /// The threads are not those of rayon, which simulation shares out its parts to: one of them that waits for a part would begin with
 /// another item meanwhile, and come back only when that is done.
 ///
@@ -18,6 +20,10 @@ pub(super) fn in_order<T: Sync, R: Send, E>(
     work: impl Fn(&T) -> R + Sync,
     mut hand_on: impl FnMut(R) -> Result<(), E>,
 ) -> Result<(), E> {
+    let threads = rayon::current_num_threads().min(items.len());
+    if threads <= 1 {
+        return items.iter().try_for_each(|item| hand_on(work(item)));
+    }
     let next = AtomicUsize::new(0);
     let take = |results: Sender<(usize, R)>| {
         while let Some((place, item)) = pick(items, &next) {
@@ -28,9 +34,12 @@ pub(super) fn in_order<T: Sync, R: Send, E>(
     };
     thread::scope(|scope| {
         let (sender, results) = mpsc::channel();
-        for _ in 0..rayon::current_num_threads().min(items.len()) {
+        let start = |_: &usize| {
             let (take, sender) = (&take, sender.clone());
-            scope.spawn(move || take(sender));
+            thread::Builder::new().spawn_scoped(scope, move || take(sender)).is_ok()
+        };
+        if (0..threads).take_while(start).count() == 0 {
+            return items.iter().try_for_each(|item| hand_on(work(item)));
         }
         drop(sender);
         let (mut early, mut due) = (BTreeMap::new(), 0);

@@ -1,0 +1,76 @@
+//! Standard output, which its reader may close at any moment.
+
+use std::io::{self, BufWriter, StdoutLock, Write};
+
+/// Standard output, buffered. Once its reader has closed the pipe, it swallows what is written: nobody wants it, and that is no fault
+/// of the work.
+pub(super) struct Output<W: Write = StdoutLock<'static>> {
+    /// Nothing after the pipe was closed.
+    open: Option<BufWriter<W>>,
+}
+
+impl<W: Write> Output<W> {
+    pub(super) fn new(out: W) -> Self {
+        Self { open: Some(BufWriter::new(out)) }
+    }
+
+    /// Does something with the output while it is open.
+    fn with<T>(&mut self, swallowed: T, work: impl FnOnce(&mut BufWriter<W>) -> io::Result<T>) -> io::Result<T> {
+        let Some(out) = &mut self.open else { return Ok(swallowed) };
+        match work(out) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                // What is still in the buffer goes with it, so that dropping it does not write again.
+                let _ = self.open.take().map(BufWriter::into_parts);
+                Ok(swallowed)
+            }
+            done => done,
+        }
+    }
+}
+
+impl<W: Write> Write for Output<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.with(bytes.len(), |out| out.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.with((), BufWriter::flush)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pipe that takes some bytes before it fails.
+    struct Pipe {
+        room: usize,
+        error: io::ErrorKind,
+    }
+
+    impl Write for Pipe {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.room = self.room.checked_sub(bytes.len()).ok_or(self.error)?;
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn written(error: io::ErrorKind) -> io::Result<()> {
+        let mut out = Output::new(Pipe { room: 10, error });
+        for _ in 0..3 {
+            out.write_all(b"eight by")?;
+            out.flush()?;
+        }
+        out.write_all(&[b'x'; 100_000])
+    }
+
+    #[test]
+    fn a_closed_pipe_swallows_and_other_faults_do_not() {
+        assert!(written(io::ErrorKind::BrokenPipe).is_ok());
+        assert_eq!(written(io::ErrorKind::StorageFull).unwrap_err().kind(), io::ErrorKind::StorageFull);
+    }
+}

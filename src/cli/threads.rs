@@ -1,0 +1,102 @@
+//! The threads that simulations share: as many as the machine has cores or `RAYON_NUM_THREADS` says, fewer where the system gives no
+//! more.
+
+use std::env;
+use std::sync::mpsc::{self, SyncSender};
+use std::thread::{self, JoinHandle};
+
+use rayon::{ThreadBuilder, ThreadPoolBuilder};
+
+use crate::cli::{Context, Failure};
+use crate::diag::{Code, Diagnostic};
+
+/// What says how many threads there are to be.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+/// The most threads that are started, whatever is asked for.
+const MOST: usize = 1024;
+
+/// Starts the threads. Where the system refuses some, there are fewer, and the user is told; results are the same on any number.
+///
+/// # Errors
+/// When `RAYON_NUM_THREADS` is not a number.
+pub(super) fn start(context: &Context) -> Result<(), Failure> {
+    let wanted = wanted(env::var_os(VARIABLE).map(|value| value.to_string_lossy().into_owned()).as_deref())?;
+    let mut idle: Vec<Idle> = (0..wanted).map_while(|_| Idle::start()).collect();
+    if idle.len() < wanted {
+        // The other half of what there is, is for the work itself.
+        idle.drain(idle.len() / 2..).for_each(Idle::end);
+        context.log(&format!("{} of {wanted} threads are used, as the system starts no more\n", idle.len().max(1)));
+    }
+    let found = idle.len();
+    let pool = ThreadPoolBuilder::new().num_threads(found.max(1));
+    let built = match found {
+        // The thread that is there already does all the work.
+        0 => pool.use_current_thread().build_global(),
+        _ => pool.spawn_handler(|work| Ok(idle.pop().map_or((), |thread| thread.work(work)))).build_global(),
+    };
+    // A program that calls this twice has its threads already.
+    let _ = built;
+    Ok(())
+}
+
+/// How many threads are asked for by the value of [`VARIABLE`].
+fn wanted(value: Option<&str>) -> Result<usize, Failure> {
+    let cores = || thread::available_parallelism().map_or(1, usize::from);
+    match value.map(str::trim) {
+        None | Some("") => Ok(cores()),
+        Some(digits) if digits.bytes().all(|byte| byte.is_ascii_digit()) => match digits.parse().unwrap_or(MOST) {
+            0 => Ok(cores()),
+            // A number too long to be read asks for more than the most, too.
+            number => Ok(number.min(MOST)),
+        },
+        Some(other) => {
+            let message = format!("the environment variable `{VARIABLE}` is `{other}`, expected a number of threads");
+            let fault = Diagnostic::without_place(Code::BadValue, message);
+            Err(Failure::plain(fault.with_help("unset it to use every core")))
+        }
+    }
+}
+
+/// A thread that waits for its work in the pool.
+struct Idle {
+    work: SyncSender<ThreadBuilder>,
+    thread: JoinHandle<()>,
+}
+
+impl Idle {
+    /// Nothing where the system starts no more threads.
+    fn start() -> Option<Self> {
+        let (sender, work) = mpsc::sync_channel::<ThreadBuilder>(1);
+        let wait = move || {
+            if let Ok(work) = work.recv() {
+                work.run();
+            }
+        };
+        let thread = thread::Builder::new().spawn(wait).ok()?;
+        Some(Self { work: sender, thread })
+    }
+
+    fn work(self, work: ThreadBuilder) {
+        self.work.send(work).expect("an idle thread waits for its work");
+    }
+
+    /// Gives the thread back to the system.
+    fn end(self) {
+        drop(self.work);
+        self.thread.join().expect("a thread without work ends");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_taken_and_words_refused() {
+        assert_eq!([Some("3"), Some(" 7 "), Some("99999999999999999999999")].map(|v| wanted(v).unwrap()), [3, 7, MOST]);
+        let cores = wanted(None).unwrap();
+        assert!(cores > 0);
+        assert_eq!([Some(""), Some("0"), Some("00")].map(|v| wanted(v).unwrap()), [cores; 3]);
+        assert!(["two", "-1", "1.5", "0x4"].iter().all(|word| wanted(Some(word)).is_err()));
+    }
+}

@@ -1,0 +1,79 @@
+//! Folders that one process writes at a time.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// The file in a locked folder that is locked, and says which process holds it. It stays there: whether the folder is in use is known
+/// to the system alone, which forgets it when the process ends in whatever way.
+const NAME: &str = "lock";
+
+/// A folder that no other process writes to until this is dropped.
+#[derive(Debug)]
+pub struct FolderLock(#[expect(dead_code, reason = "the lock lasts as long as the file is open")] File);
+
+/// Why a folder is not ours.
+#[derive(Debug)]
+pub enum LockFault {
+    /// Another process holds it.
+    Held {
+        /// Its number, where it has said it already.
+        process: Option<u32>,
+    },
+    /// The folder or its lock cannot be used.
+    Io(io::Error),
+}
+
+/// Takes a folder for this process, without waiting.
+///
+/// # Errors
+/// When another process has it, or no lock can be made there.
+pub fn lock_folder(folder: &Path) -> Result<FolderLock, LockFault> {
+    let path = folder.join(NAME);
+    let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(LockFault::Held { process: holder(&mut file) }),
+        Err(TryLockError::Error(error)) => return Err(LockFault::Io(error)),
+    }
+    file.set_len(0)?;
+    writeln!(file, "{}", std::process::id())?;
+    Ok(FolderLock(file))
+}
+
+/// The process that the holder wrote into its lock.
+fn holder(file: &mut File) -> Option<u32> {
+    let mut text = String::new();
+    // Far more than a number: what is longer is nothing of ours.
+    file.take(64).read_to_string(&mut text).ok()?;
+    text.trim().parse().ok()
+}
+
+impl From<io::Error> for LockFault {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_held_by_one_and_free_again_after() {
+        let folder = tempfile::tempdir().unwrap();
+        let held = lock_folder(folder.path()).unwrap();
+        let Err(LockFault::Held { process }) = lock_folder(folder.path()) else { panic!("it is held") };
+        assert_eq!(process, Some(std::process::id()));
+        drop(held);
+        std::fs::write(folder.path().join(NAME), "a longer text that an earlier process left").unwrap();
+        let _held = lock_folder(folder.path()).unwrap();
+        let said = std::fs::read_to_string(folder.path().join(NAME)).unwrap();
+        assert_eq!(said, format!("{}\n", std::process::id()));
+    }
+
+    #[test]
+    fn a_folder_that_is_missing_is_a_fault() {
+        assert!(matches!(lock_folder(Path::new("/no/such/folder")), Err(LockFault::Io(_))));
+    }
+}

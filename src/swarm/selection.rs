@@ -1,0 +1,214 @@
+//! The best robot of a behavior among the elites of evolution runs: many are screened in short sequences, few measured at length.
+
+use std::cmp::Ordering;
+
+use crate::evolve::Elite;
+use crate::model::{Behavior, Fault, Provenance, Robot};
+use crate::swarm::{Measurement, measure, screen};
+
+/// The longest clock that makes a gate worth a long measurement, in cycles.
+const LONGEST_CLOCK: u32 = 4;
+/// What a measurement costs, in screenings.
+const MEASUREMENT_COST: u64 = 4;
+
+/// How thorough a selection is, and what it accepts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Selection {
+    /// Elites of a behavior that are screened, the fittest first.
+    pub tries: usize,
+    /// Of these, how many are measured at length.
+    pub finalists: usize,
+    /// The largest accepted share of wrong outputs.
+    pub max_error: f64,
+}
+
+/// An elite with the run it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nominee {
+    /// The elite.
+    pub elite: Elite,
+    /// Its run.
+    pub provenance: Provenance,
+}
+
+/// What was found for a behavior.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Selected {
+    /// The best robot.
+    Robot(Box<Robot>),
+    /// A robot that makes more errors than are accepted.
+    Erring(Box<Robot>),
+    /// The best elite walks otherwise in the paper's fixed simulations.
+    Other(Behavior),
+    /// The simulation of the best elite could not go on.
+    Faulty(Fault),
+    /// There is no elite of this behavior.
+    Missing,
+}
+
+impl Selection {
+    /// Chooses the elites to be screened: the fittest, each body once.
+    pub fn nominate(&self, mut nominees: Vec<Nominee>) -> Vec<Nominee> {
+        nominees.sort_by(|a, b| worth(&b.elite).total_cmp(&worth(&a.elite)));
+        let mut chosen: Vec<Nominee> = Vec::new();
+        for nominee in nominees {
+            if chosen.len() < self.tries && chosen.iter().all(|known| known.elite.body != nominee.elite.body) {
+                chosen.push(nominee);
+            }
+        }
+        chosen
+    }
+
+    /// How much work it is to select among that many nominees, in the unit that [`Selection::select`] reports.
+    pub fn cost(&self, nominees: usize) -> u64 {
+        nominees as u64 + MEASUREMENT_COST * nominees.min(self.finalists) as u64
+    }
+
+    /// Screens the nominees, measures the best of them, and takes the best of those; tells `observe` how much work is done.
+    pub fn select(&self, behavior: Behavior, nominees: &[Nominee], observe: &dyn Fn(u64)) -> Selected {
+        let rank = |nominee| {
+            let rank = Rank::of(behavior, nominee);
+            observe(1);
+            (rank, nominee)
+        };
+        let mut ranked: Vec<(Rank, &Nominee)> = nominees.iter().map(rank).collect();
+        ranked.sort_by(|(a, _), (b, _)| a.compare(b));
+        let finalists = ranked.into_iter().take(self.finalists);
+        let measured = finalists.map(|(_, nominee)| {
+            let found = self.judge(behavior, nominee);
+            observe(MEASUREMENT_COST);
+            found
+        });
+        measured.min_by(Selected::compare).unwrap_or(Selected::Missing)
+    }
+
+    fn judge(&self, behavior: Behavior, nominee: &Nominee) -> Selected {
+        let measurement = match measure(&nominee.elite.body) {
+            Ok(measurement) => measurement,
+            Err(fault) => return Selected::Faulty(fault),
+        };
+        if measurement.behavior != behavior {
+            return Selected::Other(measurement.behavior);
+        }
+        let robot = Box::new(robot(nominee, measurement));
+        if robot.character.error_rate <= self.max_error { Selected::Robot(robot) } else { Selected::Erring(robot) }
+    }
+}
+
+impl Selected {
+    /// The better one first.
+    fn compare(&self, other: &Self) -> Ordering {
+        let place = |found: &Self| match found {
+            Self::Robot(_) => 0,
+            Self::Erring(_) => 1,
+            Self::Other(_) => 2,
+            Self::Faulty(_) => 3,
+            Self::Missing => 4,
+        };
+        match (self, other) {
+            (Self::Robot(a) | Self::Erring(a), Self::Robot(b) | Self::Erring(b)) => a.character.compare(&b.character),
+            _ => place(self).cmp(&place(other)),
+        }
+    }
+}
+
+/// How a nominee did in short sequences: its clock and margin, or its fitness where no clock was free of errors.
+struct Rank {
+    clock: u32,
+    margin: f64,
+}
+
+impl Rank {
+    fn of(behavior: Behavior, nominee: &Nominee) -> Self {
+        match screen(&nominee.elite.body, behavior, LONGEST_CLOCK) {
+            Ok(Some((clock, margin))) => Self { clock, margin },
+            // A fault or errors at every clock: behind all others.
+            Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&nominee.elite) },
+        }
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        self.clock.cmp(&other.clock).then(other.margin.total_cmp(&self.margin))
+    }
+}
+
+/// What elites are ranked by before they are screened: both fitnesses count alike.
+fn worth(elite: &Elite) -> f64 {
+    elite.fitness[0] + elite.fitness[1]
+}
+
+fn robot(nominee: &Nominee, measurement: Measurement) -> Robot {
+    let Measurement { displacement, behavior, character } = measurement;
+    let (body, function) = (&nominee.elite.body, behavior.function());
+    Robot {
+        name: format!("{function}_{}x{}", body.width(), body.height()),
+        behavior,
+        body: body.clone(),
+        displacement,
+        character,
+        provenance: nominee.provenance.clone(),
+        genotype: Some(nominee.elite.genotype.clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+    use crate::model::{Body, Genotype, Palette};
+
+    const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };
+
+    fn nominee(rows: &[&str], fitness: f64) -> Nominee {
+        let elite = Elite {
+            fitness: [fitness, 0.0],
+            behavior: "RRRR".parse().unwrap(),
+            displacement: [0.0; 4],
+            body: Body::parse(rows, &Palette::paper()).unwrap(),
+            genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+            generation: 1,
+            evaluations: 1,
+        };
+        let (program, version, evolution) = ("nbc".to_owned(), "0".to_owned(), "small".to_owned());
+        Nominee {
+            elite,
+            provenance: Provenance { program, version, evolution, seed: 1, generation: 1, evaluations: 1 },
+        }
+    }
+
+    #[test]
+    fn the_fittest_are_screened_each_body_once() {
+        let nominees = [(["33"], 1.0), (["34"], 3.0), (["34"], 2.0), (["43"], 2.5), (["44"], 0.5)];
+        let chosen = SELECTION.nominate(nominees.map(|(rows, fitness)| nominee(&rows, fitness)).to_vec());
+        let fitnesses: Vec<f64> = chosen.iter().map(|nominee| nominee.elite.fitness[0]).collect();
+        assert_eq!(fitnesses, [3.0, 2.5, 1.0]);
+    }
+
+    #[test]
+    fn the_work_reported_is_the_work_announced() {
+        let nominees = [nominee(&["333", "343"], 1.0), nominee(&["3"], 2.0), nominee(&["33"], 0.0)];
+        for behavior in ["RRRR", "LLLL"] {
+            let done = Cell::new(0);
+            let observe = |more| done.set(done.get() + more);
+            SELECTION.select(behavior.parse().unwrap(), &nominees, &observe);
+            assert_eq!(done.get(), SELECTION.cost(nominees.len()));
+        }
+        let found = SELECTION.select("RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
+        assert_eq!((found, SELECTION.cost(0)), (Selected::Missing, 0));
+    }
+
+    #[test]
+    fn a_robot_that_errs_is_left_out_unless_it_is_allowed_to() {
+        let (behavior, body) = ("RRRR".parse().unwrap(), Body::parse(&["333", "343"], &Palette::paper()).unwrap());
+        let measured = measure(&body).unwrap();
+        let nominees = [nominee(&["333", "343"], 1.0)];
+        let select = |behavior, max_error| Selection { max_error, ..SELECTION }.select(behavior, &nominees, &|_| ());
+        let own = measured.behavior;
+        assert!(matches!(select(own, measured.character.error_rate), Selected::Robot(_)));
+        assert!(matches!(select(own, -1.0), Selected::Erring(robot) if robot.behavior == own));
+        if own != behavior {
+            assert_eq!(select(behavior, 1.0), Selected::Other(own));
+        }
+    }
+}

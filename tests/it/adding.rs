@@ -1,0 +1,71 @@
+//! `nbc library add`: every behavior asked for is answered, and robots that err are left out.
+
+use std::fs;
+
+use crate::cli::{Bench, Ran};
+
+/// A small archive with a few behaviors, most of them of robots that err.
+const RUN: &str = "
+schedule short(s1, s2) {
+    0 0 for 1 cycles
+    0 1 for 1 cycles
+    1 0 for 1 cycles
+    1 1 for 1 cycles
+}
+
+evolution walks {
+    box:         3 x 2
+    variable:    short
+    fixed:       1 cycles
+    batch:       6
+    generations: 12
+    seed:        3
+}
+";
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.file("runs.nb", RUN);
+    assert_eq!(bench.run(&["evolve", "runs.nb"]).status, 0);
+    bench
+}
+
+fn add(bench: &Bench, more: &[&str]) -> Ran {
+    let usual = ["library", "add", "out/walks/seed-3", "--into", "robots", "--tries", "1", "--finalists", "1"];
+    bench.run(&[&usual[..], more].concat())
+}
+
+/// The robot files that were written.
+fn written(bench: &Bench) -> Vec<String> {
+    let entries = fs::read_dir(bench.path().join("robots")).unwrap();
+    let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_behavior_asked_for_is_answered_and_robots_that_err_are_left_out() {
+    let bench = bench();
+    let strict = add(&bench, &["--behavior", "RLRL", "--behavior", "LRRL", "--format", "json"]);
+    assert_eq!(strict.status, 1, "a behavior that was asked for has no robot: {}", strict.err);
+    let found: serde_json::Value = serde_json::from_str(&strict.out).unwrap();
+    let [notb, xor] = &found["answers"].as_array().unwrap()[..] else { panic!("{found}") };
+    assert!(xor["outcome"] == "missing" && xor["reason"] == "no elite of this behavior", "{xor}");
+    assert!(notb["outcome"] == "left_out" && notb["robot"]["error_rate"].as_f64() > Some(0.0), "{notb}");
+    let reason = notb["reason"].as_str().unwrap();
+    assert!(reason.contains(" of 1024 switches wrong (") && reason.ends_with(", at most 0 % accepted"), "{reason}");
+    assert_eq!(written(&bench), [""; 0]);
+    let allowed = add(&bench, &["--behavior", "RRRR", "--max-error", "0.02"]);
+    assert_eq!(allowed.status, 0, "{}", allowed.err);
+    assert!(allowed.out.starts_with("RRRR  one         added     one_3x2, clock "), "{}", allowed.out);
+    assert!(allowed.out.ends_with("\n1 of 1 behaviors have a robot in robots\n"), "{}", allowed.out);
+    assert_eq!(written(&bench), ["one_3x2.yaml"]);
+}
+
+#[test]
+fn a_share_of_errors_is_between_none_and_all() {
+    for share in ["2", "-0.1", "x", "NaN"] {
+        let ran = add(&Bench::new(), &[&format!("--max-error={share}")]);
+        assert!(ran.status == 2 && ran.err.contains("expected a number from 0 to 1"), "{}", ran.err);
+    }
+}
