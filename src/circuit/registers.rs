@@ -1,4 +1,5 @@
-//! Registers made of cells: forms whose every loop is safe, however long each robot takes (docs/compiler.md, "Registers").
+//! Registers made of cells: forms that are safe for every delay of one to three cycles, as long as the inverter of a clock is no slower than
+//! two other cells (docs/compiler.md, "Registers").
 
 use std::collections::BTreeMap;
 

@@ -88,8 +88,8 @@ fn text(elements: &[Element]) -> String {
 }
 
 /// The state after the inputs came to what they are: registers take their data where their clock rose, then latches follow.
-fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut Vec<bool>) {
-    let old = state.clone();
+fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [bool]) {
+    let old = state.to_vec();
     for (i, element) in elements.iter().enumerate() {
         if let Kind::Register(inverted) = element.kind
             && before[CLOCK] == inverted
