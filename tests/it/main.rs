@@ -20,6 +20,7 @@ mod language;
 mod library;
 mod manual;
 mod memory;
+mod notices;
 mod optima;
 mod page;
 mod palette;
