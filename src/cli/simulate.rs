@@ -1,5 +1,7 @@
 //! `nbc simulate`: one body under a schedule of stimuli.
 
+use std::path::Path;
+
 use clap::Args;
 use serde::Serialize;
 
@@ -8,8 +10,8 @@ use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Table};
 use crate::sim;
-use crate::source::{FileError, Sources, World};
-use crate::store::{self, DiskWorld};
+use crate::source::{FileError, Sources};
+use crate::store;
 
 /// The most ground voxels in a row.
 const MAX_WORLD_WIDTH: usize = 1_000_000;
@@ -77,7 +79,7 @@ fn read_schedule(text: &str) -> Result<Schedule, Failure> {
 /// The body in a file; failing a file, that of a robot of the library.
 pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
     let mut sources = Sources::default();
-    match DiskWorld.read(robot) {
+    match store::read_text(Path::new(robot), store::MAX_ROBOT_BYTES) {
         Ok(text) => {
             let id = sources.add(robot, text);
             store::read_body(sources.file(id)).map_err(|fault| Failure::input(vec![fault], sources))

@@ -7,8 +7,8 @@ use include_dir::{Dir, include_dir};
 
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Library, Robot};
-use crate::source::{Sources, World};
-use crate::store::{DiskWorld, read_robot};
+use crate::source::Sources;
+use crate::store::{MAX_ROBOT_BYTES, read_robot, read_text};
 
 static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
 
@@ -48,11 +48,12 @@ pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
     for path in paths {
         let name = path.display().to_string();
         let mut sources = Sources::default();
-        let robot = DiskWorld.read(&name).map_err(|error| Diagnostic::unreadable(&name, &error)).and_then(|text| {
-            let id = sources.add(&name, text);
-            // The caller knows other texts, so a place in this one would mean nothing to it.
-            read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
-        });
+        let robot =
+            read_text(&path, MAX_ROBOT_BYTES).map_err(|error| Diagnostic::unreadable(&name, &error)).and_then(|text| {
+                let id = sources.add(&name, text);
+                // The caller knows other texts, so a place in this one would mean nothing to it.
+                read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
+            });
         match robot {
             Ok(robot) => robots.push(robot),
             Err(fault) => faults.push(fault),

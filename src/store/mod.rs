@@ -11,6 +11,7 @@ mod lock;
 mod robot;
 mod search_state;
 mod shape;
+mod soundness;
 mod yaml;
 mod yosys;
 
@@ -22,5 +23,5 @@ pub use disk::{
 };
 pub use library::{best_first, read_library, shipped_library};
 pub use lock::{FolderLock, LockFault, lock_folder};
-pub use robot::{FORMAT, RobotRecord, print_robot, read_robot};
+pub use robot::{FORMAT, RobotRecord, own_materials, print_robot, read_robot};
 pub use shape::read_body;

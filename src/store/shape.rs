@@ -1,5 +1,7 @@
 //! Bodies from any YAML or JSON mapping that has one.
 
+use std::sync::Arc;
+
 use serde::Deserialize;
 
 use crate::diag::{Code, Diagnostic};
@@ -12,11 +14,17 @@ use crate::store::yaml;
 #[serde(expecting = "a mapping with a `body`")]
 struct Embodied {
     body: Rows,
+    /// In order of their codes; the paper's when there are none.
+    #[serde(default)]
+    materials: Option<Arc<Palette>>,
 }
 
 /// A body as people write it.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "rows of digits such as [\"00345\", \"33333\"]")]
+#[serde(
+    untagged,
+    expecting = "`body` is not what a body is written as, expected rows of codes such as [\"00345\", \"33333\"]"
+)]
 enum Rows {
     Block(String),
     List(Vec<Row>),
@@ -50,20 +58,34 @@ impl Row {
     }
 }
 
-/// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first.
+/// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first; `materials` may say what
+/// the codes mean.
 ///
 /// # Errors
-/// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials.
+/// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials, or not in one
+/// piece.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
-    let embodied: Embodied = serde_yaml::from_str(&file.text).map_err(|error| {
-        yaml::fault(file, &error).with_help("give the body's rows, top row first: `body: [\"00345\", \"33333\"]`")
-    })?;
-    let rows = embodied.body.into_text();
-    Body::parse(&rows, &Palette::paper()).map_err(|error| fault(file, &rows, &error))
+    let Embodied { body, materials } = yaml::read(file)
+        .map_err(|fault| fault.with_help("give the body's rows, top row first: `body: [\"00345\", \"33333\"]`"))?;
+    self::body(file, &body.into_text(), &materials.unwrap_or_else(Palette::paper))
+}
+
+/// The body of these rows, in one piece.
+///
+/// # Errors
+/// As [`read_body`].
+pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -> Result<Body, Diagnostic> {
+    let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, &error))?;
+    if body.is_connected() {
+        return Ok(body);
+    }
+    let message = format!("`{}` holds a body that is not in one piece", file.name);
+    let fault = Diagnostic::new(Code::RobotFile, message, yaml::key_span(file, "body"), "this body");
+    Err(fault.with_help("the voxels of a robot are connected by their sides"))
 }
 
 /// What is wrong with a body, at the row where it can be found in the text.
-pub(super) fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
+fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
     let body = yaml::key_span(file, "body");
     let span = match *error {
         BodyError::Empty | BodyError::TooLarge { .. } => body,

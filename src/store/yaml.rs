@@ -1,15 +1,98 @@
-//! YAML's errors as diagnostics with places.
+//! YAML that any reader loads, and YAML's errors as diagnostics with places.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, SourceFile, Span};
+use crate::store::MAX_ROBOT_BYTES;
+
+/// How deep brackets may stand in brackets: the reader takes time that grows with the square of it.
+const MAX_DEPTH: usize = 64;
+
+/// Words that some readers take for numbers, truth values or nothing.
+const RESERVED: [&str; 13] =
+    ["y", "n", "yes", "no", "on", "off", "true", "false", "null", "inf", "nan", "infinity", "~"];
+
+/// Reads a text of one document.
+///
+/// # Errors
+/// A diagnostic with its place.
+pub(super) fn read<T: DeserializeOwned>(file: &SourceFile) -> Result<T, Diagnostic> {
+    if file.text.len() as u64 > MAX_ROBOT_BYTES {
+        let message = format!("`{}` is not a robot file: larger than {MAX_ROBOT_BYTES} bytes", file.name);
+        return Err(Diagnostic::without_place(Code::RobotFile, message));
+    }
+    if let Some(at) = too_deep(&file.text) {
+        let message = format!("`{}` is not a robot file: more than {MAX_DEPTH} brackets inside each other", file.name);
+        return Err(Diagnostic::new(Code::RobotFile, message, Span::new(file.id, at, at + 1), "one too many"));
+    }
+    serde_yaml::from_str(&file.text).map_err(|error| fault(file, &error))
+}
+
+/// Where the first bracket stands that is too deep.
+fn too_deep(text: &str) -> Option<usize> {
+    let mut depth = 0usize;
+    text.bytes().position(|byte| {
+        match byte {
+            b'[' | b'{' => depth += 1,
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth > MAX_DEPTH
+    })
+}
+
+/// The text of a value, without tags, whose scalars every version of YAML reads alike.
+pub(super) fn print<T: Serialize>(value: &T) -> String {
+    let text = serde_yaml::to_string(value).expect("a robot has nothing that YAML cannot say");
+    text.lines().flat_map(|line| [portable(line), "\n".to_owned()]).collect()
+}
+
+/// A line whose plain scalar, if it ends in one, is read alike by versions 1.1 and 1.2 of YAML.
+fn portable(line: &str) -> String {
+    let start = line.rfind(": ").max(line.rfind("- ")).map_or(line.len(), |at| at + 2);
+    let (head, scalar) = line.split_at(start);
+    let quoted = || format!("{head}'{}'", scalar.replace('\'', "''"));
+    let is_number = scalar.starts_with(|c: char| c.is_ascii_digit() || c == '-') && scalar.parse::<f64>().is_ok();
+    if scalar.is_empty() || scalar.ends_with(':') || scalar.starts_with(['\'', '"', '[', '{', '|', '>']) {
+        return line.to_owned();
+    }
+    if is_number {
+        return format!("{head}{}", portable_number(scalar));
+    }
+    let is_truth = scalar == "true" || scalar == "false";
+    let is_word = scalar.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && scalar.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
+    let is_reserved = RESERVED.iter().any(|word| scalar.eq_ignore_ascii_case(word));
+    if is_truth || (is_word && !is_reserved) { line.to_owned() } else { quoted() }
+}
+
+/// A number with a point and a sign in its exponent, which version 1.1 asks for: `1e-7` is text to it.
+fn portable_number(number: &str) -> String {
+    let Some((digits, exponent)) = number.split_once('e') else { return number.to_owned() };
+    let point = if digits.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    format!("{digits}{point}e{sign}{exponent}")
+}
 
 /// What YAML says of a text, at its place.
-pub(super) fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
+fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
     let words = error.to_string();
     // The place is shown by the diagnostic.
     let message = words.split(" at line ").next().unwrap_or(&words).replace('\n', " ");
-    let span = error.location().map_or(Span::new(file.id, 0, 0), |place| span_at(file, place.line(), place.column()));
+    let span = match error.location() {
+        Some(place) => span_at(file, place.line(), place.column()),
+        None => quoted_span(file, &message),
+    };
     Diagnostic::new(Code::RobotFile, format!("`{}` is no robot file: {message}", file.name), span, "here")
+}
+
+/// The place of the first of the words in backticks that stands in the text, for faults that are not told with a place.
+fn quoted_span(file: &SourceFile, message: &str) -> Span {
+    let quoted = message.split('`').skip(1).step_by(2).filter(|word| !word.is_empty());
+    let found = quoted.filter_map(|word| Some(span(file.id, file.text.find(word)?, word.len()))).next();
+    found.unwrap_or(span(file.id, 0, 0))
 }
 
 /// The span of one character at a line and a column in characters, both from 1.
@@ -21,7 +104,7 @@ fn span_at(file: &SourceFile, line: usize, column: usize) -> Span {
     Span::new(file.id, at, at + length)
 }
 
-/// The span of a top-level key, or the text's start where the key is missing.
+/// The span of a key, or the text's start where the key is missing.
 pub(super) fn key_span(file: &SourceFile, key: &str) -> Span {
     let start = file.text.find(&format!("{key}:")).or_else(|| file.text.find(&format!("\"{key}\"")));
     let length = if start.is_some() { key.len() } else { 0 };
@@ -30,4 +113,32 @@ pub(super) fn key_span(file: &SourceFile, key: &str) -> Span {
 
 fn span(file: FileId, start: usize, length: usize) -> Span {
     Span::new(file, start, start + length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scalars_are_what_every_version_of_yaml_reads() {
+        let check = |line: &str, expected: &str| assert_eq!(portable(line), expected);
+        check("margin: 1e-7", "margin: 1.0e-7");
+        check("- -2.5e17", "- -2.5e+17");
+        check("clock: 4", "clock: 4");
+        check("name: no", "name: 'no'");
+        check("- 0b11", "- '0b11'");
+        check("- - 1_0", "- - '1_0'");
+        check("topples: false", "topples: false");
+        check("name: and_5x5", "name: and_5x5");
+        check("- '00345'", "- '00345'");
+        check("settle:", "settle:");
+        check("    - output:", "    - output:");
+    }
+
+    #[test]
+    fn brackets_have_a_depth() {
+        assert_eq!(too_deep(&"[".repeat(64)), None);
+        assert_eq!(too_deep(&"[]".repeat(1000)), None);
+        assert_eq!(too_deep(&format!("a: {}", "[{".repeat(100_000))), Some(3 + 64));
+    }
 }

@@ -38,3 +38,36 @@ fn a_checkpoint_of_format_1_is_compared_with_its_declaration() {
     let ran = bench.run(&["evolve", "own.nb", "--resume"]);
     ran.expect_fault(&["was made by another declaration than `hearts` is now"]);
 }
+
+#[test]
+fn robot_files_are_rewritten_in_the_newest_format_and_say_the_same() {
+    let bench = Bench::new();
+    fs::create_dir(bench.path().join("robots")).unwrap();
+    let first = fs::read_to_string(root().join("tests/golden/robot_1.yaml")).unwrap();
+    let path = bench.file("robots/old.yaml", &first);
+    let rewrite = || {
+        let ran = bench.run(&["library", "rewrite", "robots", "--format", "json"]);
+        ran.expect_json()[0]["changed"].as_bool().unwrap()
+    };
+    assert!(rewrite());
+    let second = fs::read_to_string(&path).unwrap();
+    let before_genotype = |text: &str| text.split_once("genotype:").unwrap().0.to_owned();
+    assert_eq!(
+        before_genotype(&second),
+        before_genotype(&first).replace("format: 1", "format: 2").replace(": 0.2.0", ": '0.2.0'")
+    );
+    assert!(!rewrite(), "the newest format is left alone");
+    assert_eq!(fs::read_to_string(&path).unwrap(), second);
+}
+
+#[test]
+fn robot_files_have_no_tags() {
+    for entry in fs::read_dir(root().join("library/robots")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "yaml") {
+            let text = fs::read_to_string(&path).unwrap();
+            assert!(text.starts_with("format: 2\n"), "{}: `nbc library rewrite` writes format 2", path.display());
+            assert!(!text.contains('!'), "{} has a tag, which other readers refuse", path.display());
+        }
+    }
+}

@@ -1,20 +1,20 @@
 //! `nbc library`: the robots that circuits are made of.
 
 mod add;
+mod rewrite;
 mod verify;
 
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use crate::check;
 use crate::cli::synth::unreadable;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Function, Library, Robot};
 use crate::report::{self, Listing};
 use crate::source::Sources;
-use crate::store::{self, DiskWorld};
+use crate::store;
 
 /// List, show, verify or add the robots that circuits are made of
 #[derive(Args)]
@@ -29,6 +29,7 @@ enum Action {
     Add(add::Arguments),
     /// List all robots, best first within each function
     List,
+    Rewrite(rewrite::Arguments),
     /// Show one robot
     Show {
         /// The robot's name, or a function such as `nand` for its best robot
@@ -51,6 +52,7 @@ impl Arguments {
         match self.action {
             Action::Add(arguments) => arguments.run(context),
             Action::List => list(library, context),
+            Action::Rewrite(arguments) => arguments.run(context),
             Action::Show { name } => show(find(library, &name)?, context),
             Action::Verify { path: None } => verify::verify(library, context),
             Action::Verify { path: Some(path) } => verify::verify(&robots(&path)?, context),
@@ -58,19 +60,27 @@ impl Arguments {
     }
 }
 
+/// The robot file of that name, or every robot file of the folder of that name.
+fn robot_paths(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let entries = std::fs::read_dir(path).map_err(|error| unreadable(path, &error))?;
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    paths.sort();
+    Ok(paths)
+}
+
 /// The robots of a file, or of every robot file of a folder.
 pub(super) fn robots(path: &Path) -> Result<Library, Failure> {
-    let mut paths = vec![path.to_owned()];
-    if path.is_dir() {
-        let entries = std::fs::read_dir(path).map_err(|error| unreadable(path, &error))?;
-        paths = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-        paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
-        paths.sort();
-    }
     let mut sources = Sources::default();
     let mut found = Vec::new();
-    for path in paths {
-        let id = check::open(&DiskWorld, &path.display().to_string(), &mut sources).map_err(Failure::plain)?;
+    for path in robot_paths(path)? {
+        let name = path.display().to_string();
+        let text = store::read_text(&path, store::MAX_ROBOT_BYTES);
+        let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable(&name, &error)))?;
+        let id = sources.add(&name, text);
         match store::read_robot(sources.file(id)) {
             Ok(robot) => found.push(robot),
             Err(diagnostic) => return Err(Failure::input(vec![diagnostic], sources)),

@@ -1,0 +1,69 @@
+//! `nbc library rewrite`: robot files in the newest format.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::cli::library::robot_paths;
+use crate::cli::{Context, Failure, Format, Status};
+use crate::diag::Diagnostic;
+use crate::source::Sources;
+use crate::store;
+
+/// Rewrite robot files in the newest format; what they say does not change
+#[derive(Args)]
+#[command(after_help = "Example:\n  nbc library rewrite library/robots")]
+pub struct Arguments {
+    /// Robot files, or folders of them
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+}
+
+/// What was done with a file.
+#[derive(Serialize)]
+struct Rewritten {
+    path: PathBuf,
+    changed: bool,
+}
+
+impl Arguments {
+    /// Reads every file before the first is written.
+    ///
+    /// # Errors
+    /// When a file is no robot file, or cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let mut files = Vec::new();
+        for path in &self.paths {
+            for path in robot_paths(path)? {
+                let (old, new) = texts(&path)?;
+                files.push((path, old != new, new));
+            }
+        }
+        for (path, _, text) in files.iter().filter(|(_, changed, _)| *changed) {
+            store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
+        }
+        let done: Vec<Rewritten> = files.into_iter().map(|(path, changed, _)| Rewritten { path, changed }).collect();
+        match context.format {
+            Format::Json => context.print_json(&done)?,
+            Format::Text => {
+                let changed = done.iter().filter(|file| file.changed).count();
+                context.print(format_args!("{changed} of {} robot files rewritten\n", done.len()))?;
+            }
+        }
+        Ok(Status::Done)
+    }
+}
+
+/// The text of a robot file, and what it would be in the newest format.
+fn texts(path: &Path) -> Result<(String, String), Failure> {
+    let name = path.display().to_string();
+    let old = store::read_text(path, store::MAX_ROBOT_BYTES)
+        .map_err(|error| Failure::plain(Diagnostic::unreadable(&name, &error)))?;
+    let mut sources = Sources::default();
+    let id = sources.add(&name, old.as_str());
+    match store::read_robot(sources.file(id)) {
+        Ok(robot) => Ok((old, store::print_robot(&robot))),
+        Err(fault) => Err(Failure::input(vec![fault], sources)),
+    }
+}
