@@ -4,13 +4,13 @@
 const HINT = "Point at a cell to see its robot; choose it to follow the robot.";
 
 class Player {
-  constructor(section, test, palette) {
-    Object.assign(this, { section, test, palette, chosen: -1, cameras: [] });
+  constructor(section, swarm, palette) {
+    Object.assign(this, { section, swarm, palette, chosen: -1, cameras: [] });
     this.stage = section.querySelector(".stage");
     this.wave = section.querySelector(".wave");
     this.panel = section.querySelector(".robot");
     this.cells = [...section.querySelectorAll('[data-id^="cell-"]')];
-    this.clock = new Clock(section, test.cycles.length, () => this.draw());
+    this.clock = new Clock(section, swarm.cycles.length, () => this.draw());
     this.cells.forEach(cell => this.bindCell(cell));
     this.stage.onclick = event => this.choose(this.chosen < 0 ? Math.floor(event.offsetY / this.laneHeight()) : this.chosen);
     this.wave.onclick = event => {
@@ -44,7 +44,7 @@ class Player {
 
   /** Follows robot `k` alone, or all again when it is followed already. */
   choose(k) {
-    if (!this.test.robots[k]) return;
+    if (!this.swarm.robots[k]) return;
     this.chosen = this.chosen === k ? -1 : k;
     this.cameras = [];
     for (const cell of this.cells) {
@@ -57,21 +57,21 @@ class Player {
   }
 
   show(k) {
-    const robot = this.test.robots[k];
+    const robot = this.swarm.robots[k];
     if (robot) describe(this.panel, robot.net + " = " + robot.function, robot.about);
     else this.panel.textContent = HINT;
   }
 
   draw() {
-    const lanes = this.chosen < 0 ? this.test.robots.map((_, k) => k) : [this.chosen];
+    const lanes = this.chosen < 0 ? this.swarm.robots.map((_, k) => k) : [this.chosen];
     const [pen, width] = fit(this.stage, Math.max(40, lanes.length * this.laneHeight()));
     lanes.forEach((k, lane) => this.drawLane(pen, width, k, lane));
     this.drawWave();
   }
 
   drawLane(pen, width, k, lane) {
-    const robot = this.test.robots[k], height = this.laneHeight(), label = Math.min(96, width * .28);
-    const frame = this.clock.time * this.test.pace, pose = poseAt(robot, frame);
+    const robot = this.swarm.robots[k], height = this.laneHeight(), label = Math.min(96, width * .28);
+    const frame = this.clock.time * this.swarm.pace, pose = poseAt(robot, frame);
     const scale = Math.min((height - 30) / (robot.size[1] * 1.3), (width - label) / 12);
     const view = { left: label, top: lane * height, width: width - label, ground: (lane + 1) * height - 14, scale };
     view.camera = this.cameras[k] = this.follow(k, middle(pose), view.width / 2 / scale);
@@ -85,7 +85,7 @@ class Player {
     pen.fillStyle = themed("ink");
     pen.font = "13px system-ui, sans-serif";
     pen.fillText(robot.net + " = " + robot.function, 4, view.ground - 34, label - 8);
-    const cycle = this.test.cycles[this.clock.cycle()];
+    const cycle = this.swarm.cycles[this.clock.cycle()];
     if (cycle) drawStimuli(pen, cycle.sensed[k], 6, view.ground - 24);
     if (robot.fault !== null && frame >= robot.fault) {
       pen.fillStyle = themed("bad");
@@ -100,7 +100,7 @@ class Player {
   }
 
   drawWave() {
-    const rows = this.test.waves, height = 22, bottom = rows.length * height, cycles = this.clock.cycles;
+    const rows = this.swarm.waves, height = 22, bottom = rows.length * height, cycles = this.clock.cycles;
     const [pen, width] = fit(this.wave, bottom + 26), left = this.labelWidth(), span = width - left - 8;
     const x = cycle => left + Math.min(cycle, cycles) / cycles * span;
     const upright = (cycle, color, thick) => {
@@ -112,7 +112,7 @@ class Player {
       pen.stroke();
     };
     pen.font = "12px system-ui, sans-serif";
-    for (const cycle of this.test.marks) upright(cycle, "line", 1);
+    for (const cycle of this.swarm.marks) upright(cycle, "line", 1);
     rows.forEach((row, r) => this.drawRow(pen, row, r * height, x, left));
     pen.fillStyle = themed("dim");
     pen.textAlign = "center";
@@ -129,15 +129,30 @@ class Player {
     pen.strokeStyle = themed(row.color);
     pen.lineWidth = 1.6;
     pen.beginPath();
-    row.bits.forEach((bit, cycle) => {
-      const y = bit ? high : low;
+    const one = row.values.every(value => value === "0" || value === "1");
+    row.values.forEach((value, cycle) => {
+      const y = value === "1" ? high : low;
+      if (!one) return;
       pen.lineTo(x(cycle + row.shift), y);
       pen.lineTo(x(cycle + 1 + row.shift), y);
     });
     pen.stroke();
+    if (!one) this.drawBus(pen, row, high, low, x);
+  }
+
+  /** A bus: a box for each value, with the value in it where there is room. */
+  drawBus(pen, row, high, low, x) {
+    for (let from = 0, cycle = 1; cycle <= row.values.length; cycle++) {
+      if (row.values[cycle] === row.values[from]) continue;
+      const left = x(from + row.shift), right = x(cycle + row.shift), value = row.values[from];
+      pen.strokeRect(left, high - 2, right - left, low - high + 4);
+      pen.fillStyle = themed("ink");
+      if (pen.measureText(value).width + 6 < right - left) pen.fillText(value, left + 4, low - 1);
+      from = cycle;
+    }
   }
 }
 
 const data = JSON.parse(document.getElementById("data").textContent);
-window.players = data.tests.map((test, i) =>
-  test.robots.length ? new Player(document.getElementById("test-" + i), test, data.palette) : null);
+window.players = data.swarms.map((swarm, i) =>
+  swarm.robots.length ? new Player(document.getElementById("swarm-" + i), swarm, data.palette) : null);

@@ -4,14 +4,14 @@ use std::num::IntErrorKind;
 
 use crate::check::constant;
 use crate::diag::{Code, Diagnostic, counted};
-use crate::model::Column;
+use crate::model::{Base, Column};
 use crate::syntax::tree::Name;
 
 /// A value of a row, as bits with the most significant first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Cell {
-    /// These bits; `None` stands where `-` does.
-    Bits(Vec<Option<bool>>),
+    /// These bits, and how they are written; `None` stands where `-` does.
+    Bits(Vec<Option<bool>>, Base),
     /// A pulse: 0, then 1.
     Pulse,
 }
@@ -22,7 +22,7 @@ const SHOWN: usize = 16;
 /// Reads a value for a column.
 pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
     match word.text.as_str() {
-        "-" => return Ok(Cell::Bits(vec![None; column.width])),
+        "-" => return Ok(Cell::Bits(vec![None; column.width], Base::of_width(column.width))),
         "^" if column.width == 1 => return Ok(Cell::Pulse),
         "^" => return Err(wide_pulse(word, column)),
         _ => {}
@@ -31,8 +31,9 @@ pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
         Some((width, constant)) => sized(word, width, constant, column)?,
         None => plain(word)?,
     };
+    let letter = word.text.split_once('\'').and_then(|(_, constant)| constant.chars().next());
     if bits.len() == column.width {
-        Ok(Cell::Bits(bits))
+        Ok(Cell::Bits(bits, letter.and_then(Base::of_letter).unwrap_or_default()))
     } else {
         Err(wrong_width(word, &counted(bits.len(), "bit"), column))
     }

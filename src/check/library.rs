@@ -14,11 +14,12 @@ pub(crate) fn library(
     source: &RecordDeclaration,
     home: Home,
     evolutions: &Names,
+    sources: &Sources,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<LibrarySource> {
     let what = format!("the library `{}`", source.name.text);
     let mut fields = Fields::new(what, source.name.span, &source.record);
-    let from = fields.need("from", "from: shipped", |value| origin(value, home, evolutions));
+    let from = fields.need("from", "from: shipped", |value| origin(value, home, evolutions, sources));
     let behaviors = fields.read_list("behaviors", behavior);
     faults.extend(fields.finish());
     Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors })
@@ -51,9 +52,9 @@ fn folder_fault(world: &dyn World, sources: &Sources, value: &Value) -> Option<D
     Some(fault.with_help("the path starts from the file that names it; `nbc library add` writes robot files"))
 }
 
-fn origin(value: &Value, home: Home, evolutions: &Names) -> Result<Origin, Diagnostic> {
+fn origin(value: &Value, home: Home, evolutions: &Names, sources: &Sources) -> Result<Origin, Diagnostic> {
     if let ValueKind::Text(folder) = &value.kind {
-        return Ok(Origin::Folder(folder.clone()));
+        return Ok(Origin::Folder(beside(&sources.file(value.span.file).name, folder)));
     }
     let name = fields::word(value, "`shipped`, the name of an evolution or a folder in quotes")?;
     if name.text == "shipped" {

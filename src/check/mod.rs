@@ -21,6 +21,7 @@ mod swarm;
 mod table;
 mod test;
 
+pub use instance::named;
 pub use load::{PRELUDE, open};
 pub use swarm::DEFAULT_LIBRARY;
 
@@ -49,7 +50,7 @@ impl Checked {
 /// Checks a file of `sources`, with the prelude and the files it uses, which are added to `sources`.
 pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked {
     let loaded = load::load(world, sources, file);
-    let (program, mut diagnostics) = program::program(&loaded.trees);
+    let (program, mut diagnostics) = program::program(&loaded.trees, sources);
     forget_consequences(&mut diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);

@@ -11,25 +11,26 @@ use crate::check::names::{Home, Names};
 use crate::check::recursion;
 use crate::check::schedule::schedule;
 use crate::check::simulate;
-use crate::check::swarm::swarm;
+use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
 use crate::circuit::Inspector;
 use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Simulation, Stimulation};
-use crate::source::Span;
+use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Reference, Simulation, Stimulation};
+use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, DeclarationKind, Name, RecordDeclaration, RecordKeyword, Tree};
 
 /// The program that trees declare, and what is wrong with it.
-pub(crate) fn program(trees: &[(Home, Tree)]) -> (Program, Vec<Diagnostic>) {
-    let mut assembly = Assembly::new(trees);
+pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Vec<Diagnostic>) {
+    let mut assembly = Assembly::new(trees, sources);
     assembly.stimuli();
     assembly.materials();
     assembly.schedules();
     assembly.evolutions();
     assembly.libraries();
-    let references = assembly.circuits();
+    assembly.circuits();
     assembly.swarms();
-    assembly.build(&references);
+    assembly.unused_libraries();
+    assembly.build();
     assembly.forget_redeclared();
     (assembly.program, assembly.faults)
 }
@@ -37,6 +38,7 @@ pub(crate) fn program(trees: &[(Home, Tree)]) -> (Program, Vec<Diagnostic>) {
 /// A program that is being put together.
 struct Assembly<'a> {
     trees: &'a [(Home, Tree)],
+    sources: &'a Sources,
     program: Program,
     faults: Vec<Diagnostic>,
     stimuli: Names,
@@ -55,16 +57,11 @@ struct Assembly<'a> {
     homes: Vec<Home>,
 }
 
-/// What a test is compared with, before ports are known.
-struct Reference<'a> {
-    test: &'a tree::Test,
-    body: &'a tree::Body,
-}
-
 impl<'a> Assembly<'a> {
-    fn new(trees: &'a [(Home, Tree)]) -> Self {
+    fn new(trees: &'a [(Home, Tree)], sources: &'a Sources) -> Self {
         Self {
             trees,
+            sources,
             program: Program::default(),
             faults: Vec::new(),
             stimuli: Names::new("stimulus"),
@@ -175,15 +172,15 @@ impl<'a> Assembly<'a> {
 
     fn libraries(&mut self) {
         for (home, source) in self.records(RecordKeyword::Library) {
-            let checked = library(source, home, &self.evolutions, &mut self.faults);
+            let checked = library(source, home, &self.evolutions, self.sources, &mut self.faults);
             let declared = self.libraries.declare(&source.name, self.program.libraries.len(), home);
             self.note(declared);
             self.program.libraries.extend(checked);
         }
     }
 
-    /// Checks all circuits but for widths; returns the tests that compare with a body of their own.
-    fn circuits(&mut self) -> Vec<Reference<'a>> {
+    /// Checks all circuits but for widths.
+    fn circuits(&mut self) {
         let mut sources = Vec::new();
         for (home, declaration) in self.declarations() {
             if let DeclarationKind::Circuit(source) = &declaration.kind {
@@ -209,7 +206,6 @@ impl<'a> Assembly<'a> {
         for (at, header) in self.headers.circuits.iter().enumerate() {
             self.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
         }
-        self.own_tests().filter_map(reference).collect()
     }
 
     /// A circuit of the prelude that a file redeclares stays what the prelude's other circuits are made of.
@@ -257,9 +253,29 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    /// Warns of the file's own libraries that no swarm uses, where something runs: the robots are then others than it says.
+    fn unused_libraries(&mut self) {
+        let runs = |declaration: &tree::Declaration| {
+            matches!(declaration.kind, DeclarationKind::Test(_) | DeclarationKind::Simulate(_))
+        };
+        let something_runs = self.declarations().any(|(home, declaration)| home == Home::Own && runs(declaration));
+        if !something_runs || self.faults.iter().any(Diagnostic::is_error) {
+            return;
+        }
+        for (home, source) in self.records(RecordKeyword::Library) {
+            let name = source.name.text.as_str();
+            let used = name == DEFAULT_LIBRARY || self.program.swarms.iter().any(|swarm| swarm.library == name);
+            if home == Home::Own && !used {
+                let message = format!("no swarm uses the library `{name}`");
+                let help = format!("declare one: `swarm my_swarm {{ circuit: my_circuit, library: {name} }}`");
+                let warning = Diagnostic::new(Code::Unused, message, source.name.span, "declared here");
+                self.faults.push(warning.with_help(help));
+            }
+        }
+    }
+
     /// Builds what can be built, to find faults of width, and reads the tests and simulations, which need the ports.
-    fn build(&mut self, references: &[Reference<'a>]) {
-        let mut found = Vec::new();
+    fn build(&mut self) {
         let mut program = std::mem::take(&mut self.program);
         let mut inspector = Inspector::new(&program);
         for (at, _) in self.homes.iter().enumerate().filter(|(at, home)| **home != Home::Prelude && self.sound[*at]) {
@@ -270,20 +286,15 @@ impl<'a> Assembly<'a> {
         }
         let simulations = self.simulations(&program, &mut inspector);
         let mut tests = Vec::new();
-        let mut bodies = Vec::new();
-        let mut references = references.iter().peekable();
         for (span, test) in self.own_tests() {
-            let own = references.next_if(|reference| std::ptr::eq(reference.test, test));
-            let tested = self.test(span, test, &mut inspector, own.map(|own| own.body), &mut bodies);
-            tests.extend(tested);
+            tests.extend(self.test(span, test, &mut inspector));
         }
-        found.extend(inspector.into_diagnostics());
-        program.circuits.extend(bodies);
-        let mut inspector = Inspector::new(&program);
-        for at in self.homes.len()..program.circuits.len() {
-            inspector.inspect(CircuitId(at as u32));
+        for test in &tests {
+            if let Stimulation::All { reference: Reference::Body(body) } = &test.stimulation {
+                inspector.inspect_body(body);
+            }
         }
-        found.extend(inspector.into_diagnostics());
+        let found = inspector.into_diagnostics();
         program.simulations = simulations;
         program.tests = tests;
         self.program = program;
@@ -301,6 +312,12 @@ impl<'a> Assembly<'a> {
         if self.sound[circuit.0 as usize] { inspector.ports(circuit, &instance.arguments, place) } else { None }
     }
 
+    /// The file and the line of a place.
+    fn place(&self, span: Span) -> (String, usize) {
+        let file = self.sources.file(span.file);
+        (file.name.clone(), file.line_column(span.start as usize).line)
+    }
+
     fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
         let mut simulations = Vec::new();
         for (home, declaration) in self.declarations().filter(|(home, _)| *home == Home::Own) {
@@ -314,41 +331,44 @@ impl<'a> Assembly<'a> {
             };
             let Some(swarm) = swarm else { continue };
             let Some((inputs, _)) = self.ports(&swarm.circuit, source.swarm.span, inspector) else { continue };
-            let spells =
-                simulate::spells(&source.with, &inputs, home, &self.schedules, &program.schedules, &mut self.faults);
-            simulations.push(Simulation { swarm: swarm.name.clone(), span: source.swarm.span, spells });
+            let spells = simulate::spells(
+                &source.with,
+                source.swarm.span,
+                &inputs,
+                home,
+                &self.schedules,
+                &program.schedules,
+                self.sources,
+                &mut self.faults,
+            );
+            let (file, line) = self.place(declaration.span);
+            let (swarm, span) = (swarm.name.clone(), source.swarm.span);
+            simulations.push(Simulation { swarm, span, file, line, inputs, spells });
         }
         simulations
     }
 
-    fn test(
-        &mut self,
-        span: Span,
-        source: &'a tree::Test,
-        inspector: &mut Inspector<'_>,
-        body: Option<&'a tree::Body>,
-        bodies: &mut Vec<crate::model::Circuit>,
-    ) -> Option<CircuitTest> {
+    fn test(&mut self, span: Span, source: &'a tree::Test, inspector: &mut Inspector<'_>) -> Option<CircuitTest> {
         let tested = self.instance(&source.circuit)?;
         let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
         let stimulation = match &source.kind {
             tree::TestKind::Table(table) => {
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
-                Stimulation::Rows(test::rows(table, &ports, &mut self.faults))
+                Stimulation::Rows(test::rows(table, &ports, self.sources, &mut self.faults))
             }
             tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, (&inputs, &outputs))?,
-            tree::TestKind::Reference(_) => {
-                let name = format!("{tested} as tested {}", bodies.len() + 1);
-                let circuit = self.reference(&name, &source.circuit.name, body?, (&inputs, &outputs))?;
-                bodies.push(circuit);
-                Stimulation::All { reference: Instance { circuit: name, arguments: Vec::new() } }
+            tree::TestKind::Reference(body) => {
+                let name = format!("{tested} as tested");
+                let circuit = self.reference(&name, &source.circuit.name, body, (&inputs, &outputs))?;
+                Stimulation::All { reference: Reference::Body(Box::new(circuit)) }
             }
         };
         if let Stimulation::All { .. } = stimulation {
             self.all_inputs(&inputs, source.circuit.name.span);
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
-        Some(CircuitTest { circuit: tested, title, span, inputs, outputs, stimulation })
+        let (file, line) = self.place(span);
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation })
     }
 
     /// A circuit that a test names.
@@ -374,7 +394,7 @@ impl<'a> Assembly<'a> {
             self.faults.push(fault.with_label(tested.name.span, "as those of this circuit"));
             return None;
         }
-        Some(Stimulation::All { reference })
+        Some(Stimulation::All { reference: Reference::Circuit(reference) })
     }
 
     /// The body of a test as a circuit with the ports of the tested one.
@@ -418,10 +438,3 @@ impl<'a> Assembly<'a> {
 
 /// The most input bits of which a test tries all patterns.
 const MAX_TRIED_BITS: usize = 16;
-
-fn reference<'a>((_, test): (Span, &'a tree::Test)) -> Option<Reference<'a>> {
-    match &test.kind {
-        tree::TestKind::Reference(body) => Some(Reference { test, body }),
-        _ => None,
-    }
-}

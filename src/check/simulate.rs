@@ -5,23 +5,25 @@ use crate::check::names::{Home, Names};
 use crate::check::quantity;
 use crate::check::schedule::row_width;
 use crate::diag::{Code, Diagnostic, suggest};
-use crate::model::{CYCLE_STEPS, Column, InputSpell, NamedSchedule};
-use crate::source::Span;
+use crate::model::{Base, CYCLE_STEPS, Column, InputSpell, NamedSchedule};
+use crate::source::{Sources, Span};
 use crate::syntax::tree::{Name, Spell, With};
 
 /// The inputs of a simulation over time.
 pub(crate) fn spells(
     with: &With,
+    swarm: Span,
     inputs: &[Column],
     home: Home,
     schedules: &Names,
     known: &[NamedSchedule],
+    sources: &Sources,
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<InputSpell> {
     match with {
         With::Named(name) => match schedules.resolve(name, home) {
             Ok(schedule) => {
-                known.get(schedule).map_or(Vec::new(), |schedule| named(schedule, name.span, inputs, faults))
+                known.get(schedule).map_or(Vec::new(), |schedule| named(schedule, name.span, inputs, sources, faults))
             }
             Err(fault) => {
                 faults.push(fault);
@@ -29,14 +31,20 @@ pub(crate) fn spells(
             }
         },
         With::Spells { columns, spells } => {
-            let places = places(columns, inputs, faults);
-            spells.iter().filter_map(|spell| rows(spell, &places, inputs, faults)).collect()
+            let places = places(columns, swarm, inputs, faults);
+            spells.iter().filter_map(|spell| rows(spell, &places, inputs, sources, faults)).collect()
         }
     }
 }
 
 /// A schedule of stimuli as inputs: as many stimuli as inputs, in order.
-fn named(schedule: &NamedSchedule, span: Span, inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<InputSpell> {
+fn named(
+    schedule: &NamedSchedule,
+    span: Span,
+    inputs: &[Column],
+    sources: &Sources,
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<InputSpell> {
     let bits: usize = inputs.iter().map(|column| column.width).sum();
     if bits != schedule.stimuli.len() {
         faults.push(row_width(schedule.stimuli.len(), bits, span));
@@ -44,7 +52,8 @@ fn named(schedule: &NamedSchedule, span: Span, inputs: &[Column], faults: &mut V
     }
     let spell = |spell: &crate::model::Spell| {
         let inputs = schedule.stimuli.iter().map(|&stimulus| spell.pattern.has(stimulus)).collect();
-        (spell.steps.is_multiple_of(CYCLE_STEPS)).then_some(InputSpell { inputs, cycles: spell.steps / CYCLE_STEPS })
+        let (cycles, line) = (spell.steps / CYCLE_STEPS, line(sources, span));
+        (spell.steps.is_multiple_of(CYCLE_STEPS)).then_some(InputSpell { inputs, bases: Vec::new(), cycles, line })
     };
     let spells: Option<Vec<_>> = schedule.schedule.spells.iter().map(spell).collect();
     spells.unwrap_or_else(|| {
@@ -54,7 +63,7 @@ fn named(schedule: &NamedSchedule, span: Span, inputs: &[Column], faults: &mut V
     })
 }
 
-fn places(columns: &[Name], inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<usize> {
+fn places(columns: &[Name], swarm: Span, inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<usize> {
     let mut places = Vec::new();
     for name in columns {
         match inputs.iter().position(|input| input.name == name.text) {
@@ -73,31 +82,43 @@ fn places(columns: &[Name], inputs: &[Column], faults: &mut Vec<Diagnostic>) -> 
             }
         }
     }
-    if let (Some(missing), Some(last)) = ((0..inputs.len()).find(|place| !places.contains(place)), columns.last())
+    if let Some(missing) = (0..inputs.len()).find(|place| !places.contains(place))
         && places.len() == columns.len()
     {
         let message = format!("the schedule gives no values for the input `{}`", inputs[missing].name);
         faults.push(Diagnostic::new(
             Code::MissingField,
             message,
-            last.span,
+            columns.last().map_or(swarm, |last| last.span),
             format!("needs `{}` too", inputs[missing].name),
         ));
     }
     places
 }
 
-fn rows(spell: &Spell, places: &[usize], inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Option<InputSpell> {
+fn line(sources: &Sources, span: Span) -> usize {
+    sources.file(span.file).line_column(span.start as usize).line
+}
+
+fn rows(
+    spell: &Spell,
+    places: &[usize],
+    inputs: &[Column],
+    sources: &Sources,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<InputSpell> {
     let cycles = quantity::cycles(&spell.length).map_err(|fault| faults.push(fault)).ok();
     if spell.cells.len() != places.len() {
         faults.push(row_width(spell.cells.len(), places.len(), spell.span));
         return None;
     }
     let mut bits: Vec<Vec<bool>> = inputs.iter().map(|input| vec![false; input.width]).collect();
+    let mut bases: Vec<Base> = inputs.iter().map(|input| Base::of_width(input.width)).collect();
     for (word, &place) in spell.cells.iter().zip(places) {
         match cell(word, &inputs[place]) {
-            Ok(Cell::Bits(values)) if values.iter().all(Option::is_some) => {
-                bits[place] = values.into_iter().flatten().collect()
+            Ok(Cell::Bits(values, base)) if values.iter().all(Option::is_some) => {
+                bits[place] = values.into_iter().flatten().collect();
+                bases[place] = base;
             }
             Ok(_) => faults.push(Diagnostic::new(
                 Code::Value,
@@ -108,5 +129,5 @@ fn rows(spell: &Spell, places: &[usize], inputs: &[Column], faults: &mut Vec<Dia
             Err(fault) => faults.push(fault),
         }
     }
-    Some(InputSpell { inputs: bits.concat(), cycles: cycles? })
+    Some(InputSpell { inputs: bits.concat(), bases, cycles: cycles?, line: line(sources, spell.span) })
 }

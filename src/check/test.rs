@@ -5,8 +5,8 @@ use crate::check::names::duplicate;
 use crate::check::quantity;
 use crate::check::schedule::row_width;
 use crate::diag::{Code, Diagnostic, suggest};
-use crate::model::{Column, TestRow};
-use crate::source::Span;
+use crate::model::{Base, Column, TestRow};
+use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, Name, TestTable};
 
 /// The ports of the circuit under test.
@@ -17,7 +17,12 @@ pub(crate) struct Ports<'a> {
 }
 
 /// The rows of a test, as bits in order of the ports.
-pub(crate) fn rows(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
+pub(crate) fn rows(
+    table: &TestTable,
+    ports: &Ports<'_>,
+    sources: &Sources,
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<TestRow> {
     let before = faults.len();
     let inputs = ports.places(&table.inputs, true, faults);
     let outputs = ports.places(&table.outputs, false, faults);
@@ -29,8 +34,8 @@ pub(crate) fn rows(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagno
     if faults.len() > before {
         return Vec::new();
     }
-    let columns = Columns { ports, inputs: &inputs, outputs: &outputs };
-    table.rows.iter().flat_map(|row| columns.row(row, faults)).collect()
+    let columns = Columns { ports, inputs: &inputs, outputs: &outputs, sources };
+    table.rows.iter().enumerate().flat_map(|(at, row)| columns.row(at + 1, row, faults)).collect()
 }
 
 impl Ports<'_> {
@@ -87,11 +92,12 @@ struct Columns<'a> {
     ports: &'a Ports<'a>,
     inputs: &'a [usize],
     outputs: &'a [usize],
+    sources: &'a Sources,
 }
 
 impl Columns<'_> {
     /// A row as bits; two, where a clock is pulsed.
-    fn row(&self, row: &tree::TestRow, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
+    fn row(&self, number: usize, row: &tree::TestRow, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
         if let Some(fault) = self.shape_fault(row) {
             faults.push(fault);
             return Vec::new();
@@ -101,12 +107,15 @@ impl Columns<'_> {
         let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, &mut found);
         let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| found.push(fault)).ok());
         let expected = output_bits(&outputs, &row.outputs, &mut found);
+        let bases: Vec<Base> = inputs.iter().chain(&outputs).map(base).collect();
+        let line = self.sources.file(row.span.file).line_column(row.span.start as usize).line;
         let turns = if inputs.contains(&Some(Cell::Pulse)) { 2 } else { 1 };
         let mut rows = Vec::new();
         for turn in (0..turns).rev() {
             let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, &mut found);
             let expected = if turn == 0 { expected.clone() } else { vec![None; expected.len()] };
-            rows.push(TestRow { inputs, expected, hold, span: row.span });
+            let bases = bases.clone();
+            rows.push(TestRow { inputs, expected, bases, hold, span: row.span, line, row: number });
         }
         if !found.is_empty() {
             rows.clear();
@@ -143,7 +152,8 @@ impl Columns<'_> {
 
 /// The values of a row in order of the ports.
 fn cells(words: &[Name], places: &[usize], ports: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<Option<Cell>> {
-    let mut cells: Vec<_> = ports.iter().map(|port| Some(Cell::Bits(vec![None; port.width]))).collect();
+    let mut cells: Vec<_> =
+        ports.iter().map(|port| Some(Cell::Bits(vec![None; port.width], Base::of_width(port.width)))).collect();
     for (word, &place) in words.iter().zip(places) {
         cells[place] = cell(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
     }
@@ -155,10 +165,18 @@ fn output_bits(cells: &[Option<Cell>], words: &[Name], faults: &mut Vec<Diagnost
         faults.push(Diagnostic::new(Code::Value, "a pulse is no output", word.span, "expected `0`, `1` or `-`"));
     }
     let bits = |cell: &Option<Cell>| match cell {
-        Some(Cell::Bits(bits)) => bits.clone(),
+        Some(Cell::Bits(bits, _)) => bits.clone(),
         _ => Vec::new(),
     };
     cells.iter().flat_map(bits).collect()
+}
+
+/// How a value is written.
+fn base(cell: &Option<Cell>) -> Base {
+    match cell {
+        Some(Cell::Bits(_, base)) => *base,
+        _ => Base::Bits,
+    }
 }
 
 fn input_bits(
@@ -172,7 +190,7 @@ fn input_bits(
     for (cell, port) in cells.iter().zip(ports) {
         match cell {
             Some(Cell::Pulse) => all.push(high),
-            Some(Cell::Bits(bits)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
+            Some(Cell::Bits(bits, _)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
                 Some(bits) => all.extend(bits),
                 None => {
                     let message = format!("the input `{}` has no value", port.name);

@@ -103,11 +103,32 @@ impl Logic {
         for (&slot, &value) in self.inputs.iter().zip(inputs) {
             self.values[slot as usize] = value;
         }
-        // Without loops the longest path is the limit; loops that come to rest do so after a few turns.
-        let limit = 16 * self.cells.len() + 16;
-        let rests = (0..limit).any(|_| !self.step());
-        let outputs = self.outputs.iter().map(|&slot| self.values[slot as usize]).collect();
-        if rests { Ok(outputs) } else { Err(Restless) }
+        let rests = (0..self.limit()).any(|_| !self.step());
+        if rests { Ok(self.outputs()) } else { Err(Restless) }
+    }
+
+    /// Steps after which a circuit of this size has come to rest if it ever does: without loops the longest path is the limit; loops that
+    /// come to rest do so after a few turns.
+    fn limit(&self) -> usize {
+        16 * self.cells.len() + 16
+    }
+
+    /// The outputs as they are.
+    pub fn outputs(&self) -> Vec<bool> {
+        self.outputs.iter().map(|&slot| self.values[slot as usize]).collect()
+    }
+
+    /// For each output whether it stays while the inputs are held: a circuit that does not come to rest may have outputs that do.
+    pub fn steady_outputs(&mut self) -> Vec<bool> {
+        let before = self.outputs();
+        let mut steady = vec![true; before.len()];
+        for _ in 0..self.limit() {
+            self.step();
+            for ((steady, &slot), before) in steady.iter_mut().zip(&self.outputs).zip(&before) {
+                *steady &= self.values[slot as usize] == *before;
+            }
+        }
+        steady
     }
 }
 

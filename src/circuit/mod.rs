@@ -25,7 +25,7 @@ pub mod timing;
 
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
-pub use elaborate::{Inspector, elaborate};
+pub use elaborate::{Inspector, elaborate, elaborate_reference, is_same_instance};
 pub use guarded::{Guarded, Role};
 pub use logic::{Logic, Restless};
 pub use loops::Loops;

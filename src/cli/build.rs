@@ -11,18 +11,15 @@ use crate::circuit::formats::{Design, blif, dot, verilog};
 use crate::circuit::timing::fan_out;
 use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::{MappingArguments, synthesize};
+use crate::cli::program::{CircuitArguments, RunsArguments, SourceProgram};
 use crate::cli::{Context, Failure, Status};
-use crate::diag::{Code, Diagnostic};
-use crate::model::{Circuit, Instance};
-use crate::pipeline::{self, Loaded};
-use crate::source::Sources;
-use crate::store::{self, DiskWorld};
+use crate::{pipeline, store, swarm};
 
 const EXAMPLES: &str = "\
 Examples:
   nbc build circuits/latch.nb                    the netlist as text
   nbc build circuits/latch.nb --emit blif -o latch.blif
-  nbc build adder.nb --circuit adder --cells nand,not --emit json";
+  nbc build adder.nb --circuit 'adder[8]' --cells nand,not --emit json";
 
 /// Compile a circuit to a netlist of robots' cells, prove it, and print it
 #[derive(Args)]
@@ -30,9 +27,8 @@ Examples:
 pub struct Arguments {
     /// The .nb file
     file: PathBuf,
-    /// The circuit; by default the last one of the file
-    #[arg(long, value_name = "NAME")]
-    circuit: Option<String>,
+    #[command(flatten)]
+    circuit: CircuitArguments,
     /// What to print
     #[arg(long, value_enum, default_value_t)]
     emit: Emit,
@@ -41,6 +37,8 @@ pub struct Arguments {
     output: Option<PathBuf>,
     #[command(flatten)]
     mapping: MappingArguments,
+    #[command(flatten)]
+    runs: RunsArguments,
 }
 
 /// What to print.
@@ -65,17 +63,18 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, the library lacks a function, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let library = self.mapping.library()?;
-        let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.file.to_string_lossy());
-        if checked.has_errors() {
-            return Err(Failure::input(checked.diagnostics, sources));
-        }
-        let own = |circuit: &&Circuit| sources.file(circuit.span.file).name == self.file.to_string_lossy();
-        let own: Vec<_> = checked.program.circuits.iter().filter(own).collect();
-        let circuit = self.choose(&own)?;
-        let instance = Instance::from(circuit.name.as_str());
-        let source = elaborate(&checked.program, &instance)
-            .map_err(|faults| Failure::input(faults, Sources::clone(&sources)))?;
+        let chosen = self.mapping.chosen()?;
+        let mut file = SourceProgram::load(&self.file)?;
+        let subject = pipeline::choose(&mut file.loaded, &self.circuit.choice(), chosen.is_none());
+        let (circuit, swarm) = subject.map_err(|fault| file.failure(vec![fault]))?;
+        let source = elaborate(file.program(), &circuit).map_err(|faults| file.failure(faults))?;
+        let library = match chosen {
+            Some(library) => library,
+            None => {
+                let plan = pipeline::plan(file.program(), &circuit, swarm.as_ref(), &self.runs.options());
+                swarm::cells(&plan.map_err(|faults| file.failure(faults))?.library)
+            }
+        };
         let mapped = synthesize(&source, &library, self.mapping.options())?;
         let text = emit(self.emit, mapped, &library);
         match &self.output {
@@ -83,26 +82,6 @@ impl Arguments {
             None => context.print(text)?,
         }
         Ok(Status::Done)
-    }
-
-    fn choose<'c>(&self, circuits: &[&'c Circuit]) -> Result<&'c Circuit, Failure> {
-        let found = match &self.circuit {
-            Some(name) => circuits.iter().find(|circuit| circuit.name == *name),
-            None => circuits.last(),
-        };
-        found.copied().ok_or_else(|| {
-            let message = match &self.circuit {
-                Some(name) => format!("`{}` declares no circuit `{name}`", self.file.display()),
-                None => format!("`{}` declares no circuit", self.file.display()),
-            };
-            let names: Vec<_> = circuits.iter().map(|circuit| format!("`{}`", circuit.name)).collect();
-            let fault = Diagnostic::without_place(Code::BadValue, message);
-            Failure::plain(if names.is_empty() {
-                fault
-            } else {
-                fault.with_help(format!("it declares {}", names.join(", ")))
-            })
-        })
     }
 }
 

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::circuit::{CellLibrary, Effort, MapError, MapOptions, Netlist, Objective, map_with, prove};
+use crate::circuit::{CellLibrary, Effort, MapOptions, Netlist, Objective};
 use crate::cli::{Failure, library};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
-use crate::{store, swarm};
+use crate::{pipeline, store, swarm};
 
 /// Which cells there are, and what to make of them.
 #[derive(Args)]
@@ -28,16 +28,21 @@ pub(super) struct MappingArguments {
 }
 
 impl MappingArguments {
-    /// The library that the user chose.
+    /// The library that the user chose, else that of the robots in the program.
     pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
-        match (&self.library, &self.cells[..]) {
-            (Some(path), _) => Ok(swarm::cells(&library::robots(path)?)),
-            (None, []) => Ok(swarm::cells(store::shipped_library())),
-            (None, [all]) if all == "all" => Ok(CellLibrary::uniform(
+        Ok(self.chosen()?.unwrap_or_else(|| swarm::cells(store::shipped_library())))
+    }
+
+    /// The library that the user chose.
+    pub(super) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
+        Ok(Some(match (&self.library, &self.cells[..]) {
+            (Some(path), _) => swarm::cells(&library::robots(path)?),
+            (None, []) => return Ok(None),
+            (None, [all]) if all == "all" => CellLibrary::uniform(
                 Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),
-            )),
-            (None, names) => Ok(CellLibrary::uniform(functions(names)?)),
-        }
+            ),
+            (None, names) => CellLibrary::uniform(functions(names)?),
+        }))
     }
 
     /// How to map.
@@ -102,20 +107,5 @@ pub(super) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
 
 /// Maps a netlist and proves the result; what is not proved is not written.
 pub(super) fn synthesize(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, Failure> {
-    let mapped = map_with(source, library, options).map_err(|error| {
-        let code = match error {
-            MapError::Netlist(_) => Code::CircuitFile,
-            MapError::TooLarge { .. } => Code::TooLarge,
-            MapError::Incomplete { .. } => Code::IncompleteLibrary,
-        };
-        let fault = Diagnostic::without_place(code, error.to_string());
-        Failure::plain(match error.help() {
-            Some(help) => fault.with_help(help),
-            None => fault,
-        })
-    })?;
-    if let Err(error) = prove(source, &mapped) {
-        panic!("a mapped circuit is always equal to its source, and this one is not: {error}");
-    }
-    Ok(mapped)
+    pipeline::synthesize(source, library, options).map(|(mapped, _)| mapped).map_err(Failure::plain)
 }

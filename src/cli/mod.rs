@@ -16,6 +16,7 @@ mod interrupt;
 mod library;
 mod mapping;
 mod output;
+mod program;
 mod progress;
 mod run;
 mod schedule;

@@ -1,30 +1,40 @@
-//! `nbc run`: compile a file's circuits, simulate their swarms, test them, and draw what happened.
+//! `nbc run`: compile a file's circuits, test and simulate their swarms, and draw what happened.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
 
+use crate::cli::program::{RunsArguments, SourceProgram};
 use crate::cli::timings::{self, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitTest, Robot};
-use crate::pipeline::{self, Compiled, Loaded, Options, TestRun};
-use crate::report::{self, PageTest, Recording, Room, RunResult, Scheme, Stage, Svg, SwarmTiming, TestResult};
-use crate::store::{self, DiskWorld};
+use crate::model::{CYCLE_STEPS, CircuitTest, Robot, Simulation};
+use crate::pipeline::{self, Options, SimulationRun, SwarmRun, TestRun};
+use crate::report::{
+    self, PageSwarm, Recording, Room, RunResult, Scheme, Stage, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
+};
+use crate::store;
+use crate::swarm::Level;
 
-/// Compile, simulate and test the circuits of a file
+/// Compile the circuits of a file, and test and simulate their swarms
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   nbc run circuits/latch.nb
   nbc run circuits/latch.nb --out /tmp/latch --format json
+  nbc run circuits/latch.nb --only d_latch      what has this name: a test's title, a circuit, a swarm
 
-Every robot is simulated voxel by voxel. Pictures, waveforms, a report page and result.json are written to `out/` and the file's name.
+Every robot is simulated voxel by voxel; a test runs once for each swarm that is declared for its circuit. Pictures, waveforms, a table of \
+the cycles, a report page and result.json are written to `out/` and the file's name.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
 pub struct Arguments {
     /// The source file
     file: PathBuf,
+    /// Only the tests and simulations of this name: a test's title, a circuit or a swarm
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
     /// The folder for pictures and results [default: out/ and the file's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -32,52 +42,92 @@ pub struct Arguments {
     #[arg(long)]
     no_report: bool,
     #[command(flatten)]
+    runs: RunsArguments,
+    #[command(flatten)]
     timings: Timings,
 }
 
-/// A test's run with its drawings.
+/// A test or a simulation that was run.
+pub(super) enum Ran {
+    Test(TestRun),
+    Simulation(SimulationRun),
+}
+
+/// What is drawn of a run.
 struct Drawn<'a> {
-    run: &'a TestRun,
+    ran: &'a Ran,
     spacetime: Svg,
     schematic: Svg,
     files: Vec<String>,
 }
 
+impl Ran {
+    pub(super) fn swarm(&self) -> &SwarmRun {
+        match self {
+            Self::Test(run) => run.swarm.as_ref().expect("the test was run in physics"),
+            Self::Simulation(run) => &run.swarm,
+        }
+    }
+
+    fn outcome(&self) -> SwarmOutcome<'_> {
+        match self {
+            Self::Test(run) => SwarmOutcome::Test(&run.verdict),
+            Self::Simulation(run) => SwarmOutcome::Simulation(&run.result),
+        }
+    }
+
+    fn warnings(&self) -> &[Diagnostic] {
+        match self {
+            Self::Test(run) => &run.warnings,
+            Self::Simulation(run) => &run.warnings,
+        }
+    }
+}
+
 impl Arguments {
-    /// Runs the file's tests and writes what came of them.
+    /// Runs the file's tests and simulations, and writes what came of them.
     ///
     /// # Errors
     /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
-        let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.file.to_string_lossy());
-        if checked.has_errors() {
-            return Err(Failure::input(checked.diagnostics, sources));
-        }
-        if checked.program.tests.is_empty() {
-            let message = format!("`{}` declares no test, so there is nothing to run", self.file.display());
-            let help =
-                "declare one: `test my_circuit { a b | q` and a row for each input pattern; `nbc check` only checks";
-            return Err(Failure::plain(Diagnostic::without_place(Code::Empty, message).with_help(help)));
-        }
+        let file = SourceProgram::load(&self.file)?;
+        let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
         store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
-        let options = Options { simulator: self.timings.simulator(), ..Options::default() };
-        let mut warnings = checked.diagnostics;
+        let options = Options { simulator: self.timings.simulator(), ..self.runs.options() };
         let mut runs = Vec::new();
-        for test in &checked.program.tests {
-            match simulate(&checked.program, test, &options) {
-                Ok(run) => {
-                    warnings.extend(run.warnings.iter().cloned());
-                    runs.push(run);
-                }
-                Err(faults) => return Err(Failure::input(faults, sources)),
-            }
+        for test in tests {
+            runs.extend(run_test(&file, test, None, &options)?.into_iter().map(Ran::Test));
         }
-        context.tell(&warnings, &sources);
+        for simulation in simulations {
+            runs.push(Ran::Simulation(run_simulation(&file, simulation, &options)?));
+        }
+        let of_runs = runs.iter().flat_map(Ran::warnings);
+        file.warn(file.loaded.checked.diagnostics.iter().chain(of_runs), context);
         let status = timings::time(timings::Stage::Output, || self.report(&runs, &folder, context))?;
         self.timings.tell(started, context);
         Ok(status)
+    }
+
+    /// The tests and simulations that are asked for.
+    fn chosen<'f>(&self, file: &'f SourceProgram) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
+        let program = file.program();
+        let only = self.only.as_deref();
+        let tests = program.tests.iter();
+        let tests: Vec<_> =
+            tests.filter(|test| only.is_none_or(|name| pipeline::is_called(program, test, name))).collect();
+        let is_called = |simulation: &Simulation, name: &str| {
+            let circuit = program.swarm(&simulation.swarm).map(|swarm| swarm.circuit.to_string());
+            simulation.swarm == name || circuit.as_deref() == Some(name)
+        };
+        let simulations = program.simulations.iter();
+        let simulations: Vec<_> =
+            simulations.filter(|simulation| only.is_none_or(|name| is_called(simulation, name))).collect();
+        if tests.is_empty() && simulations.is_empty() {
+            return Err(Failure::plain(nothing_to_run(file, only)));
+        }
+        Ok((tests, simulations))
     }
 
     fn folder(&self) -> PathBuf {
@@ -86,18 +136,18 @@ impl Arguments {
     }
 
     /// Writes pictures and results, then prints the verdict.
-    fn report(&self, runs: &[TestRun], folder: &Path, context: &mut Context) -> Result<Status, Failure> {
+    fn report(&self, runs: &[Ran], folder: &Path, context: &mut Context) -> Result<Status, Failure> {
+        let stems = stems(runs);
         let drawn =
-            runs.iter().enumerate().map(|(i, run)| draw(run, &stem(runs, i), folder)).collect::<Result<Vec<_>, _>>()?;
+            runs.iter().zip(&stems).map(|(run, stem)| draw(run, stem, folder)).collect::<Result<Vec<_>, _>>()?;
         let source = self.file.to_string_lossy();
-        let tests = drawn.iter().map(test_result);
-        let result = RunResult::new(&source, tests.collect());
+        let result = result(&source, &drawn);
         let json = serde_json::to_string_pretty(&result).expect("a result has nothing that JSON cannot say") + "\n";
         write(&folder.join("result.json"), json.as_bytes())?;
         let page = folder.join("report.html");
         if !self.no_report {
-            let tests: Vec<PageTest<'_>> = drawn.iter().map(page_test).collect();
-            write(&page, report::draw_run_page(&source, &tests, Scheme::default()).as_bytes())?;
+            let swarms: Vec<PageSwarm<'_>> = drawn.iter().map(page_swarm).collect();
+            write(&page, report::draw_run_page(&source, &swarms, Scheme::default()).as_bytes())?;
         }
         match context.format {
             Format::Json => context.print_json(&result)?,
@@ -106,112 +156,171 @@ impl Arguments {
                     context.print(describe(drawn))?;
                 }
                 let page = if self.no_report { String::new() } else { format!("report   {}\n", page.display()) };
-                let verdict = if result.passed { "pass" } else { "FAIL" };
-                context.print(format_args!("{page}results  {}\n{verdict}\n", folder.join("result.json").display()))?;
+                let verdict = match (result.tests.len(), result.passed) {
+                    (0, _) => "",
+                    (_, true) => "pass\n",
+                    (_, false) => "FAIL\n",
+                };
+                context.print(format_args!("{page}results  {}\n{verdict}", folder.join("result.json").display()))?;
             }
         }
         Ok(if result.passed { Status::Done } else { Status::TestFailed })
     }
 }
 
-fn simulate(
-    program: &crate::model::Program,
+fn nothing_to_run(file: &SourceProgram, only: Option<&str>) -> Diagnostic {
+    let Some(name) = only else {
+        let message = format!("`{}` declares no test and no simulation, so there is nothing to run", file.path);
+        let help =
+            "declare a test: `test my_circuit { a b | q` and a row for each input pattern; `nbc check` only checks";
+        return Diagnostic::without_place(Code::Empty, message).with_help(help);
+    };
+    let program = file.program();
+    let mut names: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
+    names.extend(program.tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty()));
+    names.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
+    names.sort();
+    names.dedup();
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    let message = format!("no test and no simulation of `{}` is called `{name}`", file.path);
+    Diagnostic::without_place(Code::Unknown, message).with_help(format!("there are {}", names.join(", ")))
+}
+
+/// Runs a test in physics, once for each swarm of its circuit, or as the swarm of that name alone.
+pub(super) fn run_test(
+    file: &SourceProgram,
     test: &CircuitTest,
+    swarm: Option<&str>,
     options: &Options,
-) -> Result<TestRun, Vec<Diagnostic>> {
+) -> Result<Vec<TestRun>, Failure> {
+    let cases = pipeline::cases(file.program(), test, Some(Level::Physics), options);
+    let mut cases = cases.map_err(|faults| file.failure(faults))?;
+    cases.retain(|case| swarm.is_none() || case.swarm() == swarm);
+    let bar = Progress::new("simulating", cases.iter().map(pipeline::Case::work).sum());
+    Ok(cases.into_iter().map(|case| case.run(options, &mut |done| bar.add(done))).collect())
+}
+
+/// Runs a simulation.
+pub(super) fn run_simulation(
+    file: &SourceProgram,
+    simulation: &Simulation,
+    options: &Options,
+) -> Result<SimulationRun, Failure> {
     let bar = Progress::new("simulating", 0);
-    pipeline::run_test(program, test, options, &mut |done, all| {
+    let run = pipeline::run_simulation(file.program(), simulation, options, &mut |done, all| {
         bar.set_total(all as u64);
         bar.set(done as u64);
-    })
+    });
+    run.map_err(|faults| file.failure(faults))
 }
 
-/// The name of a test's files: the circuit's, with a number where a circuit has several tests.
-fn stem(runs: &[TestRun], i: usize) -> String {
-    let circuit = &runs[i].verdict.circuit;
-    let before = runs[..i].iter().filter(|run| run.verdict.circuit == *circuit).count();
-    let several = runs.iter().filter(|run| run.verdict.circuit == *circuit).count() > 1;
-    if several { format!("{circuit}-{}", before + 1) } else { circuit.clone() }
+/// The names of the runs' files: the circuit's, with the swarm's where a test runs as several, and a number where a name comes again.
+fn stems(runs: &[Ran]) -> Vec<String> {
+    let mut swarms: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+    for run in runs {
+        if let Ran::Test(TestRun { verdict, .. }) = run {
+            *swarms.entry((&verdict.circuit, verdict.line)).or_default() += 1;
+        }
+    }
+    let name = |run: &Ran| match run {
+        Ran::Test(TestRun { verdict, .. }) => match &verdict.swarm {
+            Some(swarm) if swarms[&(verdict.circuit.as_str(), verdict.line)] > 1 => {
+                format!("{}-{swarm}", verdict.circuit)
+            }
+            _ => verdict.circuit.clone(),
+        },
+        Ran::Simulation(run) => format!("simulate-{}", run.result.swarm),
+    };
+    let names: Vec<String> = runs.iter().map(name).collect();
+    let numbered = |(i, name): (usize, &String)| {
+        let before = names[..i].iter().filter(|other| *other == name).count();
+        let several = names.iter().filter(|other| *other == name).count() > 1;
+        if several { format!("{name}-{}", before + 1) } else { name.clone() }
+    };
+    names.iter().enumerate().map(numbered).collect()
 }
 
-/// Draws a test's run and writes the drawings and waveforms.
-fn draw<'a>(run: &'a TestRun, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
-    let (spacetime, schematic) = (report::draw_swarm(&run.trace), draw_circuit(run, Scheme::default()));
+fn drawings(ran: &Ran, scheme: Scheme) -> Drawn<'_> {
+    let SwarmRun { compiled, trace } = ran.swarm();
+    let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
+    let schematic = report::draw_schematic(&compiled.mapped, &robots, &compiled.timing.critical_path, scheme);
+    Drawn { ran, spacetime: report::draw_swarm(trace), schematic, files: Vec::new() }
+}
+
+/// Draws a run and writes the drawings, the waveforms and the table of the cycles.
+fn draw<'a>(ran: &'a Ran, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
+    let mut drawn = drawings(ran, Scheme::default());
+    let trace = &ran.swarm().trace;
     let files = [
-        ("spacetime.svg", spacetime.finish().into_bytes()),
-        ("spacetime.png", report::png(&spacetime)),
-        ("schematic.svg", schematic.finish().into_bytes()),
-        ("schematic.png", report::png(&schematic)),
-        ("waves.vcd", report::vcd(&run.trace).into_bytes()),
+        ("spacetime.svg", drawn.spacetime.finish().into_bytes()),
+        ("spacetime.png", report::png(&drawn.spacetime)),
+        ("schematic.svg", drawn.schematic.finish().into_bytes()),
+        ("schematic.png", report::png(&drawn.schematic)),
+        ("waves.vcd", report::vcd(trace).into_bytes()),
+        ("cycles.csv", report::cycle_table(trace).into_bytes()),
     ];
-    let mut written = Vec::new();
     for (kind, bytes) in files {
         let path = folder.join(format!("{stem}-{kind}"));
         write(&path, &bytes)?;
-        written.push(path.display().to_string());
+        drawn.files.push(path.display().to_string());
     }
-    Ok(Drawn { run, spacetime, schematic, files: written })
+    Ok(drawn)
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
-fn draw_circuit(run: &TestRun, scheme: Scheme) -> Svg {
-    let compiled = &run.compiled;
-    let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
-    report::draw_schematic(&compiled.mapped, &robots, &compiled.timing.critical_path, scheme)
+/// The page of a test or simulation that was run.
+pub(super) fn run_page(source: &str, ran: &Ran, scheme: Scheme) -> String {
+    report::draw_run_page(source, &[page_swarm(&drawings(ran, scheme))], scheme)
 }
 
-/// The page of tests that were run.
-pub(super) fn run_page(source: &str, runs: &[TestRun], scheme: Scheme) -> String {
-    let drawn: Vec<Drawn<'_>> = runs
-        .iter()
-        .map(|run| Drawn {
-            run,
-            spacetime: report::draw_swarm(&run.trace),
-            schematic: draw_circuit(run, scheme),
-            files: Vec::new(),
-        })
-        .collect();
-    let tests: Vec<PageTest<'_>> = drawn.iter().map(page_test).collect();
-    report::draw_run_page(source, &tests, scheme)
-}
-
-fn page_test<'a>(drawn: &'a Drawn<'a>) -> PageTest<'a> {
-    let run = drawn.run;
-    PageTest {
-        verdict: &run.verdict,
-        trace: &run.trace,
-        assembly: &run.compiled.assembly,
-        recording: record(run),
+fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {
+    let swarm = drawn.ran.swarm();
+    PageSwarm {
+        outcome: drawn.ran.outcome(),
+        trace: &swarm.trace,
+        assembly: &swarm.compiled.assembly,
+        recording: record(swarm),
         schematic: &drawn.schematic,
         spacetime: &drawn.spacetime,
     }
 }
 
 /// The film of a swarm, as far as a page has room for it.
-fn record(run: &TestRun) -> Recording {
-    let (assembly, trace) = (&run.compiled.assembly, &run.trace);
-    let probe = Stage::of_swarm(assembly, trace, crate::model::CYCLE_STEPS);
+fn record(swarm: &SwarmRun) -> Recording {
+    let (assembly, trace) = (&swarm.compiled.assembly, &swarm.trace);
+    let probe = Stage::of_swarm(assembly, trace, CYCLE_STEPS);
     let points: Vec<usize> = (0..probe.robots()).map(|i| probe.points(i).len()).collect();
     let (stride, robots) = Room::SWARM.fit(&points, trace.cycles.len());
     Recording::of(Stage::of_swarm(assembly, trace, stride), robots)
 }
 
 fn describe(drawn: &Drawn<'_>) -> String {
-    let (trace, verdict) = (&drawn.run.trace, &drawn.run.verdict);
+    let trace = &drawn.ran.swarm().trace;
     let files: String = drawn.files.iter().map(|file| format!("picture  {file}\n")).collect();
-    let (swarm, test, timing) =
-        (report::describe_swarm(trace), report::describe_test(verdict), timing(drawn.run).describe());
-    format!("{}: {swarm}\n\n{test}\n{files}{timing}", trace.circuit)
+    let outcome = match drawn.ran {
+        Ran::Test(run) => report::describe_test(&run.verdict),
+        Ran::Simulation(run) => report::describe_simulation(&run.result),
+    };
+    let (swarm, timing) = (report::describe_swarm(trace), timing(drawn.ran).describe());
+    format!("{}: {swarm}\n\n{outcome}\n{files}{timing}", trace.circuit)
 }
 
-fn test_result<'a>(drawn: &Drawn<'a>) -> TestResult<'a> {
-    TestResult::new(&drawn.run.verdict, &drawn.run.trace, timing(drawn.run), drawn.files.clone())
+fn result<'a>(source: &'a str, drawn: &'a [Drawn<'a>]) -> RunResult<'a> {
+    let (mut tests, mut simulations) = (Vec::new(), Vec::new());
+    for one in drawn {
+        let (trace, timing, files) = (&one.ran.swarm().trace, timing(one.ran), one.files.clone());
+        match one.ran {
+            Ran::Test(run) => tests.push(SwarmResult::new(&run.verdict, trace, timing, files)),
+            Ran::Simulation(run) => simulations.push(SwarmResult::new(&run.result, trace, timing, files)),
+        }
+    }
+    RunResult::new(source, tests, simulations)
 }
 
-fn timing(run: &TestRun) -> SwarmTiming {
-    let Compiled { mapped, timing, assembly, .. } = &run.compiled;
-    SwarmTiming::of(mapped, timing, assembly)
+fn timing(ran: &Ran) -> SwarmTiming {
+    let compiled = &ran.swarm().compiled;
+    SwarmTiming::of(&compiled.mapped, &compiled.timing, &compiled.assembly)
 }

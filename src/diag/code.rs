@@ -79,6 +79,7 @@ codes! {
     Unused = "unused", Warning: "An input or a net that nothing listens to.";
     Unwritable = "unwritable", Error: "A file or folder that cannot be written.";
     Value = "value", Error: "A value of another kind than the field takes.";
+    WeakRobot = "weak-robot", Warning: "A circuit that uses a robot which makes errors, or hardly moves.";
     Width = "width", Error: "Two widths that ought to be equal.";
 }
 

@@ -15,6 +15,7 @@ mod schedule;
 mod stimulus;
 mod test;
 mod trial;
+mod value;
 
 pub use behavior::{Behavior, Direction};
 pub use body::{Body, BodyError};
@@ -31,8 +32,9 @@ pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Progra
 pub use robot::{Character, Library, Provenance, Robot, Transition};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::{Pattern, PatternError};
-pub use test::{CircuitTest, Column, Stimulation, TestRow};
+pub use test::{CircuitTest, Column, Reference, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
+pub use value::{Base, Value};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

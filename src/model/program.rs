@@ -1,6 +1,6 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
-use super::{Behavior, Circuit, CircuitTest, Evolution, Instance, Material, Schedule};
+use super::{Base, Behavior, Circuit, CircuitTest, Column, Evolution, Instance, Material, Schedule};
 use crate::source::Span;
 
 /// Everything a source file and what it uses declare.
@@ -57,7 +57,7 @@ pub enum Origin {
     Shipped,
     /// The archive of the evolution run of that name.
     Evolution(String),
-    /// Robot files in a folder, relative to the source file.
+    /// Robot files in a folder; the path starts from the same place as that of the source file which names it.
     Folder(String),
 }
 
@@ -95,6 +95,12 @@ pub struct Simulation {
     pub swarm: String,
     /// Where it is declared.
     pub span: Span,
+    /// The file in which it is declared.
+    pub file: String,
+    /// The line at which it is declared.
+    pub line: usize,
+    /// The input ports of the swarm's circuit.
+    pub inputs: Vec<Column>,
     /// The spells in order of time.
     pub spells: Vec<InputSpell>,
 }
@@ -104,8 +110,12 @@ pub struct Simulation {
 pub struct InputSpell {
     /// The input bits in order of the ports, the most significant bit of a port first.
     pub inputs: Vec<bool>,
+    /// How the values of the ports are written; empty where a schedule of stimuli gives them.
+    pub bases: Vec<Base>,
     /// How long, in cycles.
     pub cycles: u32,
+    /// The line at which it stands.
+    pub line: usize,
 }
 
 impl Program {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::report::SwarmTiming;
-use crate::swarm::{SwarmTrace, TestVerdict};
+use crate::swarm::{SimulationResult, SwarmTrace, TestVerdict};
 
 /// What a run found.
 #[derive(Clone, Debug, Serialize)]
@@ -16,22 +16,24 @@ pub struct RunResult<'a> {
     pub source: &'a str,
     /// Whether every test passed.
     pub passed: bool,
-    /// The tests in order.
-    pub tests: Vec<TestResult<'a>>,
+    /// The tests in order, each once for each swarm of its circuit.
+    pub tests: Vec<SwarmResult<'a, TestVerdict>>,
+    /// The simulations in order.
+    pub simulations: Vec<SwarmResult<'a, SimulationResult>>,
 }
 
-/// What one test found.
+/// What one test or simulation found.
 #[derive(Clone, Debug, Serialize)]
-pub struct TestResult<'a> {
-    /// The verdict, row by row.
+pub struct SwarmResult<'a, T> {
+    /// What it came to, row by row.
     #[serde(flatten)]
-    pub verdict: &'a TestVerdict,
+    pub outcome: &'a T,
     /// The robots in order: net, function, robot, and the nets that the robot senses.
     pub robots: Vec<RobotResult<'a>>,
     /// When each of them is right.
     pub timing: SwarmTiming,
-    /// The pictures' paths.
-    pub pictures: Vec<String>,
+    /// The paths of pictures, waveforms and tables.
+    pub files: Vec<String>,
 }
 
 /// One robot of a swarm.
@@ -52,16 +54,20 @@ pub struct RobotResult<'a> {
 }
 
 impl<'a> RunResult<'a> {
-    /// The results of the tests of a source file.
-    pub fn new(source: &'a str, tests: Vec<TestResult<'a>>) -> Self {
-        let passed = tests.iter().all(|test| test.verdict.passed);
-        Self { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), source, passed, tests }
+    /// The results of the tests and simulations of a source file.
+    pub fn new(
+        source: &'a str,
+        tests: Vec<SwarmResult<'a, TestVerdict>>,
+        simulations: Vec<SwarmResult<'a, SimulationResult>>,
+    ) -> Self {
+        let passed = tests.iter().all(|test| test.outcome.passed);
+        Self { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), source, passed, tests, simulations }
     }
 }
 
-impl<'a> TestResult<'a> {
-    /// The results of one test, with the paths of its pictures.
-    pub fn new(verdict: &'a TestVerdict, trace: &'a SwarmTrace, timing: SwarmTiming, pictures: Vec<String>) -> Self {
+impl<'a, T> SwarmResult<'a, T> {
+    /// The results of one test or simulation, with the paths of its files.
+    pub fn new(outcome: &'a T, trace: &'a SwarmTrace, timing: SwarmTiming, files: Vec<String>) -> Self {
         let robots = trace.robots.iter().map(|robot| RobotResult {
             net: &robot.net,
             function: robot.function.name(),
@@ -70,6 +76,6 @@ impl<'a> TestResult<'a> {
             displacement: robot.com_x.last().zip(robot.com_x.first()).map_or(0.0, |(end, start)| end - start),
             unstable_at: robot.fault.map(|fault| fault.env_step),
         });
-        Self { verdict, robots: robots.collect(), timing, pictures }
+        Self { outcome, robots: robots.collect(), timing, files }
     }
 }

@@ -1,20 +1,30 @@
 //! The report of a run as one HTML page that needs nothing else: the verdict, the schematic, and a player in step with the waveform.
 
-use serde_json::{Value, json};
+use serde_json::{Value as Json, json};
 
-use crate::model::CYCLE_STEPS;
+use crate::diag::counted;
+use crate::model::{CYCLE_STEPS, Column, Value};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::recording::Recording;
 use crate::report::sprite::Scheme;
 use crate::report::svg::Svg;
-use crate::swarm::{Assembly, RowVerdict, Signal, SwarmTrace, TestVerdict};
+use crate::swarm::{Assembly, RobotTrace, RowActivity, RowVerdict, Signal, SimulationResult, SwarmTrace, TestVerdict};
 
 const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
 
-/// One test on the page.
-pub struct PageTest<'a> {
+/// What a test or a simulation came to.
+#[derive(Clone, Copy)]
+pub enum SwarmOutcome<'a> {
+    /// Of a test.
+    Test(&'a TestVerdict),
+    /// Of a simulation.
+    Simulation(&'a SimulationResult),
+}
+
+/// One swarm on the page, tested or simulated.
+pub struct PageSwarm<'a> {
     /// What it came to.
-    pub verdict: &'a TestVerdict,
+    pub outcome: SwarmOutcome<'a>,
     /// What the swarm did.
     pub trace: &'a SwarmTrace,
     /// The swarm's robots.
@@ -28,39 +38,80 @@ pub struct PageTest<'a> {
 }
 
 /// The page of a run of the source file with that name.
-pub fn draw_run_page(source: &str, tests: &[PageTest<'_>], scheme: Scheme) -> String {
+pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> String {
     let palette: Vec<String> = (1..=8).map(|code| scheme.color(code).to_string()).collect();
-    let (passed, count) = (tests.iter().filter(|test| test.verdict.passed).count(), tests.len());
-    let word = if passed == count { "pass" } else { "FAIL" };
+    let tests: Vec<bool> = swarms.iter().filter_map(|swarm| swarm.outcome.passed()).collect();
+    let passed = tests.iter().all(|passed| *passed);
     Html {
         heading: source,
-        passed: passed == count,
-        verdict: format!("{word}: {passed} of {count} tests passed"),
-        body: tests.iter().enumerate().map(|(i, test)| section(i, test)).collect(),
-        data: json!({ "palette": palette, "tests": tests.iter().map(test_data).collect::<Vec<_>>() }),
+        passed,
+        verdict: heading(&tests, swarms.len() - tests.len()),
+        body: swarms.iter().enumerate().map(|(i, swarm)| section(i, swarm)).collect(),
+        data: json!({ "palette": palette, "swarms": swarms.iter().map(swarm_data).collect::<Vec<_>>() }),
         script: SCRIPT,
     }
     .finish()
 }
 
-fn section(number: usize, test: &PageTest<'_>) -> String {
-    let verdict = test.verdict;
-    let word = if verdict.passed { "pass" } else { "fail" };
-    let shown = test.recording.robots.len();
-    let left_out = match test.trace.robots.len() - shown {
+/// `pass: 2 of 2 tests passed, 1 simulation`
+fn heading(tests: &[bool], simulations: usize) -> String {
+    let (passed, count) = (tests.iter().filter(|passed| **passed).count(), tests.len());
+    let word = if passed == count { "pass" } else { "FAIL" };
+    let simulated = counted(simulations, "simulation");
+    match (count, simulations) {
+        (0, _) => simulated,
+        (_, 0) => format!("{word}: {passed} of {} passed", counted(count, "test")),
+        _ => format!("{word}: {passed} of {} passed, {simulated}", counted(count, "test")),
+    }
+}
+
+impl SwarmOutcome<'_> {
+    /// Whether a test passed.
+    fn passed(self) -> Option<bool> {
+        match self {
+            Self::Test(verdict) => Some(verdict.passed),
+            Self::Simulation(_) => None,
+        }
+    }
+
+    fn heading(self) -> String {
+        let of_swarm = |swarm: &str| format!(" as {}", escape(swarm));
+        match self {
+            Self::Test(verdict) => {
+                let swarm = verdict.swarm.as_deref().map_or(String::new(), of_swarm);
+                let word = if verdict.passed { "pass" } else { "fail" };
+                let (circuit, title) = (escape(&verdict.circuit), escape(&verdict.title));
+                format!("{circuit}{swarm}: {title} <span class=\"{word}\">{word}</span>")
+            }
+            Self::Simulation(result) => {
+                format!("{}{}, simulated", escape(&result.circuit), of_swarm(&result.swarm))
+            }
+        }
+    }
+
+    fn table(self) -> String {
+        match self {
+            Self::Test(verdict) => truth_table(verdict),
+            Self::Simulation(result) => activity_table(result),
+        }
+    }
+}
+
+fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
+    let shown = swarm.recording.robots.len();
+    let left_out = match swarm.trace.robots.len() - shown {
         0 => String::new(),
         _ => format!("<p class=\"dim\">The player has room for the first {shown} robots.</p>\n"),
     };
     let player = if shown == 0 { String::new() } else { player() };
     format!(
-        "<section id=\"test-{number}\">\n<h2>{circuit}: {title} <span class=\"{word}\">{word}</span></h2>\n{table}\
+        "<section id=\"swarm-{number}\">\n<h2>{heading}</h2>\n{table}\
          <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" aria-live=\"polite\"></div></div>\n{left_out}{player}\
          <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n</section>\n",
-        circuit = escape(&verdict.circuit),
-        title = escape(&verdict.title),
-        table = truth_table(verdict),
-        schematic = picture(test.schematic, "schematic"),
-        spacetime = picture(test.spacetime, "paths of the robots over time"),
+        heading = swarm.outcome.heading(),
+        table = swarm.outcome.table(),
+        schematic = picture(swarm.schematic, "schematic"),
+        spacetime = picture(swarm.spacetime, "paths of the robots over time"),
     )
 }
 
@@ -73,36 +124,74 @@ fn player() -> String {
 }
 
 fn truth_table(verdict: &TestVerdict) -> String {
-    let head = |names: &[String]| names.iter().map(|name| format!("<th>{}</th>", escape(name))).collect::<String>();
     let (inputs, outputs) = (verdict.inputs.len(), verdict.outputs.len());
     let rows: String = verdict.rows.iter().map(truth_row).collect();
     format!(
-        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th colspan=\"{inputs}\">inputs</th><th colspan=\"{outputs}\">expected</th>\
-         <th colspan=\"{outputs}\">observed</th><th></th><th></th></tr>\n<tr>{}{}{}<th>cycles</th><th></th></tr>\n{rows}</table></div>\n",
-        head(&verdict.inputs),
-        head(&verdict.outputs),
-        head(&verdict.outputs),
+        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th></th>{}{}{}<th></th><th></th></tr>\n\
+         <tr><th>line</th>{}{}{}<th>cycles</th><th></th></tr>\n{rows}</table></div>\n",
+        group_head(inputs, "inputs"),
+        group_head(outputs, "expected"),
+        group_head(outputs, "observed"),
+        port_heads(&verdict.inputs),
+        port_heads(&verdict.outputs),
+        port_heads(&verdict.outputs),
     )
 }
 
 fn truth_row(row: &RowVerdict) -> String {
-    let cell = |bit: Option<bool>| format!("<td>{}</td>", bit.map_or("-", |bit| if bit { "1" } else { "0" }));
-    let inputs: String = row.inputs.iter().map(|&bit| cell(Some(bit))).collect();
-    let expected: String = row.expected.iter().map(|&bit| cell(bit)).collect();
-    let observed: String = row.observed.iter().map(|&bit| cell(Some(bit))).collect();
     let word = if row.passed { "pass" } else { "fail" };
-    format!("<tr>{inputs}{expected}{observed}<td>{}</td><td class=\"{word}\">{word}</td></tr>\n", row.hold)
+    format!(
+        "<tr><td>{}</td>{}{}{}<td>{}</td><td class=\"{word}\">{word}</td></tr>\n",
+        row.line,
+        cells(&row.inputs),
+        cells(&row.expected),
+        cells(&row.observed),
+        row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
+    )
 }
 
-/// What the player needs of one test.
-fn test_data(test: &PageTest<'_>) -> Value {
-    let trace = test.trace;
+/// What the outputs of a simulation did.
+fn activity_table(result: &SimulationResult) -> String {
+    let (inputs, outputs) = (result.inputs.len(), result.outputs.len());
+    let row = |row: &RowActivity| {
+        let (inputs, observed, changes) = (cells(&row.inputs), cells(&row.observed), cells(&row.changes));
+        format!("<tr><td>{}</td>{inputs}<td>{}</td>{observed}{changes}</tr>\n", row.line, row.cycles)
+    };
+    let rows: String = result.rows.iter().map(row).collect();
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th></th>{}<th></th>{}{}</tr>\n\
+         <tr><th>line</th>{}<th>cycles</th>{}{}</tr>\n{rows}</table></div>\n",
+        group_head(inputs, "inputs"),
+        group_head(outputs, "at the end"),
+        group_head(outputs, "changes"),
+        port_heads(&result.inputs),
+        port_heads(&result.outputs),
+        port_heads(&result.outputs),
+    )
+}
+
+/// The heading of so many columns; a circuit without inputs has none.
+fn group_head(columns: usize, name: &str) -> String {
+    if columns == 0 { String::new() } else { format!("<th colspan=\"{columns}\">{name}</th>") }
+}
+
+fn port_heads(ports: &[Column]) -> String {
+    ports.iter().map(|port| format!("<th>{}</th>", escape(&port.name))).collect()
+}
+
+fn cells(values: &[impl ToString]) -> String {
+    values.iter().map(|value| format!("<td>{}</td>", escape(&value.to_string()))).collect()
+}
+
+/// What the player needs of one swarm.
+fn swarm_data(swarm: &PageSwarm<'_>) -> Json {
+    let trace = swarm.trace;
     let pairs = trace.cycles.windows(2).enumerate();
     let marks: Vec<usize> = pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect();
-    let robots: Vec<Value> = (0..test.recording.robots.len()).map(|k| robot_data(test, k)).collect();
-    let cycles: Vec<Value> = trace.cycles.iter().map(|cycle| json!({ "sensed": bits(&cycle.sensed) })).collect();
+    let robots: Vec<Json> = (0..swarm.recording.robots.len()).map(|k| robot_data(swarm, k)).collect();
+    let cycles: Vec<Json> = trace.cycles.iter().map(|cycle| json!({ "sensed": bits(&cycle.sensed) })).collect();
     json!({
-        "pace": test.recording.frames_per_cycle,
+        "pace": swarm.recording.frames_per_cycle,
         "robots": robots,
         "cycles": cycles,
         "marks": marks,
@@ -114,9 +203,9 @@ fn bits(sensed: &[[bool; 2]]) -> Vec<[u8; 2]> {
     sensed.iter().map(|pair| pair.map(u8::from)).collect()
 }
 
-fn robot_data(test: &PageTest<'_>, k: usize) -> Value {
-    let (recorded, robot, member) = (&test.recording.robots[k], &test.trace.robots[k], &test.assembly.members[k]);
-    let pace = f64::from(CYCLE_STEPS) / f64::from(test.recording.frames_per_cycle.max(1));
+fn robot_data(swarm: &PageSwarm<'_>, k: usize) -> Json {
+    let (recorded, robot, member) = (&swarm.recording.robots[k], &swarm.trace.robots[k], &swarm.assembly.members[k]);
+    let pace = f64::from(CYCLE_STEPS) / f64::from(swarm.recording.frames_per_cycle.max(1));
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
     let voxels: Vec<[usize; 5]> =
         recorded.voxels.iter().map(|&([a, b, c, d], code)| [a, b, c, d, usize::from(code)]).collect();
@@ -146,24 +235,20 @@ fn robot_data(test: &PageTest<'_>, k: usize) -> Value {
     })
 }
 
-/// The rows of the waveform: inputs, robots, outputs; what a cycle puts out holds from its end.
-fn waves(trace: &SwarmTrace) -> Vec<Value> {
-    let row = |name: &str, color: &str, shift: usize, bits: Vec<bool>| {
-        let bits: Vec<u8> = bits.into_iter().map(u8::from).collect();
-        json!({ "name": name, "color": color, "shift": shift, "bits": bits })
+/// The rows of the waveform: inputs, robots, outputs; what a cycle puts out holds from its end. A bus is one row of values.
+fn waves(trace: &SwarmTrace) -> Vec<Json> {
+    let cycles = 0..trace.cycles.len();
+    let row = |name: &str, color: &str, shift: usize, words: Vec<String>| json!({ "name": name, "color": color, "shift": shift, "values": words });
+    let words = |value: &dyn Fn(usize) -> Value| cycles.clone().map(|cycle| value(cycle).to_string()).collect();
+    let input =
+        |(i, port): (usize, &Column)| row(&port.name, "s1", 0, words(&|c| trace.input_values(c).swap_remove(i)));
+    let robot = |(k, robot): (usize, &RobotTrace)| {
+        row(&robot.net, "dim", 1, trace.cycles.iter().map(|cycle| u8::from(cycle.bits[k]).to_string()).collect())
     };
-    let inputs = trace
-        .inputs
-        .iter()
-        .enumerate()
-        .map(|(i, name)| row(name, "s1", 0, trace.cycles.iter().map(|cycle| cycle.inputs[i]).collect()));
-    let robots = trace
-        .robots
-        .iter()
-        .enumerate()
-        .map(|(k, robot)| row(&robot.net, "dim", 1, trace.cycles.iter().map(|cycle| cycle.bits[k]).collect()));
-    let outputs = trace.outputs.iter().enumerate().map(|(o, name)| {
-        row(&format!("output {name}"), "out", 1, trace.cycles.iter().map(|cycle| cycle.outputs[o]).collect())
-    });
-    inputs.chain(robots).chain(outputs).collect()
+    let output = |(o, port): (usize, &Column)| {
+        row(&format!("output {}", port.name), "out", 1, words(&|c| trace.output_values(c).swap_remove(o)))
+    };
+    let inputs = trace.inputs.iter().enumerate().map(input);
+    let robots = trace.robots.iter().enumerate().map(robot);
+    inputs.chain(robots).chain(trace.outputs.iter().enumerate().map(output)).collect()
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::model::{CYCLE_STEPS, Fault, Schedule, Trajectory};
+use crate::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory};
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
 use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
@@ -40,22 +40,42 @@ pub struct Track {
     pub fault: Option<f64>,
 }
 
-/// A bit over time.
+/// A bit or a bus over time.
 #[derive(Clone, Debug)]
 pub struct Strip {
     /// Its name.
     pub name: String,
     /// Its color.
     pub color: Color,
-    /// Spells of one value: where each ends, in cycles, and the value.
-    pub spells: Vec<(f64, bool)>,
+    /// What it says.
+    pub spells: Spells,
+}
+
+/// Spells of one value: where each ends, in cycles, and the value.
+#[derive(Clone, Debug)]
+pub enum Spells {
+    /// Of a bit.
+    Bits(Vec<(f64, bool)>),
+    /// Of a bus.
+    Values(Vec<(f64, String)>),
 }
 
 impl Strip {
     /// The strip of a bit for each cycle.
     pub fn of_cycles(name: impl Into<String>, color: Color, bits: impl IntoIterator<Item = bool>) -> Self {
         let spells = bits.into_iter().enumerate().map(|(cycle, bit)| ((cycle + 1) as f64, bit)).collect();
-        Self { name: name.into(), color, spells }
+        Self { name: name.into(), color, spells: Spells::Bits(spells) }
+    }
+
+    /// The strip of a port of a swarm: a bus is one strip.
+    fn of_input(trace: &SwarmTrace, port: usize, color: Color) -> Self {
+        let Column { name, width } = &trace.inputs[port];
+        let values = (0..trace.cycles.len()).map(|cycle| trace.input_values(cycle).swap_remove(port));
+        if *width == 1 {
+            return Self::of_cycles(name, color, values.map(|value| value.bits[0] == Some(true)));
+        }
+        let spells = values.enumerate().map(|(cycle, value)| ((cycle + 1) as f64, value.to_string())).collect();
+        Self { name: name.clone(), color, spells: Spells::Values(spells) }
     }
 }
 
@@ -73,7 +93,9 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
     let strip = |i: usize, color| Strip {
         name: format!("stimulus {}", i + 1),
         color,
-        spells: schedule.spells.iter().zip(&ends).map(|(spell, &end)| (end, spell.pattern.has(i))).collect(),
+        spells: Spells::Bits(
+            schedule.spells.iter().zip(&ends).map(|(spell, &end)| (end, spell.pattern.has(i))).collect(),
+        ),
     };
     let track = Track {
         title: String::new(),
@@ -107,7 +129,7 @@ pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     let changes = input_changes(trace);
     let shown = trace.robots.len().min(MAX_PANELS);
     let robots: Vec<Track> = (0..shown).map(|k| robot_track(trace, k)).collect();
-    let outputs: Vec<Track> = (0..trace.outputs.len().min(MAX_PANELS)).filter_map(|o| output_track(trace, o)).collect();
+    let outputs: Vec<Track> = (0..trace.shown.len().min(MAX_PANELS)).filter_map(|o| output_track(trace, o)).collect();
     let heading = match trace.robots.len() - shown {
         0 => "each robot with its own stimuli".to_owned(),
         more => format!("the first {shown} robots with their own stimuli; {more} more are not shown"),
@@ -183,11 +205,12 @@ fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
     let Signal::Robot(k) = trace.shown[output] else { return None };
     let robot = &trace.robots[k];
     let bits = trace.cycles.iter().map(|cycle| cycle.outputs[output]);
+    let name = trace.outputs.iter().flat_map(Column::bits).nth(output)?;
     Some(Track {
-        title: format!("output {}", trace.outputs[output]),
+        title: format!("output {name}"),
         subtitle: format!("robot {}", robot.net),
         sensed: input_strips(trace),
-        output: Some(Strip::of_cycles(&trace.outputs[output], Color::OUTPUT, bits)),
+        output: Some(Strip::of_cycles(name, Color::OUTPUT, bits)),
         ..bare_track(trace, robot)
     })
 }
@@ -195,8 +218,7 @@ fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
 /// The inputs of the swarm, as many as there is room for.
 fn input_strips(trace: &SwarmTrace) -> Vec<Strip> {
     let color = |i: usize| Color::series(if i < 2 { [0, 4][i] } else { i + 3 });
-    let bits = |i: usize| trace.cycles.iter().map(move |cycle| cycle.inputs[i]);
-    trace.inputs.iter().enumerate().take(8).map(|(i, name)| Strip::of_cycles(name, color(i), bits(i))).collect()
+    (0..trace.inputs.len().min(8)).map(|port| Strip::of_input(trace, port, color(port))).collect()
 }
 
 fn bare_track(trace: &SwarmTrace, robot: &RobotTrace) -> Track {
@@ -318,18 +340,40 @@ fn draw_heading(svg: &mut Svg, track: &Track, panel: &Panel) {
     }
 }
 
-/// A bit as a step line: 0 at the left, 1 at the right, filled while it is 1.
 fn draw_strip(svg: &mut Svg, strip: &Strip, panel: &Panel, left: f64) {
     svg.rect((left, panel.top), STRIP_WIDTH, panel.bottom - panel.top, Paint::fill(strip.color).with_opacity(0.08));
+    match &strip.spells {
+        Spells::Bits(spells) => draw_bits(svg, strip.color, spells, panel, left),
+        Spells::Values(spells) => draw_values(svg, strip.color, spells, panel, left),
+    }
+}
+
+/// A bus as a box for each value, with the value in it where there is room.
+fn draw_values(svg: &mut Svg, color: Color, spells: &[(f64, String)], panel: &Panel, left: f64) {
+    let mut from = panel.y.at(0.0);
+    for run in spells.chunk_by(|one, next| one.1 == next.1) {
+        let (end, value) = &run[run.len() - 1];
+        let to = panel.y.at(*end);
+        svg.rect((left, from), STRIP_WIDTH, to - from, Paint::fill(color).with_opacity(0.18).with_stroke(color, 1.0));
+        if value.chars().count() as f64 * 5.6 + 4.0 < to - from {
+            let set = Type::new(9.0).anchored(Anchor::Middle).upwards();
+            svg.text((left + STRIP_WIDTH - 3.5, (from + to) / 2.0), value, set);
+        }
+        from = to;
+    }
+}
+
+/// A bit as a step line: 0 at the left, 1 at the right, filled while it is 1.
+fn draw_bits(svg: &mut Svg, color: Color, spells: &[(f64, bool)], panel: &Panel, left: f64) {
     let x = |bit: bool| if bit { left + STRIP_WIDTH - 1.0 } else { left + 1.0 };
     let mut from = panel.y.at(0.0);
     let mut steps: Vec<Point> = Vec::new();
-    for (i, &(end, bit)) in strip.spells.iter().enumerate() {
+    for (i, &(end, bit)) in spells.iter().enumerate() {
         let to = panel.y.at(end);
         if bit {
-            svg.rect((left, from), STRIP_WIDTH, to - from, Paint::fill(strip.color).with_opacity(0.35));
+            svg.rect((left, from), STRIP_WIDTH, to - from, Paint::fill(color).with_opacity(0.35));
         }
-        let before = i.checked_sub(1).map(|before| strip.spells[before].1);
+        let before = i.checked_sub(1).map(|before| spells[before].1);
         if before != Some(bit) {
             steps.push((x(bit), from));
         } else {
@@ -338,7 +382,7 @@ fn draw_strip(svg: &mut Svg, strip: &Strip, panel: &Panel, left: f64) {
         steps.push((x(bit), to));
         from = to;
     }
-    svg.polyline(&steps, Paint::stroke(strip.color, 1.6));
+    svg.polyline(&steps, Paint::stroke(color, 1.6));
 }
 
 /// The path itself, and a cross where the simulation was given up.

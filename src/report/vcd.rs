@@ -1,7 +1,9 @@
 //! Waveforms as a value change dump (IEEE 1364, section 18), for GTKWave, Surfer and the like: ports, robots' bits, stimuli and places.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use crate::model::Column;
 use crate::swarm::SwarmTrace;
 
 /// Microseconds of one actuation cycle: 84 env steps of 3 ms (docs/physics.md 1 and 10).
@@ -14,8 +16,8 @@ struct Wave {
 }
 
 enum Values {
-    /// Bits with the times from which they hold.
-    Bits(Vec<(u64, bool)>),
+    /// Values of so many bits, as digits, with the times from which they hold.
+    Bits(usize, Vec<(u64, String)>),
     /// Numbers with the times from which they hold.
     Reals(Vec<(u64, f64)>),
 }
@@ -51,30 +53,34 @@ pub fn vcd(trace: &SwarmTrace) -> String {
 }
 
 fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
-    let starts = |bit: &dyn Fn(usize) -> bool| {
-        Values::Bits((0..trace.cycles.len()).map(|c| (c as u64 * CYCLE, bit(c))).collect())
+    let digit = |bit: bool| u8::from(bit).to_string();
+    let cycles = 0..trace.cycles.len();
+    let values = |width: usize, delay: u64, digits: &dyn Fn(usize) -> String| {
+        Values::Bits(width, cycles.clone().map(|c| ((c as u64 + delay) * CYCLE, digits(c))).collect())
     };
-    let ends = |bit: &dyn Fn(usize) -> bool| {
-        Values::Bits((0..trace.cycles.len()).map(|c| ((c as u64 + 1) * CYCLE, bit(c))).collect())
+    let input = |(i, port): (usize, &Column)| Wave {
+        name: port.name.clone(),
+        values: values(port.width, 0, &|c| trace.input_values(c)[i].digits()),
     };
-    let port = |name: &String, values| Wave { name: identifier(name), values };
-    let inputs = trace.inputs.iter().enumerate().map(|(i, name)| port(name, starts(&|c| trace.cycles[c].inputs[i])));
-    let outputs = trace.outputs.iter().enumerate().map(|(o, name)| port(name, ends(&|c| trace.cycles[c].outputs[o])));
+    let output = |(o, port): (usize, &Column)| Wave {
+        name: port.name.clone(),
+        values: values(port.width, 1, &|c| trace.output_values(c)[o].digits()),
+    };
     let mut scopes = vec![
-        Scope { name: "inputs".to_owned(), waves: inputs.collect() },
-        Scope { name: "outputs".to_owned(), waves: outputs.collect() },
+        Scope { name: "inputs".to_owned(), waves: trace.inputs.iter().enumerate().map(input).collect() },
+        Scope { name: "outputs".to_owned(), waves: trace.outputs.iter().enumerate().map(output).collect() },
     ];
     for (k, robot) in trace.robots.iter().enumerate() {
         let wave = |name: &str, values| Wave { name: name.to_owned(), values };
         let pace = trace.samples_per_cycle.max(1) as u64;
         let places = robot.com_x.iter().enumerate().map(|(i, &x)| (i as u64 * CYCLE / pace, x));
         let waves = vec![
-            wave("bit", ends(&|c| trace.cycles[c].bits[k])),
-            wave("stimulus_1", starts(&|c| trace.cycles[c].sensed[k][0])),
-            wave("stimulus_2", starts(&|c| trace.cycles[c].sensed[k][1])),
+            wave("bit", values(1, 1, &|c| digit(trace.cycles[c].bits[k]))),
+            wave("stimulus_1", values(1, 0, &|c| digit(trace.cycles[c].sensed[k][0]))),
+            wave("stimulus_2", values(1, 0, &|c| digit(trace.cycles[c].sensed[k][1]))),
             wave("x", Values::Reals(places.collect())),
         ];
-        scopes.push(Scope { name: format!("robot_{}", identifier(&robot.net)), waves });
+        scopes.push(Scope { name: format!("robot_{}", robot.net), waves });
     }
     scopes
 }
@@ -82,14 +88,15 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
 fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
     let mut number = 0;
     text.push_str(&format!("$scope module {circuit} $end\n"));
-    for scope in scopes {
-        text.push_str(&format!("$scope module {} $end\n", scope.name));
-        for wave in &scope.waves {
-            let kind = match wave.values {
-                Values::Bits(_) => "wire 1",
-                Values::Reals(_) => "real 64",
+    for (scope, name) in scopes.iter().zip(identifiers(scopes.iter().map(|scope| scope.name.as_str()))) {
+        text.push_str(&format!("$scope module {name} $end\n"));
+        for (wave, name) in scope.waves.iter().zip(identifiers(scope.waves.iter().map(|wave| wave.name.as_str()))) {
+            let (kind, range) = match wave.values {
+                Values::Bits(1, _) => ("wire 1".to_owned(), String::new()),
+                Values::Bits(width, _) => (format!("wire {width}"), format!(" [{}:0]", width - 1)),
+                Values::Reals(_) => ("real 64".to_owned(), String::new()),
             };
-            text.push_str(&format!("$var {kind} {} {} $end\n", code(number), wave.name));
+            text.push_str(&format!("$var {kind} {} {name}{range} $end\n", code(number)));
             number += 1;
         }
         text.push_str("$upscope $end\n");
@@ -97,14 +104,15 @@ fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
     text.push_str("$upscope $end\n$enddefinitions $end\n");
 }
 
-/// The moments at which a signal changes, with the lines that say so; before its first value a bit is unknown.
+/// The moments at which a signal changes, with the lines that say so; before its first value it is unknown.
 fn changes_of(wave: &Wave, number: usize) -> Vec<(u64, usize, String)> {
     let code = code(number);
     match &wave.values {
-        Values::Bits(bits) => {
-            let unknown = bits.first().is_none_or(|&(time, _)| time > 0).then(|| (0, number, format!("x{code}")));
-            let changed = bits.iter().enumerate().filter(|&(i, &(_, bit))| i == 0 || bits[i - 1].1 != bit);
-            let told = changed.map(|(_, &(time, bit))| (time, number, format!("{}{code}", u8::from(bit))));
+        Values::Bits(width, values) => {
+            let line = |digits: &str| if *width == 1 { format!("{digits}{code}") } else { format!("b{digits} {code}") };
+            let unknown = values.first().is_none_or(|&(time, _)| time > 0).then(|| (0, number, line("x")));
+            let changed = values.iter().enumerate().filter(|&(i, value)| i == 0 || values[i - 1].1 != value.1);
+            let told = changed.map(|(_, (time, digits))| (*time, number, line(digits)));
             unknown.into_iter().chain(told).collect()
         }
         Values::Reals(reals) => {
@@ -128,16 +136,35 @@ fn code(mut number: usize) -> String {
     }
 }
 
-/// A name that readers of dumps take: letters, digits and underscores.
+/// Names that readers of dumps take: letters, digits and underscores. A name that is one already stays as it is; different names are
+/// told apart by a number.
+fn identifiers<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Vec<String> {
+    let mut taken: BTreeSet<String> =
+        names.clone().filter(|name| identifier(name) == **name).map(str::to_owned).collect();
+    let mut seen = BTreeSet::new();
+    let mut unique = |name: &str| {
+        let plain = identifier(name);
+        if plain == name && seen.insert(plain.clone()) {
+            return plain;
+        }
+        let numbered = (2..).map(|number| format!("{plain}_{number}"));
+        let free = std::iter::once(plain.clone()).chain(numbered).find(|name| !taken.contains(name));
+        let free = free.expect("there are numbers enough");
+        taken.insert(free.clone());
+        free
+    };
+    names.map(&mut unique).collect()
+}
+
+/// A name without what is no letter, digit or underscore: `a[3]` is `a_3`.
 fn identifier(name: &str) -> String {
-    let name: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    name.trim_end_matches('_').to_owned()
+    let name = name.strip_suffix(']').unwrap_or(name);
+    let plain: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if plain.is_empty() { "_".to_owned() } else { plain }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use super::*;
 
     #[test]
@@ -151,5 +178,15 @@ mod tests {
     fn names_have_no_blanks() {
         assert_eq!(identifier("a[3]"), "a_3");
         assert_eq!(identifier("n 1"), "n_1");
+        assert_eq!(identifier("__"), "__");
+    }
+
+    #[test]
+    fn names_stay_apart() {
+        let named = |names: &[&str]| identifiers(names.iter().copied());
+        assert_eq!(
+            named(&["q", "q_", "__", "a[3]", "a_3", "a/3", ""]),
+            ["q", "q_", "__", "a_3_2", "a_3", "a_3_3", "_"]
+        );
     }
 }

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::circuit::{Logic, NetId, Netlist, Node};
-use crate::model::{Function, Library, Robot};
+use crate::model::{Column, Function, Library, Robot};
 use crate::swarm::cells::choose;
 
 /// Where a stimulus or an output port gets its bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Signal {
-    /// An input port, by its place among the inputs.
+    /// A bit of the input ports, by its place among their bits.
     Input(usize),
     /// A member's output in the cycle before, by its place among the members.
     Robot(usize),
@@ -38,12 +38,14 @@ pub struct Member {
 pub struct Assembly {
     /// The circuit's name.
     pub circuit: String,
-    /// The names of the input ports.
-    pub inputs: Vec<String>,
+    /// The input ports.
+    pub inputs: Vec<Column>,
     /// The robots, in order of the netlist's cells.
     pub members: Vec<Member>,
-    /// The output ports: name and what they show.
-    pub outputs: Vec<(String, Signal)>,
+    /// The output ports.
+    pub outputs: Vec<Column>,
+    /// What each bit of the output ports shows.
+    pub shown: Vec<Signal>,
 }
 
 /// A netlist that a library cannot play.
@@ -85,10 +87,17 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
     }
     Ok(Assembly {
         circuit: netlist.name.clone(),
-        inputs: netlist.inputs().iter().map(|&id| netlist.net_name(id)).collect(),
+        inputs: ports(netlist, netlist.inputs()),
         members,
-        outputs: netlist.outputs().iter().map(|&id| (netlist.net_name(id), signals[&netlist.pins(id)[0]])).collect(),
+        outputs: ports(netlist, netlist.outputs()),
+        shown: netlist.outputs().iter().map(|&id| signals[&netlist.pins(id)[0]]).collect(),
     })
+}
+
+/// The ports that have these bits.
+fn ports(netlist: &Netlist, bits: &[NetId]) -> Vec<Column> {
+    let names: Vec<String> = bits.iter().map(|&id| netlist.net_name(id)).collect();
+    Column::group(&names)
 }
 
 /// The signal of each net: inputs and robots are numbered in the netlist's order.
@@ -151,7 +160,8 @@ mod tests {
         netlist.add_output("y", gate);
         let library = Library { robots: robots.iter().copied().map(robot).collect() };
         let found = assemble(&netlist, &library).map(|assembly| {
-            assert_eq!(assembly.outputs, [("y".to_owned(), Signal::Robot(0))]);
+            assert_eq!(assembly.outputs, [Column { name: "y".to_owned(), width: 1 }]);
+            assert_eq!(assembly.shown, [Signal::Robot(0)]);
             (assembly.members[0].robot.name.clone(), assembly.members[0].senses)
         });
         assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses)));

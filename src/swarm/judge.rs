@@ -1,123 +1,96 @@
-//! Whether a swarm did what a test asks, row by row, and which robot failed where it did not.
+//! Whether a circuit did what a test asks, row by row, and which robot failed where it did not.
 
 use std::ops::Range;
 
-use serde::Serialize;
-
-use crate::swarm::{START_CYCLES, SwarmTrace};
+use crate::circuit::{Logic, Netlist};
+use crate::model::{CircuitTest, TestRow};
+use crate::swarm::{Lapse, RowVerdict, START_CYCLES, SwarmTrace};
 
 /// Cycles over which an output must have had its value when its row ends.
 const STEADY_CYCLES: usize = 2;
 
-/// What a test came to.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct TestVerdict {
-    /// The test's title.
-    pub title: String,
-    /// The circuit under test.
-    pub circuit: String,
-    /// The names of the input ports.
-    pub inputs: Vec<String>,
-    /// The names of the output ports.
-    pub outputs: Vec<String>,
-    /// The rows in order.
-    pub rows: Vec<RowVerdict>,
-    /// Whether all rows passed.
-    pub passed: bool,
-}
-
-/// What a test's row asks for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// How long a test's row is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Demand {
     /// Cycles for which the row is held.
     pub hold: usize,
     /// Cycles for which static timing would have it held.
     pub needed: usize,
-    /// The outputs at its end; `None` where the row does not say.
-    pub expected: Vec<Option<bool>>,
 }
 
-/// What a test's row came to.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct RowVerdict {
-    /// Cycles for which the row was held.
-    pub hold: usize,
-    /// Cycles for which static timing would have it held.
-    pub needed: usize,
-    /// The input ports' bits.
-    pub inputs: Vec<bool>,
-    /// The outputs asked for; `None` where the row does not say.
-    pub expected: Vec<Option<bool>>,
-    /// The outputs at the end of the row.
-    pub observed: Vec<bool>,
-    /// Whether every checked output had its value, over the last two cycles at least.
-    pub passed: bool,
-    /// Robots that were wrong in the row although their stimuli had not changed for as long as their clock, where it failed.
-    pub lapses: Vec<Lapse>,
-    /// Robots that were wrong in the row's last cycle and had not had as long as their clock, where it failed.
-    pub late: Vec<Lapse>,
+/// Judges a row by the outputs at its end, and by which of them had their value for good. Every row of every test is judged here.
+fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
+    let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
+        expected.is_none_or(|expected| expected == output && steady)
+    };
+    let mut bits = steady.iter();
+    let values = |bits: &[Option<bool>]| row.output_values(&test.inputs, &test.outputs, bits.iter().copied());
+    RowVerdict {
+        row: row.row,
+        line: row.line,
+        inputs: row.input_values(&test.inputs),
+        expected: values(&row.expected),
+        observed: values(&outputs.iter().copied().map(Some).collect::<Vec<_>>()),
+        steady: test
+            .outputs
+            .iter()
+            .map(|port| bits.by_ref().take(port.width).fold(true, |all, &bit| all & bit))
+            .collect(),
+        cycles: None,
+        needed: None,
+        passed: row.expected.iter().zip(outputs).zip(steady).all(meets),
+        lapses: Vec::new(),
+        late: Vec::new(),
+    }
 }
 
-/// A robot that gave another output than its function does of its stimuli.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Lapse {
-    /// The net whose bit was wrong.
-    pub net: String,
-    /// The robot's name.
-    pub robot: String,
-    /// The cycle, from 0 at the test's start.
-    pub cycle: usize,
-    /// What it sensed.
-    pub sensed: [bool; 2],
-    /// What it output.
-    pub output: bool,
+/// Judges the rows of a test at the level of logic: each is held until nothing changes. A circuit that never comes to rest fails where
+/// the row asks for an output that goes on changing.
+pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> Vec<RowVerdict> {
+    let mut logic = Logic::new(netlist);
+    let judge = |row: &TestRow| {
+        let steady = match logic.settle(&row.inputs) {
+            Ok(outputs) => vec![true; outputs.len()],
+            Err(_) => logic.steady_outputs(),
+        };
+        judge_row(test, row, &logic.outputs(), &steady)
+    };
+    rows.iter().map(judge).collect()
 }
 
-/// Judges a trace whose cycles are the rows of a test one after another; `clocks[k]` is the clock of robot `k` in cycles.
+/// Judges a trace whose cycles are the rows of a test one after another, held as demanded; `clocks[k]` is the clock of robot `k` in
+/// cycles.
 ///
 /// # Panics
 /// When the trace is shorter than its rows, or a row has no cycle.
-pub fn judge(title: &str, trace: &SwarmTrace, rows: &[Demand], clocks: &[u32]) -> TestVerdict {
+pub fn judge_swarm(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    demands: &[Demand],
+    trace: &SwarmTrace,
+    clocks: &[u32],
+) -> Vec<RowVerdict> {
     let mut start = 0;
-    let verdicts: Vec<RowVerdict> = rows
-        .iter()
-        .map(|row| {
-            let cycles = start..start + row.hold;
-            start = cycles.end;
-            judge_row(trace, row, cycles, clocks)
-        })
-        .collect();
-    TestVerdict {
-        title: title.to_owned(),
-        circuit: trace.circuit.clone(),
-        inputs: trace.inputs.clone(),
-        outputs: trace.outputs.clone(),
-        passed: verdicts.iter().all(|row| row.passed),
-        rows: verdicts,
-    }
+    let judge = |(row, demand): (&TestRow, &Demand)| {
+        let cycles = start..start + demand.hold;
+        start = cycles.end;
+        let last = &trace.cycles[cycles.end - 1];
+        let steady = steady_outputs(trace, &cycles);
+        let verdict = judge_row(test, row, &last.outputs, &steady);
+        let mut wrong = if verdict.passed { Vec::new() } else { wrong(trace, cycles.clone(), clocks) };
+        let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
+        let late = late.filter(|lapse| lapse.cycle + 1 == cycles.end).collect();
+        let lapses = wrong.into_iter().map(|(lapse, _)| lapse).collect();
+        RowVerdict { cycles: Some(demand.hold), needed: Some(demand.needed), lapses, late, ..verdict }
+    };
+    rows.iter().zip(demands).map(judge).collect()
 }
 
-fn judge_row(trace: &SwarmTrace, row: &Demand, cycles: Range<usize>, clocks: &[u32]) -> RowVerdict {
-    let last = &trace.cycles[cycles.end - 1];
-    let steady = cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end;
-    let passed = trace.cycles[steady].iter().all(|cycle| meets(&row.expected, &cycle.outputs));
-    let mut wrong = if passed { Vec::new() } else { wrong(trace, cycles.clone(), clocks) };
-    let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
-    let late = late.filter(|lapse| lapse.cycle + 1 == cycles.end).collect();
-    RowVerdict {
-        hold: row.hold,
-        needed: row.needed,
-        inputs: last.inputs.clone(),
-        expected: row.expected.clone(),
-        observed: last.outputs.clone(),
-        passed,
-        late,
-        lapses: wrong.into_iter().map(|(lapse, _)| lapse).collect(),
-    }
-}
-
-fn meets(expected: &[Option<bool>], outputs: &[bool]) -> bool {
-    expected.iter().zip(outputs).all(|(expected, &output)| expected.is_none_or(|expected| expected == output))
+/// Which outputs had one value over the last cycles of a row.
+fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>) -> Vec<bool> {
+    let last = &trace.cycles[cycles.end - 1].outputs;
+    let end = &trace.cycles[cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end];
+    last.iter().enumerate().map(|(bit, value)| end.iter().all(|cycle| cycle.outputs[bit] == *value)).collect()
 }
 
 /// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had settled.
@@ -145,15 +118,20 @@ fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Function;
+    use crate::model::{Base, Column, Function, Stimulation};
+    use crate::source::{FileId, Span};
     use crate::swarm::{CycleTrace, RobotTrace, Signal};
+
+    fn port(name: &str) -> Column {
+        Column { name: name.to_owned(), width: 1 }
+    }
 
     /// An inverter's trace with these inputs and outputs in each cycle.
     fn inverter(cycles: &[(bool, bool)]) -> SwarmTrace {
         SwarmTrace {
             circuit: "inverter".to_owned(),
-            inputs: vec!["a".to_owned()],
-            outputs: vec!["y".to_owned()],
+            inputs: vec![port("a")],
+            outputs: vec![port("y")],
             shown: vec![Signal::Robot(0)],
             samples_per_cycle: 1,
             robots: vec![RobotTrace {
@@ -177,15 +155,52 @@ mod tests {
         }
     }
 
-    fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> TestVerdict {
-        let demand = Demand { hold: cycles.len(), needed: 4, expected: vec![expected] };
-        judge("t", &inverter(cycles), &[demand], &[clock])
+    fn test() -> CircuitTest {
+        CircuitTest {
+            circuit: "inverter".into(),
+            title: String::new(),
+            span: Span::new(FileId(0), 0, 0),
+            file: "a.nb".to_owned(),
+            line: 1,
+            inputs: vec![port("a")],
+            outputs: vec![port("y")],
+            stimulation: Stimulation::Rows(Vec::new()),
+        }
+    }
+
+    fn row(input: bool, expected: Option<bool>) -> TestRow {
+        let span = Span::new(FileId(0), 0, 0);
+        let bases = vec![Base::Bits; 2];
+        TestRow { inputs: vec![input], expected: vec![expected], bases, hold: None, span, line: 3, row: 1 }
+    }
+
+    fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> RowVerdict {
+        let demand = Demand { hold: cycles.len(), needed: 4 };
+        let row = row(cycles[0].0, expected);
+        judge_swarm(&test(), &[row], &[demand], &inverter(cycles), &[clock]).remove(0)
+    }
+
+    #[test]
+    fn an_oscillation_fails_only_where_a_row_asks_for_it() {
+        let mut netlist = Netlist::new("ring");
+        let a = netlist.add_input("a");
+        let wire = netlist.add_wire("q", Some(false), None);
+        let ring = netlist.add_gate(Function::NOT, &[wire]);
+        netlist.drive(wire, 0, ring);
+        let still = netlist.add_gate(Function::NOT, &[a]);
+        let passed = |output, expected| {
+            let mut netlist = netlist.clone();
+            netlist.add_output("y", output);
+            judge_logic(&test(), &[row(true, expected)], &netlist)[0].passed
+        };
+        assert!(passed(ring, None) && !passed(ring, Some(true)) && !passed(ring, Some(false)));
+        assert!(passed(still, Some(false)) && !passed(still, Some(true)), "an output that rests beside the ring");
     }
 
     fn check(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32, passed: bool, wrong_cycles: &[usize]) {
         let verdict = judged(cycles, expected, clock);
         assert_eq!(verdict.passed, passed);
-        let found: Vec<usize> = verdict.rows[0].lapses.iter().map(|lapse| lapse.cycle).collect();
+        let found: Vec<usize> = verdict.lapses.iter().map(|lapse| lapse.cycle).collect();
         assert_eq!(found, wrong_cycles);
     }
 
@@ -207,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_robot_without_time_is_late() {
-        let late = |cycles: &[(bool, bool)]| judged(cycles, Some(false), 2).rows[0].late.len();
+        let late = |cycles: &[(bool, bool)]| judged(cycles, Some(false), 2).late.len();
         assert_eq!(late(&[(false, true), (true, true)]), 1);
         assert_eq!(late(&[(true, true), (true, true)]), 0);
     }

@@ -1,5 +1,6 @@
 //! Robots as gates, alone and wired together: what drives a swarm, what it did, and whether it did what was asked.
 
+mod activity;
 mod assemble;
 mod cells;
 mod characterise;
@@ -11,13 +12,18 @@ mod measure;
 mod selection;
 mod simulate;
 mod trace;
+mod verdict;
+mod weak;
 
+pub use activity::{RowActivity, SimulationResult, activity};
 pub use assemble::{AssembleError, Assembly, Member, Signal, assemble};
 pub use cells::cells;
 pub use characterise::{characterise, screen};
 pub use evaluate::{Work, evaluate, evolve_generation, fixed_displacements, fixed_trials};
-pub use judge::{Demand, Lapse, RowVerdict, TestVerdict, judge};
+pub use judge::{Demand, judge_logic, judge_swarm};
 pub use measure::{Measurement, measure};
 pub use selection::{Nominee, Selected, Selection};
 pub use simulate::{Exposure, START_CYCLES, setting, simulate};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};
+pub use verdict::{Lapse, Level, RowVerdict, TestVerdict};
+pub use weak::{THIN_MARGIN, WeakRobot, weak_robots};

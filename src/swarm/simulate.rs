@@ -1,6 +1,6 @@
 //! A swarm in full physics: every robot in its own simulation, hearing in each cycle what the others did in the cycle before.
 
-use crate::model::{Body, Pattern, Setting};
+use crate::model::{Body, Column, Pattern, Setting};
 use crate::sim::{Flock, Simulator};
 use crate::swarm::{Assembly, CycleTrace, Member, RobotTrace, Signal, SwarmTrace};
 
@@ -51,15 +51,16 @@ pub fn simulate(
     assert!(exposure.window > 0, "an output is read over one cycle at least");
     let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
     let mut flock = simulator.flock(&setting(assembly, exposure.inputs.len()), &bodies);
+    let bits_in: usize = assembly.inputs.iter().map(|port| port.width).sum();
     let mut trace = begin(assembly, &flock);
     let mut heard: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
     for inputs in &exposure.inputs {
-        assert_eq!(inputs.len(), assembly.inputs.len(), "a bit for each input port");
+        assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
         let sensed: Vec<[bool; 2]> =
             assembly.members.iter().map(|member| member.senses.map(|signal| read(signal, inputs, &heard))).collect();
         advance_cycle(&mut flock, &sensed, exposure.cycle_steps, &mut trace.robots);
         let bits: Vec<bool> = trace.robots.iter().map(|robot| moved_right(robot, exposure.window)).collect();
-        let outputs = assembly.outputs.iter().map(|&(_, signal)| read(signal, inputs, &bits)).collect();
+        let outputs = assembly.shown.iter().map(|&signal| read(signal, inputs, &bits)).collect();
         if trace.cycles.len() + 1 >= START_CYCLES {
             heard.clone_from(&bits);
         }
@@ -82,8 +83,9 @@ fn read(signal: Signal, inputs: &[bool], bits: &[bool]) -> bool {
 
 /// The trace before the first cycle.
 fn begin(assembly: &Assembly, flock: &Flock) -> SwarmTrace {
+    let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
     let net_name = |signal| match signal {
-        Signal::Input(i) => assembly.inputs[i].clone(),
+        Signal::Input(i) => inputs[i].clone(),
         Signal::Robot(i) => assembly.members[i].net.clone(),
         Signal::Constant(value) => u8::from(value).to_string(),
     };
@@ -99,8 +101,8 @@ fn begin(assembly: &Assembly, flock: &Flock) -> SwarmTrace {
     SwarmTrace {
         circuit: assembly.circuit.clone(),
         inputs: assembly.inputs.clone(),
-        outputs: assembly.outputs.iter().map(|(name, _)| name.clone()).collect(),
-        shown: assembly.outputs.iter().map(|&(_, signal)| signal).collect(),
+        outputs: assembly.outputs.clone(),
+        shown: assembly.shown.clone(),
         samples_per_cycle: SAMPLES_PER_CYCLE as usize,
         robots: assembly.members.iter().enumerate().map(robot).collect(),
         cycles: Vec::new(),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::model::{Fault, Function};
+use crate::model::{Column, Fault, Function, Value};
 use crate::swarm::Signal;
 
 /// A swarm's run from its start to the end of its stimulation.
@@ -10,11 +10,11 @@ use crate::swarm::Signal;
 pub struct SwarmTrace {
     /// The circuit's name.
     pub circuit: String,
-    /// The names of the input ports.
-    pub inputs: Vec<String>,
-    /// The names of the output ports.
-    pub outputs: Vec<String>,
-    /// What each output port shows.
+    /// The input ports.
+    pub inputs: Vec<Column>,
+    /// The output ports.
+    pub outputs: Vec<Column>,
+    /// What each bit of the output ports shows.
     pub shown: Vec<Signal>,
     /// Samples of the robots' paths in one cycle.
     pub samples_per_cycle: usize,
@@ -47,14 +47,32 @@ pub struct RobotTrace {
 /// The bits of one cycle.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CycleTrace {
-    /// The input ports during the cycle.
+    /// The bits of the input ports during the cycle.
     pub inputs: Vec<bool>,
     /// What each robot sensed during the cycle, stimulus 1 first.
     pub sensed: Vec<[bool; 2]>,
     /// Each robot's output at the cycle's end.
     pub bits: Vec<bool>,
-    /// The output ports at the cycle's end.
+    /// The bits of the output ports at the cycle's end.
     pub outputs: Vec<bool>,
+}
+
+impl SwarmTrace {
+    /// The values of the input ports during a cycle.
+    pub fn input_values(&self, cycle: usize) -> Vec<Value> {
+        Value::of_ports(&self.inputs, self.cycles[cycle].inputs.iter().copied().map(Some), &[])
+    }
+
+    /// Voxels that robot `k` walked in a cycle.
+    pub fn displacement(&self, k: usize, cycle: usize) -> f64 {
+        let path = &self.robots[k].com_x;
+        path[(cycle + 1) * self.samples_per_cycle] - path[cycle * self.samples_per_cycle]
+    }
+
+    /// The values of the output ports at the end of a cycle.
+    pub fn output_values(&self, cycle: usize) -> Vec<Value> {
+        Value::of_ports(&self.outputs, self.cycles[cycle].outputs.iter().copied().map(Some), &[])
+    }
 }
 
 fn as_text<S: serde::Serializer>(value: &impl std::fmt::Display, serializer: S) -> Result<S::Ok, S::Error> {

@@ -14,5 +14,5 @@ mod split;
 pub mod tree;
 
 pub use format::format;
-pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse};
+pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse, parse_instance};
 pub use split::KEYWORDS;

@@ -10,7 +10,7 @@ use crate::syntax::convert::Converter;
 use crate::syntax::expected;
 use crate::syntax::grammar::{NbParser, Rule};
 use crate::syntax::split::{Piece, split};
-use crate::syntax::tree::{Declaration, Tree};
+use crate::syntax::tree::{Declaration, Instance, Tree};
 
 /// The largest source text, in bytes.
 pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
@@ -51,6 +51,22 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
         parsed.errors.extend(errors);
     }
     parsed
+}
+
+/// Parses a text that names a circuit with its parameters, such as `adder[8]` on a command line.
+///
+/// # Errors
+/// When it is anything else.
+pub fn parse_instance(sources: &Sources, file: FileId) -> Result<Instance, Diagnostic> {
+    let text = sources.file(file).text.as_str();
+    let mut converter = Converter { file, text, comments: &[], offset: 0, errors: Vec::new() };
+    let parsed = NbParser::parse(Rule::one_instance, text).ok().and_then(|mut pairs| pairs.next());
+    let instance = parsed.map(|pair| converter.instance(pair)).filter(|_| converter.errors.is_empty());
+    instance.ok_or_else(|| {
+        let message = format!("`{text}` is not the name of a circuit");
+        Diagnostic::new(Code::Syntax, message, Span::new(file, 0, text.len()), "expected a name")
+            .with_help("write the parameters in brackets: `adder[8]` or `adder[n = 8]`")
+    })
 }
 
 /// The word after the keyword of a declaration.

@@ -166,7 +166,7 @@ fn what_cannot_be_drawn_leaves_nothing() {
     bench.file("idle.nb", "circuit inverter(a) -> (q) { q = not a }\n");
     let arguments = ["draw", "walker.yaml", "--as", "spacetime", "-o", "a.svg", "--schedule", ""];
     bench.run(&arguments).expect_fault(&["the schedule is empty"]);
-    draw(&bench, "idle.nb --as gif -o a.gif").expect_fault(&["declares no test"]);
+    draw(&bench, "idle.nb --as gif -o a.gif").expect_fault(&["no test and no simulation"]);
     draw(&bench, "walker.yaml --as pose --at -3 -o a.svg").expect_fault(&["--at"]);
     draw(&bench, "walker.yaml --as gif -o walker.yaml/a.gif").expect_fault(&["cannot write `walker.yaml/a.gif`"]);
     draw(&bench, "walker.yaml --as heatmap -o a.svg").expect_fault(&["expected the folder of a run"]);

@@ -27,6 +27,7 @@ mod palette;
 mod physics;
 mod pictures;
 mod plots;
+mod runs;
 mod speed;
 mod swarms;
 mod synth;

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use nbc::model::{Body, Character, Function, Provenance, Robot};
-use nbc::report::{self, PageTest, Recording, Room, Scheme, Stage};
-use nbc::swarm::{Assembly, Demand, Member, SwarmTrace, TestVerdict, judge};
+use nbc::model::{Base, Body, Character, CircuitTest, Function, Provenance, Robot, Stimulation, TestRow};
+use nbc::report::{self, PageSwarm, Recording, Room, Scheme, Stage, SwarmOutcome};
+use nbc::source::{FileId, Span};
+use nbc::swarm::{Assembly, Demand, Level, Member, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
 use crate::pictures::{latch, latch_netlist};
@@ -39,8 +40,41 @@ pub fn robot(name: &str, function: Function) -> Robot {
 }
 
 fn verdict(trace: &SwarmTrace) -> TestVerdict {
-    let rows = [false, true, true].map(|q| Demand { hold: 8, needed: 8, expected: vec![Some(q), None] });
-    judge("holds </script><b> its bit", trace, &rows, &[4; 5])
+    let span = Span::new(FileId(0), 0, 0);
+    let test = CircuitTest {
+        circuit: "d_latch".into(),
+        title: "holds </script><b> its bit".to_owned(),
+        span,
+        file: "latch.nb".to_owned(),
+        line: 1,
+        inputs: trace.inputs.clone(),
+        outputs: trace.outputs.clone(),
+        stimulation: Stimulation::Rows(Vec::new()),
+    };
+    let row = |(at, q): (usize, bool)| TestRow {
+        inputs: trace.cycles[8 * at].inputs.clone(),
+        expected: vec![Some(q), None],
+        bases: vec![Base::Bits; 4],
+        hold: None,
+        span,
+        line: 3 + at,
+        row: 1 + at,
+    };
+    let rows: Vec<TestRow> = [false, true, true].into_iter().enumerate().map(row).collect();
+    let rows = judge_swarm(&test, &rows, &[Demand { hold: 8, needed: 8 }; 3], trace, &[4; 5]);
+    TestVerdict {
+        file: test.file,
+        line: test.line,
+        circuit: trace.circuit.clone(),
+        title: test.title,
+        swarm: None,
+        level: Level::Physics,
+        passed: rows.iter().all(|row| row.passed),
+        inputs: test.inputs,
+        outputs: test.outputs,
+        weak_robots: Vec::new(),
+        rows,
+    }
 }
 
 pub fn assembly(trace: &SwarmTrace) -> Assembly {
@@ -54,7 +88,8 @@ pub fn assembly(trace: &SwarmTrace) -> Assembly {
         circuit: trace.circuit.clone(),
         inputs: trace.inputs.clone(),
         members: (0..5).map(member).collect(),
-        outputs: trace.outputs.iter().cloned().zip(trace.shown.iter().copied()).collect(),
+        outputs: trace.outputs.clone(),
+        shown: trace.shown.clone(),
     }
 }
 
@@ -65,8 +100,8 @@ fn page() -> String {
     let stage = || Stage::of_swarm(&assembly, &trace, 7);
     let schematic = report::draw_schematic(&latch_netlist(), &robots, &[], Scheme::Paper);
     let spacetime = report::draw_swarm(&trace);
-    let test = || PageTest {
-        verdict: &verdict,
+    let test = || PageSwarm {
+        outcome: SwarmOutcome::Test(&verdict),
         trace: &trace,
         assembly: &assembly,
         recording: Recording::of(stage(), 5),
@@ -95,7 +130,7 @@ fn the_page_holds_everything_and_fetches_nothing() {
     assert!(page.contains("circuits/&lt;latch&gt;.nb"));
     assert!(!page.contains("</script><b>"), "a title cannot break out");
     let data = data(&page);
-    let test = &data["tests"][0];
+    let test = &data["swarms"][0];
     assert_eq!(test["robots"].as_array().unwrap().len(), 5);
     assert_eq!(test["cycles"].as_array().unwrap().len(), 24);
     assert_eq!(test["marks"], serde_json::json!([8, 16]));
@@ -141,7 +176,7 @@ const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => 
     const later = (ready, then) => { const started = performance.now(), wait = setInterval(() => {\
     if (ready() || performance.now() - started > 20000) { clearInterval(wait); then(); } }, 100); };</script>";
 const READER: &str = r#"<script>
-const player = players[0], section = document.getElementById("test-0"), shot = () => section.querySelector(".stage").toDataURL();
+const player = players[0], section = document.getElementById("swarm-0"), shot = () => section.querySelector(".stage").toDataURL();
 const before = shot(), moved = () => shot() !== before && player.clock.time > 0; section.querySelector(".play").click();
 later(moved, () => {
   const walked = moved(); section.querySelector(".play").click();

@@ -1,9 +1,14 @@
 //! Pictures by their content: what is drawn, where, and that the same input gives the same bytes.
 
 use nbc::circuit::{Cell, Netlist};
-use nbc::model::{Body, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
+use nbc::model::{Body, Column, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
 use nbc::report::{self, Scheme};
 use nbc::swarm::{CycleTrace, RobotTrace, Signal, SwarmTrace};
+
+/// A port of one bit.
+pub fn port(name: &str) -> Column {
+    Column { name: name.to_owned(), width: 1 }
+}
 
 /// A latch of five made-up robots: each walks half a voxel a cycle the way its bit says.
 pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
@@ -49,8 +54,8 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
     });
     SwarmTrace {
         circuit: "d_latch".to_owned(),
-        inputs: vec!["d".to_owned(), "e".to_owned()],
-        outputs: vec!["q".to_owned(), "nq".to_owned()],
+        inputs: ["d", "e"].map(port).into(),
+        outputs: ["q", "nq"].map(port).into(),
         shown: vec![Signal::Robot(1), Signal::Robot(4)],
         samples_per_cycle: 4,
         robots: robots.collect(),

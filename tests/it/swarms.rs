@@ -5,6 +5,7 @@ use std::fs;
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
 use nbc::model::{CYCLE_STEPS, Function, Robot};
+use nbc::pipeline::SwarmRun;
 use nbc::report::describe_test;
 use nbc::sim::Simulator;
 use nbc::store::shipped_library;
@@ -42,10 +43,15 @@ fn run(program: &str, options: &Options) -> RunReport {
     nbc::run_file(&path, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The swarm of the first test.
+fn swarm(report: &RunReport) -> &SwarmRun {
+    report.tests[0].swarm.as_ref().unwrap()
+}
+
 fn check(truth: u8) {
     let report = run(&program(truth), &Options::default());
     report.assert_passed();
-    let compiled = &report.tests[0].compiled;
+    let compiled = &swarm(&report).compiled;
     println!("{truth:08b}: {} robots, hold {}", compiled.mapped.cells().count(), compiled.timing.hold);
 }
 
@@ -59,7 +65,7 @@ fn a_hold_that_is_too_short_is_told_with_the_one_that_suffices() {
     let latch = fs::read_to_string("circuits/latch.nb").unwrap().replace("1 1 | 1", "1 1 | 1 for 2 cycles");
     let report = run(&latch, &Options::default());
     let told = describe_test(&report.tests[0].verdict);
-    let needed = report.tests[0].compiled.timing.hold + 1;
+    let needed = swarm(&report).compiled.timing.hold + 1;
     assert!(!report.passed());
     assert!(told.contains(&format!("nearest fix: hold the row for {needed} cycles")), "{told}");
 }
@@ -83,8 +89,8 @@ fn a_robot_never_comes_to_the_end_of_its_ground() {
     let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
     let member = Member { net: "y".to_owned(), robot, senses: [Signal::Constant(false); 2], start: true };
-    let outputs = vec![("y".to_owned(), Signal::Robot(0))];
-    let assembly = Assembly { circuit: "one".to_owned(), inputs: Vec::new(), members: vec![member], outputs };
+    let (outputs, shown) = (vec![crate::pictures::port("y")], vec![Signal::Robot(0)]);
+    let assembly = Assembly { circuit: "one".to_owned(), inputs: Vec::new(), members: vec![member], outputs, shown };
     let exposure = Exposure { inputs: vec![Vec::new(); 80], cycle_steps: CYCLE_STEPS, window: 1 };
     let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
     let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
@@ -113,8 +119,8 @@ fn every_circuit_of_the_gallery_computes() {
     for path in programs("circuits") {
         let report = nbc::run_file(&path, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
         for test in &report.tests {
-            let robots = test.compiled.mapped.cells().count();
-            let (passed, hold) = (test.verdict.passed, test.compiled.timing.hold);
+            let robots = test.swarm.as_ref().unwrap().compiled.mapped.cells().count();
+            let (passed, hold) = (test.verdict.passed, test.swarm.as_ref().unwrap().compiled.timing.hold);
             println!("{} `{}`: {robots} robots, hold {hold}, passed {passed}", path.display(), test.verdict.title);
             if robots < 40 && !passed {
                 failed.push_str(&describe_test(&test.verdict));
@@ -127,7 +133,7 @@ fn every_circuit_of_the_gallery_computes() {
 #[test]
 fn measured_settle_times_are_within_the_clocks() {
     let report = nbc::run_file("circuits/half_adder.nb", &Options::default()).unwrap();
-    let compiled = &report.tests[0].compiled;
+    let compiled = &swarm(&report).compiled;
     let cells = nbc::swarm::cells(shipped_library());
     let measured = Timing::of(&compiled.mapped, &cells, Delays::Transition);
     assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);

@@ -30,7 +30,7 @@ fn truth_tables_are_checked_row_by_row() {
         true,
         "pass  exclusive \"x\" (2 rows, logic)",
     );
-    check_test("test exclusive {\n a b | q\n 0 1 | 1\n 1 1 | 1\n}", false, "row 2: 1 1 | expected 1, found 0");
+    check_test("test exclusive {\n a b | q\n 0 1 | 1\n 1 1 | 1\n}", false, "a.nb:13: row 2: a=1 b=1 | q=0, expected 1");
     check_test("test exclusive {\n a b | q\n 0 1 | -\n 1 1 | -\n}", true, "1 passed, 0 failed");
 }
 
@@ -38,15 +38,15 @@ fn truth_tables_are_checked_row_by_row() {
 fn sequences_remember() {
     check_test("test toggle {\n clk | q\n 0 | 0\n 1 | 1\n 0 | 1\n 1 | 0\n}", true, "4 rows");
     check_test("test toggle {\n clk | q\n 0 | 0\n ^ | 1\n ^ | 0\n}", true, "5 rows");
-    check_test("test toggle {\n clk | q\n 0 | 0\n ^ | 1\n ^ | 1\n}", false, "row 5: 1 | expected 1, found 0");
+    check_test("test toggle {\n clk | q\n 0 | 0\n ^ | 1\n ^ | 1\n}", false, "row 3: clk=1 | q=0, expected 1");
 }
 
 #[test]
 fn all_inputs_are_tried_against_an_expression_or_a_circuit() {
     check_test("test exclusive for all inputs { q = a == not b }", true, "4 rows");
-    check_test("test exclusive for all inputs { q = a or b }", false, "row 4: 1 1 | expected 1, found 0");
+    check_test("test exclusive for all inputs { q = a or b }", false, "row 4: a=1 b=1 | q=0, expected 1");
     check_test("test exclusive for all inputs against other", true, "4 rows");
-    check_test("test exclusive for all inputs against both", false, "row 2: 0 1 | expected 0, found 1");
+    check_test("test exclusive for all inputs against both", false, "row 2: a=0 b=1 | q=1, expected 0");
 }
 
 #[test]

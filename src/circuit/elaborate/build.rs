@@ -12,6 +12,8 @@ use crate::source::Span;
 /// Everything built so far.
 pub(super) struct Builder<'a> {
     pub(super) program: &'a Program,
+    /// References of tests, which are numbered after the program's circuits.
+    references: Vec<&'a Circuit>,
     pub(super) modules: Vec<Module>,
     /// The module of each circuit and its parameters; `None` where it cannot be built, or is just being built.
     known: BTreeMap<(CircuitId, Vec<i64>), Option<ModuleId>>,
@@ -27,6 +29,7 @@ impl<'a> Builder<'a> {
     pub(super) fn new(program: &'a Program) -> Self {
         Self {
             program,
+            references: Vec::new(),
             modules: Vec::new(),
             known: BTreeMap::new(),
             diagnostics: Vec::new(),
@@ -41,7 +44,14 @@ impl<'a> Builder<'a> {
     }
 
     pub(super) fn circuit(&self, id: CircuitId) -> &'a Circuit {
-        &self.program.circuits[id.0 as usize]
+        let at = id.0 as usize;
+        self.program.circuits.get(at).unwrap_or_else(|| self.references[at - self.program.circuits.len()])
+    }
+
+    /// The module of a test's reference.
+    pub(super) fn reference(&mut self, circuit: &'a Circuit) -> Option<ModuleId> {
+        self.references.push(circuit);
+        self.with_defaults(CircuitId((self.program.circuits.len() + self.references.len() - 1) as u32))
     }
 
     /// Notes a fault, once.

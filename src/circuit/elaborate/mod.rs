@@ -19,7 +19,7 @@ mod width;
 
 use crate::circuit::Netlist;
 use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitId, Column, Instance, Program};
+use crate::model::{Circuit, CircuitId, Column, Instance, Program, Reference};
 use crate::source::Span;
 
 use build::Builder;
@@ -47,7 +47,37 @@ pub const MAX_HIERARCHY: usize = 200;
 pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);
-    let netlist = module.and_then(|module| match flatten::flatten(&builder, module, &instance.to_string()) {
+    finish(builder, module, &instance.to_string())
+}
+
+/// The netlist of a test's reference.
+///
+/// # Errors
+/// As [`elaborate`].
+pub fn elaborate_reference(program: &Program, reference: &Reference) -> Result<Netlist, Vec<Diagnostic>> {
+    let circuit = match reference {
+        Reference::Circuit(instance) => return elaborate(program, instance),
+        Reference::Body(circuit) => circuit,
+    };
+    let mut builder = Builder::new(program);
+    let module = builder.reference(circuit);
+    finish(builder, module, &circuit.name)
+}
+
+/// Whether two instances are one circuit with the same numbers for its parameters, given or by default.
+pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> bool {
+    let complete = |instance: &Instance| {
+        let circuit = program.circuit(&instance.circuit)?;
+        let mut given: Vec<_> = instance.arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
+        given.resize(circuit.parameters.len(), None);
+        instance::arguments(circuit, given, &[], circuit.span).ok()
+    };
+    one == other || (one.circuit == other.circuit && complete(one).is_some_and(|all| Some(all) == complete(other)))
+}
+
+/// The netlist of a module, if nothing was wrong with it.
+fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Result<Netlist, Vec<Diagnostic>> {
+    let netlist = module.and_then(|module| match flatten::flatten(&builder, module, name) {
         Ok(netlist) => Some(netlist),
         Err(fault) => {
             builder.diagnostics.push(fault);
@@ -72,6 +102,13 @@ impl<'a> Inspector<'a> {
     /// Looks at a circuit without parameters, or with their defaults.
     pub fn inspect(&mut self, circuit: CircuitId) {
         if let Some(module) = self.0.with_defaults(circuit) {
+            self.0.look_for_loops(module);
+        }
+    }
+
+    /// Looks at the reference of a test.
+    pub fn inspect_body(&mut self, circuit: &'a Circuit) {
+        if let Some(module) = self.0.reference(circuit) {
             self.0.look_for_loops(module);
         }
     }

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::{Context, Failure, Status, library, schedule, simulate};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Behavior, Schedule};
@@ -24,7 +25,7 @@ use robot::Subject;
 
 pub(super) use run::{page as run_page, read as read_run};
 
-/// Draw a robot, a library, an evolution run, or the swarm of a file's first test
+/// Draw a robot, a library, an evolution run, or a circuit and its swarm
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -60,6 +61,13 @@ pub struct Arguments {
     /// Only these robots of a swarm, by the nets they drive, each with the inputs of the swarm
     #[arg(long, value_name = "NET,…", value_delimiter = ',')]
     robots: Vec<String>,
+    #[command(flatten)]
+    circuit: CircuitArguments,
+    /// The test of a source file, by its title or its circuit [default: the first]
+    #[arg(long, value_name = "NAME")]
+    test: Option<String>,
+    #[command(flatten)]
+    runs: RunsArguments,
     /// Colors that people with any color vision can tell apart
     #[arg(long)]
     safe_colors: bool,
@@ -74,7 +82,7 @@ impl Arguments {
         let canvas = Canvas::new(&self.output, self.kind).map_err(Failure::plain)?;
         let what = Path::new(&self.what);
         if self.what.ends_with(".nb") {
-            self.draw_swarm(&canvas)?
+            self.draw_program(&canvas)?
         } else if run::is_run(what) {
             let harvest = run::read(what, context)?;
             match self.behavior {

@@ -1,83 +1,151 @@
-//! Pictures of the swarm of a file's first test.
+//! Pictures of the circuits of a source file, and of the swarms of its tests and simulations.
+
+use std::path::Path;
 
 use crate::circuit::formats::dot;
+use crate::circuit::is_same_instance;
+use crate::cli::Failure;
 use crate::cli::draw::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::several::{One, Several};
-use crate::cli::run::run_page;
-use crate::cli::{Failure, Progress};
+use crate::cli::program::SourceProgram;
+use crate::cli::run::{Ran, run_page, run_simulation, run_test};
 use crate::diag::{Code, Diagnostic};
-use crate::model::Robot;
-use crate::pipeline::{self, Loaded, Options, TestRun};
+use crate::model::{CircuitTest, Instance, Robot};
+use crate::pipeline::{self, Compiled, SwarmRun, TestRun};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
-use crate::store::DiskWorld;
+use crate::swarm::{Assembly, SwarmTrace};
 
 impl Arguments {
-    pub(super) fn draw_swarm(&self, canvas: &Canvas) -> Result<(), Failure> {
+    pub(super) fn draw_program(&self, canvas: &Canvas) -> Result<(), Failure> {
         match self.kind {
             Kind::Comparison | Kind::Heatmap | Kind::Progress => {
                 Err(self.not_of("a source file", "the folder of a run"))
             }
             Kind::Pose | Kind::Strip => Err(self.not_of("a source file", "a robot")),
-            _ => self.draw_test(canvas, &self.run_first_test()?),
+            Kind::Dot | Kind::Schematic | Kind::Sprite => self.draw_circuit(canvas, &self.compiled()?),
+            _ => self.draw_ran(canvas, &self.ran()?),
         }
     }
 
-    fn draw_test(&self, canvas: &Canvas, run: &TestRun) -> Result<(), Failure> {
-        let assembly = &run.compiled.assembly;
-        let robots: Vec<&Robot> = assembly.members.iter().map(|member| &member.robot).collect();
+    /// What needs no simulation.
+    fn draw_circuit(&self, canvas: &Canvas, compiled: &Compiled) -> Result<(), Failure> {
         match self.kind {
-            Kind::Schematic => {
-                let (netlist, path) = (&run.compiled.mapped, &run.compiled.timing.critical_path);
+            Kind::Dot => canvas.bytes(dot::write(&compiled.mapped).as_bytes()),
+            Kind::Sprite => self.draw_several(canvas, &cast(&compiled.assembly)),
+            _ => {
+                let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
+                let (netlist, path) = (&compiled.mapped, &compiled.timing.critical_path);
                 canvas.picture(&report::draw_schematic(netlist, &robots, path, self.scheme()))
             }
-            Kind::Dot => canvas.bytes(dot::write(&run.compiled.mapped).as_bytes()),
-            Kind::Vcd => canvas.bytes(report::vcd(&run.trace).as_bytes()),
-            Kind::Report => canvas.bytes(run_page(&self.what, std::slice::from_ref(run), self.scheme()).as_bytes()),
-            Kind::Sprite => self.draw_several(canvas, &cast(run)),
+        }
+    }
+
+    fn draw_ran(&self, canvas: &Canvas, ran: &Ran) -> Result<(), Failure> {
+        let SwarmRun { compiled, trace } = ran.swarm();
+        let assembly = &compiled.assembly;
+        match self.kind {
+            Kind::Vcd => canvas.bytes(report::vcd(trace).as_bytes()),
+            Kind::Report => canvas.bytes(run_page(&self.what, ran, self.scheme()).as_bytes()),
             Kind::Apng | Kind::Gif => {
-                let largest = robots.iter().map(|robot| robot.body.width().max(robot.body.height())).max().unwrap_or(1);
+                let bodies = assembly.members.iter().map(|member| &member.robot.body);
+                let largest = bodies.map(|body| body.width().max(body.height())).max().unwrap_or(1);
                 let lanes =
                     assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
                 let title = assembly.circuit.clone();
                 let film = Film { title, lanes: lanes.collect(), scheme: self.scheme(), largest };
-                canvas.film(&film, Stage::of_swarm(assembly, &run.trace, STRIDE))
+                canvas.film(&film, Stage::of_swarm(assembly, trace, STRIDE))
             }
-            _ => canvas.picture(&self.diagram(run)?),
+            _ => canvas.picture(&self.diagram(trace)?),
         }
     }
 
-    fn diagram(&self, run: &TestRun) -> Result<Svg, Failure> {
+    fn diagram(&self, trace: &SwarmTrace) -> Result<Svg, Failure> {
         if self.robots.is_empty() {
-            return Ok(report::draw_swarm(&run.trace));
+            return Ok(report::draw_swarm(trace));
         }
-        let chosen = self.robots.iter().map(|net| robot_of(run, net)).collect::<Result<Vec<usize>, _>>()?;
-        Ok(report::draw_chosen(&run.trace, &chosen))
+        let chosen = self.robots.iter().map(|net| robot_of(trace, net)).collect::<Result<Vec<usize>, _>>()?;
+        Ok(report::draw_chosen(trace, &chosen))
     }
 
-    /// The file's first test, run in full physics.
-    fn run_first_test(&self) -> Result<TestRun, Failure> {
-        let Loaded { sources, checked } = pipeline::load(&DiskWorld, &self.what);
-        if checked.has_errors() {
-            return Err(Failure::input(checked.diagnostics, sources));
+    /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
+    fn compiled(&self) -> Result<Compiled, Failure> {
+        let mut file = SourceProgram::load(Path::new(&self.what))?;
+        let mut choice = self.circuit.choice();
+        if let Some(name) = &self.test {
+            choice.circuit = Some(test_called(&file, name)?.circuit.to_string());
         }
-        let Some(test) = checked.program.tests.first() else {
-            let message = format!("`{}` declares no test, so there is no swarm to draw", self.what);
-            return Err(Failure::plain(Diagnostic::without_place(Code::Empty, message)));
+        let chosen = pipeline::choose(&mut file.loaded, &choice, true);
+        let (circuit, swarm) = chosen.map_err(|fault| file.failure(vec![fault]))?;
+        let program = file.program();
+        let place = program.circuit(&circuit.circuit).expect("the circuit was found").span;
+        let compiled = pipeline::plan(program, &circuit, swarm.as_ref(), &self.runs.options())
+            .and_then(|plan| pipeline::compile(program, plan, place));
+        compiled.map_err(|faults| file.failure(faults))
+    }
+
+    /// The chosen test, run in full physics: the first one, or the first simulation where the file has no test.
+    fn ran(&self) -> Result<Ran, Failure> {
+        let mut file = SourceProgram::load(Path::new(&self.what))?;
+        let choice = self.circuit.choice();
+        let chosen = match choice.circuit.is_some() || choice.swarm.is_some() {
+            true => {
+                Some(pipeline::choose(&mut file.loaded, &choice, false).map_err(|fault| file.failure(vec![fault]))?.0)
+            }
+            false => None,
         };
-        let bar = Progress::new("simulating", 0);
-        pipeline::run_test(&checked.program, test, &Options::default(), &mut |done, all| {
-            bar.set_total(all as u64);
-            bar.set(done as u64);
-        })
-        .map_err(|faults| Failure::input(faults, sources))
+        let (program, options) = (file.program(), self.runs.options());
+        let is_chosen =
+            |circuit: &Instance| chosen.as_ref().is_none_or(|chosen| is_same_instance(program, chosen, circuit));
+        let test = match &self.test {
+            Some(name) => Some(test_called(&file, name)?),
+            None => program.tests.iter().find(|test| is_chosen(&test.circuit)),
+        };
+        if let Some(test) = test {
+            let mut runs = run_test(&file, test, choice.swarm.as_deref(), &options)?;
+            return match runs.len() {
+                1 => Ok(Ran::Test(runs.remove(0))),
+                _ => Err(Failure::plain(several_swarms(&runs))),
+            };
+        }
+        let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");
+        let simulation = program.simulations.iter().find(|simulation| {
+            is_chosen(&swarm(&simulation.swarm).circuit)
+                && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
+        });
+        match simulation {
+            Some(simulation) => Ok(Ran::Simulation(run_simulation(&file, simulation, &options)?)),
+            None => {
+                let what = chosen.map_or_else(|| format!("`{}`", self.what), |circuit| format!("`{circuit}`"));
+                let message = format!("{what} has no test and no simulation, so there is no run to draw");
+                let help = "`--as schematic` and `--as dot` need none";
+                Err(Failure::plain(Diagnostic::without_place(Code::Empty, message).with_help(help)))
+            }
+        }
     }
 }
 
+fn several_swarms(runs: &[TestRun]) -> Diagnostic {
+    let swarms: Vec<String> =
+        runs.iter().filter_map(|run| run.verdict.swarm.as_ref()).map(|swarm| format!("`--swarm {swarm}`")).collect();
+    let message = format!("several swarms are declared for `{}`", runs[0].verdict.circuit);
+    Diagnostic::without_place(Code::BadValue, message).with_help(format!("choose one: {}", swarms.join(" or ")))
+}
+
+/// The first test of that title or circuit.
+fn test_called<'f>(file: &'f SourceProgram, name: &str) -> Result<&'f CircuitTest, Failure> {
+    let program = file.program();
+    let found = program.tests.iter().find(|test| pipeline::is_called(program, test, name));
+    found.ok_or_else(|| {
+        let message = format!("no test of `{}` is called `{name}`", file.path);
+        Failure::plain(Diagnostic::without_place(Code::Unknown, message))
+    })
+}
+
 /// The place of the robot that drives a net.
-fn robot_of(run: &TestRun, net: &str) -> Result<usize, Failure> {
-    let robots = &run.trace.robots;
+fn robot_of(trace: &SwarmTrace, net: &str) -> Result<usize, Failure> {
+    let robots = &trace.robots;
     robots.iter().position(|robot| robot.net == net).ok_or_else(|| {
         let known: Vec<String> = robots.iter().map(|robot| format!("`{}`", robot.net)).collect();
         let fault = Diagnostic::without_place(Code::Unknown, format!("no robot drives `{net}`"));
@@ -86,13 +154,13 @@ fn robot_of(run: &TestRun, net: &str) -> Result<usize, Failure> {
 }
 
 /// The robots of a swarm, each once.
-fn cast(run: &TestRun) -> Several {
+fn cast(assembly: &Assembly) -> Several {
     let mut robots: Vec<One> = Vec::new();
-    for member in &run.compiled.assembly.members {
+    for member in &assembly.members {
         let robot = &member.robot;
         if robots.iter().all(|one| one.name != robot.name) {
             robots.push(One { behavior: robot.behavior, name: robot.name.clone(), body: robot.body.clone() });
         }
     }
-    Several { title: format!("the robots of {}", run.compiled.assembly.circuit), robots }
+    Several { title: format!("the robots of {}", assembly.circuit), robots }
 }

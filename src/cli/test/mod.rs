@@ -1,18 +1,16 @@
 //! `nbc test`: files' tests, at the level of logic or in full physics.
 
-mod case;
-mod outcome;
-
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::test::case::{Case, Level};
-use crate::cli::test::outcome::Outcome;
+use crate::cli::program::{RunsArguments, SourceProgram};
 use crate::cli::{Context, Failure, Format, Progress, Status, workers};
-use crate::diag::{Code, Diagnostic};
-use crate::pipeline::{self, Loaded};
-use crate::store::DiskWorld;
+use crate::diag::{Code, Diagnostic, counted};
+use crate::pipeline::{self, Case, Options};
+use crate::report;
+use crate::swarm::{Level, TestVerdict};
 
 /// Test the circuits of a file
 #[derive(Args)]
@@ -22,7 +20,8 @@ use crate::store::DiskWorld;
   nbc test circuits/latch.nb --physics
 
 At the level of logic every cell takes one time step, and a row is held until nothing changes. In physics every robot is simulated voxel \
-by voxel. By default circuits of fewer than 40 robots are tested in physics, larger ones at the level of logic.
+by voxel, and a test runs once for each swarm that is declared for its circuit. By default circuits of fewer than 40 robots are tested in \
+physics, larger ones at the level of logic.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
 pub struct Arguments {
     /// The source files
@@ -34,13 +33,12 @@ pub struct Arguments {
     /// Test in full physics
     #[arg(long)]
     physics: bool,
+    #[command(flatten)]
+    runs: RunsArguments,
 }
 
-/// A file without errors.
-struct File {
-    path: String,
-    loaded: Loaded,
-}
+/// A case with the number of its file on the command line.
+type Numbered<'a> = (usize, Case<'a>);
 
 impl Arguments {
     /// Runs the tests side by side, and prints what came of each as soon as those before it are done.
@@ -48,76 +46,86 @@ impl Arguments {
     /// # Errors
     /// When a file has errors, or declares no test; no test runs then.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let files = self.files.iter().map(|file| File::load(&file.to_string_lossy())).collect::<Result<Vec<_>, _>>()?;
-        let cases = self.cases(&files)?;
+        let files = self.files.iter().map(|file| load(file)).collect::<Result<Vec<_>, _>>()?;
+        let options = self.runs.options();
+        let cases = self.cases(&files, &options)?;
         for file in &files {
             file.warn(&file.loaded.checked.diagnostics, context);
         }
-        let outcomes = run_cases(&cases, &files, context)?;
-        let failed = outcomes.iter().filter(|outcome| !outcome.passed).count();
+        let verdicts = run_cases(&cases, &files, &options, context)?;
+        let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
         match context.format {
-            Format::Json => context.print_json(&serde_json::json!({ "passed": failed == 0, "tests": outcomes }))?,
-            Format::Text => context.print(format_args!("{} passed, {failed} failed\n", outcomes.len() - failed))?,
+            Format::Json => context.print_json(&serde_json::json!({ "passed": failed == 0, "tests": verdicts }))?,
+            Format::Text => context.print(format_args!("{} passed, {failed} failed\n", verdicts.len() - failed))?,
         }
         Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
     }
 
-    fn level(&self) -> Level {
+    fn level(&self) -> Option<Level> {
         match (self.logic, self.physics) {
-            (true, _) => Level::Logic,
-            (_, true) => Level::Physics,
-            _ => Level::Auto,
+            (true, _) => Some(Level::Logic),
+            (_, true) => Some(Level::Physics),
+            _ => None,
         }
     }
 
     /// The tests of the files, in order.
-    fn cases<'a>(&self, files: &'a [File]) -> Result<Vec<Case<'a>>, Failure> {
+    fn cases<'a>(&self, files: &'a [SourceProgram], options: &Options) -> Result<Vec<Numbered<'a>>, Failure> {
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
-            let program = &file.loaded.checked.program;
-            for test in &program.tests {
-                let case = Case::new(number, program, test, self.level());
-                cases.push(case.map_err(|faults| Failure::input(faults, file.loaded.sources.clone()))?);
+            for test in &file.program().tests {
+                let of_test = pipeline::cases(file.program(), test, self.level(), options);
+                cases.extend(of_test.map_err(|faults| file.failure(faults))?.into_iter().map(|case| (number, case)));
             }
         }
         Ok(cases)
     }
 }
 
-impl File {
-    fn load(path: &str) -> Result<Self, Failure> {
-        let loaded = pipeline::load(&DiskWorld, path);
-        if loaded.checked.has_errors() {
-            return Err(Failure::input(loaded.checked.diagnostics, loaded.sources));
-        }
-        if loaded.checked.program.tests.is_empty() {
-            let fault = Diagnostic::without_place(Code::Empty, format!("`{path}` declares no test"));
-            let help = "declare one: `test my_circuit { a b | q` and a row for each input pattern";
-            return Err(Failure::plain(fault.with_help(help)));
-        }
-        Ok(Self { path: path.to_owned(), loaded })
+fn load(path: &std::path::Path) -> Result<SourceProgram, Failure> {
+    let file = SourceProgram::load(path)?;
+    if file.program().tests.is_empty() {
+        let fault = Diagnostic::without_place(Code::Empty, format!("`{}` declares no test", file.path));
+        let help = "declare one: `test my_circuit { a b | q` and a row for each input pattern";
+        return Err(Failure::plain(fault.with_help(help)));
     }
-
-    /// Tells what is legal in it and surely not meant.
-    fn warn(&self, warnings: &[Diagnostic], context: &Context) {
-        context.tell(warnings, &self.loaded.sources);
-    }
+    Ok(file)
 }
 
-/// Runs the tests; in text each outcome is printed as it comes.
-fn run_cases(cases: &[Case<'_>], files: &[File], context: &mut Context) -> Result<Vec<Outcome>, Failure> {
-    let bar = Progress::new("testing", cases.iter().map(Case::work).sum());
-    let run = |case: &Case<'_>| (case.file, case.run(&files[case.file].path, &|done| bar.add(done)));
-    let mut outcomes = Vec::new();
-    let mut tell = |(file, outcome): (usize, Outcome)| -> Result<(), Failure> {
-        files[file].warn(&outcome.warnings, context);
+/// Runs the tests; in text each verdict is printed as it comes.
+fn run_cases(
+    cases: &[Numbered<'_>],
+    files: &[SourceProgram],
+    options: &Options,
+    context: &mut Context,
+) -> Result<Vec<TestVerdict>, Failure> {
+    let bar = Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum());
+    // What the swarm did is large and nobody asks for it.
+    let run = |(file, case): &Numbered<'_>| {
+        let run = case.clone().run(options, &mut |done| bar.add(done));
+        (*file, run.verdict, run.warnings)
+    };
+    let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
+    let mut tell = |(file, verdict, mut warnings): (usize, TestVerdict, Vec<Diagnostic>)| -> Result<(), Failure> {
+        warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
+        files[file].warn(&warnings, context);
         if context.format == Format::Text {
-            context.print(&outcome)?;
+            context.print(describe(&verdict))?;
             context.flush()?;
         }
-        outcomes.push(outcome);
+        verdicts.push(verdict);
         Ok(())
     };
     workers::in_order(cases, run, |told| bar.suspend(|| tell(told)))?;
-    Ok(outcomes)
+    Ok(verdicts)
+}
+
+/// A line for a test that passed; one that failed has its rows below.
+fn describe(verdict: &TestVerdict) -> String {
+    let word = if verdict.passed { "pass" } else { "FAIL" };
+    let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
+    let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
+    let (rows, level) = (counted(verdict.rows.len(), "row"), verdict.level.word());
+    let failures = report::describe_failures(verdict);
+    format!("{word}  {}{swarm}{title} ({rows}, {level})\n{failures}", verdict.circuit)
 }

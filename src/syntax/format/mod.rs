@@ -118,6 +118,10 @@ mod tests {
             "test add \"adds\" {\n    a    b    | s\n    // zeros\n    0000 0001 | 1 for 3 cycles\n    1    0    | 1\n}\n",
         );
         check(
+            "test ring {\n|q\n|- for 3 cycles\n|1\n}\nsimulate ring with schedule( ){for 9 cycles}",
+            "test ring {\n    | q\n    | - for 3 cycles\n    | 1\n}\n\nsimulate ring with schedule () {\n    for 9 cycles\n}\n",
+        );
+        check(
             "schedule s(a,b) { 0 1 for 10 cycles 1 1 for 9 steps }",
             "schedule s(a, b) {\n    0 1 for 10 cycles\n    1 1 for 9 steps\n}\n",
         );

@@ -27,7 +27,7 @@ impl Printer<'_> {
         self.block(span.end, |printer| {
             for spell in spells {
                 let cells = aligned(&spell.cells, &widths);
-                let text = format!("{} for {}", cells.join(" "), quantity(&spell.length));
+                let text = format!("{} for {}", cells.join(" "), quantity(&spell.length)).trim_start().to_owned();
                 printer.item(spell.span, |printer| printer.write(&text));
             }
         });

@@ -1,0 +1,141 @@
+//! Values of ports in the rows of tests and simulations: bits with the base in which the user wrote them.
+
+use std::fmt;
+
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+use super::Column;
+
+/// How a value is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Base {
+    /// Its bits alone: `0101`.
+    #[default]
+    Bits,
+    /// `4'b0101`
+    Binary,
+    /// `4'd5`
+    Decimal,
+    /// `4'h5`
+    Hexadecimal,
+}
+
+impl Base {
+    /// The base for a port of which no row says how it is written.
+    pub fn of_width(width: usize) -> Self {
+        if width == 1 { Self::Bits } else { Self::Decimal }
+    }
+
+    /// The base of a letter in a constant such as `4'd5`.
+    pub fn of_letter(letter: char) -> Option<Self> {
+        match letter {
+            'b' => Some(Self::Binary),
+            'd' => Some(Self::Decimal),
+            'h' => Some(Self::Hexadecimal),
+            _ => None,
+        }
+    }
+}
+
+/// The value of a port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Value {
+    /// The bits, the most significant first; `None` where nothing is asked.
+    pub bits: Vec<Option<bool>>,
+    /// How it is written.
+    pub base: Base,
+}
+
+impl Value {
+    /// The values of ports whose bits follow each other; `bases` are those of the ports, or empty where nobody wrote them.
+    ///
+    /// # Panics
+    /// When there are fewer bits than the ports have.
+    pub fn of_ports(ports: &[Column], bits: impl IntoIterator<Item = Option<bool>>, bases: &[Base]) -> Vec<Self> {
+        let mut bits = bits.into_iter();
+        let value = |(at, port): (usize, &Column)| {
+            let bits: Vec<_> = bits.by_ref().take(port.width).collect();
+            assert_eq!(bits.len(), port.width, "a bit for each bit of the ports");
+            Self { bits, base: bases.get(at).copied().unwrap_or(Base::of_width(port.width)) }
+        };
+        ports.iter().enumerate().map(value).collect()
+    }
+
+    /// Whether it says nothing.
+    pub fn is_open(&self) -> bool {
+        self.bits.iter().all(Option::is_none)
+    }
+
+    /// The digits `0`, `1` and `-`.
+    pub fn digits(&self) -> String {
+        self.bits.iter().map(|bit| bit.map_or('-', |bit| if bit { '1' } else { '0' })).collect()
+    }
+
+    fn number(&self) -> Option<u128> {
+        let bits = self.bits.iter().copied().collect::<Option<Vec<bool>>>()?;
+        (bits.len() <= 128).then(|| bits.iter().fold(0, |number, &bit| number << 1 | u128::from(bit)))
+    }
+
+    fn hexadecimal(&self) -> Option<String> {
+        let bits = self.bits.iter().copied().collect::<Option<Vec<bool>>>()?;
+        let digit = |bits: &[bool]| bits.iter().fold(0, |digit, &bit| digit << 1 | u32::from(bit));
+        let digits = bits.rchunks(4).rev().map(|bits| char::from_digit(digit(bits), 16).expect("four bits"));
+        Some(digits.collect())
+    }
+}
+
+impl fmt::Display for Value {
+    /// As the user writes it: `4'd5`; a value that is too wide for a number in its base is written in hexadecimal digits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let width = self.bits.len();
+        let text = match (self.base, self.number()) {
+            _ if self.is_open() => "-".to_owned(),
+            (Base::Bits, _) => self.digits(),
+            (Base::Decimal, Some(number)) => format!("{width}'d{number}"),
+            (Base::Decimal | Base::Hexadecimal, _) => match self.hexadecimal() {
+                Some(digits) => format!("{width}'h{digits}"),
+                None => self.digits(),
+            },
+            (Base::Binary, Some(_)) => format!("{width}'b{}", self.digits()),
+            (Base::Binary, None) => self.digits(),
+        };
+        f.pad(&text)
+    }
+}
+
+impl Serialize for Value {
+    /// `{ "text": "4'd5", "bits": "0101" }`
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut value = serializer.serialize_struct("Value", 2)?;
+        value.serialize_field("text", &self.to_string())?;
+        value.serialize_field("bits", &self.digits())?;
+        value.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(digits: &str, base: Base, expected: &str) {
+        let bit = |c| match c {
+            '0' => Some(false),
+            '1' => Some(true),
+            _ => None,
+        };
+        let value = Value { bits: digits.chars().map(bit).collect(), base };
+        assert_eq!((value.to_string().as_str(), value.digits().as_str()), (expected, digits));
+    }
+
+    #[test]
+    fn values_are_written_as_they_were() {
+        check("1", Base::Bits, "1");
+        check("1001", Base::Decimal, "4'd9");
+        check("1001", Base::Bits, "1001");
+        check("1001", Base::Binary, "4'b1001");
+        check("101001", Base::Hexadecimal, "6'h29");
+        check("1--0", Base::Decimal, "1--0");
+        check("----", Base::Hexadecimal, "-");
+        check(&"1".repeat(132), Base::Decimal, &format!("132'h{}", "f".repeat(33)));
+    }
+}

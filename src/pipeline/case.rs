@@ -1,0 +1,196 @@
+//! A test that is ready to run, at the level of logic or in physics: nothing about it can be at fault any more.
+
+use crate::circuit::{Logic, Netlist, Timing, elaborate, elaborate_reference};
+use crate::diag::{Code, Diagnostic, counted};
+use crate::model::{Base, CYCLE_STEPS, CircuitTest, Hold, Program, Stimulation, TestRow};
+use crate::pipeline::{Compiled, Options, SwarmRun, compile, plans};
+use crate::swarm::{self, Demand, Exposure, Level, TestVerdict};
+
+/// The most input bits of a test that tries all patterns.
+const MAX_EXHAUSTIVE_BITS: usize = 16;
+
+/// The cycles by which a row is held longer than its slowest path needs, so that outputs have been right over two.
+const STEADY_EXTRA: u32 = 1;
+
+/// Swarms of as many robots or more are tested at the level of logic unless physics is asked for.
+const LARGE: usize = 40;
+
+/// Circuits of as many gates are not compiled to find out: no library makes them of fewer than [`LARGE`] robots.
+const SURELY_LARGE: usize = 10 * LARGE;
+
+/// A test with what came of it.
+#[derive(Clone, Debug)]
+pub struct TestRun {
+    /// Whether the circuit did what was asked.
+    pub verdict: TestVerdict,
+    /// What the swarm did; none at the level of logic.
+    pub swarm: Option<SwarmRun>,
+    /// What is legal and surely not meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// A test that is ready to run.
+#[derive(Clone, Debug)]
+pub struct Case<'a> {
+    test: &'a CircuitTest,
+    rows: Vec<TestRow>,
+    subject: Subject,
+}
+
+/// What is tested.
+#[derive(Clone, Debug)]
+enum Subject {
+    Gates(Netlist),
+    Robots(Box<Compiled>),
+}
+
+/// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic. Where no level is asked for,
+/// it is that of physics for small swarms.
+///
+/// # Errors
+/// When the circuit cannot be built or compiled, robots cannot be read, or there are too many rows.
+pub fn cases<'a>(
+    program: &Program,
+    test: &'a CircuitTest,
+    level: Option<Level>,
+    options: &Options,
+) -> Result<Vec<Case<'a>>, Vec<Diagnostic>> {
+    let rows = rows(program, test)?;
+    let case = |subject| Case { test, rows: rows.clone(), subject };
+    let netlist = elaborate(program, &test.circuit)?;
+    if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
+        return Ok(vec![case(Subject::Gates(netlist))]);
+    }
+    let mut cases = Vec::new();
+    for plan in plans(program, &test.circuit, options)? {
+        let compiled = compile(program, plan, test.span)?;
+        if level.is_none() && compiled.assembly.members.len() >= LARGE {
+            return Ok(vec![case(Subject::Gates(netlist))]);
+        }
+        cases.push(case(Subject::Robots(Box::new(compiled))));
+    }
+    Ok(cases)
+}
+
+impl Case<'_> {
+    /// How much there is to do: cycles in physics, rows at the level of logic.
+    pub fn work(&self) -> u64 {
+        match &self.subject {
+            Subject::Gates(_) => self.rows.len() as u64,
+            Subject::Robots(compiled) => demands(&self.rows, compiled).iter().map(|demand| demand.hold as u64).sum(),
+        }
+    }
+
+    /// The declared swarm that is tested, if it is one.
+    pub fn swarm(&self) -> Option<&str> {
+        match &self.subject {
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled) => compiled.plan.swarm.as_deref(),
+        }
+    }
+
+    /// Runs the test, telling `observe` of each piece of work that is done.
+    pub fn run(self, options: &Options, observe: &mut dyn FnMut(u64)) -> TestRun {
+        match self.subject {
+            Subject::Gates(ref netlist) => {
+                let rows = swarm::judge_logic(self.test, &self.rows, netlist);
+                observe(rows.len() as u64);
+                let verdict = verdict(self.test, Level::Logic, None, rows);
+                TestRun { verdict, swarm: None, warnings: Vec::new() }
+            }
+            Subject::Robots(compiled) => in_physics(self.test, &self.rows, *compiled, options, observe),
+        }
+    }
+}
+
+fn in_physics(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    compiled: Compiled,
+    options: &Options,
+    observe: &mut dyn FnMut(u64),
+) -> TestRun {
+    let demands = demands(rows, &compiled);
+    let mut warnings = compiled.warnings.clone();
+    warnings.extend(short_hold(test, rows, &demands, &compiled));
+    let held = rows.iter().zip(&demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+    let window = compiled.plan.window as usize;
+    let exposure = Exposure { inputs: held.collect(), cycle_steps: CYCLE_STEPS, window };
+    let trace = swarm::simulate(&options.simulator, &compiled.assembly, &exposure, &mut |_| observe(1));
+    let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
+    let judged = swarm::judge_swarm(test, rows, &demands, &trace, &clocks);
+    let verdict = verdict(test, Level::Physics, Some(&compiled), judged);
+    TestRun { verdict, swarm: Some(SwarmRun { compiled, trace }), warnings }
+}
+
+fn verdict(test: &CircuitTest, level: Level, compiled: Option<&Compiled>, rows: Vec<swarm::RowVerdict>) -> TestVerdict {
+    TestVerdict {
+        file: test.file.clone(),
+        line: test.line,
+        circuit: test.circuit.to_string(),
+        title: test.title.clone(),
+        swarm: compiled.and_then(|compiled| compiled.plan.swarm.clone()),
+        level,
+        passed: rows.iter().all(|row| row.passed),
+        inputs: test.inputs.clone(),
+        outputs: test.outputs.clone(),
+        weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
+        rows,
+    }
+}
+
+/// The rows of a test. Those of a test over all inputs come from its reference, which a program without errors can be asked for.
+///
+/// # Errors
+/// When there are too many inputs for all patterns, or the reference cannot be built.
+fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
+    let reference = match &test.stimulation {
+        Stimulation::Rows(rows) => return Ok(rows.clone()),
+        Stimulation::All { reference } => reference,
+    };
+    let bits: usize = test.inputs.iter().map(|port| port.width).sum();
+    if bits > MAX_EXHAUSTIVE_BITS {
+        let message =
+            format!("{bits} input bits are too many to try all patterns, expected at most {MAX_EXHAUSTIVE_BITS}");
+        return Err(vec![Diagnostic::new(Code::BadValue, message, test.span, "in this test")]);
+    }
+    let mut logic = Logic::new(&elaborate_reference(program, reference)?);
+    let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(|port| Base::of_width(port.width)).collect();
+    let row = |pattern: usize| {
+        let inputs: Vec<bool> = (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
+        let expected = match logic.settle(&inputs) {
+            Ok(outputs) => outputs.into_iter().map(Some).collect(),
+            Err(_) => vec![None; test.output_bits().len()],
+        };
+        let (bases, span, line) = (bases.clone(), test.span, test.line);
+        TestRow { inputs, expected, bases, hold: None, span, line, row: pattern + 1 }
+    };
+    Ok((0..1 << bits).map(row).collect())
+}
+
+/// How long each row is held. The first has the time on top in which robots find their feet.
+fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
+    let usual = compiled.timing.hold + STEADY_EXTRA + (compiled.plan.window - 1);
+    let demand = |(i, row): (usize, &TestRow)| {
+        let needed = if i == 0 { usual + swarm::START_CYCLES as u32 } else { usual };
+        let hold = match compiled.plan.hold {
+            Hold::Auto => needed,
+            Hold::Cycles(cycles) => cycles,
+        };
+        let hold = row.hold.unwrap_or(hold).max(1) as usize;
+        Demand { hold, needed: needed as usize }
+    };
+    rows.iter().enumerate().map(demand).collect()
+}
+
+/// Warns where a row is held for fewer cycles than the slowest path needs; names the path.
+fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Option<Diagnostic> {
+    let Compiled { mapped, timing: Timing { hold, critical_path, .. }, .. } = compiled;
+    let needed = *hold as usize;
+    let path: Vec<String> = critical_path.iter().map(|&net| mapped.net_name(net)).collect();
+    let (row, demand) = rows.iter().zip(demands).find(|(_, demand)| demand.hold < needed)?;
+    let message = format!("a hold of {} is too short, expected {needed} at least", counted(demand.hold, "cycle"));
+    let place = if row.hold.is_some() { row.span } else { test.span };
+    let warning = Diagnostic::new(Code::HoldTooShort, message, place, "held here");
+    Some(warning.with_help(format!("the slowest path is {}; `hold: auto` waits for it", path.join(" -> "))))
+}

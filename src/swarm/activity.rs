@@ -1,0 +1,75 @@
+//! What the outputs of a swarm did while its inputs were held: a simulation, which asks for nothing, is told so.
+
+use serde::Serialize;
+
+use crate::model::{Column, Simulation, Value};
+use crate::swarm::{SwarmTrace, WeakRobot};
+
+/// What a simulation came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SimulationResult {
+    /// The file of the simulation.
+    pub file: String,
+    /// The line at which it is declared.
+    pub line: usize,
+    /// The circuit.
+    pub circuit: String,
+    /// The declared swarm.
+    pub swarm: String,
+    /// The input ports.
+    pub inputs: Vec<Column>,
+    /// The output ports.
+    pub outputs: Vec<Column>,
+    /// Robots of the swarm that make errors or have a thin margin.
+    pub weak_robots: Vec<WeakRobot>,
+    /// The rows of the schedule in order.
+    pub rows: Vec<RowActivity>,
+}
+
+/// What happened during one row of a schedule.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct RowActivity {
+    /// Its number among the rows of the schedule, from 1.
+    pub row: usize,
+    /// Its line in the source.
+    pub line: usize,
+    /// The values of the input ports.
+    pub inputs: Vec<Value>,
+    /// Cycles for which they were held.
+    pub cycles: usize,
+    /// The values of the output ports at the end.
+    pub observed: Vec<Value>,
+    /// How often the value of each output port changed from one cycle to the next.
+    pub changes: Vec<usize>,
+    /// The last cycle of the simulation, from 1, in which the value of each output port was another than in the cycle before; none where
+    /// it never changed during the row.
+    pub last_change: Vec<Option<usize>>,
+}
+
+/// What the outputs did, row by row.
+///
+/// # Panics
+/// When the trace is shorter than the schedule.
+pub fn activity(simulation: &Simulation, trace: &SwarmTrace) -> Vec<RowActivity> {
+    let mut start = 0;
+    let row = |(at, spell): (usize, &crate::model::InputSpell)| {
+        let cycles = start..start + spell.cycles as usize;
+        start = cycles.end;
+        let outputs = |cycle: usize| trace.output_values(cycle);
+        // The first cycle has no cycle before it.
+        let changed = |port: usize| {
+            cycles.clone().filter(move |&cycle| cycle > 0 && outputs(cycle - 1)[port] != outputs(cycle)[port])
+        };
+        let ports = 0..trace.outputs.len();
+        RowActivity {
+            row: at + 1,
+            line: spell.line,
+            inputs: Value::of_ports(&trace.inputs, spell.inputs.iter().copied().map(Some), &spell.bases),
+            cycles: cycles.len(),
+            observed: cycles.end.checked_sub(1).map_or(Vec::new(), outputs),
+            changes: ports.clone().map(|port| changed(port).count()).collect(),
+            last_change: ports.map(|port| changed(port).last().map(|cycle| cycle + 1)).collect(),
+        }
+    };
+    simulation.spells.iter().enumerate().map(row).collect()
+}
