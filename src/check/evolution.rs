@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::diag::{Code, Diagnostic, counted, suggest};
+use crate::evolve::LEAST_ACTUATORS;
 use crate::model::{
     Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Objective, Palette, Pattern, Program,
     Rules, Schedule, Symmetry,
@@ -146,7 +147,13 @@ fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
         let found = quantity::whole(quantity::number(side)?, 1..=MAX_BOX, side.span, "voxels")?;
         Ok::<_, Diagnostic>(found as usize)
     };
-    Ok((side(width)?, side(height)?))
+    let (columns, rows) = (side(width)?, side(height)?);
+    if columns * rows < LEAST_ACTUATORS {
+        let message = format!("a box of {columns} x {rows} voxels holds no body");
+        let label = format!("a body has at least {} that move it", counted(LEAST_ACTUATORS, "voxel"));
+        return Err(Diagnostic::new(Code::OutOfRange, message, value.span, label));
+    }
+    Ok((columns, rows))
 }
 
 fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>, Diagnostic> {

@@ -34,7 +34,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::diag::render;
+use crate::diag::{is_hidden, render, visible};
 use crate::source::Sources;
 
 pub use context::{Context, Format};
@@ -114,6 +114,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Prints what clap has to tell instead of a command: help, the version, or a fault of usage.
 fn tell(told: &clap::Error) -> Status {
+    let text = told.render().to_string();
+    if text.contains(|c| is_hidden(c) && c != '\t') {
+        // Of the user's arguments, without colors; where standard error is closed, nobody wants it.
+        let _ = io::stderr().write_all(visible(&text).as_bytes());
+        return Status::BadInput;
+    }
     match told.print().and_then(|()| io::stdout().flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             // The status says the same where standard error is closed too.

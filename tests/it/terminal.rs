@@ -43,6 +43,7 @@ fn titles_excerpts_and_paths_are_shown_as_codes() {
     check(&bench, &["check", "use.nb"]);
     bench.file("folder.nb", format!("library l {{ from: \"{HOSTILE}\" }}\n"));
     check(&bench, &["check", "folder.nb"]);
+    check(&bench, &["check", "use.nb", &format!("--{HOSTILE}")]);
     let name = format!("{HOSTILE}.nb");
     check(&bench, &["check", &name]);
     bench.file(&name, "circuit f(a) -> (q) {  q = a }");
