@@ -43,7 +43,8 @@ fn titles_excerpts_and_paths_are_shown_as_codes() {
     check(&bench, &["check", "use.nb"]);
     bench.file("folder.nb", format!("library l {{ from: \"{HOSTILE}\" }}\n"));
     check(&bench, &["check", "folder.nb"]);
-    check(&bench, &["check", "use.nb", &format!("--{HOSTILE}")]);
+    let ran = bench.run(&["check", "use.nb", &format!("--{HOSTILE}")]);
+    assert_eq!((ran.status, steering(&ran.err)), (2, vec![]), "{}", ran.err.escape_debug());
     let name = format!("{HOSTILE}.nb");
     check(&bench, &["check", &name]);
     bench.file(&name, "circuit f(a) -> (q) {  q = a }");
