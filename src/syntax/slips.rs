@@ -173,7 +173,7 @@ fn block_comment(place: &Place<'_>) -> Option<Diagnostic> {
 }
 
 fn letters(place: &Place<'_>) -> Option<Diagnostic> {
-    let foreign = |word: &str| word.chars().any(|c| !c.is_ascii());
+    let foreign = |word: &str| !word.is_ascii();
     let (rest, head) = last_word(place.before());
     let tail = place.after().find(|c| !is_word(c)).unwrap_or(place.after().len());
     let word = &place.text[place.start + rest.len()..place.at + tail];

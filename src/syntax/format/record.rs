@@ -11,6 +11,9 @@ use crate::syntax::tree::{
 /// The greatest number of columns of records that stand as the rows of a table, which are read downward.
 const ROW_WIDTH: usize = 120;
 
+/// The most records that are aligned with each other: a run that turns out too wide is tried again from its second record on.
+const MOST_ROWS: usize = 200;
+
 impl Printer<'_> {
     /// The texts of the one-line records of one kind that follow each other, with their braces aligned.
     pub(super) fn record_run(&self, declarations: &[Declaration]) -> Vec<String> {
@@ -20,7 +23,7 @@ impl Printer<'_> {
             let follows = run
                 .last()
                 .is_none_or(|(first, span)| first.keyword == record.keyword && self.adjacent(*span, declaration.span));
-            if !follows || self.has_comment_inside(declaration.span) {
+            if !follows || run.len() == MOST_ROWS || self.has_comment_inside(declaration.span) {
                 break;
             }
             run.push((record, declaration.span));
