@@ -10,7 +10,7 @@ use crate::check::material::material;
 use crate::check::names::{Home, Names};
 use crate::check::recursion;
 use crate::check::schedule::schedule;
-use crate::check::simulate;
+use crate::check::simulate::{Schedules, spells};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
 use crate::circuit::Inspector;
@@ -331,16 +331,9 @@ impl<'a> Assembly<'a> {
             };
             let Some(swarm) = swarm else { continue };
             let Some((inputs, _)) = self.ports(&swarm.circuit, source.swarm.span, inspector) else { continue };
-            let spells = simulate::spells(
-                &source.with,
-                source.swarm.span,
-                &inputs,
-                home,
-                &self.schedules,
-                &program.schedules,
-                self.sources,
-                &mut self.faults,
-            );
+            let schedules = Schedules { names: &self.schedules, declared: &program.schedules };
+            let at = source.swarm.span;
+            let spells = spells(&source.with, at, &inputs, home, schedules, self.sources, &mut self.faults);
             let (file, line) = self.place(declaration.span);
             let (swarm, span) = (swarm.name.clone(), source.swarm.span);
             simulations.push(Simulation { swarm, span, file, line, inputs, spells });

@@ -9,21 +9,29 @@ use crate::model::{Base, CYCLE_STEPS, Column, InputSpell, NamedSchedule};
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{Name, Spell, With};
 
+/// The schedules of a program.
+#[derive(Clone, Copy)]
+pub(crate) struct Schedules<'a> {
+    /// The place of each name in `declared`.
+    pub(crate) names: &'a Names,
+    pub(crate) declared: &'a [NamedSchedule],
+}
+
 /// The inputs of a simulation over time.
 pub(crate) fn spells(
     with: &With,
     swarm: Span,
     inputs: &[Column],
     home: Home,
-    schedules: &Names,
-    known: &[NamedSchedule],
+    schedules: Schedules<'_>,
     sources: &Sources,
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<InputSpell> {
     match with {
-        With::Named(name) => match schedules.resolve(name, home) {
+        With::Named(name) => match schedules.names.resolve(name, home) {
             Ok(schedule) => {
-                known.get(schedule).map_or(Vec::new(), |schedule| named(schedule, name.span, inputs, sources, faults))
+                let schedule = schedules.declared.get(schedule);
+                schedule.map_or(Vec::new(), |schedule| named(schedule, name.span, inputs, sources, faults))
             }
             Err(fault) => {
                 faults.push(fault);

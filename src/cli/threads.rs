@@ -32,7 +32,15 @@ pub(super) fn start(context: &Context) -> Result<(), Failure> {
     let built = match found {
         // The thread that is there already does all the work.
         0 => pool.use_current_thread().build_global(),
-        _ => pool.spawn_handler(|work| Ok(idle.pop().map_or((), |thread| thread.work(work)))).build_global(),
+        _ => {
+            let hand_out = |work| {
+                if let Some(thread) = idle.pop() {
+                    thread.work(work);
+                }
+                Ok(())
+            };
+            pool.spawn_handler(hand_out).build_global()
+        }
     };
     // A program that calls this twice has its threads already.
     let _ = built;

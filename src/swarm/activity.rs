@@ -68,7 +68,7 @@ pub fn activity(simulation: &Simulation, trace: &SwarmTrace) -> Vec<RowActivity>
             cycles: cycles.len(),
             observed: cycles.end.checked_sub(1).map_or(Vec::new(), outputs),
             changes: ports.clone().map(|port| changed(port).count()).collect(),
-            last_change: ports.map(|port| changed(port).last().map(|cycle| cycle + 1)).collect(),
+            last_change: ports.map(|port| changed(port).next_back().map(|cycle| cycle + 1)).collect(),
         }
     };
     simulation.spells.iter().enumerate().map(row).collect()

@@ -161,7 +161,7 @@ fn a_large_robot_has_its_film_too() {
 #[test]
 fn a_fault_stops_the_robot_and_not_the_film() {
     let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], &Palette::paper()).unwrap();
-    let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::default() };
+    let setting = Setting { world_width: 60, start_x: Some(28) };
     let schedule = Schedule {
         spells: vec![Spell { pattern: Pattern::PAIRS[3], steps: 60 }, Spell { pattern: Pattern::PAIRS[0], steps: 60 }],
     };

@@ -52,10 +52,8 @@ fn texts(values: &Value) -> Vec<&str> {
 fn a_library_and_its_swarm_hold_for_every_command() {
     let bench = bench();
     // The swarm's `n` is given by its default, which is the same circuit.
-    let program = format!(
-        "circuit many[n = 1](a[n]) -> (q[n]) {{ q = not a }}\nlibrary mine {{ from: \"robots\" }}\n\
-         swarm one {{ circuit: many[1], library: mine, window: 2 cycles }}\ntest many {{\n    a | q\n    0 | 1\n    1 | 0\n}}\n"
-    );
+    let program = "circuit many[n = 1](a[n]) -> (q[n]) { q = not a }\nlibrary mine { from: \"robots\" }\n\
+         swarm one { circuit: many[1], library: mine, window: 2 cycles }\ntest many {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
     bench.file("a.nb", program);
     let found = json(&bench, "run a.nb");
     assert_eq!(found["tests"][0]["robots"][0]["robot"], "turner", "{found}");
