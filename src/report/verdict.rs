@@ -261,7 +261,7 @@ mod tests {
         (row.expected, row.observed, row.steady, row.lapses) =
             (vec![decimal(9)], vec![decimal(11)], vec![true], Vec::new());
         let text = describe_test(&verdict);
-        assert!(text.contains("1 0     4'd9      4'd11          12  FAIL"), "{text}");
+        assert!(text.contains("1 0     4'd9      4'd11         12  FAIL"), "{text}");
         assert!(text.contains("row 2: d=1 en=0 | sum=4'd11, expected 4'd9\n"), "{text}");
         verdict.rows[0].steady = vec![false];
         assert!(describe_failures(&verdict).contains("| sum goes on changing, expected 4'd9\n"));
