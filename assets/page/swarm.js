@@ -129,15 +129,13 @@ class Player {
     pen.strokeStyle = themed(row.color);
     pen.lineWidth = 1.6;
     pen.beginPath();
-    const one = row.values.every(value => value === "0" || value === "1");
+    if (row.values.some(value => value !== "0" && value !== "1")) return this.drawBus(pen, row, high, low, x);
     row.values.forEach((value, cycle) => {
       const y = value === "1" ? high : low;
-      if (!one) return;
       pen.lineTo(x(cycle + row.shift), y);
       pen.lineTo(x(cycle + 1 + row.shift), y);
     });
     pen.stroke();
-    if (!one) this.drawBus(pen, row, high, low, x);
   }
 
   /** A bus: a box for each value, with the value in it where there is room. */

@@ -299,13 +299,22 @@ fn record(swarm: &SwarmRun) -> Recording {
 
 fn describe(drawn: &Drawn<'_>) -> String {
     let trace = &drawn.ran.swarm().trace;
-    let files: String = drawn.files.iter().map(|file| format!("picture  {file}\n")).collect();
+    let files: String = drawn.files.iter().map(|file| format!("{:<8} {file}\n", word_of(file))).collect();
     let outcome = match drawn.ran {
         Ran::Test(run) => report::describe_test(&run.verdict),
         Ran::Simulation(run) => report::describe_simulation(&run.result),
     };
     let (swarm, timing) = (report::describe_swarm(trace), timing(drawn.ran).describe());
     format!("{}: {swarm}\n\n{outcome}\n{files}{timing}", trace.circuit)
+}
+
+/// What a file holds, in a word.
+fn word_of(file: &str) -> &'static str {
+    match file.rsplit('.').next() {
+        Some("vcd") => "waves",
+        Some("csv") => "cycles",
+        _ => "picture",
+    }
 }
 
 fn result<'a>(source: &'a str, drawn: &'a [Drawn<'a>]) -> RunResult<'a> {

@@ -27,7 +27,8 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
         ]);
     }
     let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
-    let heading = format!("test {}{swarm} \"{}\": {}\n", verdict.circuit, verdict.title, pass_word(verdict.passed));
+    let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
+    let heading = format!("test {}{swarm}{title}: {}\n", verdict.circuit, pass_word(verdict.passed));
     let robots = describe_weak_robots(verdict);
     format!("{heading}{robots}{}{}", indented(&table), describe_rows(verdict))
 }
@@ -226,6 +227,12 @@ mod tests {
             describe_test(&verdict(true)),
             "test latch \"holds\": pass\n    inputs  expected  observed  cycles\n    d en    q nq      q nq\n    1 0     1 -       1 0           12  pass\n"
         );
+    }
+
+    #[test]
+    fn a_test_without_a_title_has_none() {
+        let untitled = TestVerdict { title: String::new(), swarm: Some("cells".to_owned()), ..verdict(true) };
+        assert!(describe_test(&untitled).starts_with("test latch as cells: pass\n"));
     }
 
     #[test]

@@ -65,3 +65,16 @@ fn a_run_leaves_its_waveforms_beside_the_report() {
 fn an_empty_trace_is_a_dump_too() {
     read_from_reader(Cursor::new(report::vcd(&latch(&[], 1)).into_bytes())).unwrap();
 }
+
+#[test]
+fn a_bus_is_a_vector_in_the_dump() {
+    let mut trace = latch(&[(true, false), (false, true)], 2);
+    trace.inputs = vec![nbc::model::Column { name: "both".to_owned(), width: 2 }];
+    (trace.outputs[0].name, trace.outputs[1].name) = ("q_".to_owned(), "__".to_owned());
+    let mut waves = read_from_reader(Cursor::new(report::vcd(&trace).into_bytes())).unwrap();
+    let told = changes(&mut waves, "d_latch.inputs.both");
+    assert_eq!(told, [(0, "10".to_owned()), (2 * 252_000, "01".to_owned())]);
+    assert!(
+        !changes(&mut waves, "d_latch.outputs.q_").is_empty() && !changes(&mut waves, "d_latch.outputs.__").is_empty()
+    );
+}
