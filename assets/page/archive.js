@@ -104,7 +104,7 @@ class Archive {
     this.camera = Math.min(place + slack, Math.max(place - slack, this.camera ?? place));
     const view = { left: 0, top: 0, width, ground, scale, camera: this.camera };
     drawGround(pen, view);
-    drawPose(pen, elite, pose, view, this.data.palette);
+    drawPose(pen, elite, pose, view, this.data.looks);
     const pattern = this.data.patterns[Math.min(this.data.patterns.length - 1, Math.floor(this.clock.time / this.data.cycles))];
     drawStimuli(pen, [...pattern].map(Number), 8, 8);
     pen.fillStyle = themed("ink");

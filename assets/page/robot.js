@@ -54,17 +54,30 @@ function drawGround(pen, { left, top, width, ground, scale, camera }) {
   }
 }
 
-function drawPose(pen, robot, pose, { left, width, ground, scale, camera }, palette) {
+function drawPose(pen, robot, pose, { left, width, ground, scale, camera }, looks) {
   const x = place => left + width / 2 + (place - camera) * scale, y = height => ground - height * scale;
   pen.lineWidth = .8;
   pen.strokeStyle = themed("edge");
-  for (const [a, b, c, d, code] of robot.voxels) {
+  for (const [a, b, c, d, place] of robot.voxels) {
     pen.beginPath();
     [a, b, c, d].forEach((n, i) => pen[i ? "lineTo" : "moveTo"](x(pose[2 * n]), y(pose[2 * n + 1])));
     pen.closePath();
-    pen.fillStyle = palette[code - 1] || "#888";
+    pen.fillStyle = looks[place].color;
     pen.fill();
     pen.stroke();
+    if (looks[place].mark) drawMark(pen, looks[place], [a, b, c, d].map(n => [x(pose[2 * n]), y(pose[2 * n + 1])]));
+  }
+}
+
+/** The sign of a material on its voxel, whose corners stand around it from the top left. */
+function drawMark(pen, { ink, mark }, [a, b, c, d]) {
+  const across = (from, to, share) => from + (to - from) * share;
+  pen.fillStyle = ink;
+  for (const polygon of mark) {
+    pen.beginPath();
+    polygon.forEach(([x, y], i) => pen[i ? "lineTo" : "moveTo"](
+      ...[0, 1].map(axis => across(across(a[axis], b[axis], x), across(d[axis], c[axis], x), y))));
+    pen.fill();
   }
 }
 

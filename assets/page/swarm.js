@@ -4,8 +4,8 @@
 const HINT = "Point at a cell to see its robot; choose it to follow the robot.";
 
 class Player {
-  constructor(section, swarm, palette) {
-    Object.assign(this, { section, swarm, palette, chosen: -1, cameras: [] });
+  constructor(section, swarm, looks) {
+    Object.assign(this, { section, swarm, looks, chosen: -1, cameras: [] });
     this.stage = section.querySelector(".stage");
     this.wave = section.querySelector(".wave");
     this.panel = section.querySelector(".robot");
@@ -80,7 +80,7 @@ class Player {
     pen.rect(label, view.top, view.width, height);
     pen.clip();
     drawGround(pen, view);
-    drawPose(pen, robot, pose, view, this.palette);
+    drawPose(pen, robot, pose, view, this.looks);
     pen.restore();
     pen.fillStyle = themed("ink");
     pen.font = "13px system-ui, sans-serif";
@@ -153,4 +153,4 @@ class Player {
 
 const data = JSON.parse(document.getElementById("data").textContent);
 window.players = data.swarms.map((swarm, i) =>
-  swarm.robots.length ? new Player(document.getElementById("swarm-" + i), swarm, data.palette) : null);
+  swarm.robots.length ? new Player(document.getElementById("swarm-" + i), swarm, data.looks) : null);

@@ -85,6 +85,13 @@ impl Palette {
     }
 }
 
+impl Material {
+    /// The code that the paper gives to a material of this name and these numbers, if it has it.
+    pub fn paper_code(&self) -> Option<u8> {
+        (1..).zip(PAPER.materials()).find(|(_, known)| *known == self).map(|(code, _)| code)
+    }
+}
+
 fn paper_materials() -> Vec<Material> {
     let named = |name: &str, kind| Material { name: name.to_owned(), kind };
     let drive = |phase| MaterialKind::Actuator(Drive { period: super::CYCLE_STEPS, phase, low: 0.6, high: 1.6 });

@@ -12,6 +12,8 @@ use crate::report::chart::range_of;
 use crate::report::harvest::{Harvest, axis_word, bins};
 use crate::report::heatmap::{heat, share};
 use crate::report::html::{Html, base64, controls, escape, picture};
+use crate::report::looks::Looks;
+use crate::report::page_bodies::{look_data, materials, voxel_data};
 use crate::report::recording::{Recorded, Recording, Room};
 use crate::report::sprite::Scheme;
 use crate::report::stage::Stage;
@@ -39,6 +41,7 @@ struct Entry<'a> {
 /// The page of what runs of one declaration found. The gaits are simulated here.
 pub fn draw_evolution_page(harvest: &Harvest, plates: &[Plate], scheme: Scheme) -> String {
     let entries = ranked(harvest);
+    let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);
     let (pace, gaits) = record(&entries);
     let left_out = entries.len() - gaits.len();
     let behaviors = Behavior::all().filter(|&behavior| harvest.champion(behavior).is_some()).count();
@@ -47,7 +50,7 @@ pub fn draw_evolution_page(harvest: &Harvest, plates: &[Plate], scheme: Scheme) 
         passed: behaviors > 0,
         verdict: verdict(harvest, behaviors, entries.len()),
         body: archive(harvest, left_out) + &plates.iter().map(plate).collect::<String>(),
-        data: data(harvest, &entries, &gaits, pace, scheme),
+        data: data(harvest, &entries, &gaits, pace, &looks),
         script: SCRIPT,
     }
     .finish()
@@ -139,13 +142,13 @@ fn plate(plate: &Plate) -> String {
     format!("<section>\n<h2>{heading}</h2>\n{}</section>\n", picture(&plate.drawing, &plate.heading))
 }
 
-fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, scheme: Scheme) -> Value {
+fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, looks: &Looks) -> Value {
     let range = range(harvest);
     let elites: Vec<Value> = entries
         .iter()
         .enumerate()
         .map(|(i, entry)| {
-            elite_data(harvest, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string())
+            elite_data(harvest, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string(), looks)
         })
         .collect();
     let axes: Vec<Value> =
@@ -154,7 +157,7 @@ fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32,
         .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
         .collect();
     json!({
-        "palette": (1..=8).map(|code| scheme.color(code).to_string()).collect::<Vec<_>>(),
+        "looks": look_data(looks),
         "patterns": Pattern::PAIRS.map(|pattern| pattern.to_string()),
         "cycles": GAIT_CYCLES,
         "pace": pace,
@@ -165,7 +168,7 @@ fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32,
     })
 }
 
-fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, color: String) -> Value {
+fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, color: String, looks: &Looks) -> Value {
     let Entry { key: NicheKey(niche), seed, elite } = entry;
     let counted = harvest.axes.iter().zip(niche).filter(|(axis, _)| **axis != Axis::Behavior);
     let place: Vec<String> =
@@ -188,13 +191,12 @@ fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, col
             ["second", &format!("{:.3}", elite.fitness[1])],
             ["displacement", &format!("{} voxels", walked.join(", "))],
             ["body", &elite.body.rows().join(" ")],
+            ["materials", &materials(&elite.body)],
             ["born", &format!("seed {seed}, generation {}", elite.generation)],
         ],
     });
     if let Some(gait) = gait {
-        let voxels: Vec<[usize; 5]> =
-            gait.voxels.iter().map(|&([a, b, c, d], code)| [a, b, c, d, usize::from(code)]).collect();
-        value["voxels"] = json!(voxels);
+        value["voxels"] = json!(voxel_data(gait, &elite.body, looks));
         value["corners"] = json!(gait.points);
         value["frames"] = json!(base64(&gait.frames));
     }

@@ -7,6 +7,7 @@ use resvg::tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transf
 
 use crate::model::CYCLE_STEPS;
 use crate::report::Color;
+use crate::report::looks::{Look, Looks, draw_mark};
 use crate::report::raster::rasterize;
 use crate::report::sprite::{Pose, Scheme};
 use crate::report::stage::{Moment, Stage};
@@ -42,6 +43,7 @@ struct Painter<'a> {
     film: &'a Film,
     /// What never changes: title, names, ground.
     backdrop: Pixmap,
+    looks: Looks,
     swatches: Swatches,
     /// The world's x at the middle of each lane.
     cameras: Vec<f64>,
@@ -59,11 +61,12 @@ struct Patch {
 }
 
 impl<'a> Painter<'a> {
-    fn new(film: &'a Film) -> Self {
+    fn new(film: &'a Film, stage: &Stage) -> Self {
         let backdrop = rasterize(&film.backdrop(), 1.0);
-        let swatches = Swatches::new(film.scheme);
+        let looks = Looks::of_palettes(stage.palettes(), film.scheme);
+        let swatches = Swatches::new(&looks, film.scheme);
         let frame = backdrop.clone();
-        Self { film, backdrop, swatches, cameras: Vec::new(), frame, indexed: Vec::new() }
+        Self { film, backdrop, looks, swatches, cameras: Vec::new(), frame, indexed: Vec::new() }
     }
 
     fn size(&self) -> (u32, u32) {
@@ -110,7 +113,7 @@ impl<'a> Painter<'a> {
             let tall = if voxel % 5 == 0 { 7.0 } else { 3.0 };
             fill_rect(&mut self.frame, (to_pixel((voxel as f64, 0.0)).0, ground), 1.0, tall, Color::PALE);
         }
-        paint_pose(&mut self.frame, &moment.poses[lane], film.scheme, to_pixel);
+        paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, to_pixel);
         for (i, color) in [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate() {
             let place = (left + 16.0 + i as f64 * 22.0, ground - 16.0);
             fill_rect(&mut self.frame, place, 16.0, 16.0, color);
@@ -202,7 +205,7 @@ fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, co
 }
 
 /// Paints the voxels of one material after those of another, each material as one shape and one outline.
-fn paint_pose(frame: &mut Pixmap, pose: &Pose, scheme: Scheme, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
+fn paint_pose(frame: &mut Pixmap, pose: &Pose, looks: &Looks, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
     let mut shapes: BTreeMap<u8, PathBuilder> = BTreeMap::new();
     for (corners, code) in &pose.voxels {
         let path = shapes.entry(*code).or_default();
@@ -215,10 +218,25 @@ fn paint_pose(frame: &mut Pixmap, pose: &Pose, scheme: Scheme, to_pixel: impl Fn
     for (code, shape) in shapes {
         // Voxels whose corners are no numbers have no path.
         let Some(path) = shape.finish() else { continue };
-        let color = scheme.color(code);
+        let Look { color, mark } = looks.look(&pose.palette, code);
         frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
         let edge = skia_paint(color.mix(Color::BLACK, 0.5));
         frame.stroke_path(&path, &edge, &Stroke { width: 0.8, ..Stroke::default() }, Transform::identity(), None);
+        let Some(mark) = mark else { continue };
+        for (corners, _) in pose.voxels.iter().filter(|(_, own)| *own == code) {
+            draw_mark(&mark, &corners.map(&to_pixel), |polygon, ink| fill_polygon(frame, polygon, ink));
+        }
+    }
+}
+
+fn fill_polygon(frame: &mut Pixmap, points: &[(f64, f64)], color: Color) {
+    let mut path = PathBuilder::new();
+    for (i, &(x, y)) in points.iter().enumerate() {
+        if i == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
+    }
+    path.close();
+    if let Some(path) = path.finish() {
+        frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
     }
 }
 
@@ -255,7 +273,7 @@ fn changed(old: &[u8], fresh: &[u8], row: usize) -> Option<[usize; 4]> {
 /// # Errors
 /// When `out` cannot be written.
 pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
-    let mut painter = Painter::new(film);
+    let mut painter = Painter::new(film, &stage);
     let (width, height) = painter.size();
     let last = stage.moments().saturating_sub(1).max(1) as f64;
     let side = |pixels: u32| u16::try_from(pixels).map_err(|_| io::Error::other("too many robots for one film"));
@@ -285,7 +303,7 @@ pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut d
 /// # Errors
 /// When `out` cannot be written.
 pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
-    let mut painter = Painter::new(film);
+    let mut painter = Painter::new(film, &stage);
     let (width, height) = painter.size();
     let moments = stage.moments();
     let mut encoder = png::Encoder::new(out, width, height);

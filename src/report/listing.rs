@@ -1,10 +1,14 @@
 //! Robots of a library as a table, as one page, and as data.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::diag::counted;
 use crate::model::{Library, Palette, Pattern, Robot};
+use crate::report::looks::material_words;
 use crate::report::{Align, Table};
+use crate::store;
 
 /// What a list says of a robot, for programs.
 #[derive(Clone, Debug, Serialize)]
@@ -30,6 +34,9 @@ pub struct Listing {
     pub glitch_rate: f64,
     /// Its rows of codes, top row first.
     pub body: Vec<String>,
+    /// What the codes mean, in their order, where they are not the paper's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub materials: Option<Arc<Palette>>,
 }
 
 impl Listing {
@@ -47,6 +54,7 @@ impl Listing {
             switches: character.switches,
             glitch_rate: character.glitch_rate,
             body: robot.body.rows(),
+            materials: store::own_materials(&robot.body),
         }
     }
 
@@ -132,9 +140,7 @@ pub fn describe_robot(robot: &Robot) -> String {
 
 /// The materials that the body has, by code.
 fn legend(robot: &Robot) -> String {
-    let palette = Palette::paper();
-    let named = palette.materials().iter().enumerate().filter(|(i, _)| robot.body.codes().contains(&(*i as u8 + 1)));
-    named.map(|(i, material)| format!("{} {}", i + 1, material.name)).collect::<Vec<_>>().join("  ")
+    material_words(&robot.body).join("  ")
 }
 
 /// The settle times, grouped: `1: 00>01 01>11, 2: 11>10`.

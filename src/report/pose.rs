@@ -2,7 +2,8 @@
 
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};
 use crate::report::Color;
-use crate::report::sprite::{Pose, Scheme, draw_legend};
+use crate::report::looks::Looks;
+use crate::report::sprite::{Pose, Scheme, draw_legend, legend_size};
 use crate::report::stage::{Moment, Stage};
 use crate::report::svg::{Paint, Point, Svg, Type};
 
@@ -14,13 +15,16 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
     let (width, height) = (body.width() as f64, body.height() as f64);
     let ground = 60.0 + (height * 1.35 + 0.2) * VOXEL;
     let span = (width * 1.9 + 1.0) * VOXEL;
-    let mut svg = Svg::new((span + 180.0).max(title.chars().count() as f64 * 9.5 + 28.0), ground + 42.0, title);
+    let looks = Looks::of([body], scheme);
+    let (wide, high) = legend_size(&looks, body);
+    let size = ((span + 50.0 + wide).max(title.chars().count() as f64 * 9.5 + 28.0), (ground + 42.0).max(72.0 + high));
+    let mut svg = Svg::new(size.0, size.1, title);
     svg.text((14.0, 28.0), title, Type::new(15.0).bold());
     let camera = moment.centers[0][0];
     let to_pixel = |(x, y): Point| (20.0 + span / 2.0 + (x - camera) * VOXEL, ground - (y - 1.0) * VOXEL);
     draw_ground(&mut svg, span, ground, camera);
     draw_rest(&mut svg, body, camera, to_pixel);
-    moment.poses[0].draw(&mut svg, scheme, 1.0, to_pixel);
+    moment.poses[0].draw(&mut svg, &looks, 1.0, to_pixel);
     let when = format!(
         "after {:.2} cycles, stimuli {}, {:+.2} voxels along",
         f64::from(moment.step) / f64::from(CYCLE_STEPS),
@@ -34,7 +38,7 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
         ("dashed: the body at rest; ticks: voxels", Color::GRAY)
     };
     svg.text((20.0, ground + 31.0), note.0, Type::new(10.0).colored(note.1));
-    draw_legend(&mut svg, (span + 44.0, 66.0), body, scheme);
+    draw_legend(&mut svg, (span + 44.0, 66.0), body, &looks);
     svg
 }
 

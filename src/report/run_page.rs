@@ -5,6 +5,8 @@ use serde_json::{Value as Json, json};
 use crate::diag::counted;
 use crate::model::{CYCLE_STEPS, Column, Value};
 use crate::report::html::{Html, base64, controls, escape, picture};
+use crate::report::looks::Looks;
+use crate::report::page_bodies::{look_data, materials, voxel_data};
 use crate::report::recording::Recording;
 use crate::report::sprite::Scheme;
 use crate::report::svg::Svg;
@@ -39,7 +41,8 @@ pub struct PageSwarm<'a> {
 
 /// The page of a run of the source file with that name.
 pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> String {
-    let palette: Vec<String> = (1..=8).map(|code| scheme.color(code).to_string()).collect();
+    let members = swarms.iter().flat_map(|swarm| &swarm.assembly.members);
+    let looks = Looks::of(members.map(|member| &member.robot.body), scheme);
     let tests: Vec<bool> = swarms.iter().filter_map(|swarm| swarm.outcome.passed()).collect();
     let passed = tests.iter().all(|passed| *passed);
     Html {
@@ -47,7 +50,10 @@ pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> 
         passed,
         verdict: heading(&tests, swarms.len() - tests.len()),
         body: swarms.iter().enumerate().map(|(i, swarm)| section(i, swarm)).collect(),
-        data: json!({ "palette": palette, "swarms": swarms.iter().map(swarm_data).collect::<Vec<_>>() }),
+        data: json!({
+            "looks": look_data(&looks),
+            "swarms": swarms.iter().map(|swarm| swarm_data(swarm, &looks)).collect::<Vec<_>>(),
+        }),
         script: SCRIPT,
     }
     .finish()
@@ -184,11 +190,11 @@ fn cells(values: &[impl ToString]) -> String {
 }
 
 /// What the player needs of one swarm.
-fn swarm_data(swarm: &PageSwarm<'_>) -> Json {
+fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
     let trace = swarm.trace;
     let pairs = trace.cycles.windows(2).enumerate();
     let marks: Vec<usize> = pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect();
-    let robots: Vec<Json> = (0..swarm.recording.robots.len()).map(|k| robot_data(swarm, k)).collect();
+    let robots: Vec<Json> = (0..swarm.recording.robots.len()).map(|k| robot_data(swarm, k, looks)).collect();
     let cycles: Vec<Json> = trace.cycles.iter().map(|cycle| json!({ "sensed": bits(&cycle.sensed) })).collect();
     json!({
         "pace": swarm.recording.frames_per_cycle,
@@ -203,12 +209,10 @@ fn bits(sensed: &[[bool; 2]]) -> Vec<[u8; 2]> {
     sensed.iter().map(|pair| pair.map(u8::from)).collect()
 }
 
-fn robot_data(swarm: &PageSwarm<'_>, k: usize) -> Json {
+fn robot_data(swarm: &PageSwarm<'_>, k: usize, looks: &Looks) -> Json {
     let (recorded, robot, member) = (&swarm.recording.robots[k], &swarm.trace.robots[k], &swarm.assembly.members[k]);
     let pace = f64::from(CYCLE_STEPS) / f64::from(swarm.recording.frames_per_cycle.max(1));
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
-    let voxels: Vec<[usize; 5]> =
-        recorded.voxels.iter().map(|&([a, b, c, d], code)| [a, b, c, d, usize::from(code)]).collect();
     let body = &member.robot.body;
     let character = &member.robot.character;
     let wired = |i: usize| match robot.senses[i] {
@@ -220,7 +224,7 @@ fn robot_data(swarm: &PageSwarm<'_>, k: usize) -> Json {
         "function": robot.function.name(),
         "fault": fault,
         "size": [body.width(), body.height()],
-        "voxels": voxels,
+        "voxels": voxel_data(recorded, body, looks),
         "corners": recorded.points,
         "frames": base64(&recorded.frames),
         "about": [
@@ -229,6 +233,7 @@ fn robot_data(swarm: &PageSwarm<'_>, k: usize) -> Json {
             ["stimulus 1", &wired(0)],
             ["stimulus 2", &wired(1)],
             ["body", &body.rows().join(" ")],
+            ["materials", &materials(body)],
             ["clock", &format!("{} cycles, margin {:.3} voxels a cycle", character.clock, character.margin)],
             ["errors", &format!("{:.2} % of {} switches", character.error_rate * 100.0, character.switches)],
         ],

@@ -7,6 +7,7 @@ use crate::model::Robot;
 use crate::report::Color;
 use crate::report::heights;
 use crate::report::layers::{Layers, Slot};
+use crate::report::looks::Looks;
 use crate::report::sprite::{Scheme, draw_body};
 use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
 
@@ -30,11 +31,12 @@ pub fn draw_schematic(netlist: &Netlist, robots: &[&Robot], critical: &[NetId], 
     for net in plan.nets(netlist) {
         draw_net(&mut svg, netlist, &plan, net, &critical);
     }
+    let looks = Looks::of(robots.iter().map(|robot| &robot.body), scheme);
     let cells: BTreeMap<NetId, usize> = netlist.cells().enumerate().map(|(i, (id, _))| (id, i)).collect();
     for id in netlist.ids() {
         let number = cells.get(&id).copied();
         let robot = number.and_then(|i| robots.get(i)).filter(|_| cells.len() <= MAX_BODIES).copied();
-        draw_node(&mut svg, netlist, &plan, Symbol { id, number, robot, scheme });
+        draw_node(&mut svg, netlist, &plan, Symbol { id, number, robot, looks: &looks });
     }
     svg
 }
@@ -223,7 +225,7 @@ struct Symbol<'a> {
     /// The cell's place among the cells.
     number: Option<usize>,
     robot: Option<&'a Robot>,
-    scheme: Scheme,
+    looks: &'a Looks,
 }
 
 fn draw_node(svg: &mut Svg, netlist: &Netlist, plan: &Plan, symbol: Symbol<'_>) {
@@ -258,7 +260,7 @@ fn draw_cell(svg: &mut Svg, (x, y): Point, (net, function): (&str, &str), symbol
     svg.text((x + CELL.0 - 6.0, y + 14.0), &shorten(net, 8), end);
     let Some(robot) = symbol.robot else { return };
     let side = robot.body.width().max(robot.body.height()) as f64;
-    let body = draw_body(&robot.body, symbol.scheme, 52.0 / side);
+    let body = draw_body(&robot.body, symbol.looks, 52.0 / side);
     svg.place((x + (CELL.0 - body.width()) / 2.0, y + 20.0 + (52.0 - body.height()).max(0.0)), 1.0, &body);
     let middle = Type::new(9.0).colored(Color::GRAY).anchored(Anchor::Middle);
     svg.text((x + CELL.0 / 2.0, y + CELL.1 - 5.0), &shorten(&robot.name, 18), middle);

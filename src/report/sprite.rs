@@ -1,7 +1,10 @@
 //! Bodies as pictures: voxels in the colors of their materials.
 
+use std::sync::Arc;
+
 use crate::model::{Body, Palette, Robot};
 use crate::report::Color;
+use crate::report::looks::{Look, Looks, draw_mark, draw_swatch};
 use crate::report::svg::{Paint, Point, Svg, Type};
 
 /// Which colors materials have.
@@ -13,6 +16,9 @@ pub enum Scheme {
     /// Colors that people with any color vision can tell apart.
     Safe,
 }
+
+/// The mean width of a letter of a legend.
+pub const LETTER: f64 = 6.2;
 
 const PAPER: [Color; 8] = [
     Color::new(38, 38, 38),
@@ -37,21 +43,23 @@ const SAFE: [Color; 8] = [
 ];
 
 impl Scheme {
-    /// The color of a material code; codes beyond the paper's eight start the series again.
+    /// The color of a code of the paper's palette.
     pub fn color(self, code: u8) -> Color {
         let colors = match self {
             Self::Paper => &PAPER,
             Self::Safe => &SAFE,
         };
-        colors[usize::from(code.max(1) - 1) % colors.len()]
+        colors[usize::from(code) - 1]
     }
 }
 
 /// A body at one moment: the corners of its voxels in voxels, y upwards, and their material codes.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
-    /// Each voxel's corners, in order around it, and its code.
+    /// Each voxel's corners, in order around it from the top left, and its code.
     pub voxels: Vec<([Point; 4], u8)>,
+    /// What the codes mean.
+    pub palette: Arc<Palette>,
 }
 
 impl Pose {
@@ -63,26 +71,30 @@ impl Pose {
         };
         let places = (0..body.height()).flat_map(|row| (0..body.width()).map(move |column| (row, column)));
         let filled = places.filter(|&(row, column)| body.code(row, column) > 0);
-        Self { voxels: filled.map(|(row, column)| (voxel(row, column), body.code(row, column))).collect() }
+        let voxels = filled.map(|(row, column)| (voxel(row, column), body.code(row, column))).collect();
+        Self { voxels, palette: Arc::clone(body.palette()) }
     }
 
     /// Draws the voxels: `to_pixel` says where a point of the world is in the picture.
-    pub fn draw(&self, svg: &mut Svg, scheme: Scheme, opacity: f64, to_pixel: impl Fn(Point) -> Point) {
+    pub fn draw(&self, svg: &mut Svg, looks: &Looks, opacity: f64, to_pixel: impl Fn(Point) -> Point) {
+        let faded = |paint: Paint| if opacity < 1.0 { paint.with_opacity(opacity) } else { paint };
         for (corners, code) in &self.voxels {
-            let color = scheme.color(*code);
-            let edge = color.mix(Color::BLACK, 0.35);
-            let paint = Paint::fill(color).with_stroke(edge, 0.7);
-            svg.polygon(&corners.map(&to_pixel), if opacity < 1.0 { paint.with_opacity(opacity) } else { paint });
+            let Look { color, mark } = looks.look(&self.palette, *code);
+            let corners = corners.map(&to_pixel);
+            svg.polygon(&corners, faded(Paint::fill(color).with_stroke(color.mix(Color::BLACK, 0.35), 0.7)));
+            if let Some(mark) = mark {
+                draw_mark(&mark, &corners, |polygon, ink| svg.polygon(polygon, faded(Paint::fill(ink))));
+            }
         }
     }
 }
 
 /// The body alone, `voxel` pixels for each voxel's side, on nothing.
-pub fn draw_body(body: &Body, scheme: Scheme, voxel: f64) -> Svg {
+pub fn draw_body(body: &Body, looks: &Looks, voxel: f64) -> Svg {
     let (width, height) = (body.width() as f64 * voxel, body.height() as f64 * voxel);
     let mut svg = Svg::transparent(width + 2.0, height + 2.0, "a robot's body");
     let to_pixel = |(x, y): Point| (1.0 + x * voxel, 1.0 + height - y * voxel);
-    Pose::at_rest(body).draw(&mut svg, scheme, 1.0, to_pixel);
+    Pose::at_rest(body).draw(&mut svg, looks, 1.0, to_pixel);
     svg
 }
 
@@ -95,33 +107,31 @@ pub fn draw_sprite(robot: &Robot, scheme: Scheme) -> Svg {
 /// A body with a title and the names of its materials.
 pub fn draw_portrait(title: &str, body: &Body, scheme: Scheme) -> Svg {
     let voxel = 24.0;
-    let picture = draw_body(body, scheme, voxel);
+    let looks = Looks::of([body], scheme);
+    let picture = draw_body(body, &looks, voxel);
     let legend_left = 20.0 + picture.width() + 24.0;
-    let height = (56.0 + picture.height() + 16.0).max(60.0 + codes_of(body).len() as f64 * 20.0);
-    let width = (legend_left + 130.0).max(28.0 + title.chars().count() as f64 * 9.5);
+    let (wide, high) = legend_size(&looks, body);
+    let height = (56.0 + picture.height() + 16.0).max(60.0 + high);
+    let width = (legend_left + wide).max(28.0 + title.chars().count() as f64 * 9.5);
     let mut svg = Svg::new(width, height, title);
     svg.text((20.0, 30.0), title, Type::new(14.0).bold());
     svg.place((20.0, 48.0), 1.0, &picture);
-    draw_legend(&mut svg, (legend_left, 49.0), body, scheme);
+    draw_legend(&mut svg, (legend_left, 49.0), body, &looks);
     svg
 }
 
-/// The codes of a body's materials, each once.
-fn codes_of(body: &Body) -> Vec<u8> {
-    (1..=Palette::MAX_MATERIALS as u8).filter(|code| body.codes().contains(code)).collect()
+/// The room that a legend takes.
+pub fn legend_size(looks: &Looks, body: &Body) -> Point {
+    let entries = looks.legend([body]);
+    let longest = entries.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
+    ((longest as f64 * LETTER + 28.0).max(130.0), entries.len() as f64 * 20.0)
 }
 
-/// The names of a body's materials beside their colors, one below the other.
-pub fn draw_legend(svg: &mut Svg, (left, top): Point, body: &Body, scheme: Scheme) {
-    for (i, code) in codes_of(body).into_iter().enumerate() {
+/// The names of a body's materials beside their looks, one below the other.
+pub fn draw_legend(svg: &mut Svg, (left, top): Point, body: &Body, looks: &Looks) {
+    for (i, (look, text)) in looks.legend([body]).iter().enumerate() {
         let top = top + i as f64 * 20.0;
-        svg.rect((left, top), 13.0, 13.0, Paint::fill(scheme.color(code)));
-        svg.text((left + 20.0, top + 11.0), &format!("{code} {}", material_name(code)), Type::new(11.0));
+        draw_swatch(svg, (left, top), 13.0, look);
+        svg.text((left + 20.0, top + 11.0), text, Type::new(11.0));
     }
-}
-
-/// The name of a material of the paper by its code.
-pub fn material_name(code: u8) -> String {
-    let palette = Palette::paper();
-    palette.materials().get(usize::from(code) - 1).map_or("material".to_owned(), |material| material.name.clone())
 }

@@ -1,6 +1,8 @@
 //! Robots simulated again, step by step, for films: their poses at even intervals.
 
-use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting};
+use std::sync::Arc;
+
+use crate::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting};
 use crate::report::sprite::Pose;
 use crate::sim::Flock;
 use crate::swarm::{self, Assembly, SwarmTrace};
@@ -8,6 +10,8 @@ use crate::swarm::{self, Assembly, SwarmTrace};
 /// Robots on their way through their stimuli.
 pub struct Stage {
     flock: Flock,
+    /// What the codes of each robot mean.
+    palettes: Vec<Arc<Palette>>,
     /// Spells one after another: env steps, and each robot's stimuli.
     spells: Vec<(u32, Vec<Pattern>)>,
     /// The spell under way, and env steps left of it.
@@ -43,7 +47,7 @@ impl Stage {
     /// Bodies side by side under one schedule.
     pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
         let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
-        Self::new(Flock::new(setting, bodies), spells, stride)
+        Self::new(setting, bodies, spells, stride)
     }
 
     /// A swarm in its setting, with the stimuli that its robots sensed.
@@ -54,13 +58,15 @@ impl Stage {
             .iter()
             .map(|cycle| (CYCLE_STEPS, cycle.sensed.iter().map(|sensed| Pattern::new(sensed)).collect()))
             .collect();
-        Self::new(Flock::new(&swarm::setting(assembly, trace.cycles.len()), &bodies), spells, stride)
+        Self::new(&swarm::setting(assembly, trace.cycles.len()), &bodies, spells, stride)
     }
 
-    fn new(flock: Flock, spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
+    fn new(setting: &Setting, bodies: &[Body], spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
         assert!(stride > 0, "frames are some steps apart");
         let left = spells.first().map_or(0, |spell| spell.0);
-        Self { flock, spells, spell: 0, left, stride, step: 0, started: false }
+        let (flock, palettes) =
+            (Flock::new(setting, bodies), bodies.iter().map(|body| Arc::clone(body.palette())).collect());
+        Self { flock, palettes, spells, spell: 0, left, stride, step: 0, started: false }
     }
 
     /// How many robots there are.
@@ -81,6 +87,11 @@ impl Stage {
     /// Env steps from moment to moment.
     pub fn stride(&self) -> u32 {
         self.stride
+    }
+
+    /// What the codes of each robot mean.
+    pub fn palettes(&self) -> &[Arc<Palette>] {
+        &self.palettes
     }
 
     /// Each voxel's points, by their numbers in robot `i`, and its material code.
@@ -115,7 +126,8 @@ impl Stage {
     fn pose(&self, i: usize) -> Pose {
         let points = self.points(i);
         let corner = |point: usize| (points[point][0], points[point][1]);
-        Pose { voxels: self.voxels(i).into_iter().map(|(corners, code)| (corners.map(corner), code)).collect() }
+        let voxels = self.voxels(i).into_iter().map(|(corners, code)| (corners.map(corner), code)).collect();
+        Pose { voxels, palette: Arc::clone(&self.palettes[i]) }
     }
 
     /// Goes on by one stride; false where less is left.

@@ -3,6 +3,7 @@
 
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};
 use crate::report::Color;
+use crate::report::looks::Looks;
 use crate::report::sprite::Scheme;
 use crate::report::stage::{Moment, Stage};
 use crate::report::svg::{Paint, Point, Svg, Type};
@@ -25,6 +26,7 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
     svg.text((14.0, 28.0), title, Type::new(15.0).bold());
     let note = "the last cycle under each pattern; below the pattern, voxels walked";
     svg.text((14.0, 46.0), note, Type::new(10.0).colored(Color::GRAY));
+    let looks = Looks::of([body], scheme);
     for (r, Spelled { pattern, walked, moments }) in rows.iter().enumerate() {
         let ground = 54.0 + (r as f64 + 1.0) * height - 18.0;
         svg.text((14.0, ground - 18.0), pattern, Type::new(15.0).bold());
@@ -32,7 +34,7 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
         svg.line((60.0, ground), (svg.width() - 12.0, ground), Paint::stroke(Color::GRAY, 1.5));
         for shot in GHOSTS..moments.len() {
             let left = 66.0 + (shot - GHOSTS) as f64 * pitch + pitch / 2.0;
-            draw_shot(&mut svg, &moments[..=shot], (left, ground), scale, scheme);
+            draw_shot(&mut svg, &moments[..=shot], (left, ground), scale, &looks);
         }
     }
     svg
@@ -80,13 +82,13 @@ fn snapshots(setting: &Setting, body: &Body, schedule: &Schedule) -> Vec<Spelled
 }
 
 /// The last of these moments over the ghosts of those before it, in one frame of reference.
-fn draw_shot(svg: &mut Svg, moments: &[Moment], (middle, ground): Point, scale: f64, scheme: Scheme) {
+fn draw_shot(svg: &mut Svg, moments: &[Moment], (middle, ground): Point, scale: f64, looks: &Looks) {
     let last = moments.len() - 1;
     let camera = moments[last].centers[0][0];
     let to_pixel = |(x, y): Point| (middle + (x - camera) * scale, ground - (y - 1.0) * scale);
     for (age, opacity) in [(2, 0.12), (1, 0.28), (0, 1.0)] {
         if let Some(at) = last.checked_sub(age) {
-            moments[at].poses[0].draw(svg, scheme, opacity, to_pixel);
+            moments[at].poses[0].draw(svg, looks, opacity, to_pixel);
         }
     }
     if moments[last].faults[0] {

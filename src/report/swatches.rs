@@ -1,6 +1,9 @@
 //! The colors of a film: 255 of them, and for any color the nearest.
 
+use std::collections::BTreeSet;
+
 use crate::report::Color;
+use crate::report::looks::{Look, Looks};
 use crate::report::sprite::Scheme;
 
 /// The number that is no color: a pixel as it was in the frame before.
@@ -14,8 +17,8 @@ pub struct Swatches {
 }
 
 impl Swatches {
-    /// The colors of a film with such materials: theirs, and their mixtures with what is behind them.
-    pub fn new(scheme: Scheme) -> Self {
+    /// The colors of a film with materials of such looks: theirs, and their mixtures with what is behind them.
+    pub fn new(looks: &Looks, scheme: Scheme) -> Self {
         let materials: Vec<Color> = (1..=8).map(|code| scheme.color(code)).collect();
         let own = [
             Color::WHITE,
@@ -35,8 +38,19 @@ impl Swatches {
             colors.extend(partners.iter().flat_map(|&other| [0.25, 0.5, 0.75].map(|share| color.mix(other, share))));
         }
         colors.extend((0..=15).map(|level| Color::new(level * 17, level * 17, level * 17)));
-        let steps = [0, 63, 127, 191, 255];
-        colors.extend((0..125).map(|i| Color::new(steps[i / 25], steps[i / 5 % 5], steps[i % 5])));
+        let beyond: Vec<Look> = looks.all().filter(|look| look.mark.is_some()).collect();
+        // The fewer steps, the more room for the looks of materials beyond the paper's.
+        let steps: &[u8] = if beyond.is_empty() { &[0, 63, 127, 191, 255] } else { &[0, 85, 170, 255] };
+        let cube = steps
+            .iter()
+            .flat_map(|&r| steps.iter().flat_map(move |&g| steps.iter().map(move |&b| Color::new(r, g, b))));
+        colors.extend(cube);
+        for Look { color, mark } in beyond {
+            colors.extend([color, color.mix(Color::BLACK, 0.5)]);
+            colors.extend(mark.map(|mark| mark.ink));
+        }
+        let mut seen = BTreeSet::new();
+        colors.retain(|&color| looks.all().all(|look| look.mark.is_none()) || seen.insert(color));
         colors.truncate(usize::from(UNCHANGED));
         let of_key = |key: usize| Color::new(wide(key >> 10), wide(key >> 5), wide(key));
         let mut nearest: Vec<u8> = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();

@@ -102,6 +102,13 @@ fn the_core_touches_nothing_outside() {
 }
 
 #[test]
+fn the_papers_materials_are_a_default() {
+    let rule = "a body has its own palette; the paper's stands where a file or a measurement of speed names none";
+    let defaults = ["model/palette.rs", "model/body.rs", "store/robot.rs", "store/shape.rs"];
+    forbid(rule, &["Palette::paper", "Setting::paper"], |path| defaults.iter().any(|name| path.ends_with(name)));
+}
+
+#[test]
 fn unsafe_code_is_in_one_file_of_the_physics() {
     let files: Vec<_> = source_files()
         .into_iter()
