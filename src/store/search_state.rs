@@ -8,6 +8,9 @@ use crate::evolve::{Counts, Elite, NicheKey, SearchState};
 use crate::model::{Axis, Behavior, Body, Genotype, Palette};
 use crate::store::checkpoint::Declared;
 
+/// The most bins of an axis that can be declared.
+const MAX_BINS: usize = 1000;
+
 /// A search's state.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -46,6 +49,13 @@ impl Record {
     /// Says which niche or body cannot be of it.
     pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, String> {
         let Self { seed, generation, counts, mirrors, niches } = self;
+        let bins = declared
+            .axes
+            .iter()
+            .filter_map(|axis| if let Axis::Count { bins, .. } = *axis { Some(bins) } else { None });
+        if let Some(bins) = bins.into_iter().find(|bins| !(1..=MAX_BINS).contains(bins)) {
+            return Err(format!("an axis of {bins} bins, expected 1 to {MAX_BINS}"));
+        }
         let niche = |(key, elites): (NicheKey, Vec<EliteRecord>)| {
             if !declared.axes.is_empty() && !is_niche(&key, &declared.axes) {
                 return Err(format!("the archive has no niche {:?}", key.0));

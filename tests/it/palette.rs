@@ -71,3 +71,49 @@ fn robot_files_have_no_tags() {
         }
     }
 }
+
+#[test]
+fn a_run_is_drawn_with_the_materials_of_its_checkpoint() {
+    let bench = first_format();
+    for format in [1, 2] {
+        let ran = bench.run(&["draw", "out/hearts", "--as", "sprite", "-o", "a.svg"]);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let svg = fs::read_to_string(bench.path().join("a.svg")).unwrap();
+        assert!(svg.contains("3 heart: 0.98..1.02 in 84 steps, 0°"), "format {format}: {svg}");
+        assert!(svg.contains("2 muscle") && !svg.contains("3 muscle"), "format {format}: {svg}");
+        let ran = bench.run(&["evolve", "own.nb", "--resume"]);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+    }
+}
+
+/// A checkpoint whose header fits its text.
+fn sealed(text: &str) -> String {
+    format!("nbc-checkpoint 2 {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len())
+}
+
+#[test]
+fn a_foreign_checkpoint_with_the_right_checksum_is_refused() {
+    let bench = first_format();
+    assert_eq!(bench.run(&["evolve", "own.nb", "--resume"]).status, 0);
+    let path = bench.path().join("out/hearts/seed-1/checkpoint.nbc");
+    let whole = fs::read_to_string(&path).unwrap();
+    let (_, text) = whole.trim_end().split_once('\n').unwrap();
+    let (before, niches) = text.split_once("\"niches\":[[[").unwrap();
+    let (_, after) = niches.split_once(']').unwrap();
+    let with_key = |key: &str| format!("{before}\"niches\":[[[{key}]{after}");
+    let check = |text: &str, expected: &str| {
+        fs::write(&path, sealed(text)).unwrap();
+        for kind in ["heatmap", "report", "sprite"] {
+            let file = if kind == "report" { "a.html" } else { "a.svg" };
+            let ran = bench.run(&["draw", "out/hearts", "--as", kind, "-o", file]);
+            ran.expect_fault(&["checkpoint", expected]);
+        }
+    };
+    check(&with_key(""), "the archive has no niche []");
+    check(&with_key("0,0,0,16"), "the archive has no niche [0, 0, 0, 16]");
+    check(&with_key("4,0,0,0"), "the archive has no niche [4, 0, 0, 0]");
+    check(&text.replacen("\"batch\":3,", "", 1), "missing field `batch`");
+    check(&text.replacen("\"batch\":", "\"stack\":", 1), "unknown field `stack`");
+    check(&text.replacen("\"kind\":\"rigid\"", "\"kind\":\"gas\"", 1), "unknown variant `gas`");
+    check(&text.replacen("\"bins\":4", "\"bins\":0", 1), "an axis of 0 bins");
+}
