@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::cli::timings::{self, Stage};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
-use crate::report::{Align, Table};
+use crate::report::{Align, Schema, Table};
 use crate::sim::{Constants, Kernel, Probe, Simulator};
 
 /// Boxes measured: the paper's.
@@ -73,7 +73,7 @@ impl Arguments {
         drop(bar);
         let figures = Figures { machine: machine(kernel), width: kernel.lanes(), cases };
         match context.format {
-            Format::Json => context.print_json(&figures)?,
+            Format::Json => context.print_json(Schema::Bench, &figures)?,
             Format::Text => context.print(describe(&figures))?,
         }
         Ok(Status::Done)

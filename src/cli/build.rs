@@ -12,7 +12,9 @@ use crate::circuit::timing::fan_out;
 use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::{MappingArguments, synthesize};
 use crate::cli::program::{CircuitArguments, RunsArguments, SourceProgram};
-use crate::cli::{Context, Failure, Status};
+use crate::cli::{Context, Failure, Format, Status};
+use crate::diag::{Code, Diagnostic};
+use crate::report::{Document, Schema};
 use crate::{pipeline, store, swarm};
 
 const EXAMPLES: &str = "\
@@ -29,9 +31,9 @@ pub struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     circuit: CircuitArguments,
-    /// What to print
-    #[arg(long, value_enum, default_value_t)]
-    emit: Emit,
+    /// What to print [default: netlist, with `--format json` json]
+    #[arg(long, value_enum)]
+    emit: Option<Emit>,
     /// Where to write it instead of printing it
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -42,10 +44,9 @@ pub struct Arguments {
 }
 
 /// What to print.
-#[derive(Clone, Copy, Default, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Emit {
     /// A line for each cell, for people
-    #[default]
     Netlist,
     /// BLIF, for other tools
     Blif,
@@ -63,7 +64,7 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, the library lacks a function, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let chosen = self.mapping.chosen()?;
+        let (kind, chosen) = (self.emit(context.format)?, self.mapping.chosen()?);
         let mut file = SourceProgram::load(&self.file)?;
         let subject = pipeline::choose(&mut file.loaded, &self.circuit.choice(), chosen.is_none());
         let (circuit, swarm) = subject.map_err(|fault| file.failure(vec![fault]))?;
@@ -76,12 +77,24 @@ impl Arguments {
             }
         };
         let mapped = synthesize(&source, &library, self.mapping.options())?;
-        let text = emit(self.emit, mapped, &library);
+        let text = emit(kind, mapped, &library);
         match &self.output {
             Some(path) => store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?,
             None => context.print(text)?,
         }
         Ok(Status::Done)
+    }
+
+    fn emit(&self, format: Format) -> Result<Emit, Failure> {
+        match (self.emit, format) {
+            (None, Format::Text) => Ok(Emit::Netlist),
+            (None | Some(Emit::Json), Format::Json) => Ok(Emit::Json),
+            (Some(emit), Format::Text) => Ok(emit),
+            (Some(_), Format::Json) => {
+                let message = "`--format json` and `--emit` ask for two formats";
+                Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message).with_help("leave out one")))
+            }
+        }
     }
 }
 
@@ -91,7 +104,10 @@ fn emit(emit: Emit, mapped: Netlist, library: &CellLibrary) -> String {
         Emit::Blif => blif::write(&Design { logic: mapped, registers: Vec::new() }),
         Emit::Verilog => verilog::write(&Design { logic: mapped, registers: Vec::new() }),
         Emit::Dot => dot::write(&mapped),
-        Emit::Json => format!("{}\n", describe(&mapped, library)),
+        Emit::Json => {
+            let document = Document::new(Schema::Build, describe(&mapped, library));
+            serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
+        }
     }
 }
 

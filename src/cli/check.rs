@@ -5,6 +5,7 @@ use clap::Args;
 use crate::check;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Diagnostic, json};
+use crate::report::Schema;
 use crate::source::Sources;
 use crate::store::DiskWorld;
 
@@ -37,7 +38,9 @@ impl Arguments {
         }
         let status = if all.iter().any(Diagnostic::is_error) { Status::BadInput } else { Status::Done };
         match context.format {
-            Format::Json => context.print_json(&serde_json::json!({ "diagnostics": json(&all, &sources) }))?,
+            Format::Json => {
+                context.print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": json(&all, &sources) }))?
+            }
             Format::Text => context.tell(&all, &sources),
         }
         Ok(status)

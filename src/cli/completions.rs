@@ -3,7 +3,8 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-use crate::cli::{Cli, Context, Failure, Status};
+use crate::cli::{Cli, Context, Failure, Format, Status};
+use crate::diag::{Code, Diagnostic};
 
 /// Print a completion script for a shell
 #[derive(Args)]
@@ -20,6 +21,10 @@ impl Arguments {
     /// # Errors
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        if context.format == Format::Json {
+            let fault = Diagnostic::without_place(Code::BadValue, "a completion script cannot be JSON");
+            return Err(Failure::plain(fault.with_help("leave out `--format json`")));
+        }
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "nbc", &mut script);
         context.print(String::from_utf8_lossy(&script))?;

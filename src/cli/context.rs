@@ -10,6 +10,7 @@ use serde_json::ser::Formatter;
 use crate::cli::Failure;
 use crate::cli::output::Output;
 use crate::diag::{Diagnostic, is_hidden, render, visible};
+use crate::report::{Document, Schema};
 use crate::source::Sources;
 
 /// Who reads the output.
@@ -79,13 +80,13 @@ impl Context {
         Ok(self.out.write_all(visible(&text.to_string()).as_bytes())?)
     }
 
-    /// Prints a value as one line of JSON.
+    /// Prints a value as one line of JSON, with its schema.
     ///
     /// # Errors
     /// As [`Context::print`].
-    pub fn print_json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
+    pub fn print_json(&mut self, schema: Schema, value: &impl Serialize) -> Result<(), Failure> {
         let mut writer = serde_json::Serializer::with_formatter(&mut self.out, Visible);
-        value.serialize(&mut writer).map_err(io::Error::from)?;
+        Document::new(schema, value).serialize(&mut writer).map_err(io::Error::from)?;
         Ok(writeln!(self.out)?)
     }
 

@@ -2,10 +2,12 @@
 
 use clap::Args;
 use include_dir::{Dir, include_dir};
+use serde_json::json;
 
 use crate::check::PRELUDE;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic, suggest};
+use crate::report::Schema;
 
 /// The pages, one for each code.
 static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
@@ -29,8 +31,14 @@ impl Arguments {
     /// When no code has that name, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Some(word) = self.code else { return list(context) };
-        if let Some((_, text)) = PRELUDE.iter().find(|(name, _)| name.strip_suffix(".nb") == Some(&word)) {
-            context.print(text)?;
+        if let Some((name, text)) = PRELUDE.iter().find(|(name, _)| name.strip_suffix(".nb") == Some(&word)) {
+            match context.format {
+                Format::Json => {
+                    let files = json!({ "files": [{ "name": name, "text": text }] });
+                    context.print_json(Schema::Explain, &files)?;
+                }
+                Format::Text => context.print(text)?,
+            }
             return Ok(Status::Done);
         }
         let Some(code) = Code::ALL.iter().find(|code| code.word() == word) else {
@@ -42,9 +50,12 @@ impl Arguments {
         };
         let page = page(*code);
         match context.format {
-            Format::Json => context.print_json(&serde_json::json!({
+            Format::Json => context.print_json(
+                Schema::Explain,
+                &json!({ "codes": [{
                 "code": code, "severity": code.severity(), "meaning": code.meaning(), "page": page,
-            }))?,
+            }] }),
+            )?,
             Format::Text => context.print(page)?,
         }
         Ok(Status::Done)
@@ -60,9 +71,9 @@ fn list(context: &mut Context) -> Result<Status, Failure> {
     if context.format == Format::Json {
         let codes: Vec<_> = Code::ALL
             .iter()
-            .map(|code| serde_json::json!({ "code": code, "severity": code.severity(), "meaning": code.meaning() }))
+            .map(|code| json!({ "code": code, "severity": code.severity(), "meaning": code.meaning() }))
             .collect();
-        context.print_json(&codes)?;
+        context.print_json(Schema::Explain, &json!({ "codes": codes }))?;
         return Ok(Status::Done);
     }
     let width = Code::ALL.iter().map(|code| code.word().len()).max().unwrap_or(0);

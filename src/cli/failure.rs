@@ -4,7 +4,8 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::{Context, Format, Status};
-use crate::diag::{Code, Diagnostic, io_words};
+use crate::diag::{Code, Diagnostic, io_words, json};
+use crate::report::Schema;
 use crate::source::Sources;
 
 /// Why a command could not be carried out.
@@ -44,7 +45,10 @@ impl Failure {
                 if context.format == Format::Json {
                     // The failure itself is what matters if this cannot be written either.
                     let _ = context
-                        .print_json(&serde_json::json!({ "diagnostics": diagnostics }))
+                        .print_json(
+                            Schema::Diagnostics,
+                            &serde_json::json!({ "diagnostics": json(&diagnostics, &sources) }),
+                        )
                         .and_then(|()| context.flush());
                 }
                 context.tell(&diagnostics, &sources);

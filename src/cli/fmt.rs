@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use clap::Args;
+use serde_json::json;
 
 use crate::check;
-use crate::cli::{Context, Failure, Status};
+use crate::cli::{Context, Failure, Format, Status};
+use crate::report::Schema;
 use crate::source::Sources;
 use crate::store::{self, DiskWorld};
 use crate::syntax;
@@ -32,26 +34,35 @@ impl Arguments {
     /// # Errors
     /// When a file cannot be read, parsed or written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let mut status = Status::Done;
+        let mut told = Vec::new();
         for path in &self.files {
-            let mut sources = Sources::default();
-            let file = check::open(&DiskWorld, path, &mut sources).map_err(Failure::plain)?;
-            let parsed = syntax::parse(&sources, file);
-            if !parsed.errors.is_empty() {
-                return Err(Failure::input(parsed.errors, sources));
-            }
-            let text = syntax::format(&sources, file, &parsed.tree);
-            if text == sources.file(file).text {
-                continue;
-            }
-            if self.check {
+            let canonical = self.format_file(path)?;
+            if self.check && !canonical && context.format == Format::Text {
                 context.print(format!("{path}\n"))?;
-                status = Status::TestFailed;
-            } else {
-                let path = Path::new(path);
-                store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
             }
+            told.push(json!({ "file": path, "canonical": canonical, "written": !canonical && !self.check }));
         }
-        Ok(status)
+        if context.format == Format::Json {
+            context.print_json(Schema::Formatted, &json!({ "files": told }))?;
+        }
+        let differs = told.iter().any(|file| file["canonical"] == false);
+        Ok(if self.check && differs { Status::TestFailed } else { Status::Done })
+    }
+
+    /// Writes a file in its canonical form unless it is only checked; whether it was in that form.
+    fn format_file(&self, path: &str) -> Result<bool, Failure> {
+        let mut sources = Sources::default();
+        let file = check::open(&DiskWorld, path, &mut sources).map_err(Failure::plain)?;
+        let parsed = syntax::parse(&sources, file);
+        if !parsed.errors.is_empty() {
+            return Err(Failure::input(parsed.errors, sources));
+        }
+        let text = syntax::format(&sources, file, &parsed.tree);
+        let canonical = text == sources.file(file).text;
+        if !canonical && !self.check {
+            let path = Path::new(path);
+            store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
+        }
+        Ok(canonical)
     }
 }

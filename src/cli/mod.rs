@@ -10,6 +10,7 @@ mod context;
 mod draw;
 mod evolve;
 mod explain;
+mod export;
 mod failure;
 mod fmt;
 mod interrupt;
@@ -68,6 +69,7 @@ commands! {
     Draw in draw,
     Evolve in evolve,
     Explain in explain,
+    Export in export,
     Fmt in fmt,
     Library in library,
     Run in run,

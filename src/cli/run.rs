@@ -13,7 +13,8 @@ use crate::diag::{Code, Diagnostic};
 use crate::model::{CYCLE_STEPS, CircuitTest, Robot, Simulation};
 use crate::pipeline::{self, Options, SimulationRun, SwarmRun, TestRun};
 use crate::report::{
-    self, PageSwarm, Recording, Room, RunResult, Scheme, Stage, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
+    self, Document, PageSwarm, Recording, Room, RunResult, Schema, Scheme, Stage, Svg, SwarmOutcome, SwarmResult,
+    SwarmTiming,
 };
 use crate::store;
 use crate::swarm::Level;
@@ -142,7 +143,9 @@ impl Arguments {
             runs.iter().zip(&stems).map(|(run, stem)| draw(run, stem, folder)).collect::<Result<Vec<_>, _>>()?;
         let source = self.file.to_string_lossy();
         let result = result(&source, &drawn);
-        let json = serde_json::to_string_pretty(&result).expect("a result has nothing that JSON cannot say") + "\n";
+        let json = serde_json::to_string_pretty(&Document::new(Schema::Run, &result))
+            .expect("a result has nothing that JSON cannot say")
+            + "\n";
         write(&folder.join("result.json"), json.as_bytes())?;
         let page = folder.join("report.html");
         if !self.no_report {
@@ -150,7 +153,7 @@ impl Arguments {
             write(&page, report::draw_run_page(&source, &swarms, Scheme::default()).as_bytes())?;
         }
         match context.format {
-            Format::Json => context.print_json(&result)?,
+            Format::Json => context.print_json(Schema::Run, &result)?,
             Format::Text => {
                 for drawn in &drawn {
                     context.print(describe(drawn))?;

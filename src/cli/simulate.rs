@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::cli::{Context, Failure, Format, Status, library, schedule};
 use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
-use crate::report::{Align, Table};
+use crate::report::{Align, Schema, Table};
 use crate::sim;
 use crate::source::{FileError, Sources};
 use crate::store;
@@ -63,7 +63,7 @@ impl Arguments {
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
         match context.format {
-            Format::Json => context.print_json(&Outcome::of(&schedule, &trajectory))?,
+            Format::Json => context.print_json(Schema::Simulate, &Outcome::of(&schedule, &trajectory))?,
             Format::Text => context.print(describe(&schedule, &trajectory))?,
         }
         Ok(Status::Done)

@@ -12,6 +12,7 @@ use crate::circuit::{self, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions, synthesize};
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
+use crate::report::Schema;
 use crate::store::{self, CircuitFault};
 
 const EXAMPLES: &str = "\
@@ -98,7 +99,7 @@ impl Arguments {
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
         }
         match context.format {
-            Format::Json => context.print_json(&report)?,
+            Format::Json => context.print_json(Schema::Synth, &report)?,
             Format::Text => context.print(report.text())?,
         }
         Ok(Status::Done)

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::model::{Column, Value};
+use crate::report::csv::{cell, line};
 use crate::swarm::SwarmTrace;
 
 /// A trace as a table: the cycle from 1, the input ports during it, the output ports and every other net at its end, and how far each
@@ -14,7 +15,7 @@ pub fn cycle_table(trace: &SwarmTrace) -> String {
     let names = trace.inputs.iter().chain(&trace.outputs).map(|port| port.name.clone());
     let inner = nets.iter().map(|&k| trace.robots[k].net.clone());
     let walks = trace.robots.iter().map(|robot| format!("{}.displacement", robot.net));
-    let head = std::iter::once("cycle".to_owned()).chain(names).chain(inner).chain(walks).map(|name| quoted(&name));
+    let head = std::iter::once("cycle".to_owned()).chain(names).chain(inner).chain(walks).map(|name| cell(&name));
     let mut text = line(head);
     for (c, cycle) in trace.cycles.iter().enumerate() {
         let (inputs, outputs) = (trace.input_values(c), trace.output_values(c));
@@ -26,16 +27,7 @@ pub fn cycle_table(trace: &SwarmTrace) -> String {
     text
 }
 
-fn line(cells: impl Iterator<Item = String>) -> String {
-    cells.collect::<Vec<_>>().join(",") + "\n"
-}
-
 fn number(value: &Value) -> String {
     let digits = value.digits();
-    u64::from_str_radix(&digits, 2).map_or_else(|_| quoted(&value.to_string()), |number| number.to_string())
-}
-
-fn quoted(text: &str) -> String {
-    let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '[' | ']' | '/' | '\''));
-    if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
+    u64::from_str_radix(&digits, 2).map_or_else(|_| cell(&value.to_string()), |number| number.to_string())
 }

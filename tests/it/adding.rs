@@ -3,6 +3,7 @@
 use std::fs;
 
 use crate::cli::{Bench, Ran};
+use crate::schemas::validate;
 
 /// A small archive with a few behaviors, most of them of robots that err.
 const RUN: &str = "
@@ -48,7 +49,7 @@ fn every_behavior_asked_for_is_answered_and_robots_that_err_are_left_out() {
     let bench = bench();
     let strict = add(&bench, &["--behavior", "RLRL", "--behavior", "LRRL", "--format", "json"]);
     assert_eq!(strict.status, 1, "a behavior that was asked for has no robot: {}", strict.err);
-    let found: serde_json::Value = serde_json::from_str(&strict.out).unwrap();
+    let found = validate("added", &strict.out);
     let [notb, xor] = &found["answers"].as_array().unwrap()[..] else { panic!("{found}") };
     assert!(xor["outcome"] == "missing" && xor["reason"] == "no elite of this behavior", "{xor}");
     assert!(notb["outcome"] == "left_out" && notb["robot"]["error_rate"].as_f64() > Some(0.0), "{notb}");

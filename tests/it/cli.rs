@@ -376,7 +376,7 @@ fn drawings_that_cannot_be_are_refused_and_leave_nothing() {
 fn the_machines_speed_is_told_as_data() {
     let ran = Bench::new().run(&["bench", "--format", "json"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
-    let figures: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    let figures = crate::schemas::validate("bench", &ran.out);
     assert!(figures["machine"].is_string() && [4, 8].contains(&figures["width"].as_u64().unwrap()));
     let boxes: Vec<_> = figures["cases"].as_array().unwrap().iter().map(|case| case["box"].as_str().unwrap()).collect();
     assert_eq!(boxes, ["5x5", "7x7", "10x10"]);

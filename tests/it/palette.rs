@@ -47,7 +47,7 @@ fn robot_files_are_rewritten_in_the_newest_format_and_say_the_same() {
     let path = bench.file("robots/old.yaml", &first);
     let rewrite = || {
         let ran = bench.run(&["library", "rewrite", "robots", "--format", "json"]);
-        ran.expect_json()[0]["changed"].as_bool().unwrap()
+        ran.expect_json()["files"][0]["changed"].as_bool().unwrap()
     };
     assert!(rewrite());
     let second = fs::read_to_string(&path).unwrap();

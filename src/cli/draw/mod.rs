@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::program::{CircuitArguments, RunsArguments};
-use crate::cli::{Context, Failure, Status, library, schedule, simulate};
+use crate::cli::{Context, Failure, Format, Status, library, schedule, simulate};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Behavior, Schedule};
-use crate::report::Scheme;
+use crate::report::{Schema, Scheme};
 use crate::source::Sources;
 use crate::store;
 
@@ -23,7 +23,7 @@ use canvas::Canvas;
 use kind::Kind;
 use robot::Subject;
 
-pub(super) use run::{page as run_page, read as read_run};
+pub(super) use run::{is_run, page as run_page, read as read_run};
 
 /// Draw a robot, a library, an evolution run, or a circuit and its swarm
 #[derive(Args)]
@@ -93,6 +93,10 @@ impl Arguments {
             self.draw_library(&canvas)?
         } else {
             self.draw_robot(&canvas, &self.robot()?)?
+        }
+        if context.format == Format::Json {
+            let drawn = serde_json::json!({ "file": self.output, "kind": self.kind.word() });
+            context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)
     }

@@ -19,7 +19,7 @@ use crate::source::Sources;
 use crate::store::Declared;
 
 /// Whether a folder is that of a run: a seed's, or one with seeds.
-pub(super) fn is_run(folder: &Path) -> bool {
+pub(in crate::cli) fn is_run(folder: &Path) -> bool {
     !seeds(folder).is_empty()
 }
 

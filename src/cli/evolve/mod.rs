@@ -17,7 +17,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, Objective};
 use crate::pipeline;
-use crate::report::{BehaviorGroup, GroupComparison, Scheme, behavior_groups, compare_groups, describe_groups};
+use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
 use crate::sim::Simulator;
 use crate::store::{self, DiskWorld};
 use crate::swarm;
@@ -159,7 +159,7 @@ impl Arguments {
 impl Results {
     fn end(&self, context: &mut Context, status: Status) -> Result<Status, Failure> {
         if context.format == Format::Json {
-            context.print_json(self)?;
+            context.print_json(Schema::Evolve, self)?;
         }
         Ok(status)
     }

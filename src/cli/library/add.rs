@@ -11,7 +11,7 @@ use crate::cli::{Context, Failure, Format, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Provenance, Robot};
-use crate::report::Answer;
+use crate::report::{Answer, Schema};
 use crate::store::{self, Checkpoint};
 use crate::swarm::{Nominee, Selected, Selection};
 
@@ -86,7 +86,7 @@ impl Arguments {
     fn end(&self, answers: Vec<Answer>, context: &mut Context) -> Result<Status, Failure> {
         let (asked, added) = (answers.len(), answers.iter().filter(|answer| answer.is_added()).count());
         match context.format {
-            Format::Json => context.print_json(&Answers { folder: &self.into, answers })?,
+            Format::Json => context.print_json(Schema::Added, &Answers { folder: &self.into, answers })?,
             Format::Text => {
                 let folder = self.into.display();
                 context.print(format_args!("{added} of {asked} behaviors have a robot in {folder}\n"))?;

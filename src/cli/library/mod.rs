@@ -12,7 +12,7 @@ use crate::cli::synth::unreadable;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Function, Library, Robot};
-use crate::report::{self, Listing};
+use crate::report::{self, Listing, Schema};
 use crate::source::Sources;
 use crate::store;
 
@@ -92,7 +92,7 @@ pub(super) fn robots(path: &Path) -> Result<Library, Failure> {
 fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {
     let list = Listing::all(library);
     match context.format {
-        Format::Json => context.print_json(&list)?,
+        Format::Json => context.print_json(Schema::Library, &serde_json::json!({ "robots": list }))?,
         Format::Text => context.print(Listing::table(&list))?,
     }
     Ok(Status::Done)
@@ -100,7 +100,7 @@ fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {
 
 fn show(robot: &Robot, context: &mut Context) -> Result<Status, Failure> {
     match context.format {
-        Format::Json => context.print_json(&store::RobotRecord::of(robot))?,
+        Format::Json => context.print_json(Schema::Robot, &store::RobotRecord::of(robot))?,
         Format::Text => context.print(report::describe_robot(robot))?,
     }
     Ok(Status::Done)

@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::cli::library::robot_paths;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::Diagnostic;
+use crate::report::Schema;
 use crate::source::Sources;
 use crate::store;
 
@@ -45,7 +46,7 @@ impl Arguments {
         }
         let done: Vec<Rewritten> = files.into_iter().map(|(path, changed, _)| Rewritten { path, changed }).collect();
         match context.format {
-            Format::Json => context.print_json(&done)?,
+            Format::Json => context.print_json(Schema::Rewritten, &serde_json::json!({ "files": done }))?,
             Format::Text => {
                 let changed = done.iter().filter(|file| file.changed).count();
                 context.print(format_args!("{changed} of {} robot files rewritten\n", done.len()))?;

@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::counted;
 use crate::model::{Library, Robot};
+use crate::report::Schema;
 use crate::swarm::{self, Measurement};
 
 /// What came of one robot.
@@ -40,7 +41,7 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
     drop(bar);
     let failed = findings.iter().filter(|finding| !finding.verified).count();
     match context.format {
-        Format::Json => context.print_json(&findings)?,
+        Format::Json => context.print_json(Schema::Verify, &serde_json::json!({ "robots": findings }))?,
         Format::Text => {
             for finding in &findings {
                 let verdict =

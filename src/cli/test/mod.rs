@@ -9,7 +9,7 @@ use crate::cli::program::{RunsArguments, SourceProgram};
 use crate::cli::{Context, Failure, Format, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic, counted};
 use crate::pipeline::{self, Case, Options};
-use crate::report;
+use crate::report::{self, Schema};
 use crate::swarm::{Level, TestVerdict};
 
 /// Test the circuits of a file
@@ -55,7 +55,9 @@ impl Arguments {
         let verdicts = run_cases(&cases, &files, &options, context)?;
         let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
         match context.format {
-            Format::Json => context.print_json(&serde_json::json!({ "passed": failed == 0, "tests": verdicts }))?,
+            Format::Json => {
+                context.print_json(Schema::Test, &serde_json::json!({ "passed": failed == 0, "tests": verdicts }))?
+            }
             Format::Text => context.print(format_args!("{} passed, {failed} failed\n", verdicts.len() - failed))?,
         }
         Ok(if failed == 0 { Status::Done } else { Status::TestFailed })

@@ -1,0 +1,122 @@
+//! `nbc export`: archives and libraries as data for other programs.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+
+use crate::cli::draw::{is_run, read_run};
+use crate::cli::{Context, Failure, Format, Status, library};
+use crate::diag::{Code, Diagnostic};
+use crate::model::Library;
+use crate::report::{Document, Elites, Schema, robots_csv};
+use crate::store::{self, RobotRecord};
+
+/// Export the elites of evolution runs, or the robots of a library, as CSV or JSON
+#[derive(Args)]
+#[command(after_help = "Examples:
+  nbc export out/gates -o elites.csv        every elite of every seed
+  nbc export out/gates/seed-1 --to json     one seed
+  nbc export shipped --to csv               the robots that come with the program
+
+docs/evolution.md lists the columns and shows how pandas and pyribs read them.")]
+pub struct Arguments {
+    /// The folder of a run or of one of its seeds, a folder of robots, a robot file, or `shipped`
+    what: String,
+    /// The format [default: by the name of the file, else CSV]
+    #[arg(long, value_enum)]
+    to: Option<Target>,
+    /// The file to write instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Target {
+    /// A table with a header: a row for each elite or robot
+    Csv,
+    /// Everything, as docs/schema describes it
+    Json,
+}
+
+/// Robots in full.
+#[derive(Serialize)]
+struct Robots {
+    robots: Vec<RobotRecord>,
+}
+
+impl Arguments {
+    /// Reads and exports.
+    ///
+    /// # Errors
+    /// When there is no run and no robot of that name, or the output cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let (target, what) = (self.target(context.format)?, Path::new(&self.what));
+        if is_run(what) {
+            let harvest = read_run(what, context)?;
+            let elites = Elites::of(&harvest);
+            self.write(target, Schema::Elites, &elites, || elites.csv(), context)?;
+        } else {
+            let library = self.library()?;
+            let robots = Robots { robots: library.robots.iter().map(RobotRecord::of).collect() };
+            self.write(target, Schema::Robots, &robots, || robots_csv(&library), context)?;
+        }
+        Ok(Status::Done)
+    }
+
+    fn write(
+        &self,
+        target: Target,
+        schema: Schema,
+        content: &impl Serialize,
+        csv: impl Fn() -> String,
+        context: &mut Context,
+    ) -> Result<(), Failure> {
+        let write = |path: &Path, text: String| {
+            store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))
+        };
+        match (target, &self.output) {
+            (Target::Csv, None) => context.print(csv()),
+            (Target::Csv, Some(path)) => write(path, csv()),
+            (Target::Json, None) => context.print_json(schema, content),
+            (Target::Json, Some(path)) => {
+                let text = serde_json::to_string(&Document::new(schema, content));
+                write(path, text.expect("what is exported has nothing that JSON cannot say") + "\n")
+            }
+        }
+    }
+
+    fn library(&self) -> Result<Library, Failure> {
+        let found = if self.what == "shipped" {
+            store::shipped_library().clone()
+        } else {
+            library::robots(Path::new(&self.what))?
+        };
+        if found.robots.is_empty() {
+            let message = format!("`{}` has neither a run nor robots", self.what);
+            let help = "name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`";
+            return Err(Failure::plain(Diagnostic::without_place(Code::Empty, message).with_help(help)));
+        }
+        Ok(found)
+    }
+
+    /// What is asked for by `--to`, by the name of the file, or by `--format`.
+    fn target(&self, format: Format) -> Result<Target, Failure> {
+        let ending = self.output.as_ref().and_then(|path| path.extension()).map(|ending| ending.to_ascii_lowercase());
+        let by_name = ending.and_then(|ending| match ending.to_str() {
+            Some("csv") => Some(Target::Csv),
+            Some("json") => Some(Target::Json),
+            _ => None,
+        });
+        let by_format = (format == Format::Json && self.output.is_none()).then_some(Target::Json);
+        match (self.to, by_format.or(by_name)) {
+            (Some(Target::Csv), Some(Target::Json)) if by_format.is_some() => {
+                let message = "`--format json` and `--to csv` ask for two formats";
+                Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message).with_help("leave out one")))
+            }
+            (Some(target), _) | (None, Some(target)) => Ok(target),
+            (None, None) => Ok(Target::Csv),
+        }
+    }
+}

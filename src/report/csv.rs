@@ -1,0 +1,23 @@
+//! Tables for spreadsheets and programs: CSV as in RFC 4180, with a header.
+
+/// A line of a table.
+pub(super) fn line(cells: impl IntoIterator<Item = String>) -> String {
+    cells.into_iter().collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// A text as a cell, in quotes where it needs them.
+pub(super) fn cell(text: &str) -> String {
+    let plain = !text.contains([',', '"', '\n', '\r']);
+    if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_would_end_a_cell_is_quoted() {
+        let cells = ["plain", "a,b", "say \"x\"", "two\nlines", ""].map(cell);
+        assert_eq!(line(cells), "plain,\"a,b\",\"say \"\"x\"\"\",\"two\nlines\",\n");
+    }
+}

@@ -1,0 +1,80 @@
+//! Output for programs: a JSON object that says by which schema it is made.
+
+use serde::Serialize;
+
+macro_rules! schemas {
+    ($($name:ident = $word:literal, $version:literal: $meaning:literal;)*) => {
+        /// What a JSON output holds; `docs/schema` describes each.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Schema {
+            $(#[doc = $meaning] $name,)*
+        }
+
+        impl Schema {
+            /// All of them, in alphabetical order of their words.
+            pub const ALL: &[Self] = &[$(Self::$name,)*];
+
+            /// Its word, which is the name of its file.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$name => $word,)*
+                }
+            }
+
+            /// What identifies it: its word and its version, which rises when an output changes so that a reader may stumble.
+            pub fn id(self) -> &'static str {
+                match self {
+                    $(Self::$name => concat!("urn:nbc:", $word, ":", $version),)*
+                }
+            }
+        }
+    };
+}
+
+schemas! {
+    Added = "added", 1: "Robots that were added to a library, and those that were not.";
+    Bench = "bench", 1: "How fast a machine simulates.";
+    Build = "build", 1: "A circuit as a netlist of cells.";
+    Diagnostics = "diagnostics", 1: "What is wrong with the input, of any command.";
+    Drawn = "drawn", 1: "A picture that was written.";
+    Elites = "elites", 1: "The archive of evolution runs.";
+    Evolve = "evolve", 1: "Evolution runs, and their comparison.";
+    Explain = "explain", 1: "Codes of diagnostics with their pages, or the sources of the prelude.";
+    Formatted = "formatted", 1: "Which files are in their canonical form.";
+    Library = "library", 1: "The robots of a library in short.";
+    Rewritten = "rewritten", 1: "Robot files in the newest format.";
+    Robot = "robot", 1: "One robot in full.";
+    Robots = "robots", 1: "The robots of a library in full.";
+    Run = "run", 1: "What the tests and simulations of a file came to.";
+    Simulate = "simulate", 1: "What one robot did.";
+    Synth = "synth", 1: "A circuit made of cells.";
+    Test = "test", 1: "What tests came to, row by row.";
+    Verify = "verify", 1: "Robots simulated again.";
+}
+
+/// A value for programs with its schema.
+#[derive(Clone, Debug, Serialize)]
+pub struct Document<T> {
+    schema: &'static str,
+    #[serde(flatten)]
+    content: T,
+}
+
+impl<T: Serialize> Document<T> {
+    /// A document of that schema; `content` is an object.
+    pub fn new(schema: Schema, content: T) -> Self {
+        Self { schema: schema.id(), content }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_document_says_its_schema_first() {
+        let document = Document::new(Schema::Library, serde_json::json!({ "robots": [] }));
+        assert_eq!(serde_json::to_string(&document).unwrap(), r#"{"schema":"urn:nbc:library:1","robots":[]}"#);
+        assert!(Schema::ALL.is_sorted_by_key(|schema| schema.word()));
+    }
+}

@@ -1,0 +1,148 @@
+//! Output for programs: what every command prints with `--format json` is as its schema in `docs/schema` says.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use nbc::report::Schema;
+use serde_json::Value;
+
+use crate::cli::Bench;
+use crate::language::root;
+
+const FLIP: &str = "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n";
+
+/// Asserts that a text is JSON by the schema of that word, and returns it.
+#[track_caller]
+pub fn validate(word: &str, text: &str) -> Value {
+    let found: Value = serde_json::from_str(text).unwrap_or_else(|error| panic!("{word}: {error}\n{text}"));
+    let schema = schema(word);
+    assert_eq!(found["schema"], schema["$id"], "the output says its schema");
+    let validator = jsonschema::draft202012::new(&schema).expect("a schema");
+    let faults: Vec<String> =
+        validator.iter_errors(&found).map(|fault| format!("{}: {fault}", fault.instance_path())).collect();
+    assert!(faults.is_empty(), "{word}:\n{}", faults.join("\n"));
+    found
+}
+
+fn schema(word: &str) -> Value {
+    let text = fs::read_to_string(root().join(format!("docs/schema/{word}.json"))).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+/// Runs a command for programs, and validates what it prints.
+#[track_caller]
+fn check(bench: &Bench, word: &str, status: i32, arguments: &[&str]) -> Value {
+    let ran = bench.run(&[arguments, &["--format", "json"]].concat());
+    assert_eq!(ran.status, status, "{arguments:?}: {}", ran.err);
+    validate(word, &ran.out)
+}
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.file("flip.nb", FLIP);
+    bench.file("wrong.nb", FLIP.replace("not a", "not b"));
+    bench.file("walker.yaml", "body: [\"00345\", \"33333\"]\n");
+    bench
+}
+
+#[test]
+fn every_schema_has_its_file_and_is_a_schema() {
+    for found in Schema::ALL {
+        let schema = schema(found.word());
+        jsonschema::draft202012::meta::validate(&schema).unwrap();
+        assert_eq!(
+            (&schema["$id"], &schema["properties"]["schema"]["const"]),
+            (&found.id().into(), &found.id().into())
+        );
+    }
+    assert_eq!(fs::read_dir(root().join("docs/schema")).unwrap().count(), Schema::ALL.len(), "files without a schema");
+}
+
+#[test]
+fn a_schema_refuses_what_it_does_not_know() {
+    let validator = jsonschema::draft202012::new(&schema("drawn")).unwrap();
+    let drawn = serde_json::json!({ "schema": "urn:nbc:drawn:1", "file": "a.svg", "kind": "sprite" });
+    assert!(validator.is_valid(&drawn));
+    for (key, value) in [("more", Value::Null), ("file", 3.into()), ("schema", "urn:nbc:drawn:2".into())] {
+        let mut other = drawn.clone();
+        other[key] = value;
+        assert!(!validator.is_valid(&other), "{other}");
+    }
+}
+
+#[test]
+fn every_command_prints_json_by_its_schema_or_refuses() {
+    let (bench, latch) = (bench(), root().join("circuits/latch.nb"));
+    assert_eq!(check(&bench, "diagnostics", 0, &["check", "flip.nb"])["diagnostics"], Value::Array(Vec::new()));
+    check(&bench, "diagnostics", 2, &["check", "flip.nb", "wrong.nb"]);
+    check(&bench, "build", 0, &["build", "flip.nb"]);
+    check(&bench, "build", 0, &["build", latch.to_str().unwrap()]);
+    let both = bench.run(&["build", "flip.nb", "--emit", "blif", "--format", "json"]);
+    assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
+    check(&bench, "drawn", 0, &["draw", "walker.yaml", "--as", "sprite", "-o", "a.svg"]);
+    check(&bench, "explain", 0, &["explain"]);
+    check(&bench, "explain", 0, &["explain", "width"]);
+    check(&bench, "explain", 0, &["explain", "prelude"]);
+    check(&bench, "robots", 0, &["export", "shipped"]);
+    check(&bench, "formatted", 0, &["fmt", "flip.nb"]);
+    check(&bench, "library", 0, &["library", "list"]);
+    check(&bench, "robot", 0, &["library", "show", "nand"]);
+    let robot = root().join("library/robots/zero_5x5.yaml");
+    check(&bench, "verify", 0, &["library", "verify", robot.to_str().unwrap()]);
+    fs::copy(&robot, bench.path().join("zero.yaml")).unwrap();
+    check(&bench, "rewritten", 0, &["library", "rewrite", "zero.yaml"]);
+    check(&bench, "run", 0, &["run", "flip.nb", "--no-report"]);
+    validate("run", &fs::read_to_string(bench.path().join("out/flip/result.json")).unwrap());
+    bench.file("failing.nb", FLIP.replace("0 | 1", "0 | 0\n    1 | 0"));
+    check(&bench, "run", 1, &["run", "failing.nb", "--no-report"]);
+    let simulation = "swarm own { circuit: flip }\n\nsimulate own with schedule (a) {\n    0 for 3 cycles\n}\n";
+    bench.file("simulated.nb", FLIP.to_owned() + simulation);
+    let simulated = check(&bench, "run", 0, &["run", "simulated.nb", "--no-report"]);
+    assert_eq!(simulated["simulations"].as_array().unwrap().len(), 1);
+    check(&bench, "simulate", 0, &["simulate", "walker.yaml", "--schedule", "00*1"]);
+    let blif = root().join("tests/benchmarks/fa.blif");
+    check(&bench, "synth", 0, &["synth", blif.to_str().unwrap(), "--what-if", "xor"]);
+    check(&bench, "test", 0, &["test", "flip.nb", "--logic"]);
+    check(&bench, "test", 1, &["test", "failing.nb", "flip.nb", "--logic"]);
+    check(&bench, "test", 1, &["test", "failing.nb", "--physics"]);
+    let refused = bench.run(&["completions", "bash", "--format", "json"]);
+    assert_eq!(refused.status, 2);
+    validate("diagnostics", &refused.out);
+}
+
+#[test]
+fn runs_and_their_archives_are_data() {
+    let bench = Bench::new();
+    bench.file("small.nb", "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 3, seed: 1..2 }\n");
+    let evolved = check(&bench, "evolve", 0, &["evolve", "small.nb"]);
+    let elites = check(&bench, "elites", 0, &["export", "out/small"]);
+    let seeds: BTreeSet<u64> =
+        elites["elites"].as_array().unwrap().iter().map(|e| e["seed"].as_u64().unwrap()).collect();
+    assert_eq!(seeds, BTreeSet::from([1, 2]));
+    let filled: u64 = evolved["runs"].as_array().unwrap().iter().map(|run| run["filled"].as_u64().unwrap()).sum();
+    assert_eq!(elites["elites"].as_array().unwrap().len() as u64, filled, "a niche has one elite here");
+}
+
+#[test]
+fn every_fault_is_told_in_one_shape() {
+    let bench = bench();
+    for arguments in [
+        &["run", "wrong.nb"][..],
+        &["build", "wrong.nb"],
+        &["test", "wrong.nb"],
+        &["fmt", "none.nb"],
+        &["evolve", "wrong.nb"],
+        &["export", "none"],
+        &["draw", "walker.yaml", "--as", "gif", "-o", "a.svg"],
+        &["library", "show", "none"],
+        &["simulate", "walker.yaml", "--schedule", "02*1"],
+        &["synth", "none.blif"],
+        &["explain", "none"],
+    ] {
+        let found = check(&bench, "diagnostics", 2, arguments);
+        assert!(!found["diagnostics"].as_array().unwrap().is_empty(), "{arguments:?}");
+    }
+    let places = check(&bench, "diagnostics", 2, &["run", "wrong.nb"]);
+    let start = &places["diagnostics"][0]["labels"][0]["start"];
+    assert_eq!((&start["line"], &start["column"]), (&2.into(), &13.into()), "{places}");
+}
