@@ -1,6 +1,16 @@
 //! Materials of a program's own, wherever a body goes: archive, checkpoint, robot file, picture, swarm.
 
 use std::fs;
+use std::sync::Arc;
+
+use nbc::evolve::Elite;
+use nbc::model::{
+    Body, CYCLE_STEPS, Column, Function, Material, MaterialKind, Palette, Pattern, Robot, Schedule, Spell, Trial,
+};
+use nbc::pipeline::{self, Options};
+use nbc::sim::{Simulator, run_trials};
+use nbc::store::{self, Checkpoint};
+use nbc::swarm::{self, Assembly, Exposure, Member, Signal};
 
 use crate::cli::Bench;
 use crate::language::root;
@@ -116,4 +126,160 @@ fn a_foreign_checkpoint_with_the_right_checksum_is_refused() {
     check(&text.replacen("\"batch\":", "\"stack\":", 1), "unknown field `stack`");
     check(&text.replacen("\"kind\":\"rigid\"", "\"kind\":\"gas\"", 1), "unknown variant `gas`");
     check(&text.replacen("\"bins\":4", "\"bins\":0", 1), "an axis of 0 bins");
+}
+
+/// Three materials of the program's own between six of the paper's, so that no code but 1 means what it means in the paper.
+const NINE: &str = "
+material heart { kind: actuator, period: 42 steps, phase: 30 deg, range: 0.7..1.5 }
+material ear   { kind: sensor, stimulus: s2, absent: 1.3, present: 0.8 }
+material gum   { kind: soft }
+
+schedule short(s1, s2) {
+    0 0 for 1 cycles
+    0 1 for 1 cycles
+    1 0 for 1 cycles
+    1 1 for 1 cycles
+}
+
+evolution nine {
+    box:         3 x 3
+    materials:   [bone, gum, heart, ear, flesh, muscle, s1_shrink, antimuscle, s1_grow]
+    variable:    short
+    batch:       8
+    generations: 3
+    seed:        5
+}
+";
+
+#[test]
+fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
+    let bench = Bench::new();
+    bench.file("nine.nb", NINE);
+    assert_eq!(bench.run(&["evolve", "nine.nb"]).status, 0);
+    let run = bench.path().join("out/nine/seed-5");
+    let checkpoint = Checkpoint::read("a", &fs::read(run.join("checkpoint.nbc")).unwrap()).unwrap();
+    let names: Vec<&str> = checkpoint.declared.palette.materials().iter().map(|m| m.name.as_str()).collect();
+    assert_eq!(names[..4], ["bone", "gum", "heart", "ear"]);
+    // A robot that always walks one way is measured in the shortest time.
+    let constant = |elite: &&Elite| ["LLLL", "RRRR"].contains(&elite.behavior.to_string().as_str());
+    let elites = checkpoint.state.niches.iter().flat_map(|(_, elites)| elites).filter(constant);
+    let behavior = elites.clone().next().expect("some body always walks one way").behavior;
+
+    // The robot file has the archive's body and numbers.
+    let word = behavior.to_string();
+    let add = ["library", "add", "out/nine/seed-5", "--into", "robots", "--tries", "1", "--max-error", "1"];
+    let ran = bench.run(&[&add[..], &["--behavior", &word]].concat());
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let library = store::read_library(bench.path().join("robots").to_str().unwrap()).unwrap();
+    let [robot] = &library.robots[..] else { panic!("one robot was written") };
+    let elite = elites.clone().find(|elite| elite.body == robot.body).expect("the robot is of the archive");
+    assert_eq!(robot.displacement, elite.displacement);
+    let verified = bench.run(&["library", "verify", "robots"]);
+    assert_eq!(verified.status, 0, "{}{}", verified.out, verified.err);
+
+    // It walks as far when its file is simulated.
+    let file = format!("robots/{}.yaml", robot.name);
+    let walked = |file: &str, pattern: &str| {
+        let schedule = format!("{pattern}*10");
+        let found = bench.run(&["simulate", file, "--schedule", &schedule, "--format", "json"]).expect_json();
+        found["displacement"][0].as_f64().unwrap()
+    };
+    assert_eq!(["00", "01", "10", "11"].map(|pattern| walked(&file, pattern)), robot.displacement);
+    let rows = serde_json::to_string(&robot.body.rows()).unwrap();
+    if Body::parse(&robot.body.rows(), &Palette::paper()).is_ok() {
+        bench.file("paper.json", format!("{{\"body\": {rows}}}"));
+        assert_ne!(walked("paper.json", "00"), robot.displacement[0], "the same codes are another robot in the paper");
+    }
+
+    // The picture of the run and that of the file show the same voxels and name the same materials.
+    let draw = |arguments: &[&str]| {
+        let ran = bench.run(&[&["draw"], arguments, &["--as", "sprite", "-o", "a.svg"]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let svg = fs::read_to_string(bench.path().join("a.svg")).unwrap();
+        let parts =
+            |part: &str| svg.split('<').filter(|tag| tag.starts_with(part)).map(str::to_owned).collect::<Vec<_>>();
+        // The titles differ.
+        (parts("polygon"), parts("text").into_iter().skip(1).collect::<Vec<_>>())
+    };
+    let (voxels, legend) = draw(&[&file]);
+    let (code, material) =
+        robot.body.materials().find(|(_, m)| m.paper_code().is_none()).expect("it has an own material");
+    assert!(legend.iter().any(|text| text.contains(&format!(">{code} {}", material.name))), "{legend:?}");
+    assert!(!voxels.is_empty());
+    if checkpoint.state.niches.iter().flat_map(|(_, elites)| elites).filter(|other| other.behavior == behavior).count()
+        == 1
+    {
+        assert_eq!(draw(&["out/nine/seed-5", "--behavior", &word]), (voxels, legend));
+    }
+
+    // In a swarm beside one of the paper's it takes the path that it takes alone.
+    let paper = &store::shipped_library().robots[0];
+    let member = |robot: &Robot| Member {
+        net: robot.name.clone(),
+        robot: robot.clone(),
+        senses: [Signal::Input(0), Signal::Constant(false)],
+        start: false,
+    };
+    let assembly = Assembly {
+        circuit: "both".to_owned(),
+        inputs: vec![Column { name: "a".to_owned(), width: 1 }],
+        members: vec![member(robot), member(paper)],
+        outputs: Vec::new(),
+        shown: Vec::new(),
+    };
+    let exposure = Exposure { inputs: vec![vec![true], vec![false]], cycle_steps: CYCLE_STEPS, window: 1 };
+    let trace = swarm::simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
+    let spells = [2, 0].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: CYCLE_STEPS }).to_vec();
+    for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {
+        let trial = Trial { body: body.clone(), schedule: Schedule { spells: spells.clone() } };
+        let alone = run_trials(&swarm::setting(&assembly, 2), &[trial]).remove(0);
+        let every = CYCLE_STEPS as usize / trace.samples_per_cycle;
+        assert_eq!(of_swarm.com_x, alone.com_x.into_iter().step_by(every).collect::<Vec<_>>());
+    }
+}
+
+/// The robot with its materials under other names and codes, which changes nothing of what it does.
+fn renamed(robot: &Robot) -> Robot {
+    let mut materials: Vec<Material> = robot.body.palette().materials().to_vec();
+    materials.push(Material { name: "unused".to_owned(), kind: MaterialKind::Rigid });
+    materials.rotate_left(3);
+    for material in &mut materials {
+        material.name = format!("own_{}", material.name);
+    }
+    let codes = robot.body.codes().iter().map(|&code| if code == 0 { 0 } else { (code + 9 - 4) % 9 + 1 }).collect();
+    let body = Body::new(robot.body.width(), robot.body.height(), codes, Arc::new(Palette::new(materials)));
+    Robot { name: "own_not".to_owned(), body, genotype: None, ..robot.clone() }
+}
+
+#[test]
+fn two_swarms_of_different_palettes_run_in_one_file() {
+    let not = store::shipped_library().robots_for(Function::NOT).next().unwrap();
+    let own = renamed(not);
+    assert_eq!(own.body.palette().materials().len(), 9);
+    let bench = Bench::new();
+    for (folder, robot) in [("paper", not), ("own", &own)] {
+        fs::create_dir(bench.path().join(folder)).unwrap();
+        bench.file(&format!("{folder}/not.yaml"), store::print_robot(robot));
+    }
+    let source = "
+library paper { from: \"paper\" }
+library own { from: \"own\" }
+
+circuit inverter(a) -> (y) { y = not a }
+swarm of_paper { circuit: inverter, library: paper }
+swarm of_own { circuit: inverter, library: own }
+
+test inverter \"turns over\" {
+    a | y
+    0 | 1
+    1 | 0
+}
+";
+    let file = bench.file("two.nb", source);
+    let report = pipeline::run_file(&file, &Options::default()).unwrap();
+    let traces: Vec<_> = report.tests.iter().map(|run| &run.swarm.as_ref().unwrap().trace.robots[0]).collect();
+    let [of_paper, of_own] = traces[..] else { panic!("the test runs once for each swarm") };
+    assert_eq!((of_paper.robot.as_str(), of_own.robot.as_str()), (not.name.as_str(), "own_not"));
+    assert_eq!(of_own.com_x, of_paper.com_x, "the same materials under other names and codes");
+    assert!(report.passed());
 }
