@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::Code;
+use super::suggest::{Suggestion, alternatives};
+use super::{Code, Fix};
 use crate::source::Span;
 
 /// How bad it is.
@@ -16,7 +17,7 @@ pub enum Severity {
 }
 
 /// A place with a word about it.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Label {
     /// The place.
     pub span: Span,
@@ -27,8 +28,8 @@ pub struct Label {
 /// A further remark, at a place of its own file.
 pub type Related = Label;
 
-/// One fault of the user's input: what, where, and what to do about it.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+/// One fault of the user's input: what, where, and what to do about it. [`super::json`] is its one form for programs.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Diagnostic {
     /// Which rule.
     pub code: Code,
@@ -42,6 +43,8 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Remarks elsewhere, such as the first of two definitions.
     pub related: Vec<Related>,
+    /// Edits that remove the fault, where they are certain to.
+    pub fix: Option<Fix>,
 }
 
 impl Diagnostic {
@@ -54,19 +57,38 @@ impl Diagnostic {
             labels: vec![Label { span, text: label.into() }],
             help: None,
             related: Vec::new(),
+            fix: None,
         }
     }
 
     /// A diagnostic about a whole file or the command line, with no place in a text.
     pub fn without_place(code: Code, message: impl Into<String>) -> Self {
         let message = message.into();
-        Self { code, severity: code.severity(), message, labels: Vec::new(), help: None, related: Vec::new() }
+        let severity = code.severity();
+        Self { code, severity, message, labels: Vec::new(), help: None, related: Vec::new(), fix: None }
     }
 
     /// Adds what to write instead.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
+    }
+
+    /// Adds edits that remove the fault.
+    pub fn with_fix(mut self, fix: impl Into<Option<Fix>>) -> Self {
+        self.fix = fix.into();
+        self
+    }
+
+    /// Adds the names that may have been meant by the one at `span`; a near one can be put in its place.
+    pub fn with_suggestion(self, span: Span, suggestion: &Suggestion) -> Self {
+        match suggestion {
+            Suggestion::None => self,
+            Suggestion::Near(name) => {
+                self.with_help(format!("did you mean `{name}`?")).with_fix(Fix::replace(span, name.as_str()))
+            }
+            Suggestion::Known(names) => self.with_help(format!("known here: {}", alternatives(names, "and"))),
+        }
     }
 
     /// Adds a further labeled place.

@@ -3,40 +3,45 @@
 use serde_json::{Value, json};
 
 use super::{Diagnostic, Label};
-use crate::source::Sources;
+use crate::source::{Sources, Span};
 
-/// All diagnostics in their order: each with `code`, `severity`, `message`, `help`, `labels` and `related`; a place is `file`, `start`
-/// and `end` as bytes from 0, and as `line` and `column` from 1.
+/// All diagnostics in their order, as `docs/schema/diagnostics.json` describes them: a place is `file`, `start` and `end`, each with its
+/// byte from 0, and its line and column from 1.
 pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> Value {
     diagnostics.iter().map(|diagnostic| one(diagnostic, sources)).collect()
 }
 
 fn one(diagnostic: &Diagnostic, sources: &Sources) -> Value {
-    let labels = |labels: &[Label]| labels.iter().map(|label| place(label, sources)).collect::<Value>();
+    let places =
+        |labels: &[Label]| -> Value { labels.iter().map(|label| place(label.span, &label.text, sources)).collect() };
     json!({
         "code": diagnostic.code,
         "severity": diagnostic.severity,
         "message": diagnostic.message,
         "help": diagnostic.help,
-        "labels": labels(&diagnostic.labels),
-        "related": labels(&diagnostic.related),
+        "labels": places(&diagnostic.labels),
+        "related": places(&diagnostic.related),
+        "fix": diagnostic.fix.as_ref().map(|fix| {
+            let edits: Value = fix.edits.iter().map(|edit| place(edit.span, &edit.text, sources)).collect();
+            json!({ "title": fix.title, "edits": edits })
+        }),
     })
 }
 
-fn place(label: &Label, sources: &Sources) -> Value {
-    let file = sources.file(label.span.file);
+/// A place with a text: what is said of it, or what is to stand there.
+fn place(span: Span, text: &str, sources: &Sources) -> Value {
+    let file = sources.file(span.file);
     let end = |byte: u32| {
         let place = file.line_column(byte as usize);
         json!({ "byte": byte, "line": place.line, "column": place.column })
     };
-    json!({ "text": label.text, "file": file.name, "start": end(label.span.start), "end": end(label.span.end) })
+    json!({ "text": text, "file": file.name, "start": end(span.start), "end": end(span.end) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::Code;
-    use crate::source::Span;
+    use crate::diag::{Code, Fix};
 
     #[test]
     fn places_have_bytes_lines_and_columns() {
@@ -46,5 +51,17 @@ mod tests {
         let label = &json(&[diagnostic], &sources)[0]["labels"][0];
         assert_eq!(label["start"], json!({ "byte": 13, "line": 2, "column": 5 }));
         assert_eq!(label["end"], json!({ "byte": 14, "line": 2, "column": 6 }));
+    }
+
+    #[test]
+    fn a_fix_has_its_edits_with_their_places() {
+        let mut sources = Sources::default();
+        let span = Span::new(sources.add("a.nb", "q = a & b\n"), 6, 7);
+        let diagnostic = Diagnostic::new(Code::Syntax, "unexpected `&`", span, "expected `and`");
+        assert_eq!(json(std::slice::from_ref(&diagnostic), &sources)[0]["fix"], Value::Null);
+        let fix = &json(&[diagnostic.with_fix(Fix::replace(span, "and"))], &sources)[0]["fix"];
+        assert_eq!(fix["title"], "replace with `and`");
+        assert_eq!(fix["edits"][0]["text"], "and");
+        assert_eq!(fix["edits"][0]["start"], json!({ "byte": 6, "line": 1, "column": 7 }));
     }
 }

@@ -1,9 +1,11 @@
-//! Diagnostics: what is wrong with the user's input, as plain data with places; [`render`] is the only user of miette, [`suggest`] finds what was meant.
+//! Diagnostics: what is wrong with the user's input, as plain data with places; [`render`] is the only user of miette, [`suggest`] finds
+//! what was meant. Each stage has its own errors as data, and words them as diagnostics in its `wording` files.
 
 mod code;
 mod counted;
 mod diagnostic;
 mod file;
+mod fix;
 mod json;
 pub mod render;
 pub mod suggest;
@@ -13,5 +15,7 @@ pub use code::Code;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
 pub use file::io_words;
+pub use fix::{Edit, Fix};
 pub use json::json;
+pub use suggest::Suggestion;
 pub use visible::{is_hidden, visible};

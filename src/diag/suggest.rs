@@ -14,13 +14,42 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     scored.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
 }
 
+/// What may have been meant by an unknown name.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Suggestion {
+    /// Nobody can say.
+    #[default]
+    None,
+    /// A name that differs in a few letters.
+    Near(String),
+    /// One of these, of which there are few.
+    Known(Vec<String>),
+}
+
+impl Suggestion {
+    /// The nearest of `known`, or all of them where they are few.
+    pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        let known: Vec<_> = known.into_iter().collect();
+        match nearest(word, known.iter().copied()) {
+            Some(near) => Self::Near(near.to_owned()),
+            None if (1..=8).contains(&known.len()) => Self::Known(known.into_iter().map(str::to_owned).collect()),
+            None => Self::None,
+        }
+    }
+
+    /// The nearest of `known` alone.
+    pub fn near<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        nearest(word, known).map_or(Self::None, |near| Self::Near(near.to_owned()))
+    }
+}
+
 /// A help line for an unknown name: the nearest name, or all of them where they are few.
 pub fn help<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let known: Vec<_> = known.into_iter().collect();
-    if let Some(near) = nearest(word, known.iter().copied()) {
-        return Some(format!("did you mean `{near}`?"));
+    match Suggestion::of(word, known) {
+        Suggestion::None => None,
+        Suggestion::Near(near) => Some(format!("did you mean `{near}`?")),
+        Suggestion::Known(names) => Some(format!("known here: {}", alternatives(&names, "and"))),
     }
-    (1..=8).contains(&known.len()).then(|| format!("known here: {}", alternatives(&known, "and")))
 }
 
 /// Words in backticks as a list of the language: "`a`, `b` or `c`".
@@ -107,6 +136,11 @@ mod tests {
         assert_eq!(nearest("register", ["regester2x", "registers", "regis"]), Some("registers"));
         assert_eq!(nearest("carry", ["sum", "out"]), None);
         assert_eq!(nearest("c", ["a", "b"]), None);
-        assert_eq!(help("carry", ["sum", "out"]).unwrap(), "known here: `sum` and `out`");
+        assert_eq!(Suggestion::of("outt", ["sum", "out"]), Suggestion::Near("out".to_owned()));
+        assert_eq!(
+            Suggestion::of("carry", ["sum", "out"]),
+            Suggestion::Known(vec!["sum".to_owned(), "out".to_owned()])
+        );
+        assert_eq!(Suggestion::of("carry", []), Suggestion::None);
     }
 }

@@ -35,7 +35,7 @@ schemas! {
     Added = "added", 1: "Robots that were added to a library, and those that were not.";
     Bench = "bench", 1: "How fast a machine simulates.";
     Build = "build", 1: "A circuit as a netlist of cells.";
-    Diagnostics = "diagnostics", 1: "What is wrong with the input, of any command.";
+    Diagnostics = "diagnostics", 2: "Errors and warnings, of any command.";
     Drawn = "drawn", 1: "A picture that was written.";
     Elites = "elites", 1: "The archive of evolution runs.";
     Evolve = "evolve", 1: "Evolution runs, and their comparison.";
