@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use pest::iterators::{Pair, Pairs};
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
     Circuit, Declaration, DeclarationKind, Name, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
 };
+use crate::syntax::wording::Slip;
 
 /// Turns the pairs of one declaration into a tree.
 pub(crate) struct Converter<'a> {
@@ -51,10 +52,7 @@ impl Converter<'_> {
         let word = pair.as_str().split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default().to_owned();
         let start = self.span(&pair).start as usize;
         let span = Span::new(self.file, start, start + word.len());
-        self.errors.push(
-            Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected `circuit`")
-                .with_help("write `circuit name(inputs) -> (outputs) { … }`"),
-        );
+        self.slip(Slip::CircuitKeyword { word }, span);
     }
 
     fn record_declaration(&mut self, keyword: RecordKeyword, pair: Pair<Rule>) -> DeclarationKind {
@@ -78,9 +76,9 @@ impl Converter<'_> {
         Circuit { name, parameters, inputs, outputs, body: arena.body(statements) }
     }
 
-    /// A diagnostic about the grammar.
-    pub(crate) fn syntax(&mut self, message: impl Into<String>, span: Span, label: &str, help: impl Into<String>) {
-        self.errors.push(Diagnostic::new(Code::Syntax, message, span, label).with_help(help));
+    /// Notes a slip that the grammar knows.
+    pub(crate) fn slip(&mut self, slip: Slip, span: Span) {
+        self.errors.push(slip.at(span));
     }
 
     pub(crate) fn span(&self, pair: &Pair<Rule>) -> Span {

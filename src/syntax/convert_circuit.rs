@@ -10,6 +10,7 @@ use crate::syntax::tree::{
     Argument, Body, Expression, ExpressionId, ExpressionKind, Index, Parameter, Port, Size, SizeId, SizeKind,
     Statement, StatementKind, Target,
 };
+use crate::syntax::wording::Slip;
 
 /// The expressions and sizes of a body that is being made.
 #[derive(Default)]
@@ -70,33 +71,15 @@ impl Converter<'_> {
             Rule::nets => StatementKind::Nets(self.ports(pair, arena)),
             Rule::loop_ => self.for_loop(pair, arena),
             Rule::slip_end => {
-                let message = format!("unexpected `{}`", pair.as_str());
-                self.syntax(
-                    message,
-                    span,
-                    "expected a statement",
-                    "a statement ends with its line; write nothing after it",
-                );
+                self.slip(Slip::StatementEnd { sign: pair.as_str().to_owned() }, span);
                 return None;
             }
             _ => {
-                self.slip_statement(&pair, span);
+                self.slip(Slip::StatementKeyword { word: pair.as_str().to_owned() }, span);
                 return None;
             }
         };
         Some(Statement { kind, span })
-    }
-
-    fn slip_statement(&mut self, pair: &Pair<Rule>, span: Span) {
-        let word = pair.as_str();
-        let help = match word {
-            "wire" | "logic" | "signal" => {
-                "a net comes to be where it is driven, `t = a and b`; `net t[8]` declares its width"
-            }
-            "reg" => "state is a feedback loop, `q init 0 = …`, or a ready-made one, `q = register(d, clk)`",
-            _ => "write `name = expression`",
-        };
-        self.syntax(format!("unexpected `{word}`"), span, "expected a statement", help);
     }
 
     fn for_loop(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
@@ -116,8 +99,7 @@ impl Converter<'_> {
             _ => vec![self.target(left, arena)],
         };
         if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_arrow) {
-            let message = format!("unexpected `{}`", slip.as_str());
-            self.syntax(message, self.span(&slip), "expected `=`", "a net is driven with `=`");
+            self.slip(Slip::DriveSign { sign: slip.as_str().to_owned() }, self.span(&slip));
         }
         StatementKind::Drive { targets, grouped, value: self.expression(parts.next().expect("a value"), arena) }
     }

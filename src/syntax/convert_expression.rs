@@ -2,13 +2,13 @@
 
 use pest::iterators::Pair;
 
-use crate::diag::{Code, Diagnostic};
 use crate::model::Operator;
 use crate::source::Span;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::convert_circuit::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{ExpressionId, ExpressionKind, Index, Infix, SizeId, SizeKind, TableRow};
+use crate::syntax::wording::{Slip, SyntaxError};
 
 /// Operands and operators of an expression that are not yet put together.
 #[derive(Default)]
@@ -65,8 +65,15 @@ impl Converter<'_> {
         let sign = prefix.as_str();
         let follows = matches!(stacks.waiting.last(), Some(Waiting::Not(before)) if before.end - before.start == 1);
         if sign != "not" && !follows {
-            self.syntax(format!("unexpected `{sign}`"), span, "expected `not`", "write `not`");
+            self.slip(Slip::NotSign { sign: sign.to_owned() }, span);
         }
+    }
+
+    /// A word for the place of a sign, with a space on either side where the text has none.
+    fn apart(&self, sign: Span, word: &str) -> String {
+        let space = |character: Option<char>| if character.is_some_and(char::is_whitespace) { "" } else { " " };
+        let (before, after) = (&self.text[..sign.start as usize], &self.text[sign.end as usize..]);
+        format!("{}{word}{}", space(before.chars().next_back()), space(after.chars().next()))
     }
 
     /// Takes an operator in; `next` is what stands behind it.
@@ -82,7 +89,8 @@ impl Converter<'_> {
                     format!("({left} {} {middle}) {} {}", before.word(), infix.word(), brief(next)),
                     format!("{left} {} ({middle} {} {})", before.word(), infix.word(), brief(next)),
                 ];
-                self.errors.push(ambiguous((before, before_place), (infix, place), &readings));
+                let operators = [before.word(), infix.word()];
+                self.errors.push(SyntaxError::Ambiguous { operators, first: before_place, readings }.at(place));
             }
             stacks.reduce(arena);
         }
@@ -99,8 +107,9 @@ impl Converter<'_> {
             } else {
                 Operator::Xor
             };
-            let label = format!("expected `{operator}`");
-            self.syntax(format!("unexpected `{word}`"), self.span(pair), &label, format!("write `{operator}`"));
+            let (sign, span) = (word.to_owned(), self.span(pair));
+            let text = self.apart(span, operator.word());
+            self.slip(Slip::OperatorSign { sign, operator: operator.word(), text }, span);
             return Infix::Bitwise(operator);
         }
         let sign = Infix::SIGNS.iter().find(|(_, sign)| *sign == word).map(|(infix, _)| *infix);
@@ -177,8 +186,7 @@ impl Converter<'_> {
     fn computed(&mut self, width: SizeId, base: char, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
         let span = self.span(&pair);
         if base != 'd' {
-            let label = "expected `d` before a computed value";
-            self.syntax(format!("unexpected `{base}`"), span, label, "write `'d(…)`");
+            self.slip(Slip::BaseOfComputed { base }, span);
         }
         ExpressionKind::Computed { width, value: self.size(parts(pair).next().expect("a size"), arena) }
     }
@@ -199,9 +207,7 @@ impl Converter<'_> {
         if brackets.as_rule() == Rule::index {
             return Some(self.index(brackets, arena));
         }
-        let help =
-            "a bit is `a[3]`, a slice `a[7..4]`; a circuit's parameters stand before its operands, `add[8](a, b)`";
-        self.syntax("unexpected parameters", self.span(&brackets), "expected a bit or a slice", help);
+        self.slip(Slip::ParametersOfNet, self.span(&brackets));
         None
     }
 
@@ -211,8 +217,7 @@ impl Converter<'_> {
         }
         let index = self.index(brackets, arena);
         if index.low.is_some() {
-            let help = "a circuit's parameters are separated by commas, `register[4, 0](d, clk)`";
-            self.syntax("unexpected `..`", index.span, "expected parameters", help);
+            self.slip(Slip::SliceOfCircuit, index.span);
         }
         let span = arena.sizes[index.high.0 as usize].span;
         vec![crate::syntax::tree::Argument { name: None, value: index.high, span }]
@@ -247,14 +252,6 @@ impl Stacks {
         };
         self.values.push(value);
     }
-}
-
-fn ambiguous(before: (Infix, Span), after: (Infix, Span), readings: &[String; 2]) -> Diagnostic {
-    let message = format!("`{}` and `{}` side by side may be read in two ways", before.0.word(), after.0.word());
-    let help = format!("write `{}` or `{}`", readings[0], readings[1]);
-    Diagnostic::new(Code::Ambiguous, message, after.1, "or this one?")
-        .with_label(before.1, "is this one meant first,")
-        .with_help(help)
 }
 
 /// An operand as it is shown in advice.

@@ -6,6 +6,7 @@ use crate::syntax::convert::{Converter, parts};
 use crate::syntax::convert_circuit::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{Field, Instance, Record, Value, ValueKind};
+use crate::syntax::wording::Slip;
 
 impl Converter<'_> {
     pub(crate) fn record(&mut self, pair: Pair<Rule>) -> Record {
@@ -17,8 +18,7 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
         if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_equals) {
-            let help = format!("write `{}: …`", name.text);
-            self.syntax("unexpected `=`", self.span(&slip), "expected `:`", help);
+            self.slip(Slip::FieldSign { field: name.text.clone() }, self.span(&slip));
         }
         Field { name, value: self.value(parts.next().expect("a value")) }
     }

@@ -2,11 +2,12 @@
 
 use pest::error::{Error, ErrorVariant, InputLocation};
 
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::diag::{Diagnostic, Suggestion, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
 use crate::syntax::slips;
 use crate::syntax::split::{KEYWORDS, Piece};
+use crate::syntax::wording::SyntaxError;
 
 /// The diagnostic for a declaration that does not follow the grammar.
 pub(crate) fn diagnostic(text: &str, file: FileId, piece: &Piece, error: &Error<Rule>) -> Diagnostic {
@@ -23,39 +24,28 @@ pub(crate) fn diagnostic(text: &str, file: FileId, piece: &Piece, error: &Error<
     if let Some(slip) = slips::look(text, file, &piece.range, at, found, error) {
         return slip;
     }
-    if at == piece.range.start {
-        return no_declaration(found, span);
-    }
-    if let ErrorVariant::CustomError { .. } = error.variant {
-        return Diagnostic::new(Code::Nesting, "text is nested too deep", span, "here")
-            .with_help("give inner parts names: `t = …`");
-    }
-    if found.starts_with(['\n', '\r']) {
-        return Diagnostic::new(Code::Syntax, "the line ends too early", span, expected(error));
-    }
-    Diagnostic::new(Code::Syntax, format!("unexpected `{found}`"), span, expected(error))
+    let found = found.to_owned();
+    let error = if at == piece.range.start {
+        let meant = Suggestion::near(&found, KEYWORDS);
+        SyntaxError::UnexpectedDeclaration { found, meant }
+    } else if let ErrorVariant::CustomError { .. } = error.variant {
+        SyntaxError::TooDeepHere
+    } else if found.starts_with(['\n', '\r']) {
+        SyntaxError::EndOfLine { expected: expected(error) }
+    } else {
+        SyntaxError::Unexpected { found, expected: expected(error) }
+    };
+    error.at(span)
 }
 
 fn unexpected_end(file: FileId, piece: &Piece, error: &Error<Rule>) -> Diagnostic {
-    let end = Span::new(file, piece.range.end, piece.range.end);
     match piece.unclosed.last() {
-        Some(&open) => Diagnostic::new(
-            Code::Syntax,
-            "a bracket is never closed",
-            Span::new(file, open, open + 1),
-            "opened here, and still open at the end of the declaration",
-        )
-        .with_help("close it; a declaration that begins in the first column ends the one before"),
-        None => Diagnostic::new(Code::Syntax, "the declaration ends too early", end, expected(error)),
+        Some(&open) => SyntaxError::UnclosedBracket.at(Span::new(file, open, open + 1)),
+        None => {
+            let end = Span::new(file, piece.range.end, piece.range.end);
+            SyntaxError::EndOfDeclaration { expected: expected(error) }.at(end)
+        }
     }
-}
-
-fn no_declaration(found: &str, span: Span) -> Diagnostic {
-    let help = suggest::nearest(found, KEYWORDS).map_or_else(
-        || format!("declarations begin with {}", suggest::alternatives(&KEYWORDS, "or")),
-        |near| format!("did you mean `{near}`?"),
-    );
-    Diagnostic::new(Code::Syntax, format!("unexpected `{found}`"), span, "expected a declaration").with_help(help)
 }
 
 /// The word or sign that a text begins with; a long one is cut.
@@ -88,7 +78,7 @@ fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI => "the end of the declaration",
         Rule::name => "a name",
-        Rule::text => "a text in quotes",
+        Rule::text => "a string in quotes",
         Rule::number | Rule::digits => "a number",
         Rule::unit => "a unit",
         Rule::quantity => "a number with its unit",
@@ -100,7 +90,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::columns | Rule::inputs | Rule::outputs | Rule::operands => "`(`",
         Rule::spells | Rule::body | Rule::test_table => "`{`",
         Rule::spell | Rule::row | Rule::cell => "a row",
-        Rule::header => "the names of the columns",
+        Rule::header => "column names",
         Rule::bar => "`|`",
         Rule::parameters | Rule::arguments | Rule::index => "`[`",
         Rule::parameter | Rule::argument => "a parameter",

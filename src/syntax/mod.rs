@@ -12,6 +12,7 @@ mod parse;
 mod slips;
 mod split;
 pub mod tree;
+mod wording;
 
 pub use format::format;
 pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse, parse_instance};

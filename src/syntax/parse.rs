@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use pest::Parser;
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::source::{FileId, Sources, Span};
 use crate::syntax::convert::Converter;
 use crate::syntax::expected;
 use crate::syntax::grammar::{NbParser, Rule};
 use crate::syntax::split::{Piece, split};
 use crate::syntax::tree::{Declaration, Instance, Tree};
+use crate::syntax::wording::SyntaxError;
 
 /// The largest source text, in bytes.
 pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
@@ -34,10 +35,12 @@ pub struct Parsed {
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let text = &sources.file(file).text;
     if text.len() as u64 > MAX_SOURCE_BYTES {
-        return Parsed { errors: vec![too_large(text, file)], ..Parsed::default() };
+        let error = SyntaxError::TooLarge { bytes: text.len(), most: MAX_SOURCE_BYTES };
+        return Parsed { errors: vec![error.at(Span::new(file, 0, 0))], ..Parsed::default() };
     }
     if let Some(at) = text.find('\0') {
-        return Parsed { errors: vec![no_text(file, at)], ..Parsed::default() };
+        let error = SyntaxError::ZeroByte.at(Span::new(file, at, at + 1));
+        return Parsed { errors: vec![error], ..Parsed::default() };
     }
     let split = split(text);
     let mut parsed = Parsed::default();
@@ -62,11 +65,8 @@ pub fn parse_instance(sources: &Sources, file: FileId) -> Result<Instance, Diagn
     let mut converter = Converter { file, text, comments: &[], offset: 0, errors: Vec::new() };
     let parsed = NbParser::parse(Rule::one_instance, text).ok().and_then(|mut pairs| pairs.next());
     let instance = parsed.map(|pair| converter.instance(pair)).filter(|_| converter.errors.is_empty());
-    instance.ok_or_else(|| {
-        let message = format!("`{text}` is not the name of a circuit");
-        Diagnostic::new(Code::Syntax, message, Span::new(file, 0, text.len()), "expected a name")
-            .with_help("write the parameters in brackets: `adder[8]` or `adder[n = 8]`")
-    })
+    let whole = Span::new(file, 0, text.len());
+    instance.ok_or_else(|| SyntaxError::NotAnInstance { text: text.to_owned() }.at(whole))
 }
 
 /// The word after the keyword of a declaration.
@@ -79,30 +79,14 @@ fn name_of(text: &str, file: FileId, piece: &Piece) -> Option<Span> {
     (end > start).then(|| Span::new(file, piece.range.start + start, piece.range.start + end))
 }
 
-fn too_large(text: &str, file: FileId) -> Diagnostic {
-    let message = format!("source text of {} MB", text.len() >> 20);
-    let label = format!("more than {} MB", MAX_SOURCE_BYTES >> 20);
-    Diagnostic::new(Code::Unreadable, message, Span::new(file, 0, 0), label)
-        .with_help("split it into files, or say with `for` and circuits what repeats")
-}
-
-fn no_text(file: FileId, at: usize) -> Diagnostic {
-    let span = Span::new(file, at, at + 1);
-    Diagnostic::new(Code::Unreadable, "the file is no text", span, "a zero byte")
-        .with_help("source files are UTF-8 text")
-}
-
 fn parse_piece(
     text: &str,
     file: FileId,
     comments: &[Range<usize>],
     piece: &Piece,
 ) -> (Option<Declaration>, Vec<Diagnostic>) {
-    if piece.depth > MAX_NESTING {
-        return (None, vec![too_deep(file, piece)]);
-    }
-    if piece.words > MAX_WORDS {
-        return (None, vec![too_long(file, piece)]);
+    if let Some(error) = over_limits(piece) {
+        return (None, vec![error.at(Span::new(file, piece.range.start, piece.range.start + 1))]);
     }
     let source = &text[piece.range.clone()];
     let mut converter = Converter { file, text, comments, offset: piece.range.start, errors: Vec::new() };
@@ -116,16 +100,10 @@ fn parse_piece(
     (declaration, converter.errors)
 }
 
-fn too_deep(file: FileId, piece: &Piece) -> Diagnostic {
-    let span = Span::new(file, piece.range.start, piece.range.start + 1);
-    let message = format!("brackets nest {} deep", piece.depth);
-    Diagnostic::new(Code::Nesting, message, span, format!("in this declaration; at most {MAX_NESTING} is allowed"))
-        .with_help("give inner parts names: `t = …`")
-}
-
-fn too_long(file: FileId, piece: &Piece) -> Diagnostic {
-    let span = Span::new(file, piece.range.start, piece.range.start + 1);
-    let message = format!("a declaration of {} words and signs", piece.words);
-    Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {MAX_WORDS}"))
-        .with_help("split it into several, or say with `for` and circuits what repeats")
+/// What is wrong with a declaration that nests too deeply or is too long to be parsed.
+fn over_limits(piece: &Piece) -> Option<SyntaxError> {
+    if piece.depth > MAX_NESTING {
+        return Some(SyntaxError::TooDeep { depth: piece.depth, most: MAX_NESTING });
+    }
+    (piece.words > MAX_WORDS).then_some(SyntaxError::TooLong { words: piece.words, most: MAX_WORDS })
 }

@@ -2,9 +2,10 @@
 
 use pest::error::{Error, ErrorVariant};
 
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::diag::{Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
+use crate::syntax::wording::Slip;
 
 /// The words that are never names.
 pub(crate) const RESERVED: [&str; 16] = [
@@ -34,8 +35,11 @@ pub(crate) struct Place<'a> {
     open: Vec<usize>,
 }
 
-/// In order: the first that recognizes the place words its message.
-const LOOKS: [fn(&Place<'_>) -> Option<Diagnostic>; 16] = [
+/// A slip with its place.
+type Found = Option<(Slip, Span)>;
+
+/// In order: the first that recognizes the place decides.
+const LOOKS: [fn(&Place<'_>) -> Found; 16] = [
     block_comment,
     letters,
     unclosed_quote,
@@ -50,7 +54,7 @@ const LOOKS: [fn(&Place<'_>) -> Option<Diagnostic>; 16] = [
     space_before_operands,
     misspelled_operator,
     missing_operator,
-    blank_in_pattern,
+    space_in_pattern,
     missing_comma,
 ];
 
@@ -66,7 +70,7 @@ pub(crate) fn look(
     let ErrorVariant::ParsingError { positives, .. } = &error.variant else { return None };
     let open = open_brackets(text, range.start, at);
     let place = Place { file, text, start: range.start, end: range.end, at, found, wanted: positives, open };
-    LOOKS.iter().find_map(|look| look(&place))
+    LOOKS.iter().find_map(|look| look(&place)).map(|(slip, span)| slip.at(span))
 }
 
 /// The brackets that are open at `at`, without those in comments and texts.
@@ -124,8 +128,9 @@ impl<'a> Place<'a> {
         self.span(self.at, self.at + self.found.len())
     }
 
-    fn fault(&self, label: &str) -> Diagnostic {
-        Diagnostic::new(Code::Syntax, format!("unexpected `{}`", self.found), self.here(), label)
+    /// The word or sign that stands there.
+    fn found(&self) -> String {
+        self.found.to_owned()
     }
 
     fn wants(&self, rules: &[Rule]) -> bool {
@@ -164,41 +169,33 @@ fn ends_operand(text: &str) -> bool {
     ends && !RESERVED.contains(&word)
 }
 
-fn block_comment(place: &Place<'_>) -> Option<Diagnostic> {
-    place.after().starts_with("/*").then(|| {
-        let span = place.span(place.at, place.at + 2);
-        Diagnostic::new(Code::Syntax, "unexpected `/*`", span, "expected a comment that begins with `//`")
-            .with_help("a comment runs from `//` to the end of its line")
-    })
+fn block_comment(place: &Place<'_>) -> Found {
+    place.after().starts_with("/*").then(|| (Slip::BlockComment, place.span(place.at, place.at + 2)))
 }
 
-fn letters(place: &Place<'_>) -> Option<Diagnostic> {
+fn letters(place: &Place<'_>) -> Found {
     let foreign = |word: &str| !word.is_ascii();
     let (rest, head) = last_word(place.before());
     let tail = place.after().find(|c| !is_word(c)).unwrap_or(place.after().len());
     let word = &place.text[place.start + rest.len()..place.at + tail];
-    (foreign(word) && foreign(place.found) && word.chars().all(is_word)).then(|| {
-        let span = place.span(place.at - head.len(), place.at + tail);
-        let label = "names are made of the letters `a` to `z`, digits and `_`";
-        Diagnostic::new(Code::Syntax, format!("`{word}` cannot be a name"), span, label)
-            .with_help("write it with ASCII letters")
-    })
+    (foreign(word) && foreign(place.found) && word.chars().all(is_word))
+        .then(|| (Slip::ForeignLetters { word: word.to_owned() }, place.span(place.at - head.len(), place.at + tail)))
 }
 
-fn unclosed_quote(place: &Place<'_>) -> Option<Diagnostic> {
+fn unclosed_quote(place: &Place<'_>) -> Found {
     let line = place.after().lines().next().unwrap_or_default();
-    (place.found == "\"" && !line[1..].contains('"')).then(|| {
-        Diagnostic::new(Code::Syntax, "the text is never closed", place.here(), "opened here")
-            .with_help("close it with `\"` on the same line")
+    (place.found == "\"" && !line[1..].contains('"')).then(|| (Slip::UnclosedQuote, place.here()))
+}
+
+fn single_quote(place: &Place<'_>) -> Found {
+    (place.found == "'" && place.wants(&[Rule::text])).then(|| {
+        let line = place.after().lines().next().unwrap_or_default();
+        let close = line[1..].find('\'').map(|end| place.span(place.at + end + 1, place.at + end + 2));
+        (Slip::SingleQuote { close }, place.here())
     })
 }
 
-fn single_quote(place: &Place<'_>) -> Option<Diagnostic> {
-    (place.found == "'" && place.wants(&[Rule::text]))
-        .then(|| place.fault("expected `\"`").with_help("texts stand in double quotes"))
-}
-
-fn reserved_word(place: &Place<'_>) -> Option<Diagnostic> {
+fn reserved_word(place: &Place<'_>) -> Found {
     let assigned = |rest: &str| rest.trim_start().starts_with('=') && !rest.trim_start().starts_with("==");
     let (word, start) = if RESERVED.contains(&place.found) {
         let name = place.wants(&[Rule::name, Rule::port, Rule::target, Rule::parameter]);
@@ -208,15 +205,10 @@ fn reserved_word(place: &Place<'_>) -> Option<Diagnostic> {
         let (word, start, line) = place.word_before()?;
         (assigned(place.after()) && RESERVED.contains(&word) && !line.ends_with(is_word)).then_some((word, start))?
     };
-    let span = place.span(start, start + word.len());
-    let message = format!("`{word}` is a reserved word");
-    Some(
-        Diagnostic::new(Code::Syntax, message, span, "expected a name")
-            .with_help(format!("choose another name, such as `{word}_1`")),
-    )
+    Some((Slip::ReservedWord { word: word.to_owned() }, place.span(start, start + word.len())))
 }
 
-fn colon_in_brackets(place: &Place<'_>) -> Option<Diagnostic> {
+fn colon_in_brackets(place: &Place<'_>) -> Found {
     let (open, b'[') = place.inside()? else { return None };
     if place.found != ":" {
         return None;
@@ -225,26 +217,21 @@ fn colon_in_brackets(place: &Place<'_>) -> Option<Diagnostic> {
     let close = place.after().find(']')?;
     let (high, low) = (&place.text[open + 1..place.at], &place.after()[1..close]);
     if place.in_ports() {
-        return width_before_name(place).or_else(|| Some(width_of_port(place, name, high, low)));
+        let range = place.span(open + 1, place.at + close);
+        let slip = Slip::RangeOfPort { port: name.to_owned(), width: width(high, low), range };
+        return width_before_name(place).or_else(|| Some((slip, place.here())));
     }
-    let help = format!("write `{name}[{}..{}]`", brief(high), brief(low));
-    Some(place.fault("expected `..`").with_help(help))
+    let [net, high, low] = [name, brief(high), brief(low)].map(str::to_owned);
+    Some((Slip::ColonInSlice { net, high, low }, place.here()))
 }
 
 /// The width that `[high:low]` has in Verilog.
-fn width(high: &str, low: &str) -> String {
-    match (high.trim().parse::<u32>(), low.trim().parse::<u32>()) {
-        (Ok(high), Ok(low)) => (u64::from(high.abs_diff(low)) + 1).to_string(),
-        _ => "8".to_owned(),
-    }
+fn width(high: &str, low: &str) -> Option<u64> {
+    let [high, low] = [high, low].map(|end| end.trim().parse::<u32>().ok());
+    Some(u64::from(high?.abs_diff(low?)) + 1)
 }
 
-fn width_of_port(place: &Place<'_>, name: &str, high: &str, low: &str) -> Diagnostic {
-    let help = format!("a port has the number of its bits: `{name}[{}]`", width(high, low));
-    place.fault("expected `]`").with_help(help)
-}
-
-fn question_mark(place: &Place<'_>) -> Option<Diagnostic> {
+fn question_mark(place: &Place<'_>) -> Found {
     if place.found != "?" {
         return None;
     }
@@ -252,11 +239,11 @@ fn question_mark(place: &Place<'_>) -> Option<Diagnostic> {
     let condition = place.before().rsplit(['=', '(', ',', '{', '\n']).next().unwrap_or_default();
     let (then, rest) = line[1..].split_once(':').unwrap_or(("a", "b"));
     let otherwise = rest.split([')', '}', ',']).next().unwrap_or_default();
-    let help = format!("write `if {} then {} else {}`", brief(condition), brief(then), brief(otherwise));
-    Some(place.fault("expected an operator").with_help(help))
+    let [condition, then, otherwise] = [condition, then, otherwise].map(|part| brief(part).to_owned());
+    Some((Slip::QuestionMark { condition, then, otherwise }, place.here()))
 }
 
-fn width_before_name(place: &Place<'_>) -> Option<Diagnostic> {
+fn width_before_name(place: &Place<'_>) -> Found {
     let open = match place.inside()? {
         (_, b'(') if place.found == "[" => place.at,
         (open, b'[') => open,
@@ -265,61 +252,56 @@ fn width_before_name(place: &Place<'_>) -> Option<Diagnostic> {
     let rest = place.text[open..place.end].strip_prefix('[')?;
     let (range, name) = rest.split_once(']')?;
     let name = name.trim_start_matches([' ', '\t']);
+    let start = place.end - name.len();
     let name = &name[..name.find(|c| !is_word(c)).unwrap_or(name.len())];
     let before = place.text[place.start..open].trim_end();
     if name.is_empty() || !before.ends_with(['(', ',']) && !KINDS.contains(&last_word(before).1) {
         return None;
     }
-    let bits = range.split_once(':').map_or_else(|| brief(range).to_owned(), |(high, low)| width(high, low));
-    let span = place.span(open, open + 1);
-    Some(
-        Diagnostic::new(Code::Syntax, "unexpected `[`", span, "expected a name")
-            .with_help(format!("the width stands behind the name: `{name}[{bits}]`")),
-    )
+    let bits = match range.split_once(':') {
+        None => Some(brief(range).to_owned()),
+        Some((high, low)) => width(high, low).map(|bits| bits.to_string()),
+    };
+    let both = bits.as_ref().filter(|bits| *bits != "…").map(|_| place.span(open, start + name.len()));
+    let slip = Slip::WidthBeforeName { name: name.to_owned(), width: bits.unwrap_or_else(|| "8".to_owned()), both };
+    Some((slip, place.span(open, open + 1)))
 }
 
-fn port_kind(place: &Place<'_>) -> Option<Diagnostic> {
+fn port_kind(place: &Place<'_>) -> Found {
     let (word, start, _) = place.word_before()?;
     let named = place.in_ports() && KINDS.contains(&word) && place.found.starts_with(is_word);
     named.then(|| {
-        let span = place.span(start, start + word.len());
-        Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected the name of a port")
-            .with_help(format!("write the name alone: `{}`", place.found))
+        let both = place.span(start, place.at + place.found.len());
+        let slip = Slip::KindOfPort { kind: word.to_owned(), port: place.found(), both };
+        (slip, place.span(start, start + word.len()))
     })
 }
 
-fn width_of_constant(place: &Place<'_>) -> Option<Diagnostic> {
+fn width_of_constant(place: &Place<'_>) -> Found {
     let before = place.before();
     let open = before.strip_suffix(')').and_then(|inside| inside.rfind('(')).filter(|_| place.found == "'")?;
     let sum = brief(&before[open + 1..before.len() - 1]);
-    let digits = place.after()[1..].trim_start_matches(['b', 'd', 'h']);
-    let digits = &digits[..digits.find(|c| !is_word(c)).unwrap_or(digits.len())];
-    let help = if !digits.is_empty() && digits.bytes().all(|digit| digit == b'0') {
-        format!("repeat a zero: `{{({sum}){{0}}}}`")
-    } else {
-        format!("give the width a name, as in `circuit name[w = {sum}](…)`, and write `w'd{}`", brief(digits))
-    };
-    Some(place.fault("the width of a constant is a number or a name").with_help(help))
+    let constant = &place.after()[1..];
+    let constant = &constant[..constant.find(|c| !is_word(c)).unwrap_or(constant.len())];
+    let digits = constant.trim_start_matches(['b', 'd', 'h']);
+    let is_zero = sum != "…" && !digits.is_empty() && digits.bytes().all(|digit| digit == b'0');
+    let zero = is_zero.then(|| place.span(place.start + open, place.at + 1 + constant.len()));
+    Some((Slip::WidthOfConstant { width: sum.to_owned(), digits: brief(digits).to_owned(), zero }, place.here()))
 }
 
-fn nets_in_braces(place: &Place<'_>) -> Option<Diagnostic> {
+fn nets_in_braces(place: &Place<'_>) -> Found {
     let close = place.after().find('}')?;
     let assigned = place.after()[close + 1..].trim_start();
     if place.found != "{" || !place.in_body() || !assigned.starts_with('=') || assigned.starts_with("==") {
         return None;
     }
     let names: Vec<&str> = place.after()[1..close].split(',').map(str::trim).collect();
-    let bits = names.iter().rev().enumerate().map(|(bit, name)| format!("`{name} = t[{bit}]`"));
+    let bits = names.iter().rev().enumerate().map(|(bit, name)| format!("{name} = t[{bit}]"));
     let bits: Vec<String> = bits.collect::<Vec<_>>().into_iter().rev().take(4).collect();
-    let help = format!(
-        "a circuit's outputs are taken with `({}) = …`; for the bits of a value write `t = …` and then {}",
-        brief(&names.join(", ")),
-        suggest::join(&bits, "and")
-    );
-    Some(place.fault("a net, or nets in parentheses, stand before `=`").with_help(help))
+    Some((Slip::NetsInBraces { nets: brief(&names.join(", ")).to_owned(), bits }, place.here()))
 }
 
-fn space_before_operands(place: &Place<'_>) -> Option<Diagnostic> {
+fn space_before_operands(place: &Place<'_>) -> Found {
     let before = place.before().trim_end();
     let open = if place.found == "(" { place.at } else { place.start + opening(before.strip_suffix(')')?)? };
     let head = &place.text[place.start..open];
@@ -330,8 +312,8 @@ fn space_before_operands(place: &Place<'_>) -> Option<Diagnostic> {
     }
     let close = place.text[open..place.end].find(')').map_or(place.end, |close| open + close + 1);
     let span = place.span(place.start + callee.len(), open);
-    let help = format!("write `{name}{}`: a name and its parentheses stand together", brief(&place.text[open..close]));
-    Some(Diagnostic::new(Code::Syntax, "unexpected space before `(`", span, "here").with_help(help))
+    let operands = brief(&place.text[open..close]).to_owned();
+    Some((Slip::SpaceBeforeOperands { name: name.to_owned(), operands }, span))
 }
 
 /// Where the bracket opens that is closed at the end of a text, which is without it.
@@ -348,7 +330,7 @@ fn opening(inside: &str) -> Option<usize> {
     })
 }
 
-fn misspelled_operator(place: &Place<'_>) -> Option<Diagnostic> {
+fn misspelled_operator(place: &Place<'_>) -> Found {
     let operator = |word| suggest::nearest(word, BETWEEN);
     let (word, start, near) = match place.word_before() {
         Some((word, start, line)) if ends_operand(line) && operator(word).is_some() => (word, start, operator(word)?),
@@ -361,22 +343,17 @@ fn misspelled_operator(place: &Place<'_>) -> Option<Diagnostic> {
         return None;
     }
     let span = place.span(start, start + word.len());
-    Some(
-        Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected an operator")
-            .with_help(format!("did you mean `{near}`?")),
-    )
+    Some((Slip::MisspelledOperator { word: word.to_owned(), operator: near.to_owned() }, span))
 }
 
-fn missing_operator(place: &Place<'_>) -> Option<Diagnostic> {
+fn missing_operator(place: &Place<'_>) -> Found {
     let (word, start, line) = place.word_before()?;
     let drives = place.wants(&[Rule::index, Rule::slip_arrow]) && place.in_body();
-    (drives && ends_operand(line) && line.contains('=') && !RESERVED.contains(&word)).then(|| {
-        let span = place.span(start, start + word.len());
-        Diagnostic::new(Code::Syntax, format!("unexpected `{word}`"), span, "expected an operator or a new line")
-    })
+    (drives && ends_operand(line) && line.contains('=') && !RESERVED.contains(&word))
+        .then(|| (Slip::MissingOperator { found: word.to_owned() }, place.span(start, start + word.len())))
 }
 
-fn blank_in_pattern(place: &Place<'_>) -> Option<Diagnostic> {
+fn space_in_pattern(place: &Place<'_>) -> Found {
     let is_pattern = |word: &str| !word.is_empty() && word.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-'));
     let (open, b'{') = place.inside()? else { return None };
     let in_table = place.text[place.start..open].trim_end().ends_with(')') && place.open.len() > 1;
@@ -386,22 +363,25 @@ fn blank_in_pattern(place: &Place<'_>) -> Option<Diagnostic> {
     let before = place.before().trim_end();
     let first = before.rsplit(|c: char| !matches!(c, '0' | '1' | '-')).next().unwrap_or_default();
     (in_table && is_pattern(first) && !words.is_empty() && words.iter().all(|word| is_pattern(word))).then(|| {
-        let help = format!("a pattern has no blanks: `{first}{}`", words.concat());
-        place.fault("expected `:`").with_help(help)
+        let start = place.start + before.len() - first.len();
+        let whole = place.span(start, place.at + pattern.trim_end().len());
+        (
+            Slip::SpaceInPattern { found: place.found(), pattern: format!("{first}{}", words.concat()), whole },
+            place.here(),
+        )
     })
 }
 
-fn missing_comma(place: &Place<'_>) -> Option<Diagnostic> {
+fn missing_comma(place: &Place<'_>) -> Found {
     let (_, bracket) = place.inside()?;
     let follows = ends_operand(place.before().trim_end()) && place.found.starts_with(is_word);
     let close = match bracket {
-        b'(' => ")",
-        b'[' => "]",
+        b'(' => ')',
+        b'[' => ']',
         _ => return None,
     };
     (follows && !place.wants(&[Rule::operator, Rule::size_infix])).then(|| {
-        let (word, ..) = place.word_before().unwrap_or_default();
-        let fault = place.fault(&format!("expected `,` or `{close}`"));
-        if word.is_empty() { fault } else { fault.with_help(format!("write `{word}, {}`", place.found)) }
+        let before = place.word_before().map(|(word, at, _)| (word.to_owned(), place.span(at, at + word.len())));
+        (Slip::MissingComma { before, found: place.found(), close }, place.here())
     })
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use nbc::check;
 use nbc::diag::{Code, Diagnostic, render};
-use nbc::source::Sources;
+use nbc::source::{MemoryWorld, Sources};
 use nbc::store::DiskWorld;
 
 use crate::language::{programs, root};
@@ -63,11 +63,37 @@ fn messages_are_written_as_messages_are() {
     for path in programs("tests/ui") {
         for diagnostic in found(&name(&path)).0 {
             let help = diagnostic.help.iter();
-            let texts = diagnostic.labels.iter().chain(&diagnostic.related).map(|label| &label.text).chain(help);
+            let title = diagnostic.fix.iter().map(|fix| &fix.title);
+            let labels = diagnostic.labels.iter().chain(&diagnostic.related).map(|label| &label.text);
+            let texts = labels.chain(help).chain(title);
             for text in texts.chain([&diagnostic.message]) {
                 assert!(!text.ends_with('.') && !text.is_empty(), "{text:?} ends without a full stop");
                 assert!(!text.starts_with(char::is_uppercase), "{text:?} begins in lower case");
             }
         }
     }
+}
+
+#[test]
+fn every_fix_removes_what_it_is_offered_for() {
+    let mut offered = 0;
+    for path in programs("tests/ui") {
+        let mut sources = Sources::default();
+        let Ok(file) = check::open(&DiskWorld, &name(&path), &mut sources) else { continue };
+        let faults = check::check(&DiskWorld, &mut sources, file).diagnostics;
+        for fault in faults.iter().filter(|fault| fault.labels.first().is_some_and(|label| label.span.file == file)) {
+            let Some(fix) = &fault.fix else { continue };
+            let fixed = fix.apply(file, &sources.file(file).text);
+            let mut world = MemoryWorld::default();
+            world.insert("fixed.nb", fixed.as_str());
+            let mut sources = Sources::default();
+            let file = check::open(&world, "fixed.nb", &mut sources).unwrap();
+            let left = check::check(&world, &mut sources, file).diagnostics;
+            let is_left =
+                left.iter().any(|left| left.labels.first() == fault.labels.first() && left.message == fault.message);
+            assert!(!is_left, "{}: `{}` is left after `{}`:\n{fixed}", path.display(), fault.message, fix.title);
+            offered += 1;
+        }
+    }
+    assert!(offered > 12, "{offered} fixes were tried");
 }
