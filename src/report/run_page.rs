@@ -234,7 +234,7 @@ fn robot_data(swarm: &PageSwarm<'_>, k: usize, looks: &Looks) -> Json {
             ["stimulus 2", &wired(1)],
             ["body", &body.rows().join(" ")],
             ["materials", &materials(body)],
-            ["clock", &format!("{} cycles, margin {:.3} voxels a cycle", character.clock, character.margin)],
+            ["clock", &format!("{}, margin {:.3} voxels a cycle", counted(character.clock as usize, "cycle"), character.margin)],
             ["errors", &format!("{:.2} % of {} switches", character.error_rate * 100.0, character.switches)],
         ],
     })

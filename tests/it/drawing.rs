@@ -142,7 +142,13 @@ fn a_pose_is_the_body_bent_over_its_outline() {
     assert_eq!((shapes(&bent, false).len(), shapes(&bent, true).len()), (8, 8));
     assert_ne!(shapes(&bent, false), shapes(&bent, true));
     assert!(texts(&bent).iter().any(|text| text.starts_with("after 1.50 cycles, stimuli 00")));
-    assert_eq!(pose("2"), pose("99"), "what is after the end shows the end");
+    assert_eq!(
+        pose("2"),
+        svg(&bench, "walker.yaml --as pose --schedule 00*2"),
+        "the end is what is shown without `--at`"
+    );
+    let late = draw(&bench, "walker.yaml --as pose --schedule 00*2 --at 2.5 -o late.svg");
+    late.expect_fault(&["`--at 2.5` is after the end of the schedule at cycle 2"]);
 }
 
 #[test]
@@ -157,6 +163,27 @@ fn a_fault_in_the_first_cycle_is_drawn_and_not_hidden() {
     let strip = svg(&bench, &format!("wild.yaml --as strip {schedule}"));
     assert!(texts(&strip).contains(&"unstable".to_owned()));
     assert_eq!(draw(&bench, &format!("wild.yaml --as gif {schedule} -o a.gif")).status, 0);
+}
+
+#[test]
+fn options_that_cannot_apply_are_refused() {
+    let bench = Bench::new();
+    bench.file("walker.yaml", WALKER);
+    bench.file("idle.nb", "circuit inverter(a) -> (q) { q = not a }\n");
+    let check = |line: &str, option: &str| {
+        draw(&bench, &format!("{line} -o a.svg")).expect_fault(&[&format!("`{option}` does not apply"), "help"]);
+    };
+    check("walker.yaml --as strip --at 1", "--at");
+    check("walker.yaml --as sprite --schedule 00*1", "--schedule");
+    check("idle.nb --as spacetime --schedule 00*1", "--schedule");
+    check("walker.yaml --as sprite --behavior RRRL", "--behavior");
+    check("walker.yaml --as sprite --axes voxels,active", "--axes");
+    check("shipped --as spacetime --robots q", "--robots");
+    check("nand --as sprite --circuit inverter", "--circuit");
+    check("nand --as sprite --swarm few", "--swarm");
+    check("nand --as sprite --test first", "--test");
+    check("nand --as spacetime --safe-colors", "--safe-colors");
+    assert!(!bench.path().join("a.svg").exists());
 }
 
 #[test]

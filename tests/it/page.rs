@@ -9,6 +9,7 @@ use nbc::source::{FileId, Span};
 use nbc::swarm::{Assembly, Demand, Level, Member, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
+use crate::cli::Bench;
 use crate::pictures::{latch, latch_netlist};
 
 pub fn robot(name: &str, function: Function) -> Robot {
@@ -203,6 +204,15 @@ later(moved, () => {
 });
 </script>"##;
 
+const SIMULATION: &str = r#"<script>
+const player = players[1], section = document.getElementById("swarm-1"), shot = () => section.querySelector(".stage").toDataURL();
+const before = shot(), moved = () => shot() !== before && player.clock.time > 0;
+section.scrollIntoView();
+const rows = [...section.querySelectorAll("tr")].filter(row => row.querySelector("td")).map(row => [...row.cells].map(cell => cell.textContent.trim()));
+section.querySelector(".play").click();
+later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
+</script>"#;
+
 /// What the reader's script found on a page in a window of that size.
 fn found(browser: &Path, page: &str, reader: &str, size: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
@@ -277,4 +287,44 @@ fn the_page_of_an_evolution_opens_elites_in_a_browser() {
     assert!(found["niches"].as_u64().unwrap() > 2 && found["again"].as_u64().unwrap() > 2, "{found}");
     keep(&browser, "evolution", &page, (1100, 2400), LIGHT);
     keep(&browser, "evolution-phone-dark", &page, (500, 2400), DARK);
+}
+
+/// A bus that is chosen or zero, tested and simulated.
+const BUSES: &str = "
+circuit choice(a[2], s) -> (q[2], r) {
+    q = if s then a else 2'd0
+    r = a[0] and s
+}
+swarm pair { circuit: choice }
+simulate pair with schedule (a, s) {
+    2'd0 1 for 3 cycles
+    2'd3 1 for 3 cycles
+}
+test choice \"selects\" {
+    a    s | q    r
+    2'd1 1 | 2'd1 1
+}
+";
+
+#[test]
+fn a_simulation_has_its_section_and_a_bus_its_strip() {
+    let bench = Bench::new();
+    bench.file("buses.nb", BUSES);
+    assert_eq!(bench.run(&["run", "buses.nb"]).status, 0);
+    let diagram = std::fs::read_to_string(bench.path().join("out/buses/simulate-pair-spacetime.svg")).unwrap();
+    let values: Vec<&str> =
+        diagram.split("<text").filter_map(|text| text.split_once('>')?.1.split('<').next()).collect();
+    for value in ["2'd0", "2'd3"] {
+        // Each of the outputs q[1], q[0] and r shows the strip of the bus `a`.
+        assert_eq!(values.iter().filter(|found| **found == value).count(), 3, "{values:?}");
+    }
+    let page = std::fs::read_to_string(bench.path().join("out/buses/report.html")).unwrap();
+    let Some(browser) = chromium() else { return };
+    let found = found(&browser, &page, SIMULATION, "--window-size=1200,900");
+    assert_eq!(found["walked"], true, "the simulated robots move: {found}");
+    let rows = serde_json::json!([
+        ["8", "2'd0", "1", "3", "2'd0", "0", "1", "1"],
+        ["9", "2'd3", "1", "3", "2'd3", "1", "1", "1"]
+    ]);
+    assert_eq!(found["rows"], rows);
 }

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod kind;
+mod options;
 mod robot;
 mod run;
 mod several;
@@ -21,9 +22,13 @@ use crate::store;
 
 use canvas::Canvas;
 use kind::Kind;
+use options::Drawn;
 use robot::Subject;
 
 pub(super) use run::{is_run, page as run_page, read as read_run};
+
+/// The stimuli of robots where none are given: every pattern as long as in the paper.
+const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
 
 /// Draw a robot, a library, an evolution run, or a circuit and its swarm
 #[derive(Args)]
@@ -46,9 +51,9 @@ pub struct Arguments {
     /// The file to write: `.svg` or `.png` for pictures, `.gif`, `.png` or `.apng` for films, `.vcd`, `.dot`, `.html`
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The stimuli of robots over time, as for `nbc simulate`
-    #[arg(long, default_value = "00*10 01*10 10*10 11*10")]
-    schedule: String,
+    /// The stimuli of robots over time, as for `nbc simulate` [default: 00*10 01*10 10*10 11*10]
+    #[arg(long)]
+    schedule: Option<String>,
     /// The cycle of a pose [default: the schedule's end]
     #[arg(long, value_name = "CYCLE", value_parser = cycle, allow_negative_numbers = true)]
     at: Option<f64>,
@@ -80,25 +85,35 @@ impl Arguments {
     /// When what is to be drawn makes no sense, is not to be had of this subject, or cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let canvas = Canvas::new(&self.output, self.kind).map_err(Failure::plain)?;
-        let what = Path::new(&self.what);
-        if self.what.ends_with(".nb") {
-            self.draw_program(&canvas)?
-        } else if run::is_run(what) {
-            let harvest = run::read(what, context)?;
-            match self.behavior {
-                Some(behavior) => self.draw_robot(&canvas, &self.champion(&harvest, behavior)?)?,
-                None => self.draw_run(&canvas, &harvest)?,
+        let drawn = self.drawn();
+        self.check_options(drawn).map_err(Failure::plain)?;
+        match drawn {
+            Drawn::Program => self.draw_program(&canvas)?,
+            Drawn::Run => {
+                let harvest = run::read(Path::new(&self.what), context)?;
+                match self.behavior {
+                    Some(behavior) => self.draw_robot(&canvas, &self.champion(&harvest, behavior)?)?,
+                    None => self.draw_run(&canvas, &harvest)?,
+                }
             }
-        } else if self.what == "shipped" || what.is_dir() {
-            self.draw_library(&canvas)?
-        } else {
-            self.draw_robot(&canvas, &self.robot()?)?
+            Drawn::Library => self.draw_library(&canvas)?,
+            Drawn::Robot => self.draw_robot(&canvas, &self.robot()?)?,
         }
         if context.format == Format::Json {
             let drawn = serde_json::json!({ "file": self.output, "kind": self.kind.word() });
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)
+    }
+
+    fn drawn(&self) -> Drawn {
+        let path = Path::new(&self.what);
+        match () {
+            () if self.what.ends_with(".nb") => Drawn::Program,
+            () if run::is_run(path) => Drawn::Run,
+            () if self.what == "shipped" || path.is_dir() => Drawn::Library,
+            () => Drawn::Robot,
+        }
     }
 
     fn draw_library(&self, canvas: &Canvas) -> Result<(), Failure> {
@@ -136,7 +151,7 @@ impl Arguments {
 
     fn schedule(&self) -> Result<Schedule, Failure> {
         let mut sources = Sources::default();
-        let id = sources.add("--schedule", self.schedule.as_str());
+        let id = sources.add("--schedule", self.schedule.as_deref().unwrap_or(SCHEDULE));
         schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
     }
 

@@ -4,6 +4,7 @@ use crate::cli::Failure;
 use crate::cli::draw::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
+use crate::diag::{Code, Diagnostic};
 use crate::model::{Body, CYCLE_STEPS, Robot, Schedule, Setting, Trial};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
 use crate::sim;
@@ -32,7 +33,7 @@ impl Arguments {
                 canvas.film(&Film { title: title.clone(), lanes, scheme: self.scheme(), largest }, stage)
             }
             Kind::Pose => {
-                let step = self.at.map_or(schedule.steps(), |cycle| (cycle * f64::from(CYCLE_STEPS)).round() as u32);
+                let step = self.step(&schedule)?;
                 canvas.picture(&report::draw_pose(title, body, &schedule, step, self.scheme()))
             }
             Kind::Spacetime => canvas.picture(&diagram(title, body, schedule)),
@@ -43,6 +44,19 @@ impl Arguments {
                 Err(self.not_of("a robot", "a source file (.nb)"))
             }
         }
+    }
+
+    /// The env step of a pose.
+    fn step(&self, schedule: &Schedule) -> Result<u32, Failure> {
+        let end = schedule.steps();
+        let Some(cycle) = self.at else { return Ok(end) };
+        let step = (cycle * f64::from(CYCLE_STEPS)).round();
+        if step <= f64::from(end) {
+            return Ok(step as u32);
+        }
+        let cycles = f64::from(end) / f64::from(CYCLE_STEPS);
+        let message = format!("`--at {cycle}` is after the end of the schedule at cycle {cycles}");
+        Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message)))
     }
 }
 
