@@ -1,4 +1,4 @@
-//! Tells cargo that the program embeds the robots of `library/robots`, new ones included.
+//! Tells cargo to rebuild when `library/robots` changes, because the program embeds these files.
 
 fn main() {
     println!("cargo::rerun-if-changed=library/robots");

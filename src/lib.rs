@@ -1,4 +1,5 @@
-//! Circuits made of soft robots: a declarative language, a compiler to swarms of brainless robots, and their physics.
+//! Circuits made of soft robots: a declarative language, a compiler to swarms of robots without a brain, and their
+//! physics.
 //!
 //! A circuit with its tests, run in full physics:
 //!

@@ -10,13 +10,13 @@ use crate::syntax::tree::Name;
 /// A value of a row, as bits with the most significant first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Cell {
-    /// These bits, and how they are written; `None` stands where `-` does.
+    /// The bits, or `None` for `-`, and the text as written.
     Bits(Vec<Option<bool>>, Base),
-    /// A pulse: 0, then 1.
+    /// A rising edge: 0, then 1.
     Pulse,
 }
 
-/// As many bits are shown as an example of how a value is written.
+/// The most bits of an example value in a message.
 const SHOWN: usize = 16;
 
 /// Reads a value for a column.
@@ -67,7 +67,7 @@ fn plain(word: &Name) -> Result<Vec<Option<bool>>, Diagnostic> {
     word.text.chars().filter(|&c| c != '_').map(bit).collect::<Option<_>>().ok_or_else(|| no_value(word))
 }
 
-/// A number of so many bits.
+/// A number with the given width in bits.
 fn sized(word: &Name, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
     let mut digits = constant.chars();
     let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word))?;

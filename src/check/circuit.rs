@@ -1,4 +1,5 @@
-//! Circuits: names of nets, parameters and circuits looked up, operands counted. Widths come when the circuit is built.
+//! Circuits: resolves names of nets, parameters and circuits, and counts operands. Widths are checked when the circuit
+//! is built.
 
 use std::collections::BTreeMap;
 
@@ -11,13 +12,13 @@ use crate::model::{
 use crate::source::Span;
 use crate::syntax::tree;
 
-/// What circuits look like from outside: enough to check their uses.
+/// The interface of circuits, enough to check calls.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Headers {
     pub(crate) circuits: Vec<Header>,
 }
 
-/// A circuit from outside.
+/// The interface of a circuit.
 #[derive(Clone, Debug)]
 pub(crate) struct Header {
     pub(crate) name: String,
@@ -37,13 +38,13 @@ impl Header {
         }
     }
 
-    /// As it is declared, without widths.
+    /// The interface as declared, without widths.
     pub(crate) fn signature(&self) -> String {
         format!("{}({}) -> ({})", self.name, self.inputs.join(", "), self.outputs.join(", "))
     }
 }
 
-/// What a name in a circuit stands for.
+/// The meaning of a name in a circuit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Binding {
     Variable(u32, Span),
@@ -58,15 +59,15 @@ pub(crate) struct CircuitChecker<'a> {
     pub(crate) home: Home,
     pub(crate) circuit: Circuit,
     pub(crate) scopes: Vec<BTreeMap<&'a str, Binding>>,
-    /// For each net: whether something listens to it.
+    /// For each net, whether it is read.
     pub(crate) used: Vec<bool>,
-    /// For each net: whether something drives it.
+    /// For each net, whether it is driven.
     driven: Vec<bool>,
     pub(crate) calls: Vec<(CircuitId, Span)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
-/// A checked circuit with what is wrong with it, and the circuits it is made of.
+/// A checked circuit with its diagnostics and the circuits it calls.
 pub(crate) struct CheckedCircuit {
     pub(crate) circuit: Circuit,
     pub(crate) calls: Vec<(CircuitId, Span)>,
@@ -150,7 +151,7 @@ impl<'a> CircuitChecker<'a> {
     fn bind(&mut self, name: &'a tree::Name, binding: Binding) {
         let scope = self.scopes.last_mut().expect("a circuit has a scope");
         if let Some(first) = scope.insert(&name.text, binding) {
-            // That the other of the two has no driver or no listener would say the same again.
+            // A second message for the other one of the two nets would be redundant.
             for net in [first, binding] {
                 if let Binding::Net(slot) = net {
                     self.used[slot.0 as usize] = true;
@@ -177,12 +178,12 @@ impl<'a> CircuitChecker<'a> {
         Block { nets: first..last, statements }
     }
 
-    /// Nets may be used before they are driven, so a block's nets are declared before its statements are read.
+    /// Nets may be used before they are driven, so the nets of a block are declared before its statements are read.
     fn declare_nets(&mut self, statements: &'a [tree::Statement]) {
         for statement in statements {
             if let tree::StatementKind::Nets(nets) = &statement.kind {
                 for port in nets {
-                    // A declared net without a width is one bit wide, as a port is.
+                    // A declared net without a width is one bit wide, like a port.
                     let width = match port.width {
                         Some(size) => self.size(size),
                         None => self.one(port.name.span),
@@ -273,9 +274,9 @@ impl<'a> CircuitChecker<'a> {
         (high, index.low.map_or(high, |low| self.size(low)))
     }
 
-    /// Nets that nothing drives, and nets that nothing listens to.
+    /// Reports nets that are never driven and nets that are never read.
     fn loose_ends(&mut self) {
-        // While a name is unknown, nobody can say what it ought to have listened to.
+        // After an unknown name it is not certain which nets are read.
         let typo = self.diagnostics.iter().any(|fault| fault.code == Code::Unknown);
         for (slot, net) in self.circuit.nets.iter().enumerate() {
             if !self.driven[slot] {
@@ -294,7 +295,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    /// A net that a name in an expression means.
+    /// The net for a name in an expression.
     pub(crate) fn net(&mut self, name: &tree::Name) -> Option<NetSlot> {
         match self.lookup(&name.text) {
             Some(Binding::Net(slot)) => {

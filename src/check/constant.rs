@@ -2,7 +2,7 @@
 
 use std::num::IntErrorKind;
 
-/// The base that a letter stands for.
+/// The base for a letter.
 pub(crate) fn radix(letter: char) -> Option<u32> {
     match letter {
         'b' => Some(2),
@@ -12,7 +12,7 @@ pub(crate) fn radix(letter: char) -> Option<u32> {
     }
 }
 
-/// The value of digits in a base; underscores separate. A sign is no digit.
+/// The value of digits in a base; underscores separate. A sign is not a digit.
 pub(crate) fn value(digits: &str, radix: u32) -> Result<u128, IntErrorKind> {
     let digits: String = digits.chars().filter(|&c| c != '_').collect();
     if digits.starts_with('+') {

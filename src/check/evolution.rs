@@ -1,4 +1,4 @@
-//! Evolution runs. A field that is left out is the paper's; `from` takes those of another run.
+//! Evolution declarations. A missing field has the paper's value or that of the evolution named by `from`.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,31 +15,31 @@ use crate::model::{
 use crate::source::Span;
 use crate::syntax::tree::{Name, Number, Quantity, RecordDeclaration, Value, ValueKind};
 
-/// The greatest width and height of a body's box, in voxels.
+/// The largest width and height of a body's box, in voxels.
 const MAX_BOX: u32 = 64;
 
-/// What an evolution run may speak of.
+/// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
     pub(crate) program: &'a Program,
     pub(crate) materials: &'a Names,
     pub(crate) schedules: &'a Names,
     pub(crate) evolutions: &'a Names,
-    /// The runs in order of their names' places, as far as they are checked.
+    /// The evolutions by the position of their names, as far as they are checked.
     pub(crate) checked: &'a [State],
 }
 
-/// How far a run is checked.
+/// The state of checking an evolution.
 #[derive(Clone, Debug)]
 pub(crate) enum State {
-    /// Not yet; where another run asks for its fields, the two ask for each other's.
+    /// Not yet checked. If another evolution takes its fields from it at this time, the two form a circle.
     Open,
-    /// It has faults, which were told.
+    /// Invalid; its errors are already reported.
     Faulty,
-    /// Sound.
+    /// Valid.
     Sound(Box<Evolution>),
 }
 
-/// The places of runs in an order in which each comes after the one that it takes its fields from, as far as there is one.
+/// The positions of evolutions, each after the one named by its `from`, as far as such an order exists.
 pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &Names) -> Vec<usize> {
     let mut taken = vec![false; sources.len()];
     let mut order = Vec::new();
@@ -59,7 +59,7 @@ pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &Names) -> Ve
     order
 }
 
-/// Checks an evolution run.
+/// Checks an evolution.
 pub(crate) fn evolution(
     source: &RecordDeclaration,
     home: Home,
@@ -71,7 +71,7 @@ pub(crate) fn evolution(
     let base = fields.read("from", &known.checked[0], |value| base(value, home, known));
     let (base, whole) = match base {
         State::Sound(base) => (Evolution::clone(base), true),
-        // The prelude's first run is what the others begin with.
+        // The first evolution of the prelude has the default values of the others.
         _ => (paper(), fields.value("from").is_none()),
     };
     let (width, height) = fields.read("box", (base.width, base.height), area);
@@ -106,7 +106,7 @@ pub(crate) fn evolution(
     if sound { State::Sound(Box::new(evolution)) } else { State::Faulty }
 }
 
-/// The paper's run without its materials and stimuli, which the prelude declares.
+/// The paper's evolution without its materials and stimuli, which the prelude declares.
 fn paper() -> Evolution {
     Evolution {
         name: String::new(),
@@ -186,7 +186,7 @@ fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Di
     Ok(found.map(|found| found.schedule.clone()).unwrap_or_default())
 }
 
-/// A behavior is what a body does under each of the four patterns of two stimuli.
+/// A behavior is the response of a body to each of the four patterns of two stimuli.
 fn missing_patterns(schedule: &NamedSchedule, name: &Name) -> Option<Diagnostic> {
     let shown = |pattern: &Pattern| {
         schedule.schedule.spells.iter().any(|spell| spell.pattern.pair_index() == pattern.pair_index())
@@ -225,7 +225,7 @@ fn axis(value: &Value) -> Result<Axis, Diagnostic> {
     Ok(Axis::Count { of, bins: bins as usize })
 }
 
-/// A number, a list of numbers, or a range of them, both ends included.
+/// A number, a list of numbers, or a range that includes both ends.
 fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
     if let Some(Value { kind: ValueKind::Range(first, last), span }) = fields.value("seed") {
         return fields.read("seed", None, |_| range_of_seeds(first, last, *span).map(Some));

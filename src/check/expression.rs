@@ -1,4 +1,5 @@
-//! Expressions of circuits: nets and circuits looked up, operands counted, operators turned into circuits of the prelude.
+//! Expressions of circuits: resolves nets and circuits, counts operands, and replaces operators by circuits of the
+//! prelude.
 
 use std::num::IntErrorKind;
 
@@ -10,7 +11,7 @@ use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
 use crate::source::Span;
 use crate::syntax::tree::{self, Infix};
 
-/// The circuit of the prelude that an operator stands for.
+/// The prelude's circuit for an operator.
 fn circuit_of(infix: Infix) -> &'static str {
     match infix {
         Infix::Add => "add",
@@ -26,7 +27,7 @@ fn circuit_of(infix: Infix) -> &'static str {
 }
 
 impl<'a> CircuitChecker<'a> {
-    /// An expression of the body, looked up from its leaves to its root without recursion; the root gives `outputs` values.
+    /// Resolves an expression from its leaves to its root without recursion. The root has `outputs` values.
     pub(crate) fn expression(&mut self, root: tree::ExpressionId, outputs: usize) -> ExpressionId {
         let body = self.body;
         let mut done: Vec<ExpressionId> = Vec::new();
@@ -43,7 +44,7 @@ impl<'a> CircuitChecker<'a> {
         done.pop().expect("an expression has a value")
     }
 
-    /// Several targets need a call of a circuit with as many outputs.
+    /// Several targets need a call of a circuit with the same number of outputs.
     pub(crate) fn value_count(&self, id: ExpressionId, targets: &[tree::Target], span: Span) -> Option<Diagnostic> {
         let is_call = matches!(self.circuit.expressions[id.0 as usize].kind, ExpressionKind::Call { .. });
         if targets.len() == 1 || is_call {
@@ -217,7 +218,7 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
     }
 
-    /// Parameters given by place or by name, in the order of the circuit.
+    /// Parameters given by position or by name, in the order of the circuit's parameters.
     fn arguments(&mut self, name: &tree::Name, parameters: &[String], given: &[tree::Argument]) -> Vec<Option<SizeId>> {
         let mut values = vec![None; parameters.len()];
         for (place, argument) in given.iter().enumerate() {
@@ -231,7 +232,7 @@ impl<'a> CircuitChecker<'a> {
     }
 }
 
-/// Which parameter an argument belongs to.
+/// The parameter of an argument.
 pub(crate) fn parameter_place(
     circuit: &tree::Name,
     parameters: &[String],
@@ -264,7 +265,7 @@ fn take(done: &mut Vec<ExpressionId>, count: usize) -> Vec<ExpressionId> {
     done.split_off(done.len() - count)
 }
 
-/// The first expression of the contiguous run that ends with `root`.
+/// The first expression of the contiguous range that ends with `root`.
 fn first_leaf(expressions: &[tree::Expression], root: tree::ExpressionId) -> u32 {
     let mut at = root;
     loop {

@@ -1,12 +1,12 @@
-//! The fields of a record: each once, none unknown, the needed ones there.
+//! The fields of a record: no duplicates, no unknown fields, all required fields present.
 
 use crate::diag::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::tree::{Record, Value, ValueKind};
 
-/// A record that is being read.
+/// A record while it is read.
 pub(crate) struct Fields<'a> {
-    /// What has the fields, for messages.
+    /// The owner of the fields, for messages.
     what: String,
     name: Span,
     record: &'a Record,
@@ -15,7 +15,7 @@ pub(crate) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of `what`, whose name stands at `name`.
+    /// The fields of `what`, whose name is at `name`.
     pub(crate) fn new(what: impl Into<String>, name: Span, record: &'a Record) -> Self {
         Self { what: what.into(), name, record, known: Vec::new(), faults: Vec::new() }
     }
@@ -26,7 +26,7 @@ impl<'a> Fields<'a> {
         self.record.fields.iter().find(|given| given.name.text == field).map(|given| &given.value)
     }
 
-    /// A field read by `read`, or `default` where it is missing or faulty.
+    /// A field read by `read`, or `default` if it is missing or invalid.
     pub(crate) fn read<T>(
         &mut self,
         field: &'static str,
@@ -43,7 +43,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A field that is a list of one entry at least, each read by `read`; every faulty entry is told.
+    /// A field with a list of at least one entry, each read by `read`. Every invalid entry is reported.
     pub(crate) fn read_list<T>(
         &mut self,
         field: &'static str,
@@ -59,7 +59,7 @@ impl<'a> Fields<'a> {
         Some(entries.into_iter().filter_map(Result::ok).collect())
     }
 
-    /// A field that must be there, read by `read`.
+    /// A required field, read by `read`.
     pub(crate) fn need<T>(
         &mut self,
         field: &'static str,
@@ -75,7 +75,7 @@ impl<'a> Fields<'a> {
         None
     }
 
-    /// Everything wrong with the fields; to be called when all that the record may have were asked for.
+    /// All errors of the fields; call it after all allowed fields were read.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
         for (at, field) in self.record.fields.iter().enumerate() {
             let name = &field.name;
@@ -94,7 +94,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A word that stands alone.
+/// A single word.
 pub(crate) fn word<'a>(value: &'a Value, expected: &str) -> Result<&'a crate::syntax::tree::Name, Diagnostic> {
     match &value.kind {
         ValueKind::Instance(instance) if instance.arguments.is_empty() => Ok(&instance.name),
@@ -102,7 +102,7 @@ pub(crate) fn word<'a>(value: &'a Value, expected: &str) -> Result<&'a crate::sy
     }
 }
 
-/// One of some words.
+/// One word of a set.
 pub(crate) fn choice<T: Copy>(value: &Value, choices: &[(&'static str, T)]) -> Result<T, Diagnostic> {
     let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
     let expected = suggest::alternatives(&words, "or");
@@ -117,7 +117,7 @@ pub(crate) fn choice<T: Copy>(value: &Value, choices: &[(&'static str, T)]) -> R
     })
 }
 
-/// A list's values; a single value is a list of one.
+/// The values of a list; a single value is a list of one.
 pub(crate) fn list(value: &Value) -> &[Value] {
     match &value.kind {
         ValueKind::List(values) => values,

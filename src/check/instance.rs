@@ -1,4 +1,4 @@
-//! Circuits named outside circuits: by tests and swarms, with numbers for their parameters.
+//! Circuits named by tests and swarms, with numbers for their parameters.
 
 use crate::check::circuit::Headers;
 use crate::check::expression::parameter_place;
@@ -20,10 +20,10 @@ pub(crate) fn instance(
     with_numbers(source, &header.name, &header.parameters)
 }
 
-/// The circuit of a program that a text of its own names, such as `adder[8]` on a command line.
+/// The circuit named in a text such as `adder[8]` on a command line.
 ///
 /// # Errors
-/// When the text is no name of a circuit with numbers for its parameters.
+/// When the text is not the name of a circuit with numbers for its parameters.
 pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Instance, Diagnostic> {
     let source = parse_instance(sources, file)?;
     let name = source.name.text.as_str();
@@ -39,7 +39,7 @@ pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Insta
     with_numbers(&source, &circuit.name, &parameters)
 }
 
-/// A circuit whose parameters have these names, with the numbers that are given for them.
+/// A circuit whose parameters have these names, with the given numbers for them.
 fn with_numbers(source: &tree::Instance, circuit: &str, parameters: &[String]) -> Result<Instance, Diagnostic> {
     let mut values = vec![None; parameters.len()];
     for (place, argument) in source.arguments.iter().enumerate() {

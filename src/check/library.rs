@@ -25,7 +25,7 @@ pub(crate) fn library(
     Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors })
 }
 
-/// Folders that libraries name and that hold no robots.
+/// Folders of libraries that contain no robots.
 pub(crate) fn folders(world: &dyn World, sources: &Sources, trees: &[(Home, Tree)]) -> Vec<Diagnostic> {
     let declarations = trees.iter().flat_map(|(_, tree)| &tree.declarations);
     let records = declarations.filter_map(|declaration| match &declaration.kind {

@@ -1,4 +1,4 @@
-//! The files of a program: the one that is checked, those it uses, and the prelude.
+//! The files of a program: the checked file, the files it uses, and the prelude.
 
 use crate::check::names::Home;
 use crate::diag::{Code, Diagnostic};
@@ -6,34 +6,34 @@ use crate::source::{FileError, FileId, Sources, Span, World};
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
 
-/// The declarations that every program begins with: the paper's setting, and the standard circuits.
+/// The declarations available to every program: the paper's setting and the standard circuits.
 pub const PRELUDE: [(&str, &str); 2] = [
     ("prelude.nb", include_str!("../../library/prelude.nb")),
     ("standard.nb", include_str!("../../library/standard.nb")),
 ];
 
-/// How deep files may use files.
+/// The deepest nesting of `use`.
 const MAX_DEPTH: usize = 64;
 
 /// The most files of a program.
 const MAX_FILES: usize = 256;
 
-/// The most bytes of all files of a program.
+/// The largest total size of the files of a program, in bytes.
 const MAX_PROGRAM_BYTES: usize = 16 << 20;
 
-/// How the names of programs end: text of other files is never shown.
+/// The extension of programs. Text of other files is never shown in messages.
 const ENDING: &str = ".nb";
 
-/// The trees of a program, the prelude's first, the checked file's last.
+/// The trees of a program: the prelude's first, the checked file's last.
 pub(crate) struct Loaded {
     pub(crate) trees: Vec<(Home, Tree)>,
     pub(crate) faults: Vec<Diagnostic>,
 }
 
-/// Reads a file that is named on the command line into `sources`.
+/// Reads a file named on the command line into `sources`.
 ///
 /// # Errors
-/// When it cannot be read as source text.
+/// When the file cannot be read as source text.
 pub fn open(world: &dyn World, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
     match world.read(path) {
         Ok(text) => Ok(sources.add(path, text)),
@@ -41,7 +41,7 @@ pub fn open(world: &dyn World, path: &str, sources: &mut Sources) -> Result<File
     }
 }
 
-/// Parses a file with everything it uses.
+/// Parses a file and all files it uses.
 pub(crate) fn load(world: &dyn World, sources: &mut Sources, file: FileId) -> Loaded {
     let mut loader =
         Loader { world, loaded: Loaded { trees: Vec::new(), faults: Vec::new() }, open: Vec::new(), done: Vec::new() };
@@ -56,9 +56,9 @@ pub(crate) fn load(world: &dyn World, sources: &mut Sources, file: FileId) -> Lo
 struct Loader<'a> {
     world: &'a dyn World,
     loaded: Loaded,
-    /// The files that are being loaded, outermost first: each its identity, and its path as written.
+    /// The files being loaded, outermost first: each with its identity and its path as written.
     open: Vec<(String, String)>,
-    /// The identities of those that were loaded.
+    /// The identities of the loaded files.
     done: Vec<String>,
 }
 
@@ -100,7 +100,7 @@ impl Loader<'_> {
         }
     }
 
-    /// Reads and parses a file that is used for the first time.
+    /// Reads and parses a file at its first use.
     fn read(&mut self, sources: &mut Sources, name: String, identity: String, place: Span) {
         let text = if [&name, &identity].iter().all(|path| path.ends_with(ENDING)) {
             self.world.read(&name).map_err(|error| unreadable(&name, &error, place))
@@ -115,7 +115,7 @@ impl Loader<'_> {
             }
             Err(fault) => {
                 self.done.push(identity);
-                // Behind the first file too many there may be thousands more.
+                // There may be thousands more after the first file above the limit.
                 if !self.loaded.faults.iter().any(|known| known.message == fault.message) {
                     self.loaded.faults.push(fault);
                 }
@@ -124,7 +124,7 @@ impl Loader<'_> {
     }
 }
 
-/// What is wrong with taking in one more file.
+/// The error of adding one more file, if any.
 fn within_limits(sources: &Sources, text: &str, place: Span) -> Option<Diagnostic> {
     let bytes = sources.iter().map(|file| file.text.len()).sum::<usize>() + text.len();
     let message = if sources.iter().count() - PRELUDE.len() >= MAX_FILES {
@@ -161,7 +161,7 @@ fn circular(open: &[(String, String)], span: Span) -> Diagnostic {
         .with_help("put what both need into a file of its own")
 }
 
-/// A path beside a file: relative to the folder that the file is in.
+/// A path relative to the folder of another file.
 pub(crate) fn beside(file: &str, path: &str) -> String {
     match file.rfind(['/', '\\']) {
         Some(end) if !path.starts_with('/') => normal(&format!("{}/{path}", &file[..end])),
@@ -169,7 +169,7 @@ pub(crate) fn beside(file: &str, path: &str) -> String {
     }
 }
 
-/// A path without `.` and, where it can be told without asking, without `..`.
+/// A path without `.`, and without `..` where this does not depend on links.
 fn normal(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split('/') {

@@ -1,4 +1,4 @@
-//! Materials: what a voxel is made of.
+//! Materials of voxels.
 
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, Names};
@@ -8,7 +8,7 @@ use crate::model::{Drive, Material, MaterialKind, Response};
 use crate::source::Span;
 use crate::syntax::tree::{Quantity, RecordDeclaration, Value, ValueKind};
 
-/// The least and the greatest width of a voxel, as a share of its width at rest (docs/physics.md 3).
+/// The smallest and the largest width of a voxel, as a fraction of its rest width (docs/physics.md 3).
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.6..=1.6;
 
 #[derive(Clone, Copy)]
@@ -31,7 +31,7 @@ pub(crate) fn material(
     let kinds = [("rigid", Kind::Rigid), ("soft", Kind::Soft), ("actuator", Kind::Actuator), ("sensor", Kind::Sensor)];
     let kind = fields.need("kind", "kind: soft", |value| fields::choice(value, &kinds));
     let Some(kind) = kind else {
-        // Without its kind nobody knows which fields it may have.
+        // The allowed fields depend on the kind.
         faults.append(&mut fields.faults);
         return None;
     };

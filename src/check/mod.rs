@@ -1,4 +1,5 @@
-//! Trees to a [`Program`]: names, units, widths; a file for each kind of declaration. Checking never stops at the first error.
+//! From trees to a [`Program`]: names, units, widths. There is a file for each kind of declaration. Checking never
+//! stops at the first error.
 
 mod cell;
 mod circuit;
@@ -31,23 +32,23 @@ use crate::diag::{Code, Diagnostic};
 use crate::model::Program;
 use crate::source::{FileId, Sources, Span, World};
 
-/// A program, and what is wrong with it.
+/// A program and its diagnostics.
 #[derive(Clone, Debug, Default)]
 pub struct Checked {
-    /// What could be made of the source; whole only where there are no errors.
+    /// The program, complete only if there are no errors.
     pub program: Program,
-    /// Errors and warnings, in order of place.
+    /// Errors and warnings, ordered by place.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Checked {
-    /// Whether there are errors, so that the program has no meaning.
+    /// Whether there are errors.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 }
 
-/// Checks a file of `sources`, with the prelude and the files it uses, which are added to `sources`.
+/// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
 pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked {
     let loaded = load::load(world, sources, file);
     let (program, mut diagnostics) = program::program(&loaded.trees, sources);
@@ -59,7 +60,8 @@ pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked 
     Checked { program, diagnostics }
 }
 
-/// A name whose declaration could not be parsed is not unknown: the declaration has its own message.
+/// A name whose declaration could not be parsed is not reported as unknown, because the declaration has its own
+/// message.
 fn forget_consequences(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loaded: &load::Loaded) {
     let text = |span: Span| &sources.file(span.file).text[span.range()];
     let broken: BTreeSet<&str> =

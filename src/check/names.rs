@@ -1,4 +1,4 @@
-//! Who is called what: one table of names for each kind of declaration. A file's names come before those of the prelude.
+//! Names: one table for each kind of declaration. Names of a file take precedence over those of the prelude.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -7,24 +7,24 @@ use crate::diag::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::tree::Name;
 
-/// Where a declaration comes from.
+/// The origin of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Home {
     /// The prelude, which files may redeclare.
     Prelude,
-    /// A file that is used by another.
+    /// A file imported by another.
     Used,
-    /// The file that is checked.
+    /// The checked file.
     Own,
 }
 
-/// The names of one kind of declaration, with their places in the program.
+/// The names of one kind of declaration, with their positions in the program.
 pub(crate) struct Names {
-    /// What is named, for messages.
+    /// The kind of declaration, for messages.
     kind: &'static str,
     prelude: BTreeMap<String, Entry>,
     files: BTreeMap<String, Entry>,
-    /// How many names were asked for that nothing has.
+    /// The number of unknown names looked up so far.
     unknown: Cell<usize>,
 }
 
@@ -39,7 +39,7 @@ impl Names {
         Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0) }
     }
 
-    /// Takes a name in, unless it is taken.
+    /// Adds a name, unless it is taken.
     pub(crate) fn declare(&mut self, name: &Name, index: usize, home: Home) -> Result<(), Diagnostic> {
         let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };
         match table.get(&name.text) {
@@ -51,13 +51,13 @@ impl Names {
         }
     }
 
-    /// What a name means in a file, or in the prelude.
+    /// The meaning of a name in a file, or in the prelude.
     pub(crate) fn find(&self, name: &str, home: Home) -> Option<usize> {
         let file = self.files.get(name).filter(|_| home != Home::Prelude);
         file.or_else(|| self.prelude.get(name)).map(|entry| entry.index)
     }
 
-    /// What a name means, or that nothing has it.
+    /// The meaning of a name, or an error if it is unknown.
     pub(crate) fn resolve(&self, name: &Name, home: Home) -> Result<usize, Diagnostic> {
         self.find(&name.text, home).ok_or_else(|| {
             let message = format!("no {} is called `{}`", self.kind, name.text);
@@ -69,7 +69,7 @@ impl Names {
         })
     }
 
-    /// What may have been meant; the first unknown names are told.
+    /// A suggestion for an unknown name, for the first unknown names only.
     fn suggestion(&self, name: &str) -> Option<String> {
         self.unknown.set(self.unknown.get() + 1);
         if self.unknown.get() <= suggest::MOST { suggest::help(name, self.all()) } else { None }
@@ -80,7 +80,7 @@ impl Names {
         self.files.keys().chain(self.prelude.keys().filter(|name| !self.files.contains_key(*name))).map(String::as_str)
     }
 
-    /// Whether a name of the prelude is redeclared by a file.
+    /// Whether a file redeclares this name of the prelude.
     pub(crate) fn is_redeclared(&self, name: &str) -> bool {
         self.files.contains_key(name) && self.prelude.contains_key(name)
     }

@@ -1,4 +1,4 @@
-//! The declarations of all files together: first their names, then each kind after those that it speaks of.
+//! The declarations of all files: first their names, then each kind after the kinds it refers to.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +19,7 @@ use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, R
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, DeclarationKind, Name, RecordDeclaration, RecordKeyword, Tree};
 
-/// The program that trees declare, and what is wrong with it.
+/// The program of the trees, and its diagnostics.
 pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Vec<Diagnostic>) {
     let mut assembly = Assembly::new(trees, sources);
     assembly.stimuli();
@@ -35,7 +35,7 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Ve
     (assembly.program, assembly.faults)
 }
 
-/// A program that is being put together.
+/// A program under construction.
 struct Assembly<'a> {
     trees: &'a [(Home, Tree)],
     sources: &'a Sources,
@@ -49,11 +49,11 @@ struct Assembly<'a> {
     circuits: Names,
     swarms: Names,
     headers: Headers,
-    /// The place of each circuit by its name in the program.
+    /// The position of each circuit in the program, by name.
     places: BTreeMap<String, CircuitId>,
-    /// For each circuit whether it and all it is made of are without faults of names.
+    /// For each circuit, whether it and all circuits it contains have valid names.
     sound: Vec<bool>,
-    /// Where each circuit comes from.
+    /// The origin of each circuit.
     homes: Vec<Home>,
 }
 
@@ -90,7 +90,7 @@ impl<'a> Assembly<'a> {
         self.declarations().filter_map(record).collect()
     }
 
-    /// Notes a fault, if there is one; says whether there was none.
+    /// Records a diagnostic, if any; returns whether there was none.
     fn note(&mut self, result: Result<(), Diagnostic>) -> bool {
         let fine = result.is_ok();
         self.faults.extend(result.err());
@@ -107,7 +107,7 @@ impl<'a> Assembly<'a> {
     }
 
     fn stimulus(&mut self, name: &Name, home: Home) {
-        // Redeclaring one of the prelude's stimuli names the same signal.
+        // A redeclared stimulus of the prelude is the same signal.
         let known = self.stimuli.find(&name.text, home);
         let index = known.unwrap_or(self.program.stimuli.len());
         let declared = self.stimuli.declare(name, index, home);
@@ -179,7 +179,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Checks all circuits but for widths.
+    /// Checks all circuits except their widths.
     fn circuits(&mut self) {
         let mut sources = Vec::new();
         for (home, declaration) in self.declarations() {
@@ -208,7 +208,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// A circuit of the prelude that a file redeclares stays what the prelude's other circuits are made of.
+    /// If a file redeclares a circuit of the prelude, other circuits of the prelude still use the original.
     fn rename_redeclared(&mut self) {
         for (at, home) in self.homes.iter().enumerate() {
             let name = &mut self.headers.circuits[at].name;
@@ -219,7 +219,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Leaves out what a file declares again of the prelude's; those of the prelude come first.
+    /// Removes declarations of the prelude that a file redeclares; those of the prelude come first.
     fn forget_redeclared(&mut self) {
         fn keep_last<T>(all: &mut Vec<T>, name: impl Fn(&T) -> &str) {
             let mut seen = BTreeSet::new();
@@ -253,7 +253,8 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Warns of the file's own libraries that no swarm uses, where something runs: the robots are then others than it says.
+    /// Warns of a file's own libraries that no swarm uses if the file runs anything, because the robots then come from
+    /// another library.
     fn unused_libraries(&mut self) {
         let runs = |declaration: &tree::Declaration| {
             matches!(declaration.kind, DeclarationKind::Test(_) | DeclarationKind::Simulate(_))
@@ -274,7 +275,8 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Builds what can be built, to find faults of width, and reads the tests and simulations, which need the ports.
+    /// Builds all circuits that can be built, to find errors of width, and reads the tests and simulations, which need
+    /// the ports.
     fn build(&mut self) {
         let mut program = std::mem::take(&mut self.program);
         let mut inspector = Inspector::new(&program);
@@ -301,7 +303,7 @@ impl<'a> Assembly<'a> {
         self.faults.extend(found);
     }
 
-    /// The ports of an instance, if its circuit and all it is made of are sound.
+    /// The ports of an instance, if its circuit and all circuits it contains are valid.
     fn ports(
         &self,
         instance: &Instance,
@@ -364,7 +366,7 @@ impl<'a> Assembly<'a> {
         Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation })
     }
 
-    /// A circuit that a test names.
+    /// The circuit of a test.
     fn instance(&mut self, source: &tree::Instance) -> Option<Instance> {
         let named = instance(source, Home::Own, &self.circuits, &self.headers);
         named.map_err(|fault| self.faults.push(fault)).ok()
@@ -411,7 +413,7 @@ impl<'a> Assembly<'a> {
         let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
         let sound = !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);
-        // An input that the reference does not need is no mistake of the tested circuit.
+        // The reference may ignore an input of the tested circuit.
         self.faults.extend(checked.diagnostics.into_iter().filter(|fault| fault.code != Code::Unused));
         (sound && called).then_some(checked.circuit)
     }
@@ -429,5 +431,5 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// The most input bits of which a test tries all patterns.
+/// The most input bits of a test over all inputs.
 const MAX_TRIED_BITS: usize = 16;

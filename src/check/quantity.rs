@@ -1,4 +1,4 @@
-//! Quantities: numbers with their units, and the range that makes sense.
+//! Quantities: numbers with their units and valid ranges.
 
 use std::ops::RangeInclusive;
 
@@ -10,7 +10,7 @@ use crate::syntax::tree::{Number, Quantity, Value, ValueKind};
 /// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Measure {
-    /// Time in env steps; cycles and seconds are turned into them.
+    /// Time in env steps; cycles and seconds are converted.
     Steps,
     /// Time in actuation cycles.
     Cycles,
@@ -18,15 +18,15 @@ pub(crate) enum Measure {
     Degrees,
 }
 
-/// A unit, with the words for it: the first is the one to be written.
+/// A unit with its spellings; the first is the preferred one.
 struct Unit {
     words: &'static [&'static str],
     measure: Measure,
-    /// How many of the measure's own unit it is.
+    /// The unit in terms of the measure's base unit.
     factor: f64,
 }
 
-/// Env steps in a second of simulated time: thirty substeps of 0.1 ms each make one (docs/physics.md 1).
+/// Env steps in a second of simulated time: an env step is thirty substeps of 0.1 ms (docs/physics.md 1).
 const STEPS_PER_SECOND: f64 = 1.0 / 3e-3;
 
 const UNITS: [Unit; 6] = [
@@ -45,7 +45,7 @@ impl Measure {
     }
 }
 
-/// A quantity in the own unit of its measure.
+/// A quantity in the base unit of its measure.
 pub(crate) fn measured(quantity: &Quantity, measure: Measure) -> Result<f64, Diagnostic> {
     let wanted = measure.wanted();
     let Some(word) = &quantity.unit else {
@@ -66,17 +66,17 @@ pub(crate) fn measured(quantity: &Quantity, measure: Measure) -> Result<f64, Dia
     }
 }
 
-/// A time in env steps: a whole number, from 1.
+/// A time in env steps: an integer of at least 1.
 pub(crate) fn steps(quantity: &Quantity) -> Result<u32, Diagnostic> {
     whole(measured(quantity, Measure::Steps)?, 1..=100_000_000, quantity.span(), "steps")
 }
 
-/// A time in cycles: a whole number, from 1.
+/// A time in cycles: an integer of at least 1.
 pub(crate) fn cycles(quantity: &Quantity) -> Result<u32, Diagnostic> {
     whole(measured(quantity, Measure::Cycles)?, 1..=1_000_000, quantity.span(), "cycles")
 }
 
-/// A whole number without a unit.
+/// An integer without a unit.
 pub(crate) fn count(value: &Value, range: RangeInclusive<u32>) -> Result<u32, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => whole(bare(quantity)?, range, quantity.span(), ""),
@@ -84,7 +84,7 @@ pub(crate) fn count(value: &Value, range: RangeInclusive<u32>) -> Result<u32, Di
     }
 }
 
-/// A number that has no unit.
+/// A number without a unit.
 pub(crate) fn bare(quantity: &Quantity) -> Result<f64, Diagnostic> {
     match &quantity.unit {
         None => number(&quantity.number),
@@ -102,9 +102,9 @@ pub(crate) fn number(number: &Number) -> Result<f64, Diagnostic> {
     if value.is_finite() { Ok(value) } else { Err(outside(&number.text, number.span, "a smaller number".to_owned())) }
 }
 
-/// A whole number in a range.
+/// An integer in a range.
 pub(crate) fn whole(value: f64, range: RangeInclusive<u32>, span: Span, unit: &str) -> Result<u32, Diagnostic> {
-    // Seconds need not be a whole number of steps to the last bit.
+    // Seconds may differ from an integer number of steps by rounding.
     let rounded = value.round();
     let near = (value - rounded).abs() < 1e-6;
     if near && rounded >= f64::from(*range.start()) && rounded <= f64::from(*range.end()) {
@@ -119,7 +119,7 @@ pub(crate) fn whole(value: f64, range: RangeInclusive<u32>, span: Span, unit: &s
     Err(outside(&shortest(value), span, expected))
 }
 
-/// A number in a range of reals.
+/// A real number in a range.
 pub(crate) fn within(value: f64, range: RangeInclusive<f64>, span: Span) -> Result<f64, Diagnostic> {
     if range.contains(&value) {
         return Ok(value);
@@ -135,7 +135,7 @@ fn shortest(value: f64) -> String {
     format!("{value}")
 }
 
-/// A value of another kind than the field takes.
+/// The error for a value of another kind than expected.
 pub(crate) fn wrong_kind(expected: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::Value, "a value of the wrong kind", span, format!("expected {expected}"))
 }

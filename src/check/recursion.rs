@@ -5,14 +5,14 @@ use crate::diag::{Code, Diagnostic, suggest};
 use crate::model::CircuitId;
 use crate::source::Span;
 
-/// A circuit that waits while those it is made of are looked at.
+/// A circuit that waits for the circuits it contains.
 struct Open {
     circuit: usize,
     next: usize,
 }
 
-/// The faults of circuits that contain themselves, and whether each circuit is sound with everything it is made of; found without
-/// recursion, for a chain of circuits may be long.
+/// The errors of circuits that contain themselves, and for each circuit whether it and everything it contains are
+/// valid. It does not recurse, because a chain of circuits may be long.
 pub(crate) fn look(
     calls: &[Vec<(CircuitId, Span)>],
     own_sound: &[bool],

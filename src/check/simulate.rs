@@ -1,4 +1,4 @@
-//! Simulations: a swarm's inputs over time.
+//! Simulations: the inputs of a swarm over time.
 
 use crate::check::cell::{Cell, cell};
 use crate::check::names::{Home, Names};
@@ -12,7 +12,7 @@ use crate::syntax::tree::{Name, Spell, With};
 /// The schedules of a program.
 #[derive(Clone, Copy)]
 pub(crate) struct Schedules<'a> {
-    /// The place of each name in `declared`.
+    /// The position of each name in `declared`.
     pub(crate) names: &'a Names,
     pub(crate) declared: &'a [NamedSchedule],
 }
@@ -45,7 +45,7 @@ pub(crate) fn spells(
     }
 }
 
-/// A schedule of stimuli as inputs: as many stimuli as inputs, in order.
+/// A schedule of stimuli as inputs; it needs as many stimuli as there are inputs, in order.
 fn named(
     schedule: &NamedSchedule,
     span: Span,

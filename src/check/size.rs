@@ -7,7 +7,7 @@ use crate::source::Span;
 use crate::syntax::tree;
 
 impl CircuitChecker<'_> {
-    /// An integer of the body, looked up from its leaves to its root without recursion.
+    /// Resolves an integer expression from its leaves to its root without recursion.
     pub(crate) fn size(&mut self, root: tree::SizeId) -> SizeId {
         let body = self.body;
         let mut done: Vec<SizeId> = Vec::new();
@@ -81,7 +81,7 @@ impl CircuitChecker<'_> {
     }
 }
 
-/// The first size of the contiguous run that ends with `root`.
+/// The first size of the contiguous range that ends with `root`.
 fn first_leaf(sizes: &[tree::Size], root: tree::SizeId) -> u32 {
     let mut at = root;
     loop {

@@ -9,10 +9,10 @@ use crate::diag::Diagnostic;
 use crate::model::{Hold, Swarm};
 use crate::syntax::tree::{RecordDeclaration, Value, ValueKind};
 
-/// The library that a swarm is made of where it names none; the prelude declares it.
+/// The default library of a swarm; the prelude declares it.
 pub const DEFAULT_LIBRARY: &str = "shipped";
 
-/// The greatest number of cycles over which an output is taken.
+/// The largest window of an output, in cycles.
 const MAX_WINDOW: u32 = 1000;
 
 /// Checks a swarm.

@@ -1,4 +1,4 @@
-//! Truth tables: every pattern has one row.
+//! Truth tables: exactly one row for every pattern.
 
 use crate::check::circuit::CircuitChecker;
 use crate::diag::{Code, Diagnostic};
@@ -6,7 +6,7 @@ use crate::model::{Table, TableOutput, TableRow};
 use crate::source::Span;
 use crate::syntax::tree;
 
-/// The most rows of a table; every two of them are compared.
+/// The most rows of a table. All pairs of rows are compared.
 const MAX_ROWS: usize = 4096;
 
 /// The most input bits of a table.
@@ -40,7 +40,7 @@ impl CircuitChecker<'_> {
         }
     }
 
-    /// `1`, `0` and `-`, as many as there are; underscores separate.
+    /// All of `1`, `0` and `-`; underscores separate.
     fn bits(&mut self, word: &tree::Name) -> Option<Vec<Option<bool>>> {
         let bit = |c| match c {
             '0' => Some(Some(false)),
@@ -76,7 +76,7 @@ impl CircuitChecker<'_> {
     }
 }
 
-/// The first width that differs from the one before.
+/// The first width that differs from the previous one.
 fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &str) -> Option<Diagnostic> {
     let widths: Vec<_> = widths.collect();
     let pair = widths.windows(2).find(|pair| pair[0].0 != pair[1].0)?;
@@ -97,7 +97,8 @@ fn overlap(table: &Table) -> Option<Diagnostic> {
     })
 }
 
-/// A pattern that no row matches, where there is no `else`. Rows do not overlap here, so that counting tells whether there is one.
+/// A pattern that no row matches, if there is no `else`. The rows do not overlap, so counting tells whether such a
+/// pattern exists.
 fn missing(table: &Table) -> Option<Diagnostic> {
     if table.otherwise.is_some() {
         return None;
@@ -122,7 +123,7 @@ fn missing(table: &Table) -> Option<Diagnostic> {
     Some(fault.with_help("add the row, or `else: 0` for all that are left"))
 }
 
-/// Whether rows that do not overlap match every pattern with that value at `bit`, the bits before it being settled.
+/// Whether non-overlapping rows match every pattern with this value at `bit`, where the bits before it are fixed.
 fn covers(rows: &[&TableRow], bit: usize, side: bool, width: usize) -> bool {
     let here = rows.iter().filter(|row| row.pattern[bit].is_none_or(|value| value == side));
     let free = |row: &&&TableRow| row.pattern[bit + 1..width].iter().filter(|value| value.is_none()).count();

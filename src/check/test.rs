@@ -39,7 +39,7 @@ pub(crate) fn rows(
 }
 
 impl Ports<'_> {
-    /// The place of each named column among the ports.
+    /// The port of each named column.
     fn places(&self, names: &[Name], inputs: bool, faults: &mut Vec<Diagnostic>) -> Vec<usize> {
         let own = if inputs { self.inputs } else { self.outputs };
         let mut places = Vec::new();
@@ -87,7 +87,7 @@ fn missing_inputs(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnos
     }
 }
 
-/// The columns of a table, as places among the ports.
+/// The columns of a table as indices of the ports.
 struct Columns<'a> {
     ports: &'a Ports<'a>,
     inputs: &'a [usize],
@@ -96,7 +96,7 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// A row as bits; two, where a clock is pulsed.
+    /// A row as bits; two rows for a rising edge of a clock.
     fn row(&self, number: usize, row: &tree::TestRow, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
         if let Some(fault) = self.shape_fault(row) {
             faults.push(fault);
@@ -171,7 +171,7 @@ fn output_bits(cells: &[Option<Cell>], words: &[Name], faults: &mut Vec<Diagnost
     cells.iter().flat_map(bits).collect()
 }
 
-/// How a value is written.
+/// The notation of a value.
 fn base(cell: &Option<Cell>) -> Base {
     match cell {
         Some(Cell::Bits(_, base)) => *base,

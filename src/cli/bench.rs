@@ -12,41 +12,41 @@ use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::report::{Align, Schema, Table};
 use crate::sim::{Constants, Kernel, Probe, Simulator};
 
-/// Boxes measured: the paper's.
+/// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];
 /// Cycles of the paper's evaluation of one robot.
 const EVALUATION: f64 = 80.0;
-/// How long each figure is measured at least.
+/// The shortest measurement of a figure.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Measure how fast this machine simulates, on one core
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc bench --format json")]
 pub struct Arguments {
-    /// Tell also which share of the time each stage of a substep takes, one body in all lanes
+    /// Also show the share of time of each stage of a substep, with one body in all lanes
     #[arg(long)]
     timings: bool,
 }
 
-/// What one box gave.
+/// The figures of one box.
 #[derive(Serialize)]
 struct Case {
     #[serde(rename = "box")]
     bounds: String,
-    /// Substeps a second of one simulation alone.
+    /// Substeps per second of one simulation alone.
     scalar: f64,
-    /// Lane-substeps a second with one body in all lanes.
+    /// Lane-substeps per second with one body in all lanes.
     lanes: f64,
-    /// Lane-substeps a second with a different body in each lane.
+    /// Lane-substeps per second with a different body in each lane.
     different: f64,
-    /// Evaluations a second by the paper's protocol, nothing left out.
+    /// Full evaluations per second by the paper's protocol.
     evaluations: f64,
-    /// With `--timings`: shares of the time, by name of the stage.
+    /// With `--timings`: the share of time of each stage, by name.
     #[serde(skip_serializing_if = "Option::is_none")]
     timings: Option<BTreeMap<&'static str, f64>>,
 }
 
-/// The stages of a substep, and what comes between env steps.
+/// The stages of a substep, and the work between env steps.
 const STAGES: [Stage; 4] = [Stage::Springs, Stage::Contact, Stage::Limits, Stage::Bookkeeping];
 
 #[derive(Serialize)]
@@ -92,7 +92,7 @@ fn measure(side: usize, kernel: Kernel, timings: bool) -> Case {
     }
 }
 
-/// The share of the time that each stage of a substep takes, one body in all lanes.
+/// The share of time of each stage of a substep, with one body in all lanes.
 fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     let before = timings::seconds();
     race(side, kernel, 0, Some(timings::watch));
@@ -107,7 +107,7 @@ fn cycle_substeps() -> f64 {
     f64::from(CYCLE_STEPS * Constants::default().substeps)
 }
 
-/// Lane-substeps a second, the lanes' bodies `shift` apart.
+/// Lane-substeps per second, with lanes whose bodies are `shift` apart.
 fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 {
     let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
@@ -127,14 +127,14 @@ fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 
     })
 }
 
-/// Seconds that this thread has had a processor for, where the system tells: on Linux. Other programs do not falsify figures by these.
+/// CPU time of this thread, in seconds, where the system has it (Linux). Other programs do not distort it.
 fn processor_seconds() -> Option<f64> {
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
     (nanoseconds > 0.0).then_some(nanoseconds / 1e9)
 }
 
-/// The processor, as far as the system tells, and its instructions.
+/// The name of the processor, where the system has it, and its instruction set.
 fn machine(kernel: Kernel) -> String {
     let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = information.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
@@ -159,7 +159,7 @@ fn describe(figures: &Figures) -> String {
     )
 }
 
-/// Shares of the time as a table, empty where they were not measured.
+/// The shares of time as a table; empty if they were not measured.
 fn describe_timings(figures: &Figures) -> String {
     let columns = STAGES.map(|stage| (stage.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();

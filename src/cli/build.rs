@@ -23,7 +23,7 @@ Examples:
   nbc build circuits/latch.nb --emit blif -o latch.blif
   nbc build adder.nb --circuit 'adder[8]' --cells nand,not --emit json";
 
-/// Compile a circuit to a netlist of robots' cells, prove it, and print it
+/// Compile a circuit to robots, prove the result, and print its netlist
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -31,10 +31,10 @@ pub struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     circuit: CircuitArguments,
-    /// What to print [default: netlist, with `--format json` json]
+    /// The output [default: netlist, with `--format json` json]
     #[arg(long, value_enum)]
     emit: Option<Emit>,
-    /// Where to write it instead of printing it
+    /// The file to write instead of standard output
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -43,18 +43,18 @@ pub struct Arguments {
     runs: RunsArguments,
 }
 
-/// What to print.
+/// The output.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Emit {
-    /// A line for each cell, for people
+    /// Text with a line for each cell
     Netlist,
-    /// BLIF, for other tools
+    /// BLIF
     Blif,
     /// Structural Verilog
     Verilog,
-    /// A drawing for Graphviz
+    /// A graph for Graphviz
     Dot,
-    /// Cells, levels, hold and the critical path, for programs
+    /// JSON with cells, levels, hold, critical path and races
     Json,
 }
 

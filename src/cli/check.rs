@@ -9,13 +9,13 @@ use crate::report::Schema;
 use crate::source::Sources;
 use crate::store::DiskWorld;
 
-/// Check programs and print what is wrong with them
+/// Check programs and print their errors
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc check circuits/latch.nb
   nbc check circuits/*.nb --format json
 
-Exit status: 0 no errors, 2 errors. `nbc explain CODE` tells more about a message.")]
+Exit status: 0 no errors, 2 errors. `nbc explain CODE` describes an error in detail.")]
 pub struct Arguments {
     /// The source files
     #[arg(required = true)]

@@ -13,13 +13,13 @@ use crate::diag::{Diagnostic, is_hidden, render, visible};
 use crate::report::{Document, Schema};
 use crate::source::Sources;
 
-/// Who reads the output.
+/// The format of the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// People.
+    /// Text for people.
     #[default]
     Text,
-    /// Programs.
+    /// JSON for programs.
     Json,
 }
 
@@ -38,7 +38,7 @@ pub(super) enum Color {
 /// Options that every command takes.
 #[derive(Args)]
 pub(super) struct GlobalArguments {
-    /// Who reads the output: people or programs
+    /// The format of the output: text for people or JSON for programs
     #[arg(long, global = true, value_enum, default_value_t, hide_possible_values = false)]
     format: Format,
     /// When to color messages
@@ -58,9 +58,9 @@ impl Color {
     }
 }
 
-/// What every command is given. Results go to standard output; progress, logs and diagnostics to standard error.
+/// The output channels of a command: results go to standard output; progress, logs and diagnostics to standard error.
 pub struct Context {
-    /// Who reads the output.
+    /// The format of the output.
     pub format: Format,
     /// Whether messages are colored.
     pub color: bool,
@@ -72,7 +72,8 @@ impl Context {
         Self { format: global.format, color: global.color.on(), out: Output::new(io::stdout().lock()) }
     }
 
-    /// Prints to standard output. Into a closed pipe nothing is printed any more; the work goes on, since it decides the exit status.
+    /// Prints to standard output. A closed pipe is ignored and the command continues, because its work decides the exit
+    /// status.
     ///
     /// # Errors
     /// When the output cannot be written, for example on a full disk.
@@ -90,7 +91,7 @@ impl Context {
         Ok(writeln!(self.out)?)
     }
 
-    /// Hands on what was printed so far.
+    /// Flushes standard output.
     ///
     /// # Errors
     /// As [`Context::print`].
@@ -98,19 +99,20 @@ impl Context {
         Ok(self.out.flush()?)
     }
 
-    /// Writes a message to standard error; where that is closed, nobody wants it.
+    /// Writes a message to standard error. Errors of writing are ignored, because there is no other place to report
+    /// them.
     pub fn log(&self, text: &str) {
         let _ = io::stderr().write_all(visible(text).as_bytes());
     }
 
-    /// Writes diagnostics to standard error, with their excerpts of the sources.
+    /// Writes diagnostics to standard error, with excerpts of the sources.
     pub fn tell(&self, diagnostics: &[Diagnostic], sources: &Sources) {
         // What is of the user is made visible there; colors are ours.
         let _ = io::stderr().write_all(render::text(diagnostics, sources, self.color).as_bytes());
     }
 }
 
-/// JSON without characters that steer a terminal.
+/// JSON with control characters escaped, because a terminal would execute them.
 struct Visible;
 
 impl Formatter for Visible {

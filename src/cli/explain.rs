@@ -12,7 +12,7 @@ use crate::report::Schema;
 /// The pages, one for each code.
 static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
 
-/// Explain the code of a message, or show what every program begins with
+/// Explain an error code, or print the declarations available to every program
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc explain width
@@ -20,7 +20,7 @@ static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
   nbc explain prelude > prelude.nb          the paper's materials, stimuli, schedules and evolution
   nbc explain standard                      the standard circuits")]
 pub struct Arguments {
-    /// The code, as the message shows it, or `prelude` or `standard`; all codes are listed without it
+    /// An error code, `prelude` or `standard`; without it, all codes are listed
     code: Option<String>,
 }
 

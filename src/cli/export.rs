@@ -17,13 +17,13 @@ use crate::store::{self, RobotRecord};
 #[command(after_help = "Examples:
   nbc export out/gates -o elites.csv        every elite of every seed
   nbc export out/gates/seed-1 --to json     one seed
-  nbc export shipped --to csv               the robots that come with the program
+  nbc export shipped --to csv               the built-in library
 
 docs/evolution.md lists the columns and shows how pandas and pyribs read them.")]
 pub struct Arguments {
-    /// The folder of a run or of one of its seeds, a folder of robots, a robot file, or `shipped`
+    /// The folder of a run or of one of its seeds, a folder of robot files, a robot file, or `shipped`
     what: String,
-    /// The format [default: by the name of the file, else CSV]
+    /// The format [default: from the name of the file, else CSV]
     #[arg(long, value_enum)]
     to: Option<Target>,
     /// The file to write instead of standard output
@@ -31,16 +31,16 @@ pub struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// What is written.
+/// The formats of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Target {
-    /// A table with a header: a row for each elite or robot
+    /// A table with a header and a row for each elite or robot
     Csv,
-    /// Everything, as docs/schema describes it
+    /// All data, described in docs/schema
     Json,
 }
 
-/// Robots in full.
+/// Robots with all their data.
 #[derive(Serialize)]
 struct Robots {
     robots: Vec<RobotRecord>,
@@ -101,7 +101,7 @@ impl Arguments {
         Ok(found)
     }
 
-    /// What is asked for by `--to`, by the name of the file, or by `--format`.
+    /// The format from `--to`, from the name of the file, or from `--format`.
     fn target(&self, format: Format) -> Result<Target, Failure> {
         let ending = self.output.as_ref().and_then(|path| path.extension()).map(|ending| ending.to_ascii_lowercase());
         let by_name = ending.and_then(|ending| match ending.to_str() {

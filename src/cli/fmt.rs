@@ -12,24 +12,24 @@ use crate::source::Sources;
 use crate::store::{self, DiskWorld};
 use crate::syntax;
 
-/// Write programs in their one canonical form
+/// Format programs
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc fmt circuits/latch.nb
   nbc fmt --check circuits/*.nb
 
-Exit status: 0 done, 1 with --check when a file is not in its canonical form, 2 when a file cannot be parsed.")]
+Exit status: 0 done, 1 with --check if a file is not formatted, 2 if a file cannot be parsed.")]
 pub struct Arguments {
     /// The source files
     #[arg(required = true)]
     files: Vec<String>,
-    /// Change nothing; name the files that would change
+    /// List the files that would change, and change nothing
     #[arg(long)]
     check: bool,
 }
 
 impl Arguments {
-    /// Formats the files; one that cannot be parsed stays as it is.
+    /// Formats the files. A file that cannot be parsed is not changed.
     ///
     /// # Errors
     /// When a file cannot be read, parsed or written.
@@ -49,7 +49,7 @@ impl Arguments {
         Ok(if self.check && differs { Status::TestFailed } else { Status::Done })
     }
 
-    /// Writes a file in its canonical form unless it is only checked; whether it was in that form.
+    /// Formats a file, or only checks it; returns whether it was formatted.
     fn format_file(&self, path: &str) -> Result<bool, Failure> {
         let mut sources = Sources::default();
         let file = check::open(&DiskWorld, path, &mut sources).map_err(Failure::plain)?;

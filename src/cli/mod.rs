@@ -81,7 +81,7 @@ commands! {
 const EXAMPLES: &str = "\
 Examples:
   nbc run circuits/latch.nb                 compile, simulate and test a circuit of robots
-  nbc library list                          the robots that circuits are made of
+  nbc library list                          the built-in robots
   nbc simulate ROBOT --schedule '00*10 11*10'
 
 Exit status: 0 done and every test passed, 1 a test failed, 2 bad input or usage, 4 interrupted.";
@@ -114,17 +114,17 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     outcome.unwrap_or_else(|failure| failure.report(&mut context)).into()
 }
 
-/// Prints what clap has to tell instead of a command: help, the version, or a fault of usage.
+/// Prints the message of clap: help, the version, or a usage error.
 fn tell(told: &clap::Error) -> Status {
     let text = told.render().to_string();
     if text.contains(|c| is_hidden(c) && c != '\t') {
-        // Of the user's arguments, without colors; where standard error is closed, nobody wants it.
+        // The arguments contain control characters, so print them escaped and without colors.
         let _ = io::stderr().write_all(visible(&text).as_bytes());
         return Status::BadInput;
     }
     match told.print().and_then(|()| io::stdout().flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            // The status says the same where standard error is closed too.
+            // If standard error is closed too, the exit status still reports the failure.
             let fault = failure::unprintable(&error);
             let _ = io::stderr().write_all(render::text(&[fault], &Sources::default(), false).as_bytes());
             Status::BadInput

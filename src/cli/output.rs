@@ -2,10 +2,10 @@
 
 use std::io::{self, BufWriter, StdoutLock, Write};
 
-/// Standard output, buffered. Once its reader has closed the pipe, it swallows what is written: nobody wants it, and that is no fault
-/// of the work.
+/// Buffered standard output. After the reader closes the pipe, further output is dropped without an error: `nbc … |
+/// head` must not change the exit status.
 pub(super) struct Output<W: Write = StdoutLock<'static>> {
-    /// Nothing after the pipe was closed.
+    /// `None` after the pipe was closed.
     open: Option<BufWriter<W>>,
 }
 
@@ -14,7 +14,7 @@ impl<W: Write> Output<W> {
         Self { open: Some(BufWriter::new(out)) }
     }
 
-    /// Does something with the output while it is open.
+    /// Calls a function with the output if it is still open.
     fn with<T>(&mut self, swallowed: T, work: impl FnOnce(&mut BufWriter<W>) -> io::Result<T>) -> io::Result<T> {
         let Some(out) = &mut self.open else { return Ok(swallowed) };
         match work(out) {

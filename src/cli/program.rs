@@ -10,13 +10,13 @@ use crate::model::Program;
 use crate::pipeline::{self, Choice, Loaded, Options};
 use crate::store::DiskWorld;
 
-/// Which circuit of a file is meant.
+/// The choice of a circuit in a file.
 #[derive(Args)]
 pub(super) struct CircuitArguments {
-    /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one of the file]
+    /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one in the file]
     #[arg(long, value_name = "NAME")]
     circuit: Option<String>,
-    /// The swarm, where several are declared for the circuit
+    /// The swarm, if several are declared for the circuit
     #[arg(long, value_name = "NAME")]
     swarm: Option<String>,
 }
@@ -27,10 +27,10 @@ impl CircuitArguments {
     }
 }
 
-/// Where evolution runs are.
+/// The place of evolution runs.
 #[derive(Args)]
 pub(super) struct RunsArguments {
-    /// The folder that `nbc evolve --out` wrote to: `library { from: NAME }` takes its robots from `NAME/robots` there
+    /// The folder of evolution runs; `library { from: NAME }` reads robots from `NAME/robots` in it
     #[arg(long, value_name = "DIR", default_value = pipeline::RUNS)]
     runs: String,
 }
@@ -43,7 +43,7 @@ impl RunsArguments {
 
 /// A source file without errors.
 pub(super) struct SourceProgram {
-    /// Its path as given.
+    /// The path as the user wrote it.
     pub(super) path: String,
     pub(super) loaded: Loaded,
 }
@@ -66,12 +66,12 @@ impl SourceProgram {
         &self.loaded.checked.program
     }
 
-    /// Faults with places in the file.
+    /// A failure with diagnostics that point into the file.
     pub(super) fn failure(&self, faults: Vec<Diagnostic>) -> Failure {
         Failure::input(faults, self.loaded.sources.clone())
     }
 
-    /// Logs what is legal in it and surely not meant, each warning once.
+    /// Logs the warnings of the file, each one once.
     pub(super) fn warn<'d>(&self, warnings: impl IntoIterator<Item = &'d Diagnostic>, context: &Context) {
         let mut told: Vec<Diagnostic> = Vec::new();
         for warning in warnings {

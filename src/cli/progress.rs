@@ -6,40 +6,40 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// How far some work is. A bar is gone without a trace when this is dropped.
+/// Shows the progress of some work. Dropping it removes the bar.
 pub struct Progress {
     bar: ProgressBar,
     started: Instant,
     state: Mutex<State>,
 }
 
-/// What there is to tell.
+/// The numbers of a progress display.
 #[derive(Clone, Debug)]
 struct State {
-    /// What is being done, such as `measuring`.
+    /// The current action, such as `measuring`.
     what: &'static str,
-    /// Done before this began.
+    /// The amount done before the display started.
     from: u64,
     done: u64,
     total: u64,
-    /// A remark, such as the speed.
+    /// A note, such as the speed.
     note: String,
     pace: Pace,
 }
 
-/// When the next line is due where there is no terminal.
+/// The schedule of lines without a terminal.
 #[derive(Clone, Debug)]
 struct Pace {
     next: Duration,
 }
 
 impl Progress {
-    /// Progress of `total` pieces of work, with a word for what is being done.
+    /// Progress of `total` pieces of work, with a word for the action.
     pub fn new(what: &'static str, total: u64) -> Self {
         Self::resumed(what, 0, total)
     }
 
-    /// Progress of work of which `from` pieces were done earlier, so that they say nothing about the speed.
+    /// Progress of work of which `from` pieces were done earlier; these are not counted in the speed.
     pub fn resumed(what: &'static str, from: u64, total: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
         let style = ProgressStyle::with_template("{prefix:>12} [{bar:30}] {pos}/{len}{msg}");
@@ -50,27 +50,27 @@ impl Progress {
         Self { bar, started: Instant::now(), state: Mutex::new(state) }
     }
 
-    /// Says how much is done by now.
+    /// Sets the amount done.
     pub fn set(&self, done: u64) {
         self.change(|state| state.done = done);
     }
 
-    /// Says how much there is to do.
+    /// Sets the total.
     pub fn set_total(&self, total: u64) {
         self.change(|state| state.total = total);
     }
 
-    /// Says that `more` is done.
+    /// Adds `more` to the amount done.
     pub fn add(&self, more: u64) {
         self.change(|state| state.done += more);
     }
 
-    /// Says how much is done by now, with a remark.
+    /// Sets the amount done and a note.
     pub fn set_with_note(&self, done: u64, note: String) {
         self.change(|state| (state.done, state.note) = (done, note));
     }
 
-    /// Does something that prints, with the bar out of the way.
+    /// Calls a function that prints, with the bar hidden.
     pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
         self.bar.suspend(work)
     }
@@ -99,13 +99,13 @@ impl Drop for Progress {
 }
 
 impl State {
-    /// The line for a log, when it is time for one.
+    /// A line for a log, if one is due.
     fn line(&mut self, elapsed: Duration) -> Option<String> {
         let due = self.done < self.total && self.pace.is_due(elapsed);
         due.then(|| format!("{}: {} of {}{}\n", self.what, self.done, self.total, self.rest(elapsed)))
     }
 
-    /// The remark and the time that is left, as far as they are known.
+    /// The note and the remaining time, if known.
     fn rest(&self, elapsed: Duration) -> String {
         let left = self.left(elapsed).map(|left| format!("about {} left", duration(left)));
         [Some(self.note.clone()).filter(|note| !note.is_empty()), left]
@@ -115,7 +115,7 @@ impl State {
             .collect()
     }
 
-    /// The time that is left, at the speed so far; unknown before anything is done, or too little to tell.
+    /// The remaining time at the speed so far; unknown at the start.
     fn left(&self, elapsed: Duration) -> Option<Duration> {
         let (made, rest) = (self.done.saturating_sub(self.from), self.total.saturating_sub(self.done));
         if made == 0 || rest == 0 || elapsed < Duration::from_secs(1) {
@@ -126,9 +126,9 @@ impl State {
 }
 
 impl Pace {
-    /// Before the first line, and between lines at first.
+    /// The time before the first line, and the first interval between lines.
     const LEAST: Duration = Duration::from_secs(10);
-    /// Between lines of long work.
+    /// The longest interval between lines.
     const MOST: Duration = Duration::from_secs(60);
 
     fn is_due(&mut self, elapsed: Duration) -> bool {
@@ -146,7 +146,7 @@ impl Default for Pace {
     }
 }
 
-/// A duration in the unit that suits it, never none at all.
+/// A duration in a suitable unit, at least one second.
 fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     if seconds < 99.5 {

@@ -19,27 +19,28 @@ use crate::report::{
 use crate::store;
 use crate::swarm::Level;
 
-/// Compile the circuits of a file, and test and simulate their swarms
+/// Compile the circuits of a file to robots, then run its tests and simulations in physics
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   nbc run circuits/latch.nb
   nbc run circuits/latch.nb --out /tmp/latch --format json
-  nbc run circuits/latch.nb --only d_latch      what has this name: a test's title, a circuit, a swarm
+  nbc run circuits/latch.nb --only d_latch      a test's title, a circuit or a swarm
 
-Every robot is simulated voxel by voxel; a test runs once for each swarm that is declared for its circuit. Pictures, waveforms, a table of \
-the cycles, a report page and result.json are written to `out/` and the file's name.
+Every robot is simulated voxel by voxel. A test runs once for each swarm that is declared for its circuit. \
+Pictures, waveforms, a table of the cycles, a report page and result.json are written to a folder in `out/` with \
+the file's name.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
 pub struct Arguments {
     /// The source file
     file: PathBuf,
-    /// Only the tests and simulations of this name: a test's title, a circuit or a swarm
+    /// Run only tests and simulations with this name: a test's title, a circuit or a swarm
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
-    /// The folder for pictures and results [default: out/ and the file's name]
+    /// The folder for pictures and results [default: `out/NAME` for the file `NAME.nb`]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Leave out the report page
+    /// Do not write the report page
     #[arg(long)]
     no_report: bool,
     #[command(flatten)]
@@ -217,7 +218,8 @@ pub(super) fn run_simulation(
     run.map_err(|faults| file.failure(faults))
 }
 
-/// The names of the runs' files: the circuit's, with the swarm's where a test runs as several, and a number where a name comes again.
+/// The names of the runs' files: the circuit's, with the swarm's where a test runs as several, and a number where a
+/// name comes again.
 fn stems(runs: &[Ran]) -> Vec<String> {
     let mut swarms: BTreeMap<(&str, usize), usize> = BTreeMap::new();
     for run in runs {

@@ -22,12 +22,13 @@ const MAX_WORLD_WIDTH: usize = 1_000_000;
   nbc simulate nand --schedule '00*10 01*10 10*10 11*10'
   nbc simulate body.yaml --schedule '01*56steps' --world-width 60 --start-x 28 --format json
 
-A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, 1 rigid, 2 soft, \
-3 active, 4 active in antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.")]
+A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, \
+1 rigid, 2 soft, 3 actuator, 4 actuator in antiphase. While stimulus 1 is present, 5 shrinks and 7 grows; while \
+stimulus 2 is present, 6 shrinks and 8 grows.")]
 pub struct Arguments {
-    /// A file with a body, or the name of a robot of the library
+    /// A file with a body, or the name of a robot in the library
     robot: String,
-    /// The two stimuli and how long: `01*10` is ten cycles, `01*56steps` is 56 env steps
+    /// Patterns of the two stimuli with durations: `01*10` is ten cycles, `01*56steps` is 56 env steps
     #[arg(long)]
     schedule: String,
     /// The ground column of the body's left column [default: the middle of the world]
@@ -113,7 +114,8 @@ fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// What is to be said of a robot that did not stay on its ground: from then on it falls, or creeps along the plane below.
+/// What is to be said of a robot that did not stay on its ground: from then on it falls, or creeps along the plane
+/// below.
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
     let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;

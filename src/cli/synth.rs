@@ -21,39 +21,40 @@ Examples:
   nbc synth c880.aig -o c880.nb --effort high
   nbc synth adder.blif --cells nand,not --what-if xor,and";
 
-/// Make a circuit of another tool out of few robots, and prove the result
+/// Map another tool's circuit to few robots, and prove the result
 ///
-/// Reads BLIF, AIGER, .bench and, where Yosys is installed, Verilog; writes BLIF, AIGER, Verilog, DOT and .nb by the name's ending.
+/// Reads BLIF, AIGER, .bench and, if Yosys is installed, Verilog. Writes BLIF, AIGER, Verilog, DOT and .nb. The file's
+/// extension selects the format.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The circuit: .blif, .aig, .aag, .bench or .v
     input: PathBuf,
-    /// Where to write the result: .blif, .aig, .aag, .v, .dot or .nb
+    /// The file to write: .blif, .aig, .aag, .v, .dot or .nb
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
     mapping: MappingArguments,
-    /// The clock of latches for which the file names none
+    /// The clock of latches without a clock in the file
     #[arg(long, value_name = "NAME")]
     clock: Option<String>,
-    /// Registers as registers, or made of cells; by default as the output needs it
+    /// Keep registers or expand them to cells [default: depends on the output format]
     #[arg(long, value_enum)]
     registers: Option<RegisterWord>,
-    /// Say how many cells each of these functions would save, were there a robot for it
+    /// Report how many cells a robot for each of these functions would save
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
     what_if: Vec<String>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum RegisterWord {
-    /// As registers of the output's format
+    /// Registers of the output format
     Keep,
-    /// As latches and flip-flops made of cells
+    /// Latches and flip-flops made of cells
     Expand,
 }
 
-/// What came of it, for programs.
+/// The result for programs.
 #[derive(Serialize)]
 struct Report {
     cells: usize,
@@ -72,7 +73,7 @@ impl Arguments {
     /// Reads, synthesizes, proves and writes.
     ///
     /// # Errors
-    /// Input that cannot be read or mapped, and output that cannot be written.
+    /// When the input cannot be read or mapped, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
         let target = self.output.as_deref().map(format).transpose()?;
@@ -144,7 +145,7 @@ pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     Failure::plain(Diagnostic::without_place(Code::Unreadable, message))
 }
 
-/// The format that a name's ending asks for.
+/// The format for a file's extension.
 fn format(path: &Path) -> Result<circuit::formats::Format, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     circuit::formats::Format::of_ending(&ending).ok_or_else(|| {

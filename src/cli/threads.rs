@@ -1,5 +1,5 @@
-//! The threads that simulations share: as many as the machine has cores or `RAYON_NUM_THREADS` says, fewer where the system gives no
-//! more.
+//! The threads that simulations share: as many as the machine has cores or `RAYON_NUM_THREADS` says, fewer where the
+//! system gives no more.
 
 use std::env;
 use std::sync::mpsc::{self, SyncSender};
@@ -10,12 +10,13 @@ use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use crate::cli::{Context, Failure};
 use crate::diag::{Code, Diagnostic};
 
-/// What says how many threads there are to be.
+/// The environment variable with the number of threads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
-/// The most threads that are started, whatever is asked for.
+/// The most threads that are started.
 const MOST: usize = 1024;
 
-/// Starts the threads. Where the system refuses some, there are fewer, and the user is told; results are the same on any number.
+/// Starts the threads. If the system cannot start all of them, there are fewer and a warning is logged. Results do not
+/// depend on the number.
 ///
 /// # Errors
 /// When `RAYON_NUM_THREADS` is not a number.
@@ -47,7 +48,7 @@ pub(super) fn start(context: &Context) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How many threads are asked for by the value of [`VARIABLE`].
+/// The number of threads in the value of [`VARIABLE`].
 fn wanted(value: Option<&str>) -> Result<usize, Failure> {
     let cores = || thread::available_parallelism().map_or(1, usize::from);
     match value.map(str::trim) {
@@ -65,14 +66,14 @@ fn wanted(value: Option<&str>) -> Result<usize, Failure> {
     }
 }
 
-/// A thread that waits for its work in the pool.
+/// A thread that waits for work from the pool.
 struct Idle {
     work: SyncSender<ThreadBuilder>,
     thread: JoinHandle<()>,
 }
 
 impl Idle {
-    /// Nothing where the system starts no more threads.
+    /// `None` if the system cannot start another thread.
     fn start() -> Option<Self> {
         let (sender, work) = mpsc::sync_channel::<ThreadBuilder>(1);
         let wait = move || {
@@ -88,7 +89,7 @@ impl Idle {
         self.work.send(work).expect("an idle thread waits for its work");
     }
 
-    /// Gives the thread back to the system.
+    /// Ends the thread.
     fn end(self) {
         drop(self.work);
         self.thread.join().expect("a thread without work ends");

@@ -1,7 +1,7 @@
 //! `--timings`: which stage of a command's work took how long.
 //!
-//! Simulation runs on many threads and tells its parts to a probe; what a command does itself, it times. Both are booked here for the
-//! whole program.
+//! Simulation runs on many threads and tells its parts to a probe; what a command does itself, it times. Both are
+//! booked here for the whole program.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,12 +16,12 @@ use crate::sim::{Part, Simulator};
 /// The option, for commands that simulate.
 #[derive(Args, Clone, Copy)]
 pub struct Timings {
-    /// Tell on standard error which stage took how long; simulation is some per cent slower for it
+    /// Print the time of each stage on standard error; this makes simulation a few percent slower
     #[arg(long)]
     timings: bool,
 }
 
-/// A stage of the work.
+/// A stage of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     Springs,
@@ -33,7 +33,7 @@ pub enum Stage {
     Output,
 }
 
-/// Nanoseconds booked for each stage, of all threads together.
+/// Nanoseconds of each stage, summed over all threads.
 static NANOSECONDS: [AtomicU64; Stage::ALL.len()] = [const { AtomicU64::new(0) }; Stage::ALL.len()];
 /// Substeps of single simulations.
 static LANE_SUBSTEPS: AtomicU64 = AtomicU64::new(0);
@@ -42,10 +42,10 @@ thread_local! {
     static WATCH: Cell<Watch> = const { Cell::new(Watch { last: None, parts: [Duration::ZERO; Stage::ALL.len()], lane_substeps: 0 }) };
 }
 
-/// What a thread has yet to book.
+/// The time of a thread that is not yet added to the total.
 #[derive(Clone, Copy)]
 struct Watch {
-    /// When the last part ended.
+    /// The end of the last part.
     last: Option<Instant>,
     parts: [Duration; Stage::ALL.len()],
     lane_substeps: u64,
@@ -67,7 +67,7 @@ impl Stage {
         }
     }
 
-    /// The stage of a part of a simulation.
+    /// The stage of a part of the simulation.
     fn of(part: Part) -> Option<Self> {
         match part {
             Part::Elsewhere => None,
@@ -78,13 +78,14 @@ impl Stage {
         }
     }
 
-    /// Whether it is simulation.
+    /// Whether the stage is part of simulation.
     fn is_simulation(self) -> bool {
         matches!(self, Self::Springs | Self::Contact | Self::Limits | Self::Bookkeeping)
     }
 }
 
-/// The probe of a simulation: keeps the time since the last part on this thread, and books it once an env step.
+/// The probe of a simulation: measures the time since the last part on this thread, and adds it to the total once per
+/// env step.
 pub fn watch(part: Part, simulations: usize) {
     let now = Instant::now();
     let mut watch = WATCH.get();
@@ -113,7 +114,7 @@ fn book(stage: Stage, time: Duration) {
     NANOSECONDS[stage as usize].fetch_add(time.as_nanos() as u64, Ordering::Relaxed);
 }
 
-/// Does something and books the time for it.
+/// Calls a function and adds its time to a stage.
 pub fn time<T>(stage: Stage, work: impl FnOnce() -> T) -> T {
     let started = Instant::now();
     let result = work();
@@ -121,18 +122,18 @@ pub fn time<T>(stage: Stage, work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Seconds booked for each stage so far, in order of [`Stage::ALL`].
+/// Seconds of each stage so far, in order of [`Stage::ALL`].
 pub fn seconds() -> [f64; Stage::ALL.len()] {
     Stage::ALL.map(|stage| NANOSECONDS[stage as usize].load(Ordering::Relaxed) as f64 / 1e9)
 }
 
 impl Timings {
-    /// How to simulate so that it is timed if it is to be.
+    /// The simulator, with a probe if times are requested.
     pub fn simulator(self) -> Simulator {
         Simulator { probe: self.timings.then_some(watch), ..Simulator::default() }
     }
 
-    /// Tells the times if they are asked for; `started` is when the command began.
+    /// Prints the times if requested; `started` is the start of the command.
     pub fn tell(self, started: Instant, context: &Context) {
         if self.timings {
             let substeps = LANE_SUBSTEPS.load(Ordering::Relaxed);
@@ -141,7 +142,7 @@ impl Timings {
     }
 }
 
-/// The times as a table of the stages that there were, and how fast simulation was.
+/// A table of the stages that took time, and the speed of simulation.
 fn describe(seconds: &[f64], lane_substeps: u64, elapsed: f64) -> String {
     let mut table = Table::new(&[("stage", Align::Left), ("seconds", Align::Right), ("share", Align::Right)]);
     let all: f64 = seconds.iter().sum();

@@ -5,13 +5,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
-/// Does the work for each item and hands the results on in order of the items, each as soon as it and those before it are there.
-/// Where handing on fails, no more work is begun.
+/// Does the work for each item and hands the results on in order of the items, each as soon as it and those before it
+/// are there. Where handing on fails, no more work is begun.
 ///
 /// Where there is one thread for simulation, or no other can be started, the work is done on the caller's.
 ///
-/// The threads are not those of rayon, which simulation shares out its parts to: one of them that waits for a part would begin with
-/// another item meanwhile, and come back only when that is done.
+/// The threads are not those of rayon, which simulation shares out its parts to: one of them that waits for a part
+/// would begin with another item meanwhile, and come back only when that is done.
 ///
 /// # Errors
 /// The first that handing on gives.

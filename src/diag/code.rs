@@ -6,10 +6,10 @@ use serde::{Serialize, Serializer};
 
 use super::Severity;
 
-/// Declares the codes: each a name, its word, its severity and what it means, in alphabetical order of the words.
+/// Declares the codes, each with a name, a word, a severity and a description, in alphabetical order of the words.
 macro_rules! codes {
     ($($name:ident = $word:literal, $severity:ident: $meaning:literal;)*) => {
-        /// A rule that input can break.
+        /// A rule that the input violates.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Code {
             $(#[doc = $meaning] $name,)*
@@ -26,14 +26,14 @@ macro_rules! codes {
                 }
             }
 
-            /// How bad it is.
+            /// Its severity.
             pub fn severity(self) -> Severity {
                 match self {
                     $(Self::$name => Severity::$severity,)*
                 }
             }
 
-            /// What it means, in one sentence.
+            /// Its description, in one sentence.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$name => $meaning,)*

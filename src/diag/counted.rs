@@ -1,6 +1,6 @@
 //! Counts in messages and reports.
 
-/// A count with its noun: `1 cycle`, `2 cycles`. For nouns that take an s.
+/// A count with its noun: `1 cycle`, `2 cycles`. For nouns whose plural adds an s.
 pub fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }

@@ -1,4 +1,4 @@
-//! The one diagnostic type that every stage reports with.
+//! The diagnostic type that every stage reports.
 
 use serde::Serialize;
 
@@ -6,13 +6,13 @@ use super::suggest::{Suggestion, alternatives};
 use super::{Code, Fix};
 use crate::source::Span;
 
-/// How bad it is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Legal, and surely not meant.
+    /// Legal, but probably a mistake.
     Warning,
-    /// The program has no meaning.
+    /// The program is invalid.
     Error,
 }
 
@@ -21,34 +21,34 @@ pub enum Severity {
 pub struct Label {
     /// The place.
     pub span: Span,
-    /// What is to be said of it; lower case, without a full stop.
+    /// The text of the label; lower case, without a full stop. It may be empty.
     pub text: String,
 }
 
-/// A further remark, at a place of its own file.
+/// A related note with a place in its own file.
 pub type Related = Label;
 
 /// One fault of the user's input: what, where, and what to do about it. [`super::json`] is its one form for programs.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Diagnostic {
-    /// Which rule.
+    /// The violated rule.
     pub code: Code,
-    /// How bad.
+    /// The severity.
     pub severity: Severity,
-    /// One line, lower case, without a full stop, the user's words in backticks.
+    /// One line, lower case, without a full stop, with the user's text in backticks.
     pub message: String,
     /// The places, the main one first.
     pub labels: Vec<Label>,
-    /// What to write instead, where it can be said.
+    /// A suggestion, if there is one.
     pub help: Option<String>,
-    /// Remarks elsewhere, such as the first of two definitions.
+    /// Related places, such as the first of two definitions.
     pub related: Vec<Related>,
     /// Edits that remove the fault, where they are certain to.
     pub fix: Option<Fix>,
 }
 
 impl Diagnostic {
-    /// A diagnostic of a code's own severity with one labeled place.
+    /// A diagnostic with its code's own severity and one labeled place.
     pub fn new(code: Code, message: impl Into<String>, span: Span, label: impl Into<String>) -> Self {
         Self {
             code,
@@ -61,14 +61,14 @@ impl Diagnostic {
         }
     }
 
-    /// A diagnostic about a whole file or the command line, with no place in a text.
+    /// A diagnostic about a whole file or the command line, without a place in a text.
     pub fn without_place(code: Code, message: impl Into<String>) -> Self {
         let message = message.into();
         let severity = code.severity();
         Self { code, severity, message, labels: Vec::new(), help: None, related: Vec::new(), fix: None }
     }
 
-    /// Adds what to write instead.
+    /// Adds a suggestion.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
@@ -97,7 +97,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a remark at another place.
+    /// Adds a note at another place.
     pub fn with_related(mut self, span: Span, text: impl Into<String>) -> Self {
         self.related.push(Label { span, text: text.into() });
         self

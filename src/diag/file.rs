@@ -1,4 +1,4 @@
-//! Files that cannot be read or written, as diagnostics.
+//! Diagnostics for files that cannot be read or written.
 
 use std::io;
 use std::path::Path;
@@ -7,7 +7,7 @@ use super::{Code, Diagnostic};
 use crate::source::FileError;
 
 impl Diagnostic {
-    /// What is wrong with the file at `path`, as the user wrote it.
+    /// The error of reading the file at `path`, as the user wrote it.
     pub fn unreadable(path: &str, error: &FileError) -> Self {
         let why = match error {
             FileError::NotFound => "there is no such file".to_owned(),
@@ -19,13 +19,13 @@ impl Diagnostic {
         Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {why}"))
     }
 
-    /// A file or folder that cannot be written.
+    /// The error of writing a file or folder.
     pub fn unwritable(path: &Path, error: &io::Error) -> Self {
         Self::without_place(Code::Unwritable, format!("cannot write `{}`: {}", path.display(), io_words(error)))
     }
 }
 
-/// What the operating system says, in plain words and without its numbers.
+/// The operating system's message in plain words, without error numbers.
 pub fn io_words(error: &io::Error) -> String {
     use io::ErrorKind;
     let plain = match error.kind() {

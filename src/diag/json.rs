@@ -1,4 +1,4 @@
-//! Diagnostics as data for programs: what [`Diagnostic`] holds, with the names of files, lines and columns.
+//! Diagnostics as JSON: the data of [`Diagnostic`] with file names, lines and columns.
 
 use serde_json::{Value, json};
 

@@ -13,13 +13,13 @@ use super::visible::{visible, visible_in_place};
 use super::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceFile, Sources};
 
-/// The most diagnostics that are shown; nobody reads more.
+/// The most diagnostics that are shown.
 const MOST_SHOWN: usize = 100;
 
-/// The most characters of a message that are shown: a word of the user's may be megabytes long.
+/// The most characters of a message that are shown, because a user's word may be megabytes long.
 const MOST_CHARACTERS: usize = 600;
 
-/// A message as it is shown.
+/// A message as displayed.
 fn clipped(text: &str) -> String {
     match text.char_indices().nth(MOST_CHARACTERS) {
         Some((end, _)) => format!("{}…", visible(&text[..end])),
@@ -27,7 +27,7 @@ fn clipped(text: &str) -> String {
     }
 }
 
-/// The texts that diagnostics point into, as they are shown.
+/// The texts of the files, as displayed.
 type Shown<'a> = BTreeMap<FileId, Cow<'a, str>>;
 
 fn shown<'a>(diagnostics: &[Diagnostic], sources: &'a Sources) -> Shown<'a> {
@@ -36,7 +36,8 @@ fn shown<'a>(diagnostics: &[Diagnostic], sources: &'a Sources) -> Shown<'a> {
     files.into_iter().map(|file| (file, visible_in_place(&sources.file(file).text))).collect()
 }
 
-/// Diagnostics as text, in their order, each with its excerpt of the source; of very many the first ones, and how many follow.
+/// Diagnostics as text, in their order, each with an excerpt of the source. If there are many, only the first are shown
+/// with the number of the others.
 pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
@@ -58,7 +59,7 @@ pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> Strin
     }
 }
 
-/// A diagnostic as miette wants it.
+/// A diagnostic in miette's form.
 #[derive(Debug)]
 struct Report<'a> {
     heading: Option<&'a Diagnostic>,
@@ -132,15 +133,15 @@ impl miette::Diagnostic for Report<'_> {
     }
 }
 
-/// A source file of which only the surroundings of a span are shown, even where one line is megabytes long.
+/// A source file of which only the surroundings of a span are shown, because a line may be megabytes long.
 #[derive(Debug)]
 struct Excerpt<'a> {
     file: &'a SourceFile,
-    /// The file's text as it is shown.
+    /// The file's text as displayed.
     text: &'a str,
 }
 
-/// The most bytes of one line shown on either side of a span.
+/// The most bytes shown on either side of a span in one line.
 const MARGIN: usize = 60;
 
 impl<'a> Excerpt<'a> {
@@ -148,13 +149,14 @@ impl<'a> Excerpt<'a> {
         Self { file: sources.file(file), text: &texts[&file] }
     }
 
-    /// The nearest offset with a character to point at: the end of a text has none.
+    /// The nearest offset with a character to point at; the end of a text has none.
     fn visible(&self, offset: usize) -> usize {
         let text = self.text;
         text.floor_char_boundary(offset.min(text.len().saturating_sub(1)))
     }
 
-    /// The bytes shown for a span: whole lines with their neighbors where they are short, else the nearest part of the line.
+    /// The bytes shown for a span: whole lines with their neighbors if they are short, else the nearest part of the
+    /// line.
     fn range(&self, span: &SourceSpan, before: usize, after: usize) -> std::ops::Range<usize> {
         let text = self.text;
         let start = span.offset().min(text.len());
@@ -192,7 +194,7 @@ impl SourceCode for Excerpt<'_> {
         after: usize,
     ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
         let range = self.range(span, before, after);
-        // Without context lines miette asks for the place of the span itself.
+        // Without context lines, miette asks for the place of the span itself.
         let place = self.file.line_column(if before == 0 { span.offset() } else { range.start });
         let data = if self.text.is_empty() { b" " } else { &self.text.as_bytes()[range.clone()] };
         let lines = self.text[range.clone()].lines().count();

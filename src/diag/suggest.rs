@@ -1,12 +1,12 @@
-//! "Did you mean": the known name nearest to a misspelled one.
+//! "Did you mean": the known name most similar to a misspelled one.
 
-/// Where there are more faults than these, the others are told without a suggestion: each would take a look at every name.
+/// The most errors with a suggestion, because each suggestion compares all names.
 pub const MOST: usize = 100;
 
 /// The most letters of a name that are compared.
 const LETTERS: usize = 64;
 
-/// The nearest of `known`, if it is near enough to be what was meant; the first of equally near ones.
+/// The most similar of `known`, if it is similar enough; of equally similar ones, the first.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (word.chars().count() / 3).clamp(1, 3);
     let mut measure = Measure { word: letters(word).collect(), limit, name: Vec::new(), rows: Default::default() };
@@ -52,13 +52,13 @@ pub fn help<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<
     }
 }
 
-/// Words in backticks as a list of the language: "`a`, `b` or `c`".
+/// Words in backticks as a list: "`a`, `b` or `c`".
 pub fn alternatives<S: AsRef<str>>(words: &[S], last: &str) -> String {
     let quoted: Vec<_> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();
     join(&quoted, last)
 }
 
-/// Phrases as a list of the language: "a, b or c".
+/// Phrases as a list: "a, b or c".
 pub fn join<S: AsRef<str>>(phrases: &[S], last: &str) -> String {
     match phrases {
         [] => String::new(),
@@ -75,20 +75,21 @@ fn letters(text: &str) -> impl Iterator<Item = char> {
     text.chars().flat_map(char::to_lowercase).take(LETTERS)
 }
 
-/// Measures how far names are from a word.
+/// Measures the distance of names from a word.
 struct Measure {
     word: Vec<char>,
     limit: usize,
-    /// The name's letters.
+    /// The letters of the name.
     name: Vec<char>,
-    /// Edits from as many letters of the word, and from one and two fewer, to the name's beginnings.
+    /// The edit distances from prefixes of the word (this one, and one and two letters shorter) to the prefixes of the
+    /// name.
     rows: [Vec<usize>; 3],
 }
 
 impl Measure {
     /// The number of letters to change, add, drop or exchange, if it is within the limit.
     fn distance(&mut self, name: &str) -> Option<usize> {
-        // Most names are told by their length.
+        // The lengths alone rule out most names.
         if name.is_ascii() && name.len().min(LETTERS).abs_diff(self.word.len()) > self.limit {
             return None;
         }
@@ -97,18 +98,18 @@ impl Measure {
         self.rows[0] = (0..=self.name.len()).collect();
         for i in 1..=self.word.len() {
             self.advance(i);
-            // An exchange takes two letters at once, so that one row may be skipped.
+            // An exchange covers two letters, so one row may be skipped.
             let out = |row: &[usize], limit| row.iter().all(|&edits| edits > limit);
             if out(&self.rows[0], self.limit) && out(&self.rows[1], self.limit - 1) {
                 return None;
             }
         }
-        // Where every letter changes, nothing tells that the name was meant.
+        // If every letter changes, the words are unrelated.
         let edits = self.rows[0][self.name.len()];
         (edits <= self.limit && edits < self.word.len().max(self.name.len())).then_some(edits)
     }
 
-    /// The row of one more letter of the word.
+    /// The row for one more letter of the word.
     fn advance(&mut self, i: usize) {
         self.rows.rotate_right(1);
         let [row, last, last_but_one] = &mut self.rows;

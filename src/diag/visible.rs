@@ -1,8 +1,9 @@
-//! Text of users on its way to a terminal: characters that would steer it, or change the order of what is read, are shown as codes.
+//! Escapes users' text before it reaches a terminal: characters that would control it or change the reading order are
+//! shown as codes.
 
 use std::borrow::Cow;
 
-/// Whether a character does something else than to stand in its place. A line break is left to do what it does.
+/// Whether a character has an effect other than its own glyph. Line breaks are excluded.
 pub fn is_hidden(c: char) -> bool {
     let reorders = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let breaks = matches!(c, '\u{2028}' | '\u{2029}');
@@ -19,8 +20,8 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(shown).collect())
 }
 
-/// Like [`visible`], but every byte keeps its place, for excerpts with places in them. A return that ends a line is a blank before the
-/// line break, or the line break itself.
+/// Like [`visible`], but the offset of every byte stays the same, for excerpts with places in them. A carriage return
+/// at the end of a line becomes a space or the line break itself.
 pub(super) fn visible_in_place(text: &str) -> Cow<'_, str> {
     if !text.contains(|c| is_hidden(c) && c != '\t') {
         return Cow::Borrowed(text);

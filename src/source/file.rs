@@ -2,10 +2,10 @@
 
 use super::{FileId, Span};
 
-/// One source file: its name as the user wrote it, and its text.
+/// A source file: its name as the user wrote it, and its text.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// The file's number.
+    /// The number of the file.
     pub id: FileId,
     /// The path as given, for messages.
     pub name: String,
@@ -14,7 +14,7 @@ pub struct SourceFile {
     line_starts: Vec<u32>,
 }
 
-/// A place for people: both numbers count from 1, the column in characters.
+/// A place for people; both numbers start at 1, and the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct LineColumn {
     /// The line, from 1.
@@ -34,7 +34,7 @@ impl SourceFile {
     }
 }
 
-/// All source files of one compilation, numbered in the order they were added.
+/// All source files of one compilation, numbered in the order in which they were added.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     files: Vec<SourceFile>,
@@ -45,7 +45,7 @@ impl Sources {
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
         let text = text.into();
-        // A return without a line feed ends a line, as it does in the grammar.
+        // A carriage return without a line feed ends a line, as in the grammar.
         let bytes = text.as_bytes();
         let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
         let line_starts = std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at as u32 + 1)).collect();
@@ -53,17 +53,17 @@ impl Sources {
         id
     }
 
-    /// The file with that number, which must come from [`Sources::add`] of this value.
+    /// The file with this number, which must come from [`Sources::add`] of this value.
     pub fn file(&self, id: FileId) -> &SourceFile {
         &self.files[id.0 as usize]
     }
 
-    /// The text under a span.
+    /// The text of a span.
     pub fn text(&self, span: Span) -> &str {
         &self.file(span.file).text[span.range()]
     }
 
-    /// The files in the order they were added.
+    /// The files in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = &SourceFile> {
         self.files.iter()
     }

@@ -1,4 +1,4 @@
-//! Source text: files, spans into them, and the [`World`] that reads files for a core which does no input or output itself.
+//! Source text: files, spans, and the [`World`] that reads files for the core, which itself does no input or output.
 
 mod file;
 mod span;

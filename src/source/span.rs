@@ -1,4 +1,4 @@
-//! Where in the source something stands.
+//! Places in the source.
 
 /// A file's number in [`super::Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -11,7 +11,7 @@ pub struct Span {
     pub file: FileId,
     /// The first byte.
     pub start: u32,
-    /// One past the last byte.
+    /// The end: one past the last byte.
     pub end: u32,
 }
 
@@ -22,13 +22,13 @@ impl Span {
         Self { file, start: narrow(start), end: narrow(end) }
     }
 
-    /// The smallest span that covers `self` and `other`, which must be of one file.
+    /// The smallest span that covers `self` and `other`, which must be in the same file.
     pub fn to(self, other: Self) -> Self {
         assert_eq!(self.file, other.file, "a span covers one file only");
         Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// The bytes as a range that indexes the file's text.
+    /// The range of bytes, as an index of the file's text.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }

@@ -1,50 +1,50 @@
-//! Who reads files: the core asks a [`World`], the command line gives it the disk, tests give it memory.
+//! Reading files: the core asks a [`World`]. The command line provides the disk; tests provide memory.
 
 use std::collections::BTreeMap;
 
-/// Why a file could not be read as source text.
+/// The reason why a file could not be read as source text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileError {
-    /// No file has that path.
+    /// There is no file with this path.
     NotFound,
-    /// The path leads to a folder, a pipe, a device, with its article.
+    /// The path leads to a folder, a pipe or a device; the text names it with its article.
     NotRegular(&'static str),
-    /// The file has more bytes than its reader takes.
+    /// The file is larger than the limit.
     TooLarge {
-        /// The largest size read, in bytes.
+        /// The limit in bytes.
         limit: u64,
     },
     /// The bytes are not UTF-8 text.
     NotText {
-        /// The first offending byte's offset.
+        /// The offset of the first invalid byte.
         offset: usize,
     },
-    /// The operating system refused; its words.
+    /// The operating system's error message.
     Io(String),
 }
 
-/// The outside as the core sees it: a place where source files are.
+/// The environment of the core: a place with source files.
 pub trait World {
     /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
-    /// The names of what is in a folder, in order.
+    /// The names in a folder, in order.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 
-    /// The one name of the file at `path`, however many paths and links lead to it.
+    /// The unique name of the file at `path`, however many paths and links lead to it.
     fn identity(&self, path: &str) -> String {
         path.to_owned()
     }
 }
 
-/// Files kept in memory, for tests and for programs that make their source.
+/// Files in memory, for tests and for programs that generate source text.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryWorld {
     files: BTreeMap<String, String>,
 }
 
 impl MemoryWorld {
-    /// Puts a file at `path`, replacing what was there.
+    /// Adds a file at `path`, replacing any other.
     pub fn insert(&mut self, path: impl Into<String>, text: impl Into<String>) {
         self.files.insert(path.into(), text.into());
     }

@@ -5,23 +5,23 @@ use clap::ValueEnum;
 /// Kinds of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Kind {
-    /// A film in a PNG file
+    /// A film as animated PNG
     Apng,
-    /// A run's fitness by group of behaviors, with its statistics
+    /// The fitness of a run by group of behaviors, with statistics
     Comparison,
-    /// A circuit's cells for Graphviz
+    /// The cells of a circuit, for Graphviz
     Dot,
-    /// A film
+    /// A film as GIF
     Gif,
-    /// A run's archive
+    /// The archive of a run
     Heatmap,
-    /// A robot bent by the physics, at one moment
+    /// The deformed body of a robot at one moment
     Pose,
-    /// A run's coverage and QD-score over the generations
+    /// The coverage and QD-score of a run over its generations
     Progress,
     /// A page with a player
     Report,
-    /// A circuit's cells with their robots
+    /// The cells of a circuit with their robots
     Schematic,
     /// Paths over time
     Spacetime,
@@ -29,12 +29,12 @@ pub(super) enum Kind {
     Sprite,
     /// Snapshots of a robot's gait under each pattern
     Strip,
-    /// A swarm's waveforms
+    /// The waveforms of a swarm
     Vcd,
 }
 
 impl Kind {
-    /// The extensions of the files that hold such a picture.
+    /// The file extensions of this kind.
     pub(super) fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Apng => &["png", "apng"],
@@ -46,7 +46,7 @@ impl Kind {
         }
     }
 
-    /// Its word on the command line.
+    /// The word for it on the command line.
     pub(super) fn word(self) -> String {
         self.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
     }

@@ -36,39 +36,40 @@ const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
 Examples:
   nbc draw nand --as gif --schedule '00*4 11*4' -o nand.gif
   nbc draw body.yaml --as strip -o gait.svg
-  nbc draw shipped --as sprite -o library.png          the robots that come with the program
+  nbc draw shipped --as sprite -o library.png          the built-in library
   nbc draw circuits/latch.nb --as schematic -o latch.svg
   nbc draw out/gates --as heatmap --axes voxels,active -o archive.png
   nbc draw out/gates --behavior RRRL --as strip -o nand.png
 
 docs/pictures.md shows every kind.")]
 pub struct Arguments {
-    /// A file with a body, a robot of the library, a folder of robots or `shipped`, the folder of a run, or a source file (.nb)
+    /// A file with a body, a robot of the library, a folder of robot files, `shipped`, the folder of a run, or a source
+    /// file (.nb)
     what: String,
-    /// What to draw
+    /// The kind of picture
     #[arg(long = "as", value_enum)]
     kind: Kind,
     /// The file to write: `.svg` or `.png` for pictures, `.gif`, `.png` or `.apng` for films, `.vcd`, `.dot`, `.html`
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The stimuli of robots over time, as for `nbc simulate` [default: 00*10 01*10 10*10 11*10]
+    /// The schedule of a robot's stimuli, as in `nbc simulate` [default: 00*10 01*10 10*10 11*10]
     #[arg(long)]
     schedule: Option<String>,
-    /// The cycle of a pose [default: the schedule's end]
+    /// The cycle of a pose [default: the end of the schedule]
     #[arg(long, value_name = "CYCLE", value_parser = cycle, allow_negative_numbers = true)]
     at: Option<f64>,
-    /// The robot of this behavior, of a library or a run
+    /// The best robot with this behavior, from a library or a run
     #[arg(long, value_name = "BEHAVIOR")]
     behavior: Option<Behavior>,
     /// The two axes of a heat map: `voxels`, `active`, `sensory`, `behavior` [default: the first two]
     #[arg(long, value_name = "X,Y", value_delimiter = ',')]
     axes: Vec<String>,
-    /// Only these robots of a swarm, by the nets they drive, each with the inputs of the swarm
+    /// Show only these robots of a swarm, by the nets they drive, with the inputs of the swarm
     #[arg(long, value_name = "NET,…", value_delimiter = ',')]
     robots: Vec<String>,
     #[command(flatten)]
     circuit: CircuitArguments,
-    /// The test of a source file, by its title or its circuit [default: the first]
+    /// A test of a source file, by its title or its circuit [default: the first]
     #[arg(long, value_name = "NAME")]
     test: Option<String>,
     #[command(flatten)]
@@ -82,7 +83,7 @@ impl Arguments {
     /// Draws and writes.
     ///
     /// # Errors
-    /// When what is to be drawn makes no sense, is not to be had of this subject, or cannot be written.
+    /// When the subject is invalid, has no such picture, or the file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let canvas = Canvas::new(&self.output, self.kind).map_err(Failure::plain)?;
         let drawn = self.drawn();
@@ -155,7 +156,7 @@ impl Arguments {
         schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
     }
 
-    /// The fault of a kind that this subject does not have.
+    /// The error for a picture that this subject does not have.
     fn not_of(&self, given: &str, wanted: &str) -> Failure {
         let message = format!("`{}` is {given}, expected {wanted} for `--as {}`", self.what, self.kind.word());
         Failure::plain(Diagnostic::without_place(Code::BadValue, message))

@@ -24,10 +24,10 @@ use crate::swarm;
 
 pub(super) use run::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
 
-/// A run with `--quick`.
+/// The size of a run with `--quick`.
 const QUICK_SEEDS: usize = 3;
 const QUICK_GENERATIONS: u32 = 200;
-/// Evaluations from which on it is told how long they will take, and those that are timed for it.
+/// The number of evaluations above which the duration is estimated, and the number that is timed for the estimate.
 const LONG: u64 = 20_000;
 const SAMPLE: usize = 8;
 
@@ -35,50 +35,50 @@ const SAMPLE: usize = 8;
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  nbc evolve                                the prelude's `gates`, into out/gates
+  nbc evolve                                the evolution `gates` of the prelude, into out/gates
   nbc evolve library/evolve.nb --run gates5 one run of a file
-  nbc evolve library/evolve.nb --resume     go on after an interruption
+  nbc evolve library/evolve.nb --resume     continue after an interruption
 
 Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
 pub struct Arguments {
-    /// The file with the declarations; the prelude's `gates` without it
+    /// The file with the declarations; without it, `gates` of the prelude
     file: Option<PathBuf>,
-    /// Only the declaration of this name
+    /// Run only the declaration with this name
     #[arg(long, value_name = "NAME")]
     run: Option<String>,
-    /// This seed instead of the declared ones
+    /// Use this seed instead of the declared ones
     #[arg(long)]
     seed: Option<u64>,
-    /// That many generations instead of the declared ones
+    /// Use this number of generations instead of the declared one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     generations: Option<u32>,
     /// The folder for results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Go on from the checkpoints in the folder; start what has none
+    /// Continue from the checkpoints in the folder; start runs without one
     #[arg(long)]
     resume: bool,
-    /// A small version of the first declaration: three seeds, 200 generations
+    /// Run a small version of the first declaration: three seeds, 200 generations
     #[arg(long, conflicts_with_all = ["seed", "generations"])]
     quick: bool,
-    /// Seconds between checkpoints, 0 for one each generation
+    /// Seconds between checkpoints; 0 writes one each generation
     #[arg(long, value_name = "SECONDS", default_value_t = 10)]
     checkpoint_every: u64,
-    /// Write a page with plots and the archive's elites walking
+    /// Write a page with plots, on which the archive's elites walk
     #[arg(long)]
     report: bool,
     #[command(flatten)]
     timings: Timings,
 }
 
-/// What the command prints for machines.
+/// The output for programs.
 #[derive(Default, Serialize)]
 struct Results {
     runs: Vec<Ended>,
     comparisons: Vec<Comparison>,
 }
 
-/// The paper's comparison of behaviors over a declaration's runs.
+/// The paper's comparison of behaviors over the runs of a declaration.
 #[derive(Serialize)]
 struct Comparison {
     run: String,
@@ -88,7 +88,7 @@ struct Comparison {
 }
 
 impl Arguments {
-    /// Makes the runs, one after another.
+    /// Runs the evolutions one after another.
     ///
     /// # Errors
     /// When the file has errors, a checkpoint is refused, or results cannot be written.
@@ -108,7 +108,7 @@ impl Arguments {
         results.end(context, Status::Done)
     }
 
-    /// The runs of one declaration, then their comparison; whether they got to the end.
+    /// Runs the seeds of one declaration and compares them; returns whether they were finished.
     fn run_seeds(
         &self,
         evolution: &Evolution,
@@ -178,7 +178,7 @@ impl Comparison {
 }
 
 impl Arguments {
-    /// The runs to make, with what the command line changes.
+    /// The evolutions to run, with the changes from the command line.
     fn declared(&self) -> Result<Vec<Evolution>, Failure> {
         let mut evolutions = self.chosen()?;
         if self.quick {
@@ -197,7 +197,7 @@ impl Arguments {
         Ok(evolutions)
     }
 
-    /// Says on standard error how long runs of many hours will take here, by the time of a few evaluations.
+    /// Estimates on standard error how long runs of many hours will take, from the time of a few evaluations.
     fn tell_duration(&self, evolutions: &[Evolution], context: &Context) {
         let evaluations = |evolution: &Evolution| {
             let generation = (evolution.batch + evolution.newcomers) as u64;
@@ -214,7 +214,7 @@ impl Arguments {
         context.log(&text);
     }
 
-    /// The file's own runs, or the prelude's, or the one that is asked for by name.
+    /// The evolutions of the file, or of the prelude without a file, or the one given by name.
     fn chosen(&self) -> Result<Vec<Evolution>, Failure> {
         let prelude = pipeline::prelude().evolutions;
         let Some(path) = &self.file else { return self.named(prelude.clone(), prelude) };
@@ -245,7 +245,7 @@ impl Arguments {
     }
 }
 
-/// Seconds that one evaluation in full takes here.
+/// Seconds of one full evaluation on this machine.
 fn seconds_each(evolution: &Evolution) -> f64 {
     let search = Search::new(evolution, 0);
     let candidates: Vec<_> = search.ask().into_iter().take(SAMPLE).collect();
@@ -254,7 +254,7 @@ fn seconds_each(evolution: &Evolution) -> f64 {
     started.elapsed().as_secs_f64() / candidates.len().max(1) as f64
 }
 
-/// Whether the paper's comparison of behaviors can be made: several runs by its objective.
+/// Whether the paper's comparison of behaviors is possible: it needs several runs with its objective.
 fn is_comparable(evolution: &Evolution) -> bool {
     evolution.seeds.len() > 1 && evolution.objective == Objective::Distance
 }

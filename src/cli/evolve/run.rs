@@ -133,7 +133,8 @@ impl Run {
         open.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| Failure::unwritable(&path, &error))
     }
 
-    /// Drops the lines of generations that come after the checkpoint and will be made again. A damaged file is set aside, and told.
+    /// Drops the lines of generations that come after the checkpoint and will be made again. A damaged file is set
+    /// aside, and told.
     fn trim_progress(&self, context: &Context) -> Result<(), Failure> {
         let write =
             |path: &Path, bytes: &[u8]| store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error));

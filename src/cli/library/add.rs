@@ -21,30 +21,30 @@ use crate::swarm::{Nominee, Selected, Selection};
   nbc library add out/gates5/seed-1 --into library/robots --behavior RRRL --behavior RRLL
   nbc library add out/gates5/seed-* --into robots --max-error 0.01
 
-Each behavior is answered: the robot that was added, or why there is none.
-Exit status: 0 done, 1 when a behavior named by --behavior got no robot, or none got one, 2 bad input.")]
+The output shows for each behavior the robot that was added, or why there is none.
+Exit status: 0 done, 1 if there is no robot for a behavior named by --behavior, or none at all, 2 bad input.")]
 pub struct Arguments {
-    /// Folders of runs, each with its checkpoint
+    /// Folders of runs, each with a checkpoint
     #[arg(required = true)]
     runs: Vec<PathBuf>,
     /// The folder for robot files
     #[arg(long, value_name = "DIR")]
     into: PathBuf,
-    /// Only this behavior; may be given several times
+    /// Add only this behavior; may be given several times
     #[arg(long, value_name = "BEHAVIOR")]
     behavior: Vec<Behavior>,
-    /// Elites of each behavior that are tried
+    /// Number of elites of each behavior that are screened
     #[arg(long, value_name = "N", default_value = "8", value_parser = clap::value_parser!(u32).range(1..))]
     tries: u32,
-    /// Of these, how many are measured at length
+    /// Number of these that are measured in full
     #[arg(long, value_name = "N", default_value = "2", value_parser = clap::value_parser!(u32).range(1..))]
     finalists: u32,
-    /// The largest share of wrong outputs, 0 to 1, that a robot may have over the measured switches
+    /// Highest accepted error rate over the measured switches, from 0 to 1
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     max_error: f64,
 }
 
-/// What programs are told.
+/// The output for programs.
 #[derive(Serialize)]
 struct Answers<'a> {
     folder: &'a Path,
@@ -52,7 +52,7 @@ struct Answers<'a> {
 }
 
 impl Arguments {
-    /// Chooses, measures and writes.
+    /// Selects, measures and writes robots.
     ///
     /// # Errors
     /// When a run has no checkpoint, or a file cannot be written.
@@ -82,7 +82,7 @@ impl Arguments {
         self.end(answers, context)
     }
 
-    /// Says what was added in all, and how the command ends.
+    /// Prints the summary and returns the exit status.
     fn end(&self, answers: Vec<Answer>, context: &mut Context) -> Result<Status, Failure> {
         let (asked, added) = (answers.len(), answers.iter().filter(|answer| answer.is_added()).count());
         match context.format {
@@ -100,7 +100,7 @@ impl Arguments {
         Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error: self.max_error }
     }
 
-    /// The behaviors asked for, in order of their functions' bits, with the elites of each that are tried.
+    /// The requested behaviors, in order of their functions' bits, with the elites to screen.
     fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<Nominee>)>, Failure> {
         let is_asked = |behavior: &Behavior| self.behavior.is_empty() || self.behavior.contains(behavior);
         let mut nominees: BTreeMap<Behavior, Vec<Nominee>> =

@@ -16,7 +16,7 @@ use crate::report::{self, Listing, Schema};
 use crate::source::Sources;
 use crate::store;
 
-/// List, show, verify or add the robots that circuits are made of
+/// List, show, verify, add and rewrite robots
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc library show nand")]
 pub struct Arguments {
@@ -32,18 +32,18 @@ enum Action {
     Rewrite(rewrite::Arguments),
     /// Show one robot
     Show {
-        /// The robot's name, or a function such as `nand` for its best robot
+        /// The name of a robot, or a function such as `nand` for its best robot
         name: String,
     },
-    /// Simulate every robot again and compare it with its file
+    /// Simulate all robots again and compare them with their files
     Verify {
-        /// A robot file, or a folder of them, instead of the library that comes with the program
+        /// A robot file, or a folder of them, instead of the built-in library
         path: Option<PathBuf>,
     },
 }
 
 impl Arguments {
-    /// Prints what is asked for.
+    /// Runs the subcommand.
     ///
     /// # Errors
     /// When the output cannot be written, or no robot has the name.
@@ -106,7 +106,7 @@ fn show(robot: &Robot, context: &mut Context) -> Result<Status, Failure> {
     Ok(Status::Done)
 }
 
-/// The robot of that name, else the best one of the function of that name.
+/// The robot with that name, else the best robot for the function with that name.
 pub(super) fn find<'a>(library: &'a Library, name: &str) -> Result<&'a Robot, Failure> {
     let named = library.robots.iter().find(|robot| robot.name == name);
     let best = || Function::parse(name).and_then(|function| library.robots_for(function).next());

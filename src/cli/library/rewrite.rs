@@ -12,7 +12,7 @@ use crate::report::Schema;
 use crate::source::Sources;
 use crate::store;
 
-/// Rewrite robot files in the newest format; what they say does not change
+/// Convert robot files to the newest format
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc library rewrite library/robots")]
 pub struct Arguments {
@@ -21,7 +21,7 @@ pub struct Arguments {
     paths: Vec<PathBuf>,
 }
 
-/// What was done with a file.
+/// The result for a file.
 #[derive(Serialize)]
 struct Rewritten {
     path: PathBuf,
@@ -29,10 +29,10 @@ struct Rewritten {
 }
 
 impl Arguments {
-    /// Reads every file before the first is written.
+    /// Reads all files before it writes the first one.
     ///
     /// # Errors
-    /// When a file is no robot file, or cannot be written.
+    /// When a file is not a robot file or cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut files = Vec::new();
         for path in &self.paths {
@@ -56,7 +56,7 @@ impl Arguments {
     }
 }
 
-/// The text of a robot file, and what it would be in the newest format.
+/// The text of a robot file, and its text in the newest format.
 fn texts(path: &Path) -> Result<(String, String), Failure> {
     let name = path.display().to_string();
     let old = store::read_text(path, store::MAX_ROBOT_BYTES)

@@ -9,12 +9,12 @@ use crate::model::{Library, Robot};
 use crate::report::Schema;
 use crate::swarm::{self, Measurement};
 
-/// What came of one robot.
+/// The result for one robot.
 #[derive(Serialize)]
 struct Finding<'a> {
     name: &'a str,
     verified: bool,
-    /// What differs from the file.
+    /// The differences from the file.
     differs: Vec<&'static str>,
 }
 
@@ -26,7 +26,7 @@ impl<'a> Finding<'a> {
     }
 }
 
-/// Measures every robot again; a robot whose file says anything else fails.
+/// Measures every robot again; a robot fails if its file has another value.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -54,7 +54,7 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
     Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
 }
 
-/// What a new measurement says otherwise than the file.
+/// The differences between a new measurement and the file.
 fn differences(robot: &Robot) -> Vec<&'static str> {
     let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&robot.body) else {
         return vec!["the simulation has a fault"];

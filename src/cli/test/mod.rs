@@ -19,9 +19,9 @@ use crate::swarm::{Level, TestVerdict};
   nbc test circuits/latch.nb --logic
   nbc test circuits/latch.nb --physics
 
-At the level of logic every cell takes one time step, and a row is held until nothing changes. In physics every robot is simulated voxel \
-by voxel, and a test runs once for each swarm that is declared for its circuit. By default circuits of fewer than 40 robots are tested in \
-physics, larger ones at the level of logic.
+At the level of logic, every cell takes one time step, and a row is held until nothing changes. In physics, every \
+robot is simulated voxel by voxel, and a test runs once for each swarm that is declared for its circuit. By default, \
+circuits of fewer than 40 robots are tested in physics and larger ones at the level of logic.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
 pub struct Arguments {
     /// The source files
@@ -37,14 +37,14 @@ pub struct Arguments {
     runs: RunsArguments,
 }
 
-/// A case with the number of its file on the command line.
+/// A case with the index of its file on the command line.
 type Numbered<'a> = (usize, Case<'a>);
 
 impl Arguments {
-    /// Runs the tests side by side, and prints what came of each as soon as those before it are done.
+    /// Runs the tests in parallel and prints each result as soon as those before it are done.
     ///
     /// # Errors
-    /// When a file has errors, or declares no test; no test runs then.
+    /// When a file has errors or declares no test; then no test runs.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let files = self.files.iter().map(|file| load(file)).collect::<Result<Vec<_>, _>>()?;
         let options = self.runs.options();
@@ -94,7 +94,7 @@ fn load(path: &std::path::Path) -> Result<SourceProgram, Failure> {
     Ok(file)
 }
 
-/// Runs the tests; in text each verdict is printed as it comes.
+/// Runs the tests; in text format each verdict is printed when it is known.
 fn run_cases(
     cases: &[Numbered<'_>],
     files: &[SourceProgram],
@@ -122,7 +122,7 @@ fn run_cases(
     Ok(verdicts)
 }
 
-/// A line for a test that passed; one that failed has its rows below.
+/// A line for a test that passed; a failed test has its rows below the line.
 fn describe(verdict: &TestVerdict) -> String {
     let word = if verdict.passed { "pass" } else { "FAIL" };
     let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
