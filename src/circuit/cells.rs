@@ -1,31 +1,33 @@
-//! Cell libraries: which functions there are robots for, and what each costs in robots and in cycles.
+//! Cell libraries: the functions for which there are robots, and the cost of each in robots and cycles.
 
 use std::collections::BTreeMap;
 
 use crate::model::Function;
 
-/// What is known of the robot that computes a function.
+/// The data of the robot that computes a function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellKind {
     /// Its price; 1 counts robots.
     pub cost: u32,
-    /// Cycles that its inputs must be held for its output to be right, whatever they were before.
+    /// Cycles for which its inputs must be held so that its output is correct, for any earlier inputs.
     pub clock: u32,
-    /// Cycles until the output is right after a switch, `settle[from][to]`, patterns numbered `2a + b`.
+    /// Cycles until the output is correct after a switch, `settle[from][to]`, with patterns numbered `2a + b`.
     pub settle: [[u32; 4]; 4],
-    /// Least displacement in the right direction at the end of a hold, in voxels a cycle.
+    /// Smallest displacement in the correct direction at the end of a hold, in voxels per cycle.
     pub margin: f64,
 }
 
 impl CellKind {
-    /// A kind whose output is right `clock` cycles after every switch.
+    /// A kind whose output is correct `clock` cycles after every switch.
     pub fn uniform(clock: u32, margin: f64) -> Self {
         Self { cost: 1, clock, settle: [[clock; 4]; 4], margin }
     }
 
-    /// Cycles from a change of `pin` (0 or 1) to `value` until the output stays at `output`; none if that cannot follow.
+    /// Cycles from a change of `pin` (0 or 1) to `value` until the output stays at `output`; none if that cannot
+    /// follow.
     ///
-    /// The longest over all transitions that end so, whether or not the output was there before: it may have left it for a while.
+    /// The longest settle time of all transitions to this output, including those that start from it, because the
+    /// output may change in between.
     pub fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
         let bit = |pattern: usize| (if pin == 0 { pattern >> 1 } else { pattern }) & 1 == 1;
         let ends = |to: usize| bit(to) == value && function.output(to >> 1 == 1, to & 1 == 1) == output;
@@ -34,14 +36,14 @@ impl CellKind {
     }
 }
 
-/// The functions that cells may have.
+/// The available functions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellLibrary {
     kinds: BTreeMap<Function, CellKind>,
 }
 
 impl CellLibrary {
-    /// A library that holds nothing yet.
+    /// An empty library.
     pub fn new() -> Self {
         Self::default()
     }
@@ -81,12 +83,13 @@ impl CellLibrary {
         self.kinds().filter(|(_, kind)| kind.margin >= margin).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
-    /// Whether every boolean function can be made of these cells and constants.
+    /// Whether these cells and constants can make every boolean function.
     pub fn is_complete(&self) -> bool {
         self.reachable() == u16::MAX
     }
 
-    /// The functions, each of which alone would make the library complete; empty if it is complete or one is not enough.
+    /// The functions, each of which alone would make the library complete; empty if it is complete or one function is
+    /// not enough.
     pub fn completions(&self) -> Vec<Function> {
         if self.is_complete() {
             return Vec::new();
@@ -115,13 +118,13 @@ impl CellLibrary {
 /// The functions at hand before any cell: both inputs and the constants.
 const START: u16 = 1 << 0b0000 | 1 << 0b1111 | 1 << 0b1100 | 1 << 0b1010;
 
-/// What one cell of a function makes of two functions of a set.
+/// The function that one cell makes of two functions of a set.
 fn compositions(function: Function, set: u16) -> u16 {
     let members = || (0..16u8).filter(move |f| set >> f & 1 == 1);
     members().flat_map(|a| members().map(move |b| (a, b))).fold(0, |made, (a, b)| made | 1 << compose(function, a, b))
 }
 
-/// The bits of `function(a, b)` where `a` and `b` are the bits of functions of the same two inputs.
+/// The bits of `function(a, b)`, for the bits `a` and `b` of two functions of the same inputs.
 pub fn compose(function: Function, a: u8, b: u8) -> u8 {
     (0..4).fold(0, |bits, i| bits | u8::from(function.output(a >> i & 1 == 1, b >> i & 1 == 1)) << i)
 }

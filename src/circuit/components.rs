@@ -1,5 +1,5 @@
-//! Strongly connected components, found without recursion: a chain of cells may be as long as the netlist is large (Tarjan, Depth-first
-//! search and linear graph algorithms).
+//! Strongly connected components, found without recursion: a chain of cells may be as long as the netlist is large
+//! (Tarjan, Depth-first search and linear graph algorithms).
 
 use petgraph::Direction::Outgoing;
 use petgraph::visit::NodeIndexable;
@@ -11,7 +11,7 @@ const NEW: u32 = 0;
 /// A node whose component is known.
 const DONE: u32 = u32::MAX;
 
-/// The search for components; it meets each node once.
+/// The state of the search; it visits each node once.
 pub struct Components<'n> {
     netlist: &'n Netlist,
     /// When each node was met, or [`NEW`] or [`DONE`].
@@ -19,7 +19,7 @@ pub struct Components<'n> {
     /// For each node that was met, the earliest node that it leads back to.
     low: Vec<u32>,
     clock: u32,
-    /// The nodes that were met and whose components are not known yet.
+    /// The visited nodes without a known component.
     open: Vec<NetId>,
 }
 

@@ -1,4 +1,5 @@
-//! A netlist whose cells each answer after their own number of cycles, as robots do: [`crate::circuit::Logic`] with delays.
+//! A netlist whose cells each answer after their own number of cycles, as robots do: [`crate::circuit::Logic`] with
+//! delays.
 
 use std::collections::VecDeque;
 
@@ -25,7 +26,8 @@ struct DelayedCell {
 }
 
 impl Delayed {
-    /// A netlist before its first cycle, as [`Logic::new`] begins; `delay` says after how many cycles each cell answers.
+    /// A netlist before its first cycle, in the same state as [`Logic::new`]; `delay` gives the cycles after which each
+    /// cell reacts.
     ///
     /// # Panics
     /// When a delay is 0, or the netlist has wires.
@@ -57,7 +59,7 @@ impl Delayed {
         }
     }
 
-    /// Holds the inputs, in order of the ports, for some cycles, and gives the outputs after them.
+    /// Holds the inputs, in order of the ports, for some cycles, and returns the outputs after them.
     ///
     /// # Panics
     /// When there are not as many values as inputs.
@@ -90,7 +92,7 @@ mod tests {
         let both = netlist.add_gate(Function::XOR, &[slow, fast]);
         netlist.add_output("q", both);
         let mut delayed = Delayed::new(&netlist, |id| if id == slow { 3 } else { 1 });
-        // The fast inverter hears the switch one cycle after it, the slow one three, and the output follows a cycle later.
+        // The fast inverter switches after one cycle, the slow one after three, and the output follows one cycle later.
         let seen: Vec<_> = (0..6).map(|_| delayed.run(&[true], 1)[0]).collect();
         assert_eq!(seen, [false, false, true, true, false, false]);
     }

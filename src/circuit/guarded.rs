@@ -1,5 +1,5 @@
-//! Guarded memory: the cells that stay as written through every pass and through mapping, because what they do on the way from one state
-//! to the next decides what is remembered (docs/compiler.md, "What stays as written").
+//! Guarded memory: the cells that stay as written in every pass and in mapping, because their transitions between two
+//! states decide what is stored (docs/compiler.md, "What stays as written").
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,12 +9,12 @@ use crate::circuit::{NetId, Netlist, Node};
 /// Why a cell stays as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// It holds a bit, with others on its loop.
+    /// It stores a bit, together with others on its loop.
     Memory,
-    /// It drives a memory element: a glitch on it can flip the state, whatever is constant around it.
+    /// It drives a memory element: a glitch on it can flip the state, even if some of its pins are constant.
     Guard,
-    /// It makes an enable or a clock, which closes several guards at once. Which of two enables is later decides whether a register
-    /// takes one bit or lets two through, so they are made from each other as written.
+    /// It computes an enable or a clock, which closes several guards at once. The order of two enables decides whether
+    /// a register stores one bit or lets two pass, so they stay derived from each other as written.
     Control,
 }
 
@@ -44,12 +44,12 @@ impl Guarded {
         guarded
     }
 
-    /// Why a cell stays as written; nothing for a cell that may be changed.
+    /// The reason why a cell stays as written; `None` if it may be changed.
     pub fn role(&self, id: NetId) -> Option<Role> {
         self.roles.get(&id).copied()
     }
 
-    /// Gives the role of a cell to the one that takes its place.
+    /// Moves the role of a cell to its replacement.
     pub fn replace(&mut self, old: NetId, new: NetId) {
         if let Some(role) = self.roles.remove(&old) {
             self.roles.insert(new, role);
@@ -61,12 +61,12 @@ impl Guarded {
         &self.loops
     }
 
-    /// The cells that stay as written, drivers first where there is no loop.
+    /// The cells that stay as written; drivers first, except on loops.
     pub fn cells(&self) -> impl Iterator<Item = NetId> + '_ {
         self.loops.order().iter().copied().filter(|id| self.roles.contains_key(id))
     }
 
-    /// Marks all cells that control nets are made of, back to inputs and memory.
+    /// Marks all cells that compute control nets, back to inputs and memory.
     fn add_control_cone(&mut self, netlist: &Netlist, mut pending: Vec<NetId>) {
         while let Some(id) = pending.pop() {
             if netlist.cell(id).is_some() && !self.roles.contains_key(&id) {
@@ -77,7 +77,8 @@ impl Guarded {
     }
 }
 
-/// The parts of a loop's memory that are connected among themselves: a state machine has one for each of its registers' latches.
+/// The parts of a loop's memory that are connected among themselves: a state machine has one for each of its registers'
+/// latches.
 pub(crate) fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
     let mut rest: BTreeSet<NetId> = core.iter().copied().collect();
     let mut elements = Vec::new();
@@ -95,8 +96,8 @@ pub(crate) fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
     elements
 }
 
-/// The nets that close an element: one value of such a net fixes every guard or cell of the element that listens to it, and those are
-/// two at least.
+/// The nets that close an element: one value of such a net fixes every guard or cell of the element that reads it, and
+/// there are at least two of these.
 fn controls_of(netlist: &Netlist, element: &[NetId], guards: &BTreeSet<NetId>) -> Vec<NetId> {
     let mut fixing: BTreeMap<NetId, (usize, [bool; 2])> = BTreeMap::new();
     for &listener in element.iter().chain(guards) {
@@ -114,7 +115,7 @@ fn controls_of(netlist: &Netlist, element: &[NetId], guards: &BTreeSet<NetId>) -
     fixing.into_iter().filter(|(_, (count, fixed))| *count > 1 && fixed.contains(&true)).map(|(net, _)| net).collect()
 }
 
-/// Whether a cell's output is the same for everything else once a net it listens to has that value.
+/// Whether a net with this value fixes a cell's output for all values of its other pin.
 fn fixes(netlist: &Netlist, id: NetId, net: NetId, value: bool) -> bool {
     let Node::Cell(cell) = netlist.node(id) else { return false };
     let function = cell.function;

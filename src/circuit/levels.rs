@@ -1,11 +1,11 @@
-//! Levels: how many cells lie between the inputs and a net. A loop core counts as one place at the level of its latest driver.
+//! Levels: the number of cells between the inputs and a net. A loop core has the level of its latest driver.
 
 use std::collections::BTreeMap;
 
 use crate::circuit::loops::Loops;
 use crate::circuit::{NetId, Netlist, Node};
 
-/// The level of every net: 0 for inputs and constants, else one more than the latest pin's.
+/// The level of every net: 0 for inputs and constants, else one more than its latest pin.
 pub fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
     let loops = Loops::of(netlist);
     let mut levels = BTreeMap::new();
@@ -21,7 +21,7 @@ pub fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
     levels
 }
 
-/// The greatest level of an output.
+/// The highest level of an output.
 pub fn depth(netlist: &Netlist) -> u32 {
     let levels = levelize(netlist);
     netlist.outputs().iter().map(|id| levels[id]).max().unwrap_or(0)

@@ -1,4 +1,5 @@
-//! What a netlist computes: every cell takes one time step, as every robot takes time, and inputs are held until nothing changes.
+//! Simulation of a netlist at the level of logic: every cell takes one time step, and inputs are held until nothing
+//! changes.
 
 use crate::circuit::netlist::{NetId, Netlist, Node};
 use crate::model::Function;
@@ -20,14 +21,14 @@ struct Gate {
     slot: u32,
 }
 
-/// Inputs under which the outputs go on changing.
+/// Inputs for which the outputs keep changing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the circuit does not come to rest")]
 pub struct Restless;
 
 impl Logic {
-    /// A netlist before its first cycle. Cells with a start value have it; the others have what follows from inputs of 0, as far as
-    /// that comes to rest.
+    /// A netlist before its first cycle. Cells with a start value have it. The others have the values that follow from
+    /// inputs of 0, if these settle.
     ///
     /// # Panics
     /// When the netlist is not well formed: a pin without a driver, or a wire that drives itself.
@@ -57,7 +58,7 @@ impl Logic {
         logic
     }
 
-    /// Lets the cells without a start value come to rest while the others are held.
+    /// Lets the cells without a start value settle while the others are held.
     fn begin(&mut self, held: &[(usize, bool)]) {
         for _ in 0..self.cells.len() + 2 {
             for &(slot, start) in held {
@@ -94,7 +95,8 @@ impl Logic {
     /// Holds the inputs, in order of the ports, until nothing changes, and returns the outputs.
     ///
     /// # Errors
-    /// When it never comes to rest; the values are then those after as many steps as any circuit of this size that does needs.
+    /// When the circuit does not settle. It then has run for as many steps as any circuit of this size that settles
+    /// needs.
     ///
     /// # Panics
     /// When there are not as many values as inputs.
@@ -107,8 +109,8 @@ impl Logic {
         if rests { Ok(self.outputs()) } else { Err(Restless) }
     }
 
-    /// Steps after which a circuit of this size has come to rest if it ever does: without loops the longest path is the limit; loops that
-    /// come to rest do so after a few turns.
+    /// The number of steps after which a circuit of this size has settled, if it ever does. Without loops the longest
+    /// path is the limit; loops that settle do so within a few rounds.
     fn limit(&self) -> usize {
         16 * self.cells.len() + 16
     }
@@ -118,7 +120,8 @@ impl Logic {
         self.outputs.iter().map(|&slot| self.values[slot as usize]).collect()
     }
 
-    /// For each output whether it stays while the inputs are held: a circuit that does not come to rest may have outputs that do.
+    /// For each output, whether it is constant while the inputs are held. A circuit that does not settle may have
+    /// constant outputs.
     pub fn steady_outputs(&mut self) -> Vec<bool> {
         let before = self.outputs();
         let mut steady = vec![true; before.len()];

@@ -1,11 +1,12 @@
-//! Feedback loops: the strongly connected parts of a netlist, and the memory elements in them, which are state and stay as written.
+//! Feedback loops: the strongly connected parts of a netlist, and the memory elements in them, which are state and stay
+//! as written.
 
 use std::collections::BTreeMap;
 
 use crate::circuit::components::Components;
 use crate::circuit::{NetId, Netlist};
 
-/// The loops of a netlist, and an order of its nodes in which drivers come first wherever there is no loop.
+/// The loops of a netlist, and an order of its nodes with drivers first, except on loops.
 #[derive(Clone, Debug)]
 pub struct Loops {
     cores: Vec<Vec<NetId>>,
@@ -31,8 +32,9 @@ impl Loops {
         loops
     }
 
-    /// The memory elements alone: of each loop the cells that drive each other directly, in a pair or by themselves, and what still
-    /// lies on a loop when those are cut open. The logic between the registers of a state machine is not among them.
+    /// Only the memory elements: of each loop, the cells that drive each other directly (a pair, or a cell that drives
+    /// itself) and the cells that are still on a loop after these are cut. The logic between the registers of a state
+    /// machine is not included.
     ///
     /// In [`Loops::order`] nothing waits for a memory element here.
     pub fn memory(netlist: &Netlist) -> Self {
@@ -54,7 +56,7 @@ impl Loops {
         &self.cores
     }
 
-    /// The core that a node belongs to.
+    /// The core of a node.
     pub fn core_of(&self, id: NetId) -> Option<usize> {
         self.core_of.get(&id).copied()
     }
@@ -64,7 +66,7 @@ impl Loops {
         self.core_of.contains_key(&id)
     }
 
-    /// Every node, drivers first; the nodes of one core stand together.
+    /// All nodes, drivers first; the nodes of one core are adjacent.
     pub fn order(&self) -> &[NetId] {
         &self.order
     }

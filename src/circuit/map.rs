@@ -1,4 +1,4 @@
-//! Technology mapping: a netlist whose every cell computes a function that the library holds.
+//! Technology mapping: makes a netlist in which every cell computes a function of the library.
 
 use std::collections::BTreeMap;
 
@@ -23,23 +23,23 @@ pub enum MapError {
     /// More cells than are mapped.
     #[error("the circuit has {cells} cells, and at most {MAX_CELLS} are mapped")]
     TooLarge {
-        /// How many.
+        /// Their number.
         cells: usize,
     },
-    /// The library's functions do not make what the circuit needs.
+    /// The library cannot make a function of the circuit.
     #[error("`{}` cannot be made of {}", .missing.name(), list(.held, "no cells", " and "))]
     Incomplete {
         /// The function that is missing.
         missing: Function,
-        /// The functions that the library holds.
+        /// The functions of the library.
         held: Vec<Function>,
-        /// The functions each of which alone would complete the library; empty if no single one does.
+        /// The functions each of which alone would complete the library; empty if none does.
         completions: Vec<Function>,
     },
 }
 
 impl MapError {
-    /// What would mend it, where that can be said.
+    /// A suggestion, if there is one.
     pub fn help(&self) -> Option<String> {
         let Self::Incomplete { completions, .. } = self else {
             return None;
@@ -61,7 +61,7 @@ fn list(functions: &[Function], none: &str, joint: &str) -> String {
     }
 }
 
-/// What to make least of.
+/// What to minimize.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Objective {
     /// Robots.
@@ -69,16 +69,16 @@ pub enum Objective {
     Area,
     /// Cycles along the slowest path, then robots.
     Delay,
-    /// The risk of a wrong step: the least noise margin of any robot used is as wide as the library allows, then robots.
+    /// The risk of a wrong output: maximizes the smallest noise margin of the robots, then minimizes their number.
     Margin,
 }
 
 /// How to map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MapOptions {
-    /// What to make least of.
+    /// What to minimize.
     pub objective: Objective,
-    /// How much work to put into it.
+    /// The amount of search.
     pub effort: Effort,
 }
 
@@ -90,11 +90,11 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
     map_with(netlist, library, MapOptions::default())
 }
 
-/// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by function; the logic
-/// around them is synthesized anew.
+/// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by
+/// function; the logic around them is synthesized.
 ///
 /// # Errors
-/// When the netlist is not well formed or the library cannot make a function of it.
+/// When the netlist is not well formed or the library cannot make a function of the circuit.
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
     let cells = netlist.cells().count();
     if cells as u64 > MAX_CELLS {
@@ -131,7 +131,7 @@ struct Mapper<'a> {
     mapped: Netlist,
     /// The cells that stay as written, in order.
     kept: Vec<NetId>,
-    /// Where the nets are in the mapped netlist that its logic starts from.
+    /// The nets of the mapped netlist that correspond to the inputs of the logic.
     net: BTreeMap<NetId, NetId>,
 }
 
@@ -191,7 +191,7 @@ impl<'a> Mapper<'a> {
         (network, sinks)
     }
 
-    /// For each input of the logic, how many kept cells lie before it: no cell may come to depend on a later one.
+    /// For each input of the logic, the number of kept cells before it: no cell may start to depend on a later one.
     fn stages(&self) -> Vec<u32> {
         let mut stages: BTreeMap<NetId, u32> = BTreeMap::new();
         let loops = Loops::of(self.source);
@@ -204,7 +204,7 @@ impl<'a> Mapper<'a> {
         self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
     }
 
-    /// Adds the gates of a network whose inputs are the ports and the kept nets; gives the nets of its outputs.
+    /// Adds the gates of a network whose inputs are the ports and the kept nets; returns the nets of its outputs.
     fn copy(&mut self, network: &Network) -> Vec<NetId> {
         let mut constants = [None; 2];
         let mut nets: Vec<Option<NetId>> = vec![None, None];
@@ -254,7 +254,7 @@ impl<'a> Mapper<'a> {
     }
 }
 
-/// Cells that drive an output and have no name take the output's.
+/// A cell without a name that drives an output takes the output's name.
 pub fn name_outputs(netlist: &mut Netlist) {
     let mut taken: std::collections::BTreeSet<_> = netlist.cells().filter_map(|(_, cell)| cell.name.clone()).collect();
     for output in netlist.outputs().to_vec() {

@@ -1,4 +1,5 @@
-//! What keeps memory elements safe: how long a pulse sets one, and how long its inputs must be at rest before and after it closes.
+//! Timing requirements of memory elements: the pulse that sets one, and the time for which its inputs must be stable
+//! before and after it closes.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -6,22 +7,23 @@ use crate::circuit::guarded::elements;
 use crate::circuit::loops::Loops;
 use crate::circuit::{NetId, Netlist, Node, Timing};
 
-/// A memory element's times, in cycles. They hold for robots that answer after one cycle at least and their clock at most.
+/// The times of a memory element, in cycles. They hold for robots with delays between one cycle and their clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Memory {
     /// The nets of the element.
     pub nets: Vec<NetId>,
-    /// How long what sets the element must last, where it enters: a change passes every cell of the element once, then they hold it.
+    /// The length of the pulse that sets the element, at its input: the change passes every cell of the element once.
     pub pulse: u32,
-    /// How long all other inputs must have been at rest when one switches that closes the element: for the slowest way to it and the
-    /// pulse, less the fastest way by which it closes.
+    /// The time for which all other inputs must be stable before an input closes the element: the slowest path to it
+    /// plus the pulse, minus the fastest path by which it closes.
     pub setup: u32,
-    /// How long they must stay at rest afterwards: what closes the element may be slow, and what comes next fast.
+    /// The time for which they must stay stable afterwards, because the closing path may be slow and the next change
+    /// fast.
     pub hold: u32,
 }
 
 impl Memory {
-    /// The memory elements of a mapped netlist, `clock` being the cycles that each cell takes at most.
+    /// The memory elements of a mapped netlist; `clock` is the largest delay of each cell.
     pub fn all(netlist: &Netlist, timing: &Timing, clock: impl Fn(NetId) -> u32) -> Vec<Self> {
         let fastest = fastest(netlist);
         let element = |nets: &Vec<NetId>| {
@@ -83,7 +85,7 @@ mod tests {
         Memory::all(netlist, &Timing::of(netlist, &library(), Delays::Clock), |_| CLOCK)
     }
 
-    /// How many of many random delays let a latch forget that it took the opposite of `data` on its way.
+    /// In how many of 300 random assignments of delays a latch loses the value `data`.
     fn forgets(netlist: &Netlist, setup: u32, hold: u32, data: bool) -> usize {
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(5);
         let mut forgets = || {

@@ -1,4 +1,4 @@
-//! Circuits: the netlist, what makes it, what changes it, what reads and writes it. Knows nothing of physics.
+//! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
 pub mod cells;
 mod components;

@@ -1,4 +1,5 @@
-//! The netlist: a directed graph of ports, constants and cells, feedback included. A net is known by the node that drives it.
+//! The netlist: a directed graph of ports, constants and cells, feedback included. A net is known by the node that
+//! drives it.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,13 +17,13 @@ pub type NetId = NodeIndex;
 /// A gate instance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// What it computes of its pins 0 and 1; a function of one input reads pin 0 alone, and has no pin 1.
+    /// Its function of pins 0 and 1; a function of one input reads pin 0 only, and has no pin 1.
     pub function: Function,
-    /// The name of the net it drives, where the source gives one.
+    /// The name of the net it drives, if the source has one.
     pub name: Option<String>,
     /// The output before the first cycle; only cells on a feedback loop need one.
     pub start: Option<bool>,
-    /// Where the source asks for it.
+    /// Its place in the source.
     pub span: Option<Span>,
 }
 
@@ -35,13 +36,14 @@ pub enum Node {
     Output(String),
     /// A net that never changes.
     Constant(bool),
-    /// A name for a net that is driven elsewhere, maybe later: how feedback is written. Its one pin is the driver.
+    /// A name for a net that is driven elsewhere, perhaps later: this makes feedback possible. Its one pin is the
+    /// driver.
     Wire {
         /// The name.
         name: String,
         /// The start value declared with `init`.
         start: Option<bool>,
-        /// Where it is declared.
+        /// The place of the declaration.
         span: Option<Span>,
     },
     /// A gate.
@@ -95,7 +97,7 @@ impl Netlist {
         self.graph.add_node(Node::Constant(value))
     }
 
-    /// Adds a wire without a driver yet; give it one with [`Netlist::drive`].
+    /// Adds a wire without a driver; [`Netlist::drive`] sets the driver.
     pub fn add_wire(&mut self, name: impl Into<String>, start: Option<bool>, span: Option<Span>) -> NetId {
         self.graph.add_node(Node::Wire { name: name.into(), start, span })
     }
@@ -113,12 +115,12 @@ impl Netlist {
         id
     }
 
-    /// Adds a gate instance whose pins listen to nothing yet; give them drivers with [`Netlist::connect`].
+    /// Adds a gate instance without drivers of its pins; [`Netlist::connect`] sets them.
     pub fn add_loose_cell(&mut self, cell: Cell) -> NetId {
         self.graph.add_node(Node::Cell(cell))
     }
 
-    /// Makes a pin that listens to nothing yet listen to `net`.
+    /// Connects an unconnected pin to `net`.
     pub fn connect(&mut self, listener: NetId, pin: u8, net: NetId) {
         self.graph.add_edge(net, listener, pin);
     }
@@ -128,7 +130,7 @@ impl Netlist {
         self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
     }
 
-    /// Makes pin `pin` of `listener` listen to `net`, and to nothing else.
+    /// Connects pin `pin` of `listener` to `net` only.
     pub fn drive(&mut self, listener: NetId, pin: u8, net: NetId) {
         let old =
             self.graph.edges_directed(listener, Incoming).find(|edge| *edge.weight() == pin).map(|edge| edge.id());
@@ -150,7 +152,7 @@ impl Netlist {
         &self.graph[id]
     }
 
-    /// Gives a port, a wire or a cell another name.
+    /// Renames a port, a wire or a cell.
     pub fn rename(&mut self, id: NetId, new: &str) {
         match self.node_mut(id) {
             Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => *name = new.to_owned(),
@@ -215,7 +217,7 @@ impl Netlist {
         self.ids().filter_map(|id| Some((id, self.cell(id)?)))
     }
 
-    /// How many cells there are of each function, by name.
+    /// The number of cells of each function, by name.
     pub fn by_function(&self) -> BTreeMap<&'static str, usize> {
         let mut counts = BTreeMap::new();
         for (_, cell) in self.cells() {
@@ -229,7 +231,7 @@ impl Netlist {
         &self.graph
     }
 
-    /// A net's name for people: the port's, the wire's or the cell's own, else `n` and its number.
+    /// The displayed name of a net: that of the port, wire or cell, else `n` and its number.
     pub fn net_name(&self, id: NetId) -> String {
         match self.node(id) {
             Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => name.clone(),

@@ -11,16 +11,16 @@ pub type Signal = u32;
 /// A two-input gate; a function of one input has the same signal on both pins or ignores pin 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gate {
-    /// What it computes.
+    /// Its function.
     pub function: Function,
-    /// What its pins listen to.
+    /// The signals of its pins.
     pub pins: [Signal; 2],
 }
 
 /// Gates in topological order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Network {
-    /// How many inputs there are.
+    /// The number of inputs.
     pub inputs: usize,
     /// The gates; each listens to earlier signals only.
     pub gates: Vec<Gate>,
@@ -40,7 +40,7 @@ impl Network {
         i as Signal + 2
     }
 
-    /// Adds a gate and gives its signal.
+    /// Adds a gate and returns its signal.
     pub fn add(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let signal = self.signals() as Signal;
         debug_assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
@@ -48,7 +48,7 @@ impl Network {
         signal
     }
 
-    /// How many signals there are, constants and inputs included.
+    /// The number of signals, including constants and inputs.
     pub fn signals(&self) -> usize {
         2 + self.inputs + self.gates.len()
     }
@@ -130,7 +130,8 @@ pub fn counting_word(i: usize, block: usize) -> u64 {
 /// The combinational view of a netlist whose loops are cut open at some nets.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The gates; its inputs are the ports and then the cuts, its outputs the ports and then what drives the cuts.
+    /// The gates of a netlist. The inputs are the ports and then the cuts; the outputs are the ports and then the
+    /// drivers of the cuts.
     pub network: Network,
     /// The signal of each net as its listeners see it: a cut net is an input.
     pub signal: BTreeMap<NetId, Signal>,
@@ -176,7 +177,7 @@ fn add(netlist: &Netlist, network: &mut Network, signal: &BTreeMap<NetId, Signal
     }
 }
 
-/// Every node after the drivers of its pins, where edges out of cuts do not count.
+/// All nodes, each after the drivers of its pins, ignoring edges that start at cuts.
 fn order(netlist: &Netlist, cuts: &BTreeSet<NetId>) -> Result<Vec<NetId>, NetId> {
     let mut waiting = BTreeMap::new();
     let mut ready = Vec::new();

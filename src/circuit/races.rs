@@ -1,8 +1,8 @@
-//! Races: memory whose state depends on how long each robot takes, looked for by ternary simulation (docs/compiler.md, "Races").
+//! Races: memory whose state depends on the delays of robots, found by ternary simulation (docs/compiler.md, "Races").
 //!
-//! An input switches in a state at rest, and every listener hears it in the same cycle. Each cell that may answer becomes unknown, and so
-//! on as far as that spreads; then what is known again takes its value. A memory element that stays unknown may end either way.
-//! Eichelberger, IBM Journal of Research and Development 9 (1965), 90-99.
+//! An input switches in a stable state, and every receiver sees it in the same cycle. Each cell that may change becomes
+//! unknown, until no more cells do. Then every cell whose value is determined takes this value. A memory element that
+//! stays unknown has a race. Eichelberger, IBM Journal of Research and Development 9 (1965), 90-99.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::circuit::network::counting_word;
 use crate::circuit::{NetId, Netlist, Node};
 use crate::model::Function;
 
-/// The most inputs and memory elements, taken together, of a netlist whose every state at rest is tried.
+/// The highest number of inputs and memory elements together for which all stable states are tried.
 const MOST_BITS: usize = 16;
 
 /// A memory element that is not proved free of races.
@@ -19,13 +19,13 @@ const MOST_BITS: usize = 16;
 pub struct Race {
     /// The memory element.
     pub net: NetId,
-    /// The input whose switch may leave it either way.
+    /// The input whose switch may leave the element in either state.
     pub input: NetId,
     /// Whether that input rises.
     pub rises: bool,
 }
 
-/// What a net may be in 64 states at once: a bit for each state.
+/// The possible values of a net in 64 states at once, one bit for each state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Ternary {
     zero: u64,
@@ -46,8 +46,8 @@ impl Ternary {
     }
 }
 
-/// The memory elements that one switch of an input may leave either way, from any state at rest; nothing where the netlist has
-/// too many inputs and memory elements to try them all.
+/// The memory elements that one switch of an input may leave in either state, from any stable state; `None` if there
+/// are too many inputs and memory elements to try all states.
 pub fn races(netlist: &Netlist) -> Option<Vec<Race>> {
     let loops = Loops::memory(netlist);
     let memory = loops.cores().concat();
@@ -92,7 +92,7 @@ fn at_rest(netlist: &Netlist, loops: &Loops, memory: &[NetId], bits: usize, word
     (values, stable)
 }
 
-/// What is known of each net once an input has switched.
+/// The known value of each net after an input has switched.
 fn switch(netlist: &Netlist, loops: &Loops, mut values: Values, input: NetId) -> Values {
     let Ternary { zero, one } = values[&input];
     values.insert(input, Ternary { zero: one, one: zero });
@@ -101,7 +101,7 @@ fn switch(netlist: &Netlist, loops: &Loops, mut values: Values, input: NetId) ->
     values
 }
 
-/// Lets every net answer until none changes, a new value being made of the old one and the answer.
+/// Updates every net until none changes; a new value is computed from the old one and the response.
 fn settle(netlist: &Netlist, loops: &Loops, values: &mut Values, merge: impl Fn(Ternary, Ternary) -> Ternary) {
     let mut changed = true;
     while changed {
@@ -115,7 +115,7 @@ fn settle(netlist: &Netlist, loops: &Loops, values: &mut Values, merge: impl Fn(
     }
 }
 
-/// What a node makes of its pins.
+/// The response of a node to its pins.
 fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
     let pins: Vec<_> = netlist.pins(id).iter().map(|pin| values[pin]).collect();
     match netlist.node(id) {
@@ -126,7 +126,7 @@ fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
     }
 }
 
-/// What a cell's output may be, whatever its pins may be.
+/// The possible outputs of a cell for the possible values of its pins.
 fn of_cell(function: Function, a: Ternary, b: Ternary) -> Ternary {
     let mut made = Ternary::default();
     for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
@@ -145,7 +145,7 @@ mod tests {
     use crate::circuit::passes::{DissolveWires, Pass, Sweep};
     use crate::circuit::{example, registers};
 
-    /// A netlist of `d`, `e` and `q`, where `q` is a wire that hears what `build` makes of the three.
+    /// A netlist of `d`, `e` and `q`, where `q` is a wire driven by the result of `build` on all three.
     fn with_feedback(build: impl FnOnce(&mut Netlist, [NetId; 3]) -> NetId) -> Netlist {
         let mut netlist = Netlist::new("memory");
         let [d, e] = ["d", "e"].map(|name| netlist.add_input(name));

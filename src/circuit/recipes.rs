@@ -1,4 +1,4 @@
-//! Recipes: the cheapest way to make each two-input function of a library's cells, found by exhaustive search.
+//! Recipes: the cheapest cells of a library for each two-input function, found by exhaustive search.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,18 +21,18 @@ pub enum Operand {
 pub struct Step {
     /// The cell's function.
     pub function: Function,
-    /// What its pins listen to.
+    /// The operands of its pins.
     pub pins: [Operand; 2],
 }
 
-/// Cells that make a function; the last operand of all is the result.
+/// Cells that make a function; the last one has the result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recipe {
-    /// The cells in order; steps listen only to earlier ones.
+    /// The cells in order; each reads earlier ones only.
     pub steps: Vec<Step>,
-    /// Where the function is.
+    /// The result.
     pub result: Operand,
-    /// What the cells cost.
+    /// The total cost of the cells.
     pub cost: u32,
 }
 
@@ -46,7 +46,7 @@ pub struct Recipes {
 type Path = (u32, u16, Vec<(Step, u8)>);
 
 impl Recipes {
-    /// Searches sets of functions in order of cost until all that the library can make is made.
+    /// Searches sets of functions in order of cost until every function that the library can make is found.
     pub fn of(library: &CellLibrary) -> Self {
         let reachable = library.reachable();
         let mut recipes = vec![None; 16];
@@ -82,13 +82,13 @@ impl Recipes {
         self.recipes[usize::from(function.bits())].as_ref()
     }
 
-    /// What a function costs, if the library can make it.
+    /// The cost of a function, if the library can make it.
     pub fn cost(&self, function: Function) -> Option<u32> {
         self.get(function).map(|recipe| recipe.cost)
     }
 }
 
-/// What is at hand before the first step.
+/// The operands available before the first step.
 const START: [(u8, Operand); 4] = [
     (0b1100, Operand::Input(0)),
     (0b1010, Operand::Input(1)),
@@ -101,8 +101,8 @@ fn operands(steps: &[(Step, u8)]) -> Vec<(u8, Operand)> {
     START.into_iter().chain(results).collect()
 }
 
-/// Every further cell that makes something new of a set, with its cost: of the cells that make the same, the cheapest, then the function's
-/// own, then the first.
+/// Every cell that adds a new function to a set, with its cost. Of several cells for the same function: the cheapest,
+/// then the function's own cell, then the first.
 fn extensions(library: &CellLibrary, set: u16, steps: &[(Step, u8)]) -> Vec<(u32, (Step, u8))> {
     let operands = operands(steps);
     let rank = |cost: u32, step: Step, bits: u8| (cost, step.function.bits() != bits);

@@ -1,5 +1,5 @@
-//! Registers made of cells: forms that are safe for every delay of one to three cycles, as long as the inverter of a clock is no slower than
-//! two other cells (docs/compiler.md, "Registers").
+//! Registers made of cells, in forms that are safe for every delay of one to three cycles if the inverter of a clock is
+//! no slower than two other cells (docs/compiler.md, "Registers").
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::model::Function;
 
 /// The circuit of a design with a latch or a flip-flop of NAND cells for each register.
 ///
-/// Clocks that are no input of the design become inputs after its own.
+/// A clock that is not an input of the design becomes an additional input.
 pub fn expand(design: &Design) -> Netlist {
     let mut netlist = Netlist::new(&design.logic.name);
     let logic = &design.logic;
@@ -66,7 +66,7 @@ fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>
     }
 }
 
-/// Clock nets by name, inverted where a register wants them so.
+/// Clock nets by name, inverted for registers that need it.
 struct Clocks {
     by_name: BTreeMap<String, NetId>,
 }
@@ -82,14 +82,15 @@ impl Clocks {
     }
 }
 
-/// A D latch of four NAND cells: transparent while `enable` is 1. The reset branch hears the set branch, so that no inverter races it.
+/// A D latch of four NAND cells, transparent while `enable` is 1. The reset branch reads the set branch, so no inverter
+/// races it.
 pub fn latch(netlist: &mut Netlist, name: &str, data: NetId, enable: NetId, start: bool) -> NetId {
     let set = netlist.add_gate(Function::NAND, &[data, enable]);
     let reset = netlist.add_gate(Function::NAND, &[set, enable]);
     pair(netlist, name, set, reset, start)
 }
 
-/// Two cross-coupled NAND cells; gives the one that `set` pulls up.
+/// Two cross-coupled NAND cells; returns the one that `set` pulls up.
 fn pair(netlist: &mut Netlist, name: &str, set: NetId, reset: NetId, start: bool) -> NetId {
     let q = core_cell(netlist, name.to_owned(), start, [set, set]);
     let nq = core_cell(netlist, format!("{name}.n"), !start, [reset, q]);
@@ -101,7 +102,8 @@ fn core_cell(netlist: &mut Netlist, name: String, start: bool, pins: [NetId; 2])
     netlist.add_cell(Cell { function: Function::NAND, name: Some(name), start: Some(start), span: None }, &pins)
 }
 
-/// A flip-flop of two latches, which takes `data` when `clock` rises: the first is open while the clock is 0, the second while it is 1.
+/// A flip-flop of two latches, which takes `data` when `clock` rises: the first is open while the clock is 0, the
+/// second while it is 1.
 pub fn flip_flop(netlist: &mut Netlist, name: &str, data: NetId, clock: NetId, start: bool) -> NetId {
     let low = netlist.add_gate(Function::NOT, &[clock]);
     let held = latch(netlist, &format!("{name}.held"), data, low, start);
@@ -116,7 +118,8 @@ mod tests {
     use crate::circuit::Delayed;
     use crate::circuit::passes::{DissolveWires, Pass, Sweep};
 
-    /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` says what q must be.
+    /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` gives the expected
+    /// q.
     fn check(
         build: impl Fn(&mut Netlist, NetId, NetId) -> NetId,
         cells: usize,
@@ -136,12 +139,12 @@ mod tests {
             let mut delayed = Delayed::new(&netlist, |_| 1 + draw(3));
             let (mut data, mut clock) = (false, false);
             delayed.run(&[data, clock], 40);
-            // The start value may be any once the circuit has settled; a first full row sets it.
+            // Any start value is valid after settling; a first full row sets it.
             delayed.run(&[data, true], 40);
             let mut q = delayed.run(&[data, clock], 40)[0];
             for _ in 0..30 {
                 let before = clock;
-                // One input changes at a time: that is what set-up and hold times are for.
+                // One input changes at a time, as set-up and hold times require.
                 if draw(2) == 0 {
                     data = !data
                 } else {

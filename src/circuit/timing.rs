@@ -1,7 +1,8 @@
-//! Static timing over actuation cycles: when each net is right for good, which path is the slowest, how long to hold a row.
+//! Static timing over actuation cycles: the arrival time of each net, the slowest path, and the hold of a row.
 //!
-//! A robot's output is right some cycles after its last input switched: its settle time. A loop core is passed
-//! twice, once by the change and once by the answer to it, so that every net of it has heard of the change (docs/compiler.md, "Time").
+//! A robot's output is correct some cycles after its last input switched: its settle time. A loop core is passed twice,
+//! once by the change and once by the response to it, until the change has reached every net of the core
+//! (docs/compiler.md, "Time").
 
 use std::collections::BTreeMap;
 
@@ -12,7 +13,7 @@ use crate::circuit::{NetId, Netlist, Node};
 /// Which delay a cell has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Delays {
-    /// The robot's clock, whatever switches: safe, and what `hold: auto` takes.
+    /// The robot's clock, for any transition: safe, and used by `hold: auto`.
     #[default]
     Clock,
     /// The settle time measured for each transition of the inputs.
@@ -24,7 +25,7 @@ pub enum Delays {
 pub struct Timing {
     arrival: BTreeMap<NetId, u32>,
     required: BTreeMap<NetId, u32>,
-    /// Cycles to hold a row so that every net is right at its end.
+    /// Cycles to hold a row so that every net is correct at its end.
     pub hold: u32,
     /// The nets of the slowest path, input first.
     pub critical_path: Vec<NetId>,
@@ -77,23 +78,23 @@ impl Timing {
         Self { arrival, required, hold, critical_path: latest.map_or(Vec::new(), |event| path(&turns, &before, event)) }
     }
 
-    /// Cycles after which the net is right for good.
+    /// Cycles after which the net is correct and stays correct.
     pub fn arrival(&self, net: NetId) -> u32 {
         self.arrival.get(&net).copied().unwrap_or(0)
     }
 
-    /// Cycles by which the net must be right for every row to end right after [`Timing::hold`] cycles.
+    /// Cycles after which the net must be correct so that every row is correct after [`Timing::hold`] cycles.
     pub fn required(&self, net: NetId) -> u32 {
         self.required.get(&net).copied().unwrap_or(self.hold)
     }
 
-    /// Cycles that the net could be later without a longer hold.
+    /// Cycles by which the net could be later without a longer hold.
     pub fn slack(&self, net: NetId) -> u32 {
         self.required(net) - self.arrival(net).min(self.required(net))
     }
 }
 
-/// The nets in an order in which pins come first: loop cores twice, the second time listening to the first.
+/// The nets in an order with pins first. Loop cores occur twice; the second time they read the first.
 fn unroll(netlist: &Netlist) -> Vec<Turn> {
     let loops = Loops::of(netlist);
     let mut turns: Vec<Turn> = Vec::new();
@@ -172,7 +173,7 @@ fn forward<'k>(
     (arrivals, before)
 }
 
-/// How much later each turn could be.
+/// The slack of each visit.
 fn backward(
     turns: &[Turn],
     delay: &impl Fn(&Turn, u8, usize, usize) -> Option<u32>,
@@ -205,7 +206,7 @@ fn path(turns: &[Turn], before: &[[Option<Event>; 2]], event: Event) -> Vec<NetI
     nets
 }
 
-/// How many pins listen to each cell or input, largest first: a robot's motion is heard by any number of others.
+/// The number of pins that read each cell or input, largest first. Any number of robots can sense one robot's motion.
 pub fn fan_out(netlist: &Netlist) -> Vec<(NetId, usize)> {
     let drives = |&id: &NetId| matches!(netlist.node(id), Node::Input(_) | Node::Cell(_));
     let mut counts: Vec<_> = netlist.ids().filter(drives).map(|id| (id, netlist.fanout(id).len())).collect();

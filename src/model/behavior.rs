@@ -1,4 +1,4 @@
-//! Behaviors: which way a robot walks under each pattern of two stimuli.
+//! Behaviors: the direction in which a robot walks under each pattern of two stimuli.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Function, Pattern};
 
-/// The way a robot walks.
+/// The direction in which a robot walks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// Towards negative x: output 0. Standing still counts as left (docs/physics.md 10).
@@ -35,7 +35,7 @@ impl Behavior {
         Self(Function::new((0..4).map(right).sum()))
     }
 
-    /// The function that an observer sees who takes right for 1.
+    /// The function of this behavior, reading right as 1.
     pub fn function(self) -> Function {
         self.0
     }
@@ -67,7 +67,7 @@ impl fmt::Display for Behavior {
     }
 }
 
-/// A word which is no behavior.
+/// A word that is not a behavior.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is no behavior, expected four letters L or R such as `RRRL`")]
 pub struct BehaviorError(String);

@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use super::{Material, Palette};
 
-/// A body: `height` rows of `width` material codes, row 0 on top, and the palette that says what the codes mean; code 0 is empty
-/// (docs/physics.md 1).
+/// A body: `height` rows of `width` material codes, row 0 on top, and the palette that defines the codes; code 0 is
+/// empty (docs/physics.md 1).
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Body {
     width: usize,
     height: usize,
     codes: Vec<u8>,
-    // Compared last: bodies side by side mostly share it.
+    // Compared last, because bodies in one batch usually share it.
     palette: Arc<Palette>,
 }
 
-/// Why rows of text are no body.
+/// The reason why rows of text are not a body.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BodyError {
     /// No rows, or rows without columns.
@@ -31,7 +31,7 @@ pub enum BodyError {
         /// The first row's width.
         expected: usize,
     },
-    /// A character which is no material code of the palette.
+    /// A character that is not a material code of the palette.
     #[error("row {row}, column {column}: `{digit}` is no material, expected a code from 0 to {highest}")]
     UnknownCode {
         /// The row, from 1.
@@ -40,10 +40,10 @@ pub enum BodyError {
         column: usize,
         /// The character found.
         digit: char,
-        /// The highest code there is.
+        /// The highest valid code.
         highest: char,
     },
-    /// More rows or columns than a body may have.
+    /// More rows or columns than allowed.
     #[error("the body is {width} x {height}, expected at most {limit} x {limit}", limit = Body::MAX_SIDE)]
     TooLarge {
         /// Columns.
@@ -68,17 +68,18 @@ impl Body {
         Self { width, height, codes, palette }
     }
 
-    /// A square body of the paper's eight materials in turn, for measurements of speed; `shift` makes others of the same box.
+    /// A square body of the paper's eight materials in turn, for measurements of speed. Different values of `shift`
+    /// make different bodies.
     pub fn patchwork(side: usize, shift: usize) -> Self {
         const TURN: [u8; 9] = [3, 4, 2, 7, 6, 1, 5, 8, 3];
         let codes = (0..side * side).map(|i| TURN[(i + i / side + shift) % TURN.len()]).collect();
         Self::new(side, side, codes, Palette::paper())
     }
 
-    /// Reads rows of codes of a palette, top row first: a digit or lower-case letter a voxel.
+    /// Reads rows of codes of a palette, top row first: a digit or lower-case letter for each voxel.
     ///
     /// # Errors
-    /// [`BodyError`] names the first place that is wrong. A body whose places are all empty is [`BodyError::Empty`].
+    /// [`BodyError`] names the first error. A body without any voxel is [`BodyError::Empty`].
     pub fn parse<S: AsRef<str>>(rows: &[S], palette: &Arc<Palette>) -> Result<Self, BodyError> {
         let materials = palette.materials().len();
         let expected = rows.first().map_or(0, |row| row.as_ref().chars().count());
@@ -130,22 +131,22 @@ impl Body {
         &self.codes
     }
 
-    /// What the codes mean.
+    /// The meaning of the codes.
     pub fn palette(&self) -> &Arc<Palette> {
         &self.palette
     }
 
-    /// The materials that occur in it, each with its code, in order of the codes.
+    /// The materials that occur in the body, each with its code, in order of the codes.
     pub fn materials(&self) -> impl Iterator<Item = (u8, &Material)> {
         (1..).zip(self.palette.materials()).filter(|(code, _)| self.codes.contains(code))
     }
 
-    /// The rows as text, top row first; read again by [`Body::parse`].
+    /// The rows as text, top row first; [`Body::parse`] reads them back.
     pub fn rows(&self) -> Vec<String> {
         self.codes.chunks(self.width).map(|row| row.iter().map(|&code| code_digit(code)).collect()).collect()
     }
 
-    /// The same body seen in a mirror: left and right exchanged.
+    /// The mirror image: left and right exchanged.
     pub fn mirrored(&self) -> Self {
         let codes = self.codes.chunks(self.width).flat_map(|row| row.iter().rev().copied()).collect();
         Self { codes, ..self.clone() }
@@ -157,7 +158,7 @@ impl Body {
         Self::new(self.width, self.height, codes, Arc::clone(&self.palette))
     }
 
-    /// Whether there is a voxel and all voxels hang together by their sides.
+    /// Whether the body has a voxel and all its voxels are connected through their sides.
     pub fn is_connected(&self) -> bool {
         let Some(first) = self.codes.iter().position(|&code| code > 0) else { return false };
         let mut reached = vec![false; self.codes.len()];

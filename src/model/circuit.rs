@@ -1,5 +1,5 @@
-//! Circuits as checked source: names resolved, widths not yet computed. Expressions and sizes lie in arenas, children before parents,
-//! so that no depth of nesting needs a deep stack.
+//! Circuits as checked source: names are resolved, widths not yet computed. Expressions and sizes are stored in arenas,
+//! children before parents, so that deep nesting needs no deep stack.
 
 use std::fmt;
 
@@ -10,15 +10,15 @@ use crate::source::Span;
 pub struct Circuit {
     /// The name.
     pub name: String,
-    /// Where the name stands in the declaration.
+    /// The place of the name in the declaration.
     pub span: Span,
     /// The width parameters; their slots are the first variables.
     pub parameters: Vec<Parameter>,
     /// Every net: the input ports, the output ports, then those of the body.
     pub nets: Vec<Net>,
-    /// How many of the nets are input ports.
+    /// The number of input ports among the nets.
     pub inputs: usize,
-    /// How many of the nets, after the inputs, are output ports.
+    /// The number of output ports; they follow the inputs.
     pub outputs: usize,
     /// The integers of the body.
     pub sizes: Vec<Size>,
@@ -28,12 +28,13 @@ pub struct Circuit {
     pub tables: Vec<Table>,
     /// The body.
     pub body: Block,
-    /// Integer slots: parameters, then loop variables.
+    /// The number of integer slots: parameters, then loop variables.
     pub variables: usize,
 }
 
 impl Circuit {
-    /// The first expression of the run that `root` ends: all parts of `root` lie in it, children before parents.
+    /// The first expression of the range that ends with `root`. The range contains all parts of `root`, children before
+    /// parents.
     pub fn first_leaf(&self, root: ExpressionId) -> ExpressionId {
         let mut at = root;
         while let Some(first) = self.expressions[at.0 as usize].first_part() {
@@ -64,9 +65,9 @@ pub struct CircuitId(pub u32);
 pub struct Parameter {
     /// The name.
     pub name: String,
-    /// Where it is declared.
+    /// The place of the declaration.
     pub span: Span,
-    /// Its value where a use gives none; an integer over the parameters before it.
+    /// The default value: an integer over the parameters before it.
     pub default: Option<SizeId>,
 }
 
@@ -75,29 +76,29 @@ pub struct Parameter {
 pub struct Net {
     /// The name.
     pub name: String,
-    /// Where it is declared, or first driven.
+    /// The place of the declaration or of the first driver.
     pub span: Span,
-    /// The declared width in bits; `None` is one bit for a port, and the width of the driver for another net.
+    /// The declared width in bits. `None` means one bit for a port, and the width of the driver for another net.
     pub width: Option<SizeId>,
 }
 
-/// Statements with the nets that belong to them; the body of a `for` has its own nets in each turn.
+/// Statements with their nets; the body of a `for` has its own nets in each iteration.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
-    /// Nets that belong to this block, as a range of slots.
+    /// The nets of this block, as a range of slots.
     pub nets: std::ops::Range<u32>,
-    /// The statements in order of text; the order has no meaning.
+    /// The statements in order of text; their order does not matter.
     pub statements: Vec<Statement>,
 }
 
 /// One statement of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
-    /// Targets and what drives them.
+    /// Targets and their driver.
     Drive {
-        /// What is driven; more than one only for a call of a circuit with as many outputs.
+        /// The targets; several only for a call of a circuit with the same number of outputs.
         targets: Vec<Target>,
-        /// What drives it.
+        /// The driver.
         value: ExpressionId,
     },
     /// Statements repeated for each value of a variable.
@@ -108,9 +109,9 @@ pub enum Statement {
         from: SizeId,
         /// One more than its last value.
         to: SizeId,
-        /// Where the range stands.
+        /// The place of the range.
         span: Span,
-        /// What is repeated.
+        /// The repeated statements.
         body: Block,
     },
 }
@@ -118,33 +119,33 @@ pub enum Statement {
 /// The left side of a statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// The net; `None` drops the value (`_`).
+    /// The net; `None` discards the value (`_`).
     pub net: Option<NetSlot>,
     /// The bits driven, highest and lowest; `None` is the whole net.
     pub bits: Option<(SizeId, SizeId)>,
     /// The value before the first cycle.
     pub start: Option<SizeId>,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
 /// An integer known when the circuit is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    /// What it is.
+    /// The kind.
     pub kind: SizeKind,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
-/// What an integer is.
+/// The kinds of integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SizeKind {
     /// A literal.
     Literal(i64),
     /// A parameter or loop variable, by slot.
     Variable(u32),
-    /// The least number of bits that tell that many things apart.
+    /// The number of bits needed for that many different values.
     Log2(SizeId),
     /// An operation on two integers.
     Binary(SizeOperator, SizeId, SizeId),
@@ -170,14 +171,14 @@ pub enum SizeOperator {
 /// An expression with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// What it is.
+    /// The kind.
     pub kind: ExpressionKind,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
 impl Expression {
-    /// The first of the expressions it is made of.
+    /// The first of its parts.
     fn first_part(&self) -> Option<ExpressionId> {
         match &self.kind {
             ExpressionKind::Bits(_) | ExpressionKind::Number { .. } | ExpressionKind::Computed { .. } => None,
@@ -192,7 +193,7 @@ impl Expression {
     }
 }
 
-/// What an expression is.
+/// The kinds of expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
     /// A bit pattern, most significant bit first.
@@ -213,7 +214,7 @@ pub enum ExpressionKind {
     },
     /// A whole net.
     Net(NetSlot),
-    /// Bits of a net, from the highest to the lowest, both included.
+    /// Bits of a net, from the highest to the lowest, including both.
     Slice {
         /// The net.
         net: NetSlot,
@@ -222,36 +223,37 @@ pub enum ExpressionKind {
         /// The lowest bit.
         low: SizeId,
     },
-    /// Values side by side, most significant first.
+    /// Concatenated values, most significant first.
     Concatenation(Vec<ExpressionId>),
-    /// A value side by side with itself.
+    /// A value repeated.
     Repetition {
-        /// How often.
+        /// The number of repetitions.
         count: SizeId,
         /// The value.
         value: ExpressionId,
     },
     /// A bitwise operation on operands of one width.
     Operation {
-        /// Which.
+        /// The operation.
         operator: Operator,
         /// The operands: one for `not`, two or more for the others.
         operands: Vec<ExpressionId>,
     },
-    /// One of two values of one width, by a bit.
+    /// A choice between two values of the same width by a bit.
     Choice {
-        /// The bit.
+        /// The condition.
         condition: ExpressionId,
-        /// The value at 1.
+        /// The value if it is 1.
         then: ExpressionId,
-        /// The value at 0.
+        /// The value if it is 0.
         otherwise: ExpressionId,
     },
-    /// A circuit used as a function.
+    /// A call of a circuit.
     Call {
         /// The circuit.
         circuit: CircuitId,
-        /// The parameters given, in the circuit's order; `None` where the widths of the operands tell, or the default.
+        /// The parameters, in the circuit's order; `None` to infer it from the widths of the operands or use the
+        /// default.
         arguments: Vec<Option<SizeId>>,
         /// The operands, one for each input port.
         operands: Vec<ExpressionId>,
@@ -260,7 +262,7 @@ pub enum ExpressionKind {
     Table {
         /// The inputs, most significant first.
         inputs: Vec<ExpressionId>,
-        /// The place in [`Circuit::tables`].
+        /// The index in [`Circuit::tables`].
         table: usize,
     },
 }
@@ -268,19 +270,19 @@ pub enum ExpressionKind {
 /// A bitwise operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operator {
-    /// The opposite.
+    /// `not`
     Not,
-    /// All.
+    /// `and`
     And,
-    /// At least one.
+    /// `or`
     Or,
-    /// An odd number.
+    /// `xor`
     Xor,
-    /// Not all.
+    /// `nand`
     Nand,
-    /// None.
+    /// `nor`
     Nor,
-    /// Two that are equal.
+    /// `xnor`
     Xnor,
 }
 
@@ -301,7 +303,7 @@ impl Operator {
         }
     }
 
-    /// The operation of that keyword.
+    /// The operation for a keyword.
     pub fn parse(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|operator| operator.word() == word)
     }
@@ -318,9 +320,9 @@ impl fmt::Display for Operator {
 pub struct Table {
     /// The rows.
     pub rows: Vec<TableRow>,
-    /// The output of the patterns that no row names.
+    /// The output for the patterns without a row.
     pub otherwise: Option<TableOutput>,
-    /// Where the table stands.
+    /// The place of the table.
     pub span: Span,
 }
 
@@ -329,7 +331,7 @@ pub struct Table {
 pub struct TableRow {
     /// The pattern, most significant bit first; `None` matches both values.
     pub pattern: Vec<Option<bool>>,
-    /// Where the pattern stands.
+    /// The place of the pattern.
     pub span: Span,
     /// The output.
     pub output: TableOutput,
@@ -338,9 +340,9 @@ pub struct TableRow {
 /// The output of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableOutput {
-    /// Most significant bit first; `None` leaves the bit to the compiler.
+    /// Most significant bit first; the compiler chooses a bit that is `None`.
     pub bits: Vec<Option<bool>>,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
@@ -349,7 +351,7 @@ pub struct TableOutput {
 pub struct Instance {
     /// The circuit's name.
     pub circuit: String,
-    /// The parameters in order; those that are missing at the end have their default.
+    /// The parameters in order; missing ones at the end have their defaults.
     pub arguments: Vec<u64>,
 }
 
@@ -361,7 +363,7 @@ impl From<&str> for Instance {
 }
 
 impl fmt::Display for Instance {
-    /// As it is written: `adder[4]`.
+    /// The notation of the language: `adder[4]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.arguments.is_empty() {
             return f.pad(&self.circuit);
@@ -372,7 +374,7 @@ impl fmt::Display for Instance {
 }
 
 impl SizeOperator {
-    /// All, with their signs.
+    /// All, with their symbols.
     pub const SIGNS: [(Self, &'static str); 6] = [
         (Self::Add, "+"),
         (Self::Subtract, "-"),
@@ -382,17 +384,17 @@ impl SizeOperator {
         (Self::Power, "**"),
     ];
 
-    /// The sign.
+    /// The symbol.
     pub fn sign(self) -> &'static str {
         Self::SIGNS.iter().find(|(operator, _)| *operator == self).expect("every operator has a sign").1
     }
 
-    /// The operation of that sign.
+    /// The operation for a symbol.
     pub fn parse(sign: &str) -> Option<Self> {
         Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(operator, _)| *operator)
     }
 
-    /// How tightly it binds: 1 loosest.
+    /// The precedence: 1 is the loosest.
     pub fn precedence(self) -> u8 {
         match self {
             Self::Add | Self::Subtract => 1,

@@ -1,4 +1,4 @@
-//! Evolution runs as declared data: everything the paper fixes in code.
+//! Evolution runs as declared data.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub struct Evolution {
     pub height: usize,
     /// The materials a body may use.
     pub palette: Arc<Palette>,
-    /// How often each kind of mutation is drawn.
+    /// The weights of the mutation operators.
     pub mutation: MutationWeights,
     /// The stimuli of the long simulation.
     pub variable: Schedule,
@@ -34,24 +34,24 @@ pub struct Evolution {
     pub generations: u32,
     /// One run for each seed.
     pub seeds: Vec<u64>,
-    /// Where the paper's text and the authors' code differ, which of them holds.
+    /// Whether to follow the paper's text or the authors' code where they differ.
     pub rules: Rules,
-    /// What is rewarded.
+    /// The objective.
     pub objective: Objective,
-    /// What one evaluation may fill.
+    /// The niches that one evaluation may enter.
     pub symmetry: Symmetry,
-    /// What a niche keeps.
+    /// The elites that a niche keeps.
     pub niche: Niche,
 }
 
-/// Which reading of the paper holds where its text and its code differ (docs/physics.md 11).
+/// The reading of the paper where its text and its code differ (docs/physics.md 11).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rules {
-    /// As the paper's text says.
+    /// The paper's text.
     #[default]
     Paper,
-    /// As the authors' code does.
+    /// The authors' code.
     Code,
 }
 
@@ -59,18 +59,18 @@ pub enum Rules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Axis {
-    /// A number of voxels, in that many bins.
+    /// A number of voxels, divided into bins.
     Count {
-        /// What is counted.
+        /// The kind of voxels.
         of: Count,
-        /// Bins.
+        /// The number of bins.
         bins: usize,
     },
     /// The sixteen behaviors.
     Behavior,
 }
 
-/// What a count axis counts.
+/// The kind of voxels on a count axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Count {
@@ -82,26 +82,26 @@ pub enum Count {
     Sensory,
 }
 
-/// How often each mutation operator is drawn, as weights (docs/physics.md 11).
+/// The weights of the mutation operators (docs/physics.md 11).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MutationWeights {
-    /// Put a node into a link.
+    /// Add a node on a link.
     pub add_node: f64,
-    /// Take a node out and bridge it.
+    /// Remove a node and bridge it.
     pub remove_node: f64,
     /// Add a link.
     pub add_link: f64,
     /// Remove a link.
     pub remove_link: f64,
-    /// Give a node another activation.
+    /// Change the activation of a node.
     pub change_activation: f64,
-    /// Move a weight.
+    /// Change a weight.
     pub change_weight: f64,
 }
 
 impl Default for MutationWeights {
-    /// All alike, as in the paper.
+    /// Equal weights, as in the paper.
     fn default() -> Self {
         Self {
             add_node: 1.0,
@@ -114,18 +114,18 @@ impl Default for MutationWeights {
     }
 }
 
-/// What an evolution run rewards.
+/// The objective of an evolution run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
-    /// The paper's two: distance in the variable simulation, least distance in the fixed ones.
+    /// The paper's two fitnesses: the distance in the variable simulation, and the smallest distance in the fixed ones.
     #[default]
     Distance,
-    /// Being right in every cycle of random sequences, with the shortest clock.
+    /// Correct output in every cycle of random sequences, with the shortest clock.
     Gate,
 }
 
-/// What one evaluation may fill.
+/// The niches that one evaluation may enter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
@@ -136,13 +136,13 @@ pub enum Symmetry {
     Npn,
 }
 
-/// What a niche keeps.
+/// The elites that a niche keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Niche {
-    /// One elite, replaced by what is better in both fitnesses.
+    /// One elite, replaced by a body that is better in both fitnesses.
     #[default]
     Dominance,
-    /// A Pareto set of at most that many.
+    /// A Pareto set of at most this size.
     Pareto(usize),
 }

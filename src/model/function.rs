@@ -1,4 +1,4 @@
-//! Two-input boolean functions: what a gate computes.
+//! Two-input boolean functions, computed by gates.
 
 use std::fmt;
 
@@ -29,25 +29,25 @@ const NAMES: [&str; 16] = [
 impl Function {
     /// Always 0.
     pub const ZERO: Self = Self(0b0000);
-    /// Neither.
+    /// `nor`
     pub const NOR: Self = Self(0b0001);
-    /// Not the first input.
+    /// `not a`
     pub const NOT: Self = Self(0b0011);
-    /// Not the second input.
+    /// `not b`
     pub const NOT_B: Self = Self(0b0101);
-    /// One of the two.
+    /// `xor`
     pub const XOR: Self = Self(0b0110);
-    /// Not both.
+    /// `nand`
     pub const NAND: Self = Self(0b0111);
-    /// Both.
+    /// `and`
     pub const AND: Self = Self(0b1000);
-    /// Equal.
+    /// `xnor`
     pub const XNOR: Self = Self(0b1001);
-    /// The second input.
+    /// `b`
     pub const BUF_B: Self = Self(0b1010);
-    /// The first input.
+    /// `a`
     pub const BUF: Self = Self(0b1100);
-    /// At least one.
+    /// `or`
     pub const OR: Self = Self(0b1110);
     /// Always 1.
     pub const ONE: Self = Self(0b1111);
@@ -84,22 +84,22 @@ impl Function {
         }
     }
 
-    /// How many of the two inputs can change the output: 0, 1 or 2.
+    /// The number of inputs that can change the output: 0, 1 or 2.
     pub fn arity(self) -> usize {
         usize::from(self.depends_on(0)) + usize::from(self.depends_on(1))
     }
 
-    /// The function of the exchanged inputs.
+    /// The function with exchanged inputs.
     pub fn swapped(self) -> Self {
         Self(self.0 & 0b1001 | (self.0 & 0b0010) << 1 | (self.0 & 0b0100) >> 1)
     }
 
-    /// The opposite output.
+    /// The inverted function.
     pub fn inverted(self) -> Self {
         Self(!self.0 & 0b1111)
     }
 
-    /// The function that sees the opposite of input `a` (0) or `b` (1).
+    /// The function with input `a` (0) or `b` (1) inverted.
     pub fn with_input_inverted(self, input: usize) -> Self {
         match input {
             0 => Self((self.0 & 0b0011) << 2 | self.0 >> 2),
@@ -116,7 +116,7 @@ impl Function {
         }
     }
 
-    /// The function of that name, upper or lower case.
+    /// The function with this name, in upper or lower case.
     pub fn parse(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         Self::all().find(|function| function.name() == name || NAMES[usize::from(function.0)] == name)

@@ -1,22 +1,22 @@
-//! Genotypes: compositional pattern-producing networks as plain data; what is done to them is in `evolve`.
+//! Genotypes: compositional pattern-producing networks as plain data; `evolve` has the operations on them.
 
 use serde::{Deserialize, Serialize};
 
-/// A node's number, unique within its genotype.
+/// The number of a node, unique within its genotype.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NodeId(pub u32);
 
-/// A network from a voxel's place to a score for each material code (paper, Methods; docs/physics.md 11).
+/// A network from the position of a voxel to a score for each material code (paper, Methods; docs/physics.md 11).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Genotype {
-    /// The nodes: the inputs, an output for each code, then the hidden ones, in order of their numbers. Of equal scores the output
-    /// that comes first wins.
+    /// The nodes: the inputs, an output for each code, then the hidden nodes, in order of their numbers. Of equal
+    /// scores, the first output wins.
     pub nodes: Vec<(NodeId, NodeKind)>,
     /// The links in order of insertion, which is the order of summation.
     pub links: Vec<Link>,
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NodeKind {
@@ -31,11 +31,11 @@ pub enum NodeKind {
 /// A weighted link.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
-    /// Where the value comes from.
+    /// The source.
     pub source: NodeId,
-    /// Where it goes.
+    /// The target.
     pub target: NodeId,
-    /// What it is multiplied by.
+    /// The weight.
     pub weight: f64,
 }
 
@@ -57,6 +57,6 @@ pub enum Activation {
     SqrtAbs,
     /// -sqrt |u|
     NegSqrtAbs,
-    /// 2 / (1 + e^-u) - 1, where outputs start
+    /// 2 / (1 + e^-u) - 1, the initial activation of outputs
     Sigmoid,
 }

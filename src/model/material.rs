@@ -1,20 +1,20 @@
-//! Materials: what a voxel is made of, and how it answers time and stimuli.
+//! Materials of voxels, and their response to time and stimuli.
 
 use serde::{Deserialize, Serialize};
 
 use super::Pattern;
 
-/// A declared material: a name and what it does.
+/// A declared material: a name and a response.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Record", into = "Record")]
 pub struct Material {
     /// The name in the program.
     pub name: String,
-    /// What it does.
+    /// The response.
     pub kind: MaterialKind,
 }
 
-/// What a material does (docs/physics.md 3 and 4).
+/// The response of a material (docs/physics.md 3 and 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaterialKind {
     /// Passive and stiff.
@@ -30,29 +30,29 @@ pub enum MaterialKind {
 /// The sine that drives an actuator (docs/physics.md 10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Samples of one period, in env steps; both ends are samples, so the last and the first have one phase.
+    /// Samples of one period, in env steps. Both ends are samples, so the last and the first have the same phase.
     pub period: u32,
     /// Phase, in degrees.
     pub phase: f64,
-    /// Least width, as a share of the width at rest.
+    /// Smallest width, as a fraction of the rest width.
     pub low: f64,
-    /// Greatest width, as a share of the width at rest.
+    /// Largest width, as a fraction of the rest width.
     pub high: f64,
 }
 
-/// How a sensor answers its stimulus (docs/physics.md 10).
+/// The response of a sensor to its stimulus (docs/physics.md 10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// The stimulus it senses, counted from 0.
     pub stimulus: usize,
-    /// Width while the stimulus is absent, as a share of the width at rest.
+    /// Width while the stimulus is absent, as a fraction of the rest width.
     pub absent: f64,
-    /// Width while the stimulus is present, as a share of the width at rest.
+    /// Width while the stimulus is present, as a fraction of the rest width.
     pub present: f64,
 }
 
 impl MaterialKind {
-    /// What it is by the bits of its numbers, for an order that is total.
+    /// The bits of its numbers, which have a total order.
     pub(super) fn bits(&self) -> (u8, u64, [u64; 3]) {
         match *self {
             Self::Rigid => (0, 0, [0; 3]),
@@ -78,7 +78,7 @@ impl MaterialKind {
     }
 }
 
-/// A material as data: one flat mapping with the fields of the language, in their order.
+/// A material as data: one flat mapping with the language's fields, in their order.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a mapping with the fields of a material")]
 struct Record {
@@ -120,7 +120,7 @@ pub enum MaterialError {
         /// The field.
         field: &'static str,
     },
-    /// A field that the kind does not have.
+    /// A field that this kind does not have.
     #[error("the material `{material}` cannot have the field `{field}`, as its kind has none")]
     Foreign {
         /// The material's name.
@@ -137,7 +137,7 @@ pub enum MaterialError {
         field: &'static str,
         /// Its value.
         found: String,
-        /// What it may be.
+        /// The valid kinds.
         expected: &'static str,
     },
 }
@@ -246,7 +246,7 @@ impl Record {
 /// The longest period of an actuator, in env steps.
 const MAX_PERIOD: u32 = 100_000_000;
 
-/// Whether a voxel can have that width, as a share of its width at rest (docs/physics.md 3).
+/// Whether a voxel can have this width, as a fraction of its rest width (docs/physics.md 3).
 fn is_width(width: f64) -> bool {
     (0.6..=1.6).contains(&width)
 }

@@ -1,5 +1,5 @@
-//! The nouns of the field as plain data, without behavior that belongs to a stage: what a voxel is made of, what a body is, what a
-//! robot does, what a circuit means.
+//! The nouns of the field as plain data: materials, bodies, robots, circuits, tests. Operations of a single stage are
+//! in that stage.
 
 mod behavior;
 mod body;

@@ -1,4 +1,4 @@
-//! Palettes: what the codes of a body mean.
+//! Palettes: the meaning of the codes of a body.
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Drive, Material, MaterialKind, Response};
 
-/// The materials a body may be made of: code 0 is empty, code `k` is the `k`-th material.
+/// The materials of a body: code 0 is empty, code `k` is the `k`-th material.
 ///
 /// Palettes are equal when their materials have the same names and, to the bit, the same numbers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -34,7 +34,7 @@ pub enum PaletteError {
 static PAPER: LazyLock<Arc<Palette>> = LazyLock::new(|| Arc::new(Palette::new(paper_materials())));
 
 impl Palette {
-    /// The most materials of a palette: codes are written as digits and lower-case letters, `0` for empty.
+    /// The most materials of a palette. Codes are written as digits and lower-case letters; `0` is empty.
     pub const MAX_MATERIALS: usize = 35;
 
     /// A palette of these materials, in order of their codes.
@@ -47,8 +47,8 @@ impl Palette {
         Self { materials }
     }
 
-    /// The paper's eight materials (paper, Methods; codes as in docs/physics.md 1 and 10): 1 rigid, 2 soft, 3 active, 4 active in
-    /// antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.
+    /// The paper's eight materials (paper, Methods; codes as in docs/physics.md 1 and 10): 1 rigid, 2 soft, 3 active, 4
+    /// active in antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.
     pub fn paper() -> Arc<Self> {
         Arc::clone(&PAPER)
     }
@@ -71,7 +71,7 @@ impl Palette {
         (code > 0).then(|| &self.materials[usize::from(code) - 1])
     }
 
-    /// What code `code` does; `None` for empty.
+    /// The response of code `code`; `None` if it is empty.
     ///
     /// # Panics
     /// When the palette has no such code.
@@ -86,7 +86,7 @@ impl Palette {
 }
 
 impl Material {
-    /// The code that the paper gives to a material of this name and these numbers, if it has it.
+    /// The paper's code for a material with this name and these numbers, if there is one.
     pub fn paper_code(&self) -> Option<u8> {
         (1..).zip(PAPER.materials()).find(|(_, known)| *known == self).map(|(code, _)| code)
     }

@@ -3,7 +3,7 @@
 use super::{Base, Behavior, Circuit, CircuitTest, Column, Evolution, Instance, Material, Schedule};
 use crate::source::Span;
 
-/// Everything a source file and what it uses declare.
+/// All declarations of a source file and the files it uses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     /// The stimuli, in the order that numbers them.
@@ -20,7 +20,7 @@ pub struct Program {
     pub libraries: Vec<LibrarySource>,
     /// The swarms.
     pub swarms: Vec<Swarm>,
-    /// What is to be simulated besides the tests; of the file itself, not of those it uses.
+    /// The simulations of the file itself, not of files it uses.
     pub simulations: Vec<Simulation>,
     /// The tests; of the file itself, not of those it uses.
     pub tests: Vec<CircuitTest>,
@@ -31,29 +31,29 @@ pub struct Program {
 pub struct NamedSchedule {
     /// The name.
     pub name: String,
-    /// The stimuli it speaks of, as places in [`Program::stimuli`].
+    /// Its stimuli, as indices of [`Program::stimuli`].
     pub stimuli: Vec<usize>,
     /// The spells.
     pub schedule: Schedule,
 }
 
-/// A declared library: where its robots come from, and which of them count.
+/// A declared library: the source of its robots, and the behaviors it is restricted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibrarySource {
     /// The name.
     pub name: String,
-    /// Where it is declared.
+    /// The place of the declaration.
     pub span: Span,
-    /// Where the robots come from.
+    /// The source of the robots.
     pub from: Origin,
     /// The behaviors it is restricted to; `None` is all.
     pub behaviors: Option<Vec<Behavior>>,
 }
 
-/// Where the robots of a library come from.
+/// The source of a library's robots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The robots that come with the program.
+    /// The built-in library.
     Shipped,
     /// The archive of the evolution run of that name.
     Evolution(String),
@@ -66,22 +66,22 @@ pub enum Origin {
 pub struct Swarm {
     /// The name.
     pub name: String,
-    /// Where it is declared.
+    /// The place of the declaration.
     pub span: Span,
     /// The circuit.
     pub circuit: Instance,
     /// The name of the library in [`Program::libraries`].
     pub library: String,
-    /// How long each row of a test is held.
+    /// The time for which each row of a test is held.
     pub hold: Hold,
-    /// The cycles over which a robot's output is taken; the paper's is 1.
+    /// The number of cycles over which a robot's output is measured; the paper's is 1.
     pub window: u32,
 }
 
-/// How long inputs are held.
+/// The time for which inputs are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
-    /// As long as static timing says that the slowest path needs.
+    /// The delay of the slowest path by static timing.
     #[default]
     Auto,
     /// That many cycles.
@@ -93,7 +93,7 @@ pub enum Hold {
 pub struct Simulation {
     /// The swarm's name in [`Program::swarms`].
     pub swarm: String,
-    /// Where it is declared.
+    /// The place of the declaration.
     pub span: Span,
     /// The file in which it is declared.
     pub file: String,
@@ -110,11 +110,11 @@ pub struct Simulation {
 pub struct InputSpell {
     /// The input bits in order of the ports, the most significant bit of a port first.
     pub inputs: Vec<bool>,
-    /// How the values of the ports are written; empty where a schedule of stimuli gives them.
+    /// The notation of the values of the ports; empty if they come from a schedule of stimuli.
     pub bases: Vec<Base>,
-    /// How long, in cycles.
+    /// The duration in cycles.
     pub cycles: u32,
-    /// The line at which it stands.
+    /// The line in the source.
     pub line: usize,
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Behavior, Body, Function, Genotype, Pattern};
 
-/// A body whose behavior is known, with where it comes from.
+/// A body with a known behavior and its provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// The robot's name, unique in its library.
@@ -17,9 +17,9 @@ pub struct Robot {
     pub body: Body,
     /// Displacement in voxels over the paper's fixed simulations, patterns 00, 01, 10, 11 (docs/physics.md 10).
     pub displacement: [f64; 4],
-    /// How it does as a gate.
+    /// Its character as a gate.
     pub character: Character,
-    /// Where it comes from.
+    /// Its provenance.
     pub provenance: Provenance,
     /// The network it was developed from.
     pub genotype: Option<Genotype>,
@@ -32,19 +32,20 @@ impl Robot {
     }
 }
 
-/// How a robot does as a gate, measured over switches of its inputs (docs/physics.md 14).
+/// The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Character {
-    /// Cycles that an input pattern must be held for the output to be right at the end of every hold.
+    /// Cycles for which an input pattern must be held so that the output is correct at the end of every hold.
     pub clock: u32,
-    /// Random switches over which wrong outputs were counted.
+    /// The number of random switches in which wrong outputs were counted.
     pub switches: u32,
-    /// Wrong outputs at the end of a hold of `clock` cycles, as a share of `switches`.
+    /// The share of `switches` with a wrong output at the end of a hold of `clock` cycles.
     pub error_rate: f64,
-    /// Wrong cycles within holds whose output ought not to change, as a share of such cycles.
+    /// The share of wrong cycles in holds whose output should not change.
     pub glitch_rate: f64,
-    /// Least displacement in the right direction at the end of a hold, in voxels a cycle; negative where an output was wrong.
+    /// The smallest displacement in the correct direction at the end of a hold, in voxels per cycle; negative if an
+    /// output was wrong.
     pub margin: f64,
     /// Whether the body ever fell over.
     pub topples: bool,
@@ -71,11 +72,11 @@ pub struct Transition {
     /// The pattern after.
     #[serde(with = "pair")]
     pub to: Pattern,
-    /// Cycles until the output is right and stays so.
+    /// Cycles until the output is correct and stays correct.
     pub cycles: u32,
 }
 
-/// Where a robot comes from: enough to make it again.
+/// The provenance of a robot: enough to make it again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {

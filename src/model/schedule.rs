@@ -1,4 +1,4 @@
-//! Schedules: which stimuli are present, and for how long.
+//! Schedules: which stimuli are present and for how long.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use super::Pattern;
 pub struct Spell {
     /// The stimuli present.
     pub pattern: Pattern,
-    /// How long, in env steps.
+    /// The duration in env steps.
     pub steps: u32,
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Which stimuli are present: bit `i` belongs to stimulus `i`, counted from 0 in the order of declaration.
+/// The stimuli that are present: bit `i` is stimulus `i`, counted from 0 in the order of declaration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Pattern(u32);
@@ -13,10 +13,10 @@ impl Pattern {
     /// The four patterns of two stimuli in the paper's order: 00, 01, 10, 11, stimulus 1 written first.
     pub const PAIRS: [Pattern; 4] = [Pattern(0b00), Pattern(0b10), Pattern(0b01), Pattern(0b11)];
 
-    /// The most stimuli a pattern holds.
+    /// The most stimuli of a pattern.
     pub const MAX_STIMULI: usize = 32;
 
-    /// The pattern whose stimulus `i` is present where `present[i]` is true.
+    /// The pattern in which stimulus `i` is present if `present[i]` is true.
     ///
     /// # Panics
     /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
@@ -59,7 +59,7 @@ impl TryFrom<String> for Pattern {
 }
 
 impl From<Pattern> for String {
-    /// Digits up to the last stimulus that is present, two at least.
+    /// Digits up to the last present stimulus, at least two.
     fn from(pattern: Pattern) -> Self {
         pattern.digits((32 - pattern.0.leading_zeros()).max(2) as usize)
     }

@@ -5,14 +5,14 @@ use serde::Serialize;
 use super::{Base, Circuit, Instance, Value};
 use crate::source::Span;
 
-/// A declared test, as bits: nothing of it needs the source but for messages.
+/// A declared test, as bits. The source is needed for messages only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitTest {
-    /// What is tested.
+    /// The tested circuit.
     pub circuit: Instance,
-    /// The words that say what it shows; empty where there are none.
+    /// The title; empty if there is none.
     pub title: String,
-    /// Where it is declared.
+    /// The place of the declaration.
     pub span: Span,
     /// The file in which it is declared.
     pub file: String,
@@ -22,7 +22,7 @@ pub struct CircuitTest {
     pub inputs: Vec<Column>,
     /// The output ports in order of declaration, with their widths in bits.
     pub outputs: Vec<Column>,
-    /// What is tried.
+    /// The method of the test.
     pub stimulation: Stimulation,
 }
 
@@ -35,19 +35,20 @@ pub struct Column {
     pub width: usize,
 }
 
-/// What a test tries.
+/// The methods of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stimulation {
     /// These rows one after another, without a reset between them.
     Rows(Vec<TestRow>),
     /// Every input pattern in counting order, against a circuit with the same ports.
     All {
-        /// The circuit that is right.
+        /// The reference circuit.
         reference: Reference,
     },
 }
 
-/// The circuit that a test compares with. One that is written inside the test is no circuit of the program: nothing else can name it.
+/// The circuit that a test compares with. A circuit written inside the test is not part of the program, because nothing
+/// else can name it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reference {
     /// `against other`
@@ -65,9 +66,9 @@ pub struct TestRow {
     pub expected: Vec<Option<bool>>,
     /// How the values of the input ports are written, then those of the output ports.
     pub bases: Vec<Base>,
-    /// How long the row is held, in cycles, where it says so itself.
+    /// The hold of the row in cycles, if the row sets it.
     pub hold: Option<u32>,
-    /// Where the row stands.
+    /// The place of the row.
     pub span: Span,
     /// Its line.
     pub line: usize,
@@ -93,7 +94,7 @@ impl TestRow {
         Value::of_ports(inputs, self.inputs.iter().copied().map(Some), &self.bases)
     }
 
-    /// Values of the output ports, written as the row writes what it asks for.
+    /// The values of the output ports, in the notation of the row.
     pub fn output_values(
         &self,
         inputs: &[Column],
@@ -105,7 +106,8 @@ impl TestRow {
 }
 
 impl Column {
-    /// The ports that have these bits, named as [`Column::bits`] names them: a run of `a[3]`, `a[2]`, … down to `a[0]` is one port.
+    /// The ports that have these bits, named as [`Column::bits`] names them: a run of `a[3]`, `a[2]`, … down to `a[0]`
+    /// is one port.
     pub fn group(bits: &[String]) -> Vec<Self> {
         let mut ports = Vec::new();
         let mut rest = bits;
@@ -118,7 +120,7 @@ impl Column {
         ports
     }
 
-    /// The names of the port's bits, the most significant first.
+    /// The names of the port's bits, most significant first.
     pub fn bits(&self) -> Vec<String> {
         match self.width {
             1 => vec![self.name.clone()],

@@ -1,15 +1,16 @@
-//! Trials and what comes of them.
+//! Trials and their results.
 
 use serde::Serialize;
 
 use super::{Body, Schedule};
 
-/// The place where robots are tried: the strip of ground they walk on (docs/physics.md 1).
+/// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// Ground voxels in a row.
     pub world_width: usize,
-    /// The ground column of a body's left column; `None` puts the body in the middle: half the world less half the body, rounded down.
+    /// The ground column of a body's left column; `None` puts the body in the middle: half the world less half the
+    /// body, rounded down.
     pub start_x: Option<usize>,
 }
 
@@ -36,27 +37,28 @@ pub struct Trial {
     pub schedule: Schedule,
 }
 
-/// What a trial gave: the center of mass over time.
+/// The result of a trial: the center of mass over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
-    /// Horizontal place of the center of mass in voxels: the start, then after each env step. Ends early at a fault.
+    /// Horizontal position of the center of mass in voxels: at the start, then after each env step. It ends early at a
+    /// fault.
     pub com_x: Vec<f64>,
     /// Height of the center of mass in voxels, likewise.
     pub com_y: Vec<f64>,
-    /// What ended it early, if anything did.
+    /// The fault that ended it early, if any.
     pub fault: Option<Fault>,
 }
 
-/// A simulation that could not go on.
+/// A simulation that failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// The env step that was abandoned, from 1.
     pub env_step: u32,
-    /// What happened.
+    /// The kind.
     pub kind: FaultKind,
 }
 
-/// Why a simulation could not go on.
+/// The reason why a simulation failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultKind {

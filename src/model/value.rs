@@ -21,7 +21,7 @@ pub enum Base {
 }
 
 impl Base {
-    /// The base for a port of which no row says how it is written.
+    /// The base for a port if no row defines its notation.
     pub fn of_width(width: usize) -> Self {
         if width == 1 { Self::Bits } else { Self::Decimal }
     }
@@ -40,14 +40,14 @@ impl Base {
 /// The value of a port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Value {
-    /// The bits, the most significant first; `None` where nothing is asked.
+    /// The bits, most significant first; `None` is unchecked.
     pub bits: Vec<Option<bool>>,
     /// How it is written.
     pub base: Base,
 }
 
 impl Value {
-    /// The values of ports whose bits follow each other; `bases` are those of the ports, or empty where nobody wrote them.
+    /// Splits bits into the values of ports. `bases` are the notations of the ports, or empty if there are none.
     ///
     /// # Panics
     /// When there are fewer bits than the ports have.
@@ -61,7 +61,7 @@ impl Value {
         ports.iter().enumerate().map(value).collect()
     }
 
-    /// Whether it says nothing.
+    /// Whether no bit is checked.
     pub fn is_open(&self) -> bool {
         self.bits.iter().all(Option::is_none)
     }
@@ -85,7 +85,8 @@ impl Value {
 }
 
 impl fmt::Display for Value {
-    /// As the user writes it: `4'd5`; a value that is too wide for a number in its base is written in hexadecimal digits.
+    /// As the user writes it: `4'd5`; a value that is too wide for a number in its base is written in hexadecimal
+    /// digits.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let width = self.bits.len();
         let text = match (self.base, self.number()) {

@@ -1,4 +1,5 @@
-//! Pest's pairs to the tree: what all kinds of declarations share. Slips that the grammar knows become diagnostics here.
+//! From pest's pairs to the tree: the parts shared by all kinds of declarations. Mistakes that the grammar recognizes
+//! become diagnostics here.
 
 use std::ops::Range;
 
@@ -18,13 +19,13 @@ pub(crate) struct Converter<'a> {
     /// The file's text and all its comments.
     pub(crate) text: &'a str,
     pub(crate) comments: &'a [Range<usize>],
-    /// Where the declaration's text begins in the file.
+    /// The start of the declaration's text in the file.
     pub(crate) offset: usize,
     pub(crate) errors: Vec<Diagnostic>,
 }
 
 impl Converter<'_> {
-    /// The declaration that the pairs of a parse hold, unless it is a slip.
+    /// The declaration in the pairs of a parse, unless it matches a common mistake.
     pub(crate) fn declaration(&mut self, pairs: Pairs<Rule>) -> Option<Declaration> {
         let pair = solid(pairs).next().expect("a parsed declaration has a pair");
         let span = self.span(&pair);
@@ -87,7 +88,7 @@ impl Converter<'_> {
         Span::new(self.file, start, self.solid_end(start, self.offset + span.end()))
     }
 
-    /// Where a stretch of text ends without the blanks and comments behind it, which pest counts in.
+    /// The end of a text without the spaces and comments after it, which pest includes.
     fn solid_end(&self, start: usize, mut end: usize) -> usize {
         loop {
             end = start + self.text[start..end].trim_end().len();

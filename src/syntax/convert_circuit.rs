@@ -130,7 +130,8 @@ impl Converter<'_> {
             .collect()
     }
 
-    /// An integer expression: `*`, `/` and `%` before `+` and `-`, `**` before all, from left to right.
+    /// An integer expression: `**` binds tighter than `*`, `/` and `%`, and these tighter than `+` and `-`; from left
+    /// to right.
     pub(crate) fn size(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeId {
         let (mut values, mut operators) = (Vec::new(), Vec::<SizeOperator>::new());
         for part in parts(pair) {

@@ -10,7 +10,7 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{ExpressionId, ExpressionKind, Index, Infix, SizeId, SizeKind, TableRow};
 use crate::syntax::wording::{Slip, SyntaxError};
 
-/// Operands and operators of an expression that are not yet put together.
+/// Operands and operators of an expression before they are combined.
 #[derive(Default)]
 struct Stacks {
     values: Vec<ExpressionId>,
@@ -60,7 +60,7 @@ impl Converter<'_> {
         stacks.values.pop().expect("an expression has an operand")
     }
 
-    /// `~` and `!` are told once for each run of them.
+    /// Each run of `~` and `!` is reported once.
     fn slip_prefix(&mut self, prefix: &Pair<Rule>, span: Span, stacks: &Stacks) {
         let sign = prefix.as_str();
         let follows = matches!(stacks.waiting.last(), Some(Waiting::Not(before)) if before.end - before.start == 1);
@@ -136,7 +136,7 @@ impl Converter<'_> {
         parts(pair).map(|expression| self.expression(expression, arena)).collect()
     }
 
-    /// A choice; those behind its `else` are its siblings in the grammar, and inside it in the tree.
+    /// An `if` expression. In the grammar the expressions after `else` are siblings; in the tree they are nested.
     fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
         let branches = parts(pair).filter(|part| part.as_rule() == Rule::expression);
         let mut values: Vec<_> = branches.map(|branch| self.expression(branch, arena)).collect();

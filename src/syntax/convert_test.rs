@@ -81,7 +81,7 @@ impl Converter<'_> {
         TestRow { inputs, bars, outputs, hold, span }
     }
 
-    /// What stands before the first bar, the bars, and what stands after it.
+    /// The text before the first bar, the bars, and the text after it.
     fn columns_of(&self, pair: Pair<Rule>) -> (Vec<Name>, Vec<crate::source::Span>, Vec<Name>) {
         let (mut before, mut bars, mut after) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts(pair) {

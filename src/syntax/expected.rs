@@ -1,4 +1,4 @@
-//! A parse error of pest's in the words of the language: what was found, what was expected.
+//! Describes a parse error of pest in the words of the language: what was found and what was expected.
 
 use pest::error::{Error, ErrorVariant, InputLocation};
 
@@ -73,7 +73,7 @@ fn expected(error: &Error<Rule>) -> String {
     }
 }
 
-/// What a rule is called in messages; `None` for what nobody should be told to write.
+/// The name of a rule in messages; `None` if the message should not suggest it.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI => "the end of the declaration",

@@ -1,4 +1,4 @@
-//! The parser that pest makes of `grammar/nb.pest`.
+//! The parser that pest generates from `grammar/nb.pest`.
 #![allow(missing_docs, reason = "pest names one rule for each of the grammar's")]
 
 use pest_derive::Parser;

@@ -1,4 +1,4 @@
-//! nb text to tree and back: the grammar, the parser, the formatter. Names are not looked up here.
+//! From nb text to the tree and back: the grammar, the parser, the formatter. Names are not resolved here.
 
 mod convert;
 mod convert_circuit;

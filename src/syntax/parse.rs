@@ -1,4 +1,4 @@
-//! Text to tree, declaration by declaration; never fails.
+//! From text to the tree, one declaration after another; never fails.
 
 use std::ops::Range;
 
@@ -16,18 +16,19 @@ use crate::syntax::wording::SyntaxError;
 /// The largest source text, in bytes.
 pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
 
-/// How deep brackets and choices may nest. Parser, checker and formatter need no more stack for it than any thread has.
+/// The deepest nesting of brackets and `if`. It is small enough for the parser, checker and formatter to fit in the
+/// stack of any thread.
 pub const MAX_NESTING: usize = 64;
 
-/// The most words and signs of one declaration, which bound what parsing it takes.
+/// The most tokens of a declaration, which bounds the time of parsing.
 pub const MAX_WORDS: usize = 2_000_000;
 
-/// What a text holds, and what is wrong with it.
+/// The tree of a text, and its errors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parsed {
     /// Everything that could be parsed.
     pub tree: Tree,
-    /// What could not.
+    /// The errors.
     pub errors: Vec<Diagnostic>,
 }
 

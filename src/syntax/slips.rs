@@ -1,4 +1,5 @@
-//! Habits of other languages and common slips, told by what stands around the place where a declaration leaves the grammar.
+//! Common mistakes and habits from other languages, recognized by the text around the place where a declaration
+//! violates the grammar.
 
 use pest::error::{Error, ErrorVariant};
 
@@ -7,31 +8,31 @@ use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
 use crate::syntax::wording::Slip;
 
-/// The words that are never names.
+/// Reserved words.
 pub(crate) const RESERVED: [&str; 16] = [
     "and", "else", "for", "if", "in", "init", "log2", "nand", "net", "nor", "not", "or", "table", "then", "xnor", "xor",
 ];
 
-/// What may stand between two operands of an expression.
+/// The tokens between two operands of an expression.
 const BETWEEN: [&str; 8] = ["and", "else", "nand", "nor", "or", "then", "xnor", "xor"];
 
-/// Words that other languages write before a port.
+/// Keywords before a port in other languages.
 const KINDS: [&str; 8] = ["bit", "bool", "input", "int", "logic", "output", "reg", "wire"];
 
-/// A place where a declaration leaves the grammar.
+/// A place where a declaration violates the grammar.
 pub(crate) struct Place<'a> {
     file: FileId,
     /// The text of the file.
     text: &'a str,
-    /// Where the declaration begins and ends.
+    /// The start and the end of the declaration.
     start: usize,
     end: usize,
-    /// Where the grammar gave up, and the word or sign that stands there.
+    /// The place of the parse error, and the token there.
     at: usize,
     found: &'a str,
-    /// What would have been right.
+    /// The expected tokens.
     wanted: &'a [Rule],
-    /// The brackets that are open there, as offsets.
+    /// The brackets that are open at that place, as offsets.
     open: Vec<usize>,
 }
 
@@ -58,7 +59,7 @@ const LOOKS: [fn(&Place<'_>) -> Found; 16] = [
     missing_comma,
 ];
 
-/// The message for a known slip.
+/// The message for a known mistake.
 pub(crate) fn look(
     text: &str,
     file: FileId,
@@ -73,7 +74,7 @@ pub(crate) fn look(
     LOOKS.iter().find_map(|look| look(&place)).map(|(slip, span)| slip.at(span))
 }
 
-/// The brackets that are open at `at`, without those in comments and texts.
+/// The brackets that are open at `at`, ignoring comments and texts.
 fn open_brackets(text: &str, start: usize, at: usize) -> Vec<usize> {
     let mut open = Vec::new();
     let mut here = start;
@@ -100,12 +101,12 @@ fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The word that a text ends with, and what stands before it.
+/// The last word of a text, and the text before it.
 fn last_word(text: &str) -> (&str, &str) {
     text.split_at(text.trim_end_matches(is_word).len())
 }
 
-/// Text as it is shown in advice.
+/// Text as shown in help.
 fn brief(text: &str) -> &str {
     let text = text.trim();
     if text.is_empty() || text.len() > 40 || text.contains(['\n', '\r']) { "…" } else { text }
@@ -137,12 +138,12 @@ impl<'a> Place<'a> {
         self.wanted.iter().any(|rule| rules.contains(rule))
     }
 
-    /// The innermost bracket that is open.
+    /// The innermost open bracket.
     fn inside(&self) -> Option<(usize, u8)> {
         self.open.last().map(|&at| (at, self.text.as_bytes()[at]))
     }
 
-    /// Whether the place is among the ports of a circuit.
+    /// Whether the place is in the ports of a circuit.
     fn in_ports(&self) -> bool {
         self.text[self.start..].starts_with("circuit")
             && self.open.first().is_some_and(|&at| self.text.as_bytes()[at] == b'(')
@@ -154,7 +155,7 @@ impl<'a> Place<'a> {
             && ["circuit", "test"].iter().any(|keyword| self.text[self.start..].starts_with(keyword))
     }
 
-    /// The word before the place, where it starts, and what stands before it on its line.
+    /// The word before the place, its start, and the text before it on its line.
     fn word_before(&self) -> Option<(&'a str, usize, &'a str)> {
         let (rest, word) = last_word(self.before().trim_end());
         let line = rest.rsplit(['\n', '\r']).next().unwrap_or_default();
@@ -162,7 +163,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Whether a text ends as an operand does.
+/// Whether a text ends with an operand.
 fn ends_operand(text: &str) -> bool {
     let word = last_word(text).1;
     let ends = text.ends_with(|c: char| is_word(c) || matches!(c, ')' | ']' | '}'));
@@ -316,7 +317,7 @@ fn space_before_operands(place: &Place<'_>) -> Found {
     Some((Slip::SpaceBeforeOperands { name: name.to_owned(), operands }, span))
 }
 
-/// Where the bracket opens that is closed at the end of a text, which is without it.
+/// The offset of the bracket that a closing bracket after this text closes.
 fn opening(inside: &str) -> Option<usize> {
     let mut depth = 0;
     inside.bytes().enumerate().rev().find_map(|(at, byte)| {

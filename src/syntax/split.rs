@@ -1,7 +1,7 @@
-//! Splits a text into declarations, so that a broken one hides nothing of the others.
+//! Splits a text into declarations, so that an error in one does not hide errors in the others.
 //!
-//! A declaration begins at a keyword that is the first word of its line. Within braces only a keyword in the first column, followed by
-//! a name, begins one: that is where an unclosed brace ends.
+//! A declaration begins at a keyword that is the first word of its line. Within braces, only a keyword in the first
+//! column, followed by a name, begins a declaration: there an unclosed brace is assumed to end.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use std::ops::Range;
 pub const KEYWORDS: [&str; 10] =
     ["circuit", "evolution", "library", "material", "schedule", "simulate", "stimulus", "swarm", "test", "use"];
 
-/// A text cut into declarations.
+/// A text split into declarations.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Split {
     /// The declarations.
@@ -18,22 +18,22 @@ pub struct Split {
     pub comments: Vec<Range<usize>>,
 }
 
-/// The text of one declaration, without the blanks and comments around it.
+/// The text of a declaration, without the spaces and comments around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// The bytes.
+    /// The range of bytes.
     pub range: Range<usize>,
     /// The brackets that are not closed, as offsets.
     pub unclosed: Vec<usize>,
-    /// The first bracket that closes nothing.
+    /// The first closing bracket without an opening one.
     pub unopened: Option<usize>,
-    /// How deep brackets and choices nest at most.
+    /// The deepest nesting of brackets and `if`.
     pub depth: usize,
-    /// How many words and signs there are.
+    /// The number of tokens.
     pub words: usize,
 }
 
-/// Cuts a text into declarations.
+/// Splits a text into declarations.
 pub fn split(text: &str) -> Split {
     let mut splitter = Splitter {
         text,
@@ -57,16 +57,17 @@ struct Splitter<'a> {
     split: Split,
     piece: Option<Piece>,
     open: Vec<usize>,
-    /// Whether the piece's braces have been closed, so that any word on a new line begins another.
+    /// Whether all braces of the piece are closed, so that any keyword at the start of a line begins another
+    /// declaration.
     closed: bool,
-    /// Where the line began, while nothing but blanks has been seen of it.
+    /// The start of the line, while only spaces have been seen in it.
     line: Option<usize>,
-    /// The `if` whose `else` has not come.
+    /// Each `if` without its `else` so far.
     choices: usize,
 }
 
 impl Splitter<'_> {
-    /// Takes the token at `at` in, and returns where the next begins.
+    /// Processes the token at `at`, and returns the start of the next one.
     fn token(&mut self, at: usize) -> usize {
         let rest = &self.text[at..];
         let first = rest.chars().next().expect("the text goes on");
@@ -129,7 +130,7 @@ impl Splitter<'_> {
         piece.depth = piece.depth.max(self.open.len());
     }
 
-    /// Counts choices inside choices; the `else` of a table has a colon behind it.
+    /// Counts nested `if`s; the `else` of a table has a colon after it.
     fn choice(&mut self, at: usize, token: &str) {
         match token {
             "if" => self.choices += 1,
@@ -152,7 +153,7 @@ impl Splitter<'_> {
     }
 }
 
-/// Whether `rest` goes on as a declaration with that keyword does, so that a net of the same name is told apart.
+/// Whether `rest` continues like a declaration with this keyword. A net may have the same name as a keyword.
 fn starts_declaration(keyword: &str, rest: &str) -> bool {
     let rest = rest.trim_start_matches([' ', '\t']);
     match keyword {

@@ -1,5 +1,5 @@
-//! The syntax tree: declarations as written, names not yet looked up. Expressions and sizes lie in arenas, children before parents,
-//! so that no depth of nesting needs a deep stack.
+//! The syntax tree: declarations as written, with unresolved names. Expressions and sizes are stored in arenas,
+//! children before parents, so that deep nesting needs no deep stack.
 
 use crate::source::Span;
 
@@ -8,7 +8,7 @@ use crate::source::Span;
 pub struct Tree {
     /// The declarations that could be parsed.
     pub declarations: Vec<Declaration>,
-    /// The places of the names of those that could not, as far as they have one.
+    /// The names of declarations that could not be parsed, if they have one.
     pub broken: Vec<Span>,
     /// The places of all comments, each from its `//` to the end of its line.
     pub comments: Vec<Span>,
@@ -19,11 +19,11 @@ pub struct Tree {
 pub struct Declaration {
     /// From its keyword to its last character.
     pub span: Span,
-    /// What it declares.
+    /// The kind.
     pub kind: DeclarationKind,
 }
 
-/// What a declaration declares.
+/// The kinds of declarations.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclarationKind {
     /// `use "file.nb"`
@@ -47,16 +47,16 @@ pub enum DeclarationKind {
 pub struct Name {
     /// The name.
     pub text: String,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
 /// A text in quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Text {
-    /// What stands between the quotes.
+    /// The text between the quotes.
     pub text: String,
-    /// The place, quotes included.
+    /// The place, including the quotes.
     pub span: Span,
 }
 
@@ -88,7 +88,7 @@ impl RecordKeyword {
 /// A declaration that is a name and a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordDeclaration {
-    /// What it declares.
+    /// The keyword.
     pub keyword: RecordKeyword,
     /// The name.
     pub name: Name,
@@ -101,7 +101,7 @@ pub struct RecordDeclaration {
 pub struct Record {
     /// The fields in order of text.
     pub fields: Vec<Field>,
-    /// The place, braces included.
+    /// The place, including the braces.
     pub span: Span,
 }
 
@@ -117,13 +117,13 @@ pub struct Field {
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// What it is.
+    /// The kind.
     pub kind: ValueKind,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
-/// What a value is.
+/// The kinds of values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueKind {
     /// `{ name: value, … }`
@@ -151,7 +151,7 @@ pub enum ValueKind {
 pub struct Number {
     /// The digits, with sign and point.
     pub text: String,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
@@ -160,7 +160,7 @@ pub struct Number {
 pub struct Quantity {
     /// The number.
     pub number: Number,
-    /// The unit, where there is one.
+    /// The unit, if there is one.
     pub unit: Option<Name>,
 }
 
@@ -178,7 +178,7 @@ pub struct Instance {
     pub name: Name,
     /// The parameters given.
     pub arguments: Vec<Argument>,
-    /// The sizes that the parameters speak of, where no circuit surrounds them.
+    /// The sizes of the parameters, if the instance is not inside a circuit.
     pub sizes: Vec<Size>,
 }
 
@@ -198,9 +198,9 @@ pub struct Schedule {
 pub struct Spell {
     /// The values, one for each column.
     pub cells: Vec<Name>,
-    /// How long.
+    /// The duration.
     pub length: Quantity,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
@@ -230,15 +230,15 @@ pub enum With {
 /// `test latch "…" …`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Test {
-    /// What is tested.
+    /// The tested circuit.
     pub circuit: Instance,
-    /// The words that say what it shows.
+    /// The title.
     pub title: Option<Text>,
-    /// What is tried.
+    /// The method.
     pub kind: TestKind,
 }
 
-/// What a test tries.
+/// The methods of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TestKind {
     /// A table of rows.
@@ -258,7 +258,7 @@ pub struct TestTable {
     pub outputs: Vec<Name>,
     /// The rows in order of time.
     pub rows: Vec<TestRow>,
-    /// Where the header stands.
+    /// The place of the header.
     pub header: Span,
 }
 
@@ -267,13 +267,13 @@ pub struct TestTable {
 pub struct TestRow {
     /// The values before the bar.
     pub inputs: Vec<Name>,
-    /// The bars; a row in order has one.
+    /// The bars; a valid row has one.
     pub bars: Vec<Span>,
     /// The values after the bar.
     pub outputs: Vec<Name>,
-    /// How long it is held, where it says so.
+    /// The hold, if the row sets it.
     pub hold: Option<Quantity>,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
@@ -288,7 +288,7 @@ pub struct Circuit {
     pub inputs: Vec<Port>,
     /// The output ports.
     pub outputs: Vec<Port>,
-    /// The body, with the sizes of the ports too.
+    /// The body; it also has the sizes of the ports.
     pub body: Body,
 }
 
@@ -316,7 +316,7 @@ pub struct SizeId(pub u32);
 pub struct Parameter {
     /// The name.
     pub name: Name,
-    /// The value where a use gives none.
+    /// The default value.
     pub default: Option<SizeId>,
 }
 
@@ -325,29 +325,29 @@ pub struct Parameter {
 pub struct Port {
     /// The name.
     pub name: Name,
-    /// The width in bits, where one is written.
+    /// The width in bits, if there is one.
     pub width: Option<SizeId>,
 }
 
 /// A statement with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// What it is.
+    /// The kind.
     pub kind: StatementKind,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
-/// What a statement is.
+/// The kinds of statements.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
     /// `q init 0 = nand(s, nq)`
     Drive {
-        /// What is driven.
+        /// The targets.
         targets: Vec<Target>,
-        /// Whether the targets stand in parentheses.
+        /// Whether the targets are in parentheses.
         grouped: bool,
-        /// What drives it.
+        /// The driver.
         value: ExpressionId,
     },
     /// `net c[9]`
@@ -360,7 +360,7 @@ pub enum StatementKind {
         from: SizeId,
         /// One more than its last value.
         to: SizeId,
-        /// What is repeated.
+        /// The repeated statements.
         statements: Vec<Statement>,
     },
 }
@@ -370,11 +370,11 @@ pub enum StatementKind {
 pub struct Target {
     /// The net.
     pub name: Name,
-    /// The bits, where not the whole net is meant.
+    /// The bits, if not the whole net is driven.
     pub index: Option<Index>,
     /// The value before the first cycle.
     pub start: Option<SizeId>,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
@@ -383,22 +383,22 @@ pub struct Target {
 pub struct Index {
     /// The bit, or the highest of them.
     pub high: SizeId,
-    /// The lowest bit, where a slice is meant.
+    /// The lowest bit of a slice.
     pub low: Option<SizeId>,
-    /// Where it stands, brackets included.
+    /// The place, including the brackets.
     pub span: Span,
 }
 
 /// An integer with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Size {
-    /// What it is.
+    /// The kind.
     pub kind: SizeKind,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
-/// What an integer is.
+/// The kinds of integers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SizeKind {
     /// Digits.
@@ -416,24 +416,24 @@ pub enum SizeKind {
 /// A parameter given to a circuit: `8` or `start = 1`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument {
-    /// The parameter's name, where it is said.
+    /// The parameter's name, if it is given.
     pub name: Option<Name>,
     /// The value.
     pub value: SizeId,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
 /// An expression with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// What it is.
+    /// The kind.
     pub kind: ExpressionKind,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
-/// What an expression is.
+/// The kinds of expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
     /// Digits without a width.
@@ -458,7 +458,7 @@ pub enum ExpressionKind {
     Net {
         /// The name.
         name: Name,
-        /// The bits, where not the whole net is meant.
+        /// The bits, if not the whole net is read.
         index: Option<Index>,
     },
     /// `add[8](a, b)`
@@ -476,18 +476,18 @@ pub enum ExpressionKind {
     Concatenation(Vec<ExpressionId>),
     /// `{4{a, b}}`
     Repetition {
-        /// How often.
+        /// The number of repetitions.
         count: SizeId,
-        /// What.
+        /// The repeated value.
         values: Vec<ExpressionId>,
     },
     /// `not a`
     Not(ExpressionId),
     /// `a and b`
     Infix {
-        /// What stands between.
+        /// The operator.
         operator: Infix,
-        /// Where the operator stands.
+        /// The place of the operator.
         place: Span,
         /// The left operand.
         left: ExpressionId,
@@ -496,18 +496,18 @@ pub enum ExpressionKind {
     },
     /// `nand(a, b, c)`
     Operation {
-        /// Which.
+        /// The operation.
         operator: crate::model::Operator,
         /// The operands.
         operands: Vec<ExpressionId>,
     },
     /// `if c then a else b`
     Choice {
-        /// The bit.
+        /// The condition.
         condition: ExpressionId,
-        /// The value at 1.
+        /// The value if it is 1.
         then: ExpressionId,
-        /// The value at 0.
+        /// The value if it is 0.
         otherwise: ExpressionId,
     },
     /// `table(a, b) { 00: 1, else: 0 }`
@@ -526,11 +526,11 @@ pub struct TableRow {
     pub pattern: Option<Name>,
     /// The output.
     pub output: Name,
-    /// Where the row stands.
+    /// The place of the row.
     pub span: Span,
 }
 
-/// What stands between two operands.
+/// The operators between two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Infix {
     /// A bitwise operation.
@@ -554,7 +554,7 @@ pub enum Infix {
 }
 
 impl Infix {
-    /// The operators written with signs.
+    /// The operators written as symbols.
     pub const SIGNS: [(Self, &'static str); 8] = [
         (Self::Add, "+"),
         (Self::Subtract, "-"),
@@ -566,7 +566,7 @@ impl Infix {
         (Self::AtLeast, ">="),
     ];
 
-    /// As it is written.
+    /// The notation of the language.
     pub fn word(self) -> &'static str {
         match self {
             Self::Bitwise(operator) => operator.word(),
@@ -574,7 +574,7 @@ impl Infix {
         }
     }
 
-    /// How tightly it binds: 1 loosest.
+    /// The precedence: 1 is the loosest.
     pub fn precedence(self) -> u8 {
         use crate::model::Operator;
         match self {
@@ -586,7 +586,7 @@ impl Infix {
         }
     }
 
-    /// Whether `a op b op c` has one meaning when it follows `before` of the same precedence.
+    /// Whether `a op b op c` is unambiguous if it follows `before`, which has the same precedence.
     pub fn chains_after(self, before: Self) -> bool {
         use crate::model::Operator;
         match self {

@@ -15,13 +15,13 @@ pub(super) struct Builder<'a> {
     /// References of tests, which are numbered after the program's circuits.
     references: Vec<&'a Circuit>,
     pub(super) modules: Vec<Module>,
-    /// The module of each circuit and its parameters; `None` where it cannot be built, or is just being built.
+    /// The module of each circuit and its parameters; `None` if it is invalid or under construction.
     known: BTreeMap<(CircuitId, Vec<i64>), Option<ModuleId>>,
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// The same, to tell quickly what has been said.
+    /// The same as a set, to find duplicates quickly.
     noted: BTreeSet<Diagnostic>,
     depth: usize,
-    /// The modules whose loops have been looked at.
+    /// The modules whose loops were checked.
     pub(super) inspected: Vec<bool>,
 }
 
@@ -54,15 +54,15 @@ impl<'a> Builder<'a> {
         self.with_defaults(CircuitId((self.program.circuits.len() + self.references.len() - 1) as u32))
     }
 
-    /// Notes a fault, once.
+    /// Adds an error, unless it is a duplicate.
     pub(super) fn fault(&mut self, fault: Diagnostic) {
         if self.noted.insert(fault.clone()) {
             self.diagnostics.push(fault);
         }
     }
 
-    /// Shows what was found since then in another file than `place` is of at that place, where the circuit is used: what its
-    /// declaration asks for stands in a file that the user may not know.
+    /// Moves errors found since then in another file to `place`, where the circuit is used, because the user may not
+    /// know the file that declares it.
     pub(super) fn show_at(&mut self, place: Span, known: usize) {
         for fault in &mut self.diagnostics[known..] {
             if fault.labels.first().is_some_and(|label| label.span.file != place.file) {
@@ -145,11 +145,11 @@ pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) module: Module,
     pub(super) frames: Vec<Frame>,
     pub(super) items: Vec<Item<'a>>,
-    /// The constants 0 and 1, once there are any.
+    /// The constants 0 and 1, if they exist already.
     pub(super) constants: [Bit; 2],
     /// Circuits inside that have no name of their own.
     pub(super) unnamed: usize,
-    /// Whether something is wrong, so that the module cannot be used.
+    /// Whether the module has an error and cannot be used.
     pub(super) failed: bool,
 }
 
@@ -219,7 +219,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         Some(())
     }
 
-    /// Makes a net that wide.
+    /// Adds a net of this width.
     pub(super) fn give_width(&mut self, net: usize, width: u32) {
         let first = self.module.signals.len() as u32;
         if u64::from(first) + u64::from(width) > MAX_NETS {
@@ -246,7 +246,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
 
     fn undriven(&mut self) {
         if self.failed {
-            // What drives them may be what is at fault.
+            // The error may be in the drivers.
             return;
         }
         for net in self.circuit.inputs..self.module.nets.len() {

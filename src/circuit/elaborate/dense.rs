@@ -1,16 +1,16 @@
-//! A function of a few bits as a list of outputs, decomposed input by input (Shannon): equal parts are shared, outputs that do not
-//! matter are taken as they make parts equal.
+//! A function of a few bits as a list of outputs, decomposed input by input (Shannon). Equal parts are shared; outputs
+//! that do not matter are chosen to make parts equal.
 
 use std::collections::BTreeMap;
 
 use crate::model::{Function, Table};
 
-/// The outputs of a function for every pattern of its inputs, in counting order; `None` does not matter.
+/// The outputs of a function for every pattern of its inputs, in counting order; `None` is a don't-care.
 pub(super) struct Dense {
     outputs: Vec<Option<bool>>,
 }
 
-/// A part of a decomposed function, made of parts before it.
+/// A part of a decomposed function, made of earlier parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shape {
     /// Always the same.
@@ -47,7 +47,7 @@ impl Dense {
     pub(super) fn shape(&self) -> Vec<Shape> {
         let mut parts = Parts::default();
         let whole = parts.function(&self.outputs);
-        // What is last in the list need not be the whole, where the whole is a part of a part.
+        // The last entry may not be the whole function, if the whole is part of a part.
         parts.list.truncate(whole + 1);
         parts.list
     }
@@ -67,7 +67,7 @@ impl Parts {
         })
     }
 
-    /// A function by its outputs; it halves them, so that it nests no deeper than there are inputs.
+    /// A function by its outputs; it is halved, so the recursion is no deeper than the number of inputs.
     fn function(&mut self, outputs: &[Option<bool>]) -> usize {
         if let Some(value) = constant(outputs) {
             return self.part(Shape::Constant(value));
@@ -106,7 +106,7 @@ fn constant(outputs: &[Option<bool>]) -> Option<bool> {
     known.all(|&output| output == first).then_some(first)
 }
 
-/// What both halves can be, if they can be the same.
+/// A common completion of both halves, if there is one.
 fn agreed(low: &[Option<bool>], high: &[Option<bool>]) -> Option<Vec<Option<bool>>> {
     let one = |(a, b): (&Option<bool>, &Option<bool>)| match (a, b) {
         (Some(a), Some(b)) if a != b => None,

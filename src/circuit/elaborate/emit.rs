@@ -1,4 +1,4 @@
-//! Expressions to gates, bit by bit; the lowest bit of a value comes first.
+//! From expressions to gates, bit by bit; the lowest bit of a value comes first.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::fault::Operand;
@@ -11,10 +11,10 @@ use crate::source::Span;
 /// `a` without `b`.
 const A_WITHOUT_B: u8 = 0b0100;
 
-/// An expression that puts a circuit into another one.
+/// An expression that calls a circuit.
 struct Call<'c> {
     callee: CircuitId,
-    /// Its parameters, as far as they are given.
+    /// Its parameters; `None` if not given.
     arguments: &'c [Option<SizeId>],
     operands: &'c [ExpressionId],
     /// The turns of the loops around it.
@@ -104,7 +104,7 @@ impl ModuleBuilder<'_, '_> {
         self.module.starts.extend((0..width).map(|at| (first + at, bit(at))));
     }
 
-    /// The values of an expression, from its leaves to its root without recursion; `None` after a fault.
+    /// The values of an expression, from its leaves to its root without recursion; `None` after an error.
     fn values(&mut self, root: ExpressionId, frame: u32, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
         let circuit = self.circuit;
         let mut done: Vec<Vec<Bit>> = Vec::new();
@@ -277,14 +277,14 @@ impl ModuleBuilder<'_, '_> {
         )
     }
 
-    /// `then` where the condition is 1, else `otherwise`.
+    /// `then` if the condition is 1, else `otherwise`.
     pub(super) fn select(&mut self, condition: Bit, then: Bit, otherwise: Bit, span: Span) -> Bit {
         let chosen = self.gate(Function::AND, [condition, then], span);
         let other = self.gate(Function::new(A_WITHOUT_B), [otherwise, condition], span);
         self.gate(Function::OR, [chosen, other], span)
     }
 
-    /// Puts a circuit in its place; `values` are those of the operands.
+    /// Instantiates a circuit; `values` are the operands.
     fn call(&mut self, call: Call, values: Vec<Vec<Bit>>, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
         let id = self.callee(&call, &values)?;
         let name = name.unwrap_or_else(|| {

@@ -1,4 +1,4 @@
-//! The wording of what can be wrong with widths, bits and drivers.
+//! The messages for errors of widths, bits and drivers.
 
 use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
@@ -8,7 +8,7 @@ pub(super) fn bits(width: u64) -> String {
     crate::diag::counted(width as usize, "bit")
 }
 
-/// A value as advice speaks of it: a net's own name where it is one.
+/// The name of a value in help: that of the net, if it is a net.
 #[derive(Clone, Debug)]
 pub(super) struct Operand {
     pub(super) width: u32,
@@ -17,7 +17,7 @@ pub(super) struct Operand {
 }
 
 impl Operand {
-    /// How it is made as wide as something else, which is wider.
+    /// How to extend it to a larger width.
     fn widened(&self, to: u32) -> String {
         let net = self.net.as_deref().unwrap_or("…");
         let zeros = format!("`{{{}'d0, {net}}}`", to - self.width);
@@ -27,7 +27,7 @@ impl Operand {
         }
     }
 
-    /// How it is made as narrow as something else.
+    /// How to cut it to a smaller width.
     fn narrowed(&self, to: u32) -> String {
         let bits = if to == 1 { "0".to_owned() } else { format!("{}..0", to.saturating_sub(1)) };
         match &self.net {
@@ -37,14 +37,14 @@ impl Operand {
     }
 }
 
-/// A width that ought to be another.
+/// An unexpected width.
 pub(super) fn width(what: &str, expected: u32, found: &Operand) -> Diagnostic {
     let message = format!("{what} is {} wide, expected {}", bits(found.width.into()), bits(expected.into()));
     let help = if found.width > expected { found.narrowed(expected) } else { found.widened(expected) };
     Diagnostic::new(Code::Width, message, found.span, bits(found.width.into())).with_help(help)
 }
 
-/// Two operands that ought to be equally wide.
+/// Two operands of different widths.
 pub(super) fn operands(what: &str, first: &Operand, second: &Operand) -> Diagnostic {
     let message = format!("{what} of {} and of {}", bits(first.width.into()), bits(second.width.into()));
     let (narrow, wide) = if first.width < second.width { (first, second) } else { (second, first) };
@@ -66,7 +66,7 @@ pub(super) fn range(message: String, span: Span, label: String) -> Diagnostic {
     Diagnostic::new(Code::OutOfRange, message, span, label)
 }
 
-/// A width that nothing tells.
+/// A width that cannot be inferred.
 pub(super) fn unknown_width(name: &str, span: Span) -> Diagnostic {
     let message = format!("the width of `{name}` cannot be told");
     Diagnostic::new(Code::UnknownWidth, message, span, "this net").with_help(format!("declare it: `net {name}[8]`"))

@@ -1,4 +1,4 @@
-//! Lays a module flat: everything inside it becomes cells of one netlist, names and start values included.
+//! Flattens a module: everything inside it becomes cells of one netlist, with names and start values.
 
 use crate::circuit::elaborate::build::Builder;
 use crate::circuit::elaborate::module::{ModuleId, NONE, Signal};
@@ -6,7 +6,7 @@ use crate::circuit::{Cell, NetId, Netlist};
 use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
 
-/// A module in its place: where its signals begin among all, and what it is called.
+/// An instance of a module: the offset of its signals, and its name.
 struct Place {
     module: ModuleId,
     base: u32,
@@ -15,7 +15,7 @@ struct Place {
     prefix: String,
 }
 
-/// A signal that is another one.
+/// A signal that is an alias of another.
 const SELF: u32 = u32::MAX;
 
 /// The netlist of a module.
@@ -51,10 +51,10 @@ fn places(builder: &Builder<'_>, top: ModuleId) -> Vec<Place> {
     places
 }
 
-/// For each signal the one that it is, if it is another one.
+/// For each signal, the one it is an alias of, if any.
 fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<u32> {
     let mut same = Vec::new();
-    // The places inside a place follow each other, after those inside the places before it.
+    // The instances inside an instance are adjacent, after those inside earlier instances.
     let mut inside = 1;
     for (at, place) in places.iter().enumerate() {
         let module = builder.module(place.module);
@@ -73,7 +73,7 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<u32> {
     same
 }
 
-/// Makes each signal point to its last driver, or names one that drives itself.
+/// Makes each signal point to its final driver, or returns one that drives itself.
 fn resolve(same: &mut [u32]) -> Result<(), usize> {
     for start in 0..same.len() {
         let mut end = start;

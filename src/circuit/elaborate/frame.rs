@@ -1,4 +1,4 @@
-//! Frames: a block of statements in one turn of the loops around it, with the nets that belong to it.
+//! Frames: a block of statements in one iteration of the loops around it, with its nets.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::module::{ModuleNet, NONE};
@@ -20,7 +20,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// The first slot of the block's nets, the net it is in this turn, and how many there are.
+    /// The first slot of the block's nets, its net in this iteration, and the number of slots.
     pub(super) fn nets(&self) -> (u32, u32, u32) {
         (self.first_slot, self.first_net, self.nets)
     }
@@ -117,7 +117,7 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    /// The value of a size in a frame; a fault is noted.
+    /// The value of a size in a frame; reports an error.
     pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i64> {
         match super::size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables) {
             Ok(value) => Some(value),

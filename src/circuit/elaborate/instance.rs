@@ -1,4 +1,4 @@
-//! Parameters of a circuit that is used: given, told by the widths of the operands, or by default.
+//! Parameters of a call: given, inferred from the widths of the operands, or by default.
 
 use crate::circuit::elaborate::build::Builder;
 use crate::circuit::elaborate::{fault, size};
@@ -7,7 +7,7 @@ use crate::model::{Circuit, CircuitId, SizeKind};
 use crate::source::Span;
 
 impl Builder<'_> {
-    /// A value for each parameter; a fault is noted.
+    /// A value for each parameter; reports an error.
     pub(super) fn arguments(
         &mut self,
         circuit: CircuitId,

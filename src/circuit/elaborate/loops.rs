@@ -7,7 +7,7 @@ use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 impl Builder<'_> {
-    /// Warns of loops without a start value in a module and in those inside it.
+    /// Warns of loops without a start value in a module and the circuits it contains.
     pub(super) fn look_for_loops(&mut self, top: ModuleId) {
         let mut open = vec![top];
         while let Some(id) = open.pop() {
@@ -27,7 +27,7 @@ impl Builder<'_> {
         if coarse.is_empty() {
             return Vec::new();
         }
-        // A circuit inside was taken to pass every input on to every output; now look at what it does pass on.
+        // At first, a circuit inside was assumed to pass every input to every output; now check its real dependencies.
         let has_sites = coarse
             .iter()
             .flatten()
@@ -36,7 +36,7 @@ impl Builder<'_> {
         exact.iter().filter_map(|signals| warning(module, signals)).collect()
     }
 
-    /// What drives what in a module; each circuit inside is a node after the signals, unless `exact`.
+    /// The dependencies in a module; each circuit inside is a node after the signals, unless `exact`.
     fn graph(&self, module: &Module, exact: bool) -> DiGraph<(), ()> {
         let signals = module.signals.len();
         let mut graph = DiGraph::with_capacity(signals + module.sites.len(), 2 * signals);

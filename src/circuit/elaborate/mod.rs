@@ -1,8 +1,8 @@
-//! Elaboration: from a checked circuit to a netlist. Each circuit is built once for each choice of its parameters, as a [`Module`]; a
-//! netlist is a module with everything inside it laid flat. What the user wrote keeps its structure: a `not` is a cell, a loop stays
-//! as it is.
+//! Elaboration: from a checked circuit to a netlist. Each circuit is built once for each choice of its parameters, as a
+//! [`Module`]; a netlist is a flattened module. The structure of the source is kept: a `not` is a cell, and a loop
+//! stays as it is.
 //!
-//! Widths, bits and parameters are known only here, so that their faults are found here too; [`inspect`] looks for them alone.
+//! Widths, bits and parameters are computed here, so their errors are found here too; [`inspect`] only finds errors.
 
 mod build;
 mod dense;
@@ -25,13 +25,14 @@ use crate::source::Span;
 use build::Builder;
 use module::ModuleId;
 
-/// The most cells of a circuit, written in the language or read from a file: docs/compiler.md says what so many take ("Measured").
+/// The most cells of a circuit, written in the language or read from a file; docs/compiler.md has figures for this size
+/// ("Measured").
 pub const MAX_CELLS: u64 = 1_000_000;
 
-/// The most bits of nets and gates of a circuit, those of the circuits inside it included.
+/// The most bits of nets and gates of a circuit, including the circuits it contains.
 pub const MAX_NETS: u64 = 8 * MAX_CELLS;
 
-/// The most statements of a circuit, those in `for` counted once for each turn.
+/// The most statements of a circuit, counting each iteration of a `for`.
 pub const MAX_STATEMENTS: usize = 500_000;
 
 /// The most bits of a net.
@@ -64,7 +65,7 @@ pub fn elaborate_reference(program: &Program, reference: &Reference) -> Result<N
     finish(builder, module, &circuit.name)
 }
 
-/// Whether two instances are one circuit with the same numbers for its parameters, given or by default.
+/// Whether two instances are the same circuit with the same parameters, given or by default.
 pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> bool {
     let complete = |instance: &Instance| {
         let circuit = program.circuit(&instance.circuit)?;
@@ -75,7 +76,7 @@ pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> 
     one == other || (one.circuit == other.circuit && complete(one).is_some_and(|all| Some(all) == complete(other)))
 }
 
-/// The netlist of a module, if nothing was wrong with it.
+/// The netlist of a module, if it has no errors.
 fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Result<Netlist, Vec<Diagnostic>> {
     let netlist = module.and_then(|module| match flatten::flatten(&builder, module, name) {
         Ok(netlist) => Some(netlist),
@@ -90,16 +91,16 @@ fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Res
     }
 }
 
-/// Builds circuits only to find what is wrong with them.
+/// Builds circuits only to find their errors.
 pub struct Inspector<'a>(Builder<'a>);
 
 impl<'a> Inspector<'a> {
-    /// Nothing looked at yet.
+    /// No circuit checked yet.
     pub fn new(program: &'a Program) -> Self {
         Self(Builder::new(program))
     }
 
-    /// Looks at a circuit without parameters, or with their defaults.
+    /// Checks a circuit without parameters, or with their defaults.
     pub fn inspect(&mut self, circuit: CircuitId) {
         if let Some(module) = self.0.with_defaults(circuit) {
             self.0.look_for_loops(module);
@@ -113,7 +114,8 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built; it is named at `place`.
+    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built; it is named
+    /// at `place`.
     pub fn ports(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<(Vec<Column>, Vec<Column>)> {
         let known = self.0.diagnostics.len();
         let module = self.0.with_arguments(circuit, arguments, place);
@@ -129,7 +131,7 @@ impl<'a> Inspector<'a> {
     }
 }
 
-/// A circuit that the program does not declare; a caller's mistake, or a name given on the command line.
+/// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
 fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
     let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
     let fault = Diagnostic::without_place(Code::Unknown, format!("no circuit is called `{}`", instance.circuit));

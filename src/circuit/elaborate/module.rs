@@ -13,7 +13,7 @@ pub(super) type Bit = u32;
 /// No bit.
 pub(super) const NONE: Bit = Bit::MAX;
 
-/// Where a bit comes from.
+/// The source of a bit.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Signal {
     /// An input bit of the module, counted over the ports in order, the lowest bit of a port first.
@@ -62,8 +62,8 @@ pub(super) struct Module {
     pub(super) starts: Vec<(Bit, bool)>,
     /// The output bits, over the ports in order, the lowest bit of a port first.
     pub(super) output_bits: Vec<Bit>,
-    /// Gates, those of the circuits inside included.
+    /// Gates, including those of the circuits inside.
     pub(super) cells: u64,
-    /// Signals, those of the circuits inside included.
+    /// Signals, including those of the circuits inside.
     pub(super) size: u64,
 }

@@ -52,7 +52,7 @@ fn binary(operator: SizeOperator, left: i64, right: i64) -> Option<i64> {
     }
 }
 
-/// The least number of bits that tell `things` things apart; none are needed for one thing.
+/// The number of bits needed for `things` different values; zero for one value.
 fn log2(things: i64) -> i64 {
     if things <= 1 { 0 } else { i64::from(i64::BITS - (things - 1).leading_zeros()) }
 }

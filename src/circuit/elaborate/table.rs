@@ -53,7 +53,7 @@ impl ModuleBuilder<'_, '_> {
         self.join(Function::AND, literals, true, span)
     }
 
-    /// All of them by one function, in a balanced tree; `empty` where there are none.
+    /// Combines all of them by one function, in a balanced tree; `empty` if there are none.
     fn join(&mut self, function: Function, mut bits: Vec<Bit>, empty: bool, span: Span) -> Bit {
         while bits.len() > 1 {
             let pair = |pair: &[Bit]| match *pair {

@@ -1,4 +1,4 @@
-//! Widths of nets that declare none: that of what drives them.
+//! Infers the widths of undeclared nets from their drivers.
 
 use std::collections::VecDeque;
 
@@ -6,18 +6,19 @@ use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::{fault, instance};
 use crate::model::{ExpressionId, ExpressionKind, NetSlot};
 
-/// The widths of an expression's values, as far as they are known, and the first net whose width is missing.
+/// The widths of an expression's values, if known, and the first net whose width is missing.
 struct Widths {
     values: Vec<Option<u32>>,
     missing: Option<usize>,
 }
 
 impl ModuleBuilder<'_, '_> {
-    /// Gives every net a width; those that wait for others come after them.
+    /// Infers the width of every net. A net that depends on others comes after them.
     pub(super) fn infer_widths(&mut self) {
         self.give_declared_widths();
         let mut open: VecDeque<u32> = (0..self.items.len() as u32).filter(|&item| self.is_open(item)).collect();
-        // Each pass settles what the one before made known; only loops of nets without a width make a pass that settles nothing.
+        // Each pass uses the results of the previous one; a pass without a result leaves only loops of nets without a
+        // width.
         while !open.is_empty() && !self.failed {
             let before = open.len();
             open = self.settle(open);
@@ -50,7 +51,7 @@ impl ModuleBuilder<'_, '_> {
         })
     }
 
-    /// Settles what can be settled. A statement that waits for a net is taken up again as soon as that net has its width.
+    /// Infers what is possible. A statement that waits for a net is processed again when that net has its width.
     fn settle(&mut self, mut open: VecDeque<u32>) -> VecDeque<u32> {
         let mut waiting: std::collections::BTreeMap<usize, Vec<u32>> = std::collections::BTreeMap::new();
         let mut stuck = VecDeque::new();
@@ -75,7 +76,7 @@ impl ModuleBuilder<'_, '_> {
         item.targets.iter().filter_map(|target| Some(self.net(target.net?, item.frame))).collect()
     }
 
-    /// Gives the targets of a statement their widths, or says which net it waits for.
+    /// Sets the widths of a statement's targets, or returns the net it waits for.
     fn settle_item(&mut self, item: u32) -> Option<usize> {
         let Widths { values, missing } = self.widths(self.items[item as usize].value, self.items[item as usize].frame);
         let item = self.items[item as usize];

@@ -12,7 +12,7 @@ use crate::model::Function;
 /// The most variables that a file may have.
 pub const MOST_VARIABLES: usize = 4_000_000;
 
-/// The most inputs and latches, of which a binary file says no more than their number.
+/// The most inputs and latches. A binary file only states their number.
 pub const MOST_PORTS: usize = 1_000_000;
 
 /// Reads a file; `clock` names the clock of its latches.
@@ -23,7 +23,7 @@ pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
     Reader { bytes, at: 0, lines: 0, place: Place::Line(1) }.read(clock)
 }
 
-/// Where something stands: gates of a binary file have no lines.
+/// A position in the file; gates of a binary file have no lines.
 #[derive(Clone, Copy)]
 enum Place {
     Line(usize),
@@ -48,7 +48,7 @@ struct Reader<'b> {
     at: usize,
     /// The lines read so far.
     lines: usize,
-    /// Where what was read last begins.
+    /// The start of the last token.
     place: Place,
 }
 
@@ -62,7 +62,7 @@ struct Header {
     ands: usize,
 }
 
-/// A literal, and where it stands.
+/// A literal with its position.
 type Placed = (usize, Place);
 
 /// A latch: its literal, its next literal, its start value.
@@ -73,7 +73,7 @@ struct Latch {
     place: Place,
 }
 
-/// A gate: its literal and those of its pins.
+/// A gate: its literal and the literals of its pins.
 #[derive(Clone, Copy)]
 struct And {
     out: usize,
@@ -81,7 +81,7 @@ struct And {
     place: Place,
 }
 
-/// What a file holds before its symbols.
+/// The contents of a file before its symbols.
 struct Graph {
     inputs: Vec<Placed>,
     latches: Vec<Latch>,
@@ -153,7 +153,8 @@ impl<'b> Reader<'b> {
                 "{inputs} inputs, {latches} latches and {ands} gates {relation} the {variables} variables of the header"
             ));
         }
-        // Every output takes two bytes at least, every gate two: a header cannot promise more than the file holds.
+        // Every output takes at least two bytes and every gate two, so the header cannot announce more than the file
+        // contains.
         if outputs + ands > self.bytes.len() {
             return self.fault(format!("the file is too short for {outputs} outputs and {ands} gates"));
         }
@@ -361,7 +362,7 @@ fn gates_by_variable(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<Option<
     Ok(gates)
 }
 
-/// Nets by literal, inverters made where they are needed.
+/// Nets by literal; inverters are added where needed.
 struct Literals {
     nets: Vec<Option<NetId>>,
     inverted: Vec<Option<NetId>>,
@@ -386,7 +387,7 @@ impl Literals {
             function = if literal & 1 == 1 { function.with_input_inverted(pin) } else { function };
         }
         let nets = pins.map(|literal| self.net(logic, literal & !1).expect("the gates are sorted"));
-        // Literal 0 was asked for where the pin is constant 1, which inverts it as for any other.
+        // A pin with constant 1 reads the inversion of literal 0, as for any other literal.
         self.nets[out / 2] = Some(logic.add_gate(function, &nets));
     }
 }

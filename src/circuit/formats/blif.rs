@@ -10,7 +10,7 @@ use crate::circuit::{Logic, Loops, NetId, Netlist, Node};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Span};
 
-/// Reads the first model of a file, the models it instantiates put in their places.
+/// Reads the first model of a file and expands the models it instantiates.
 ///
 /// # Errors
 /// What is wrong with the text, with places.
@@ -42,7 +42,7 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
 /// How deep models may instantiate models.
 const MOST_DEPTH: usize = 200;
 
-/// The most bytes, roughly, that the models may take once they are all in their places.
+/// The most bytes, roughly, that the expanded models may take.
 const MOST_BYTES: usize = 1 << 29;
 
 /// A logical line: its words with their places.
@@ -66,7 +66,7 @@ impl Statement<'_> {
     }
 }
 
-/// A model as it stands in the text.
+/// A model as written.
 struct Model<'t> {
     name: &'t str,
     inputs: Words<'t>,
@@ -81,7 +81,7 @@ struct Models<'t> {
     errors: Vec<Diagnostic>,
 }
 
-/// Directives that say nothing of the logic.
+/// Directives without logic.
 const IGNORED: &[&str] = &[
     ".area",
     ".cname",
@@ -103,10 +103,10 @@ const IGNORED: &[&str] = &[
     ".wire_arrival",
 ];
 
-/// What a model with all that it instantiates comes to.
+/// The size of a model with everything it instantiates.
 #[derive(Clone, Copy, Debug, Default)]
 struct Extent {
-    /// How many models stand in each other.
+    /// The depth of nesting.
     depth: usize,
     statements: usize,
     /// The bytes that an instance takes, roughly.
@@ -114,9 +114,9 @@ struct Extent {
 }
 
 impl<'t> Models<'t> {
-    /// Measures a model `depth` deep, each model once, or finds the place at which it comes to too much.
+    /// Measures a model at `depth`, each model once, or returns the place at which the limit is exceeded.
     fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (String, Span)> {
-        // A model that contains itself is told of where it is instantiated.
+        // A model that contains itself is reported at the place of the instance.
         known[model] = Some(Extent::default());
         let mut extent = Extent::default();
         for (statement, span) in &self.all[model].statements {
@@ -129,7 +129,7 @@ impl<'t> Models<'t> {
                 None if depth < MOST_DEPTH => self.extent(inner, depth + 1, known)?,
                 None => Extent { depth: MOST_DEPTH, ..Extent::default() },
             };
-            // An instance's name stands before those of its nets.
+            // The name of an instance comes before those of its nets.
             let names = nested.statements.saturating_mul(words[0].0.len() + 10);
             extent.depth = extent.depth.max(nested.depth + 1);
             extent.statements = extent.statements.saturating_add(nested.statements);
@@ -220,7 +220,7 @@ impl<'t> Models<'t> {
         }
     }
 
-    /// An attribute of the last statement; the one that matters is the start value of a net on a feedback loop.
+    /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
     fn attribute(&mut self, words: &Words<'t>) {
         let statement = self.all.last_mut().and_then(|model| model.statements.last_mut());
         let (&[("init", _), (value, span)], Some((Statement::Names { start, .. }, _))) = (&words[..], statement) else {
@@ -265,7 +265,7 @@ impl<'t> Models<'t> {
     }
 }
 
-/// The logical lines: comments taken out, lines that end with a backslash joined, empty ones left out.
+/// The logical lines: without comments and empty lines, and with continuation lines joined.
 fn lines(text: &str, file: FileId) -> impl Iterator<Item = Words<'_>> {
     let mut rest = text.split_inclusive('\n').scan(0, |start, line| {
         *start += line.len();
@@ -297,7 +297,7 @@ struct Flat<'m, 't> {
 }
 
 impl<'m, 't> Flat<'m, 't> {
-    /// Puts a model in its place; `ports` says which nets its ports are.
+    /// Expands a model; `ports` gives the nets of its ports.
     fn instantiate(&mut self, model: usize, prefix: &str, ports: &BTreeMap<&'t str, String>) {
         self.path.push(model);
         let models = self.models;

@@ -1,4 +1,4 @@
-//! Designs: what the exchange formats hold, a circuit without loops and the registers that close its state over it.
+//! Designs, the contents of an exchange file: a circuit and the registers of its state.
 
 use crate::circuit::Netlist;
 
@@ -15,36 +15,36 @@ pub enum RegisterKind {
     Low,
 }
 
-/// A place where a bit of state is kept.
+/// A register for one bit of state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
     /// The net that shows its value.
     pub name: String,
     /// When it takes its next value.
     pub kind: RegisterKind,
-    /// The net that clocks it; none where the format has one clock for all and no name for it.
+    /// The net that clocks it; `None` if the format has one clock without a name.
     pub clock: Option<String>,
-    /// Its value before the first cycle, where it is known.
+    /// Its value before the first cycle, if known.
     pub start: Option<bool>,
 }
 
 /// A circuit and its registers.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// The logic: its inputs are the ports and then a register's value each, its outputs the ports and then a register's next
-    /// value each.
+    /// The logic: its inputs are the ports and then a register's value each, its outputs the ports and then a
+    /// register's next value each.
     pub logic: Netlist,
     /// The registers in order.
     pub registers: Vec<Register>,
 }
 
 impl Design {
-    /// How many input ports there are.
+    /// The number of input ports.
     pub fn inputs(&self) -> usize {
         self.logic.inputs().len() - self.registers.len()
     }
 
-    /// How many output ports there are.
+    /// The number of output ports.
     pub fn outputs(&self) -> usize {
         self.logic.outputs().len() - self.registers.len()
     }

@@ -1,4 +1,4 @@
-//! DOT, for Graphviz: inputs on the left, outputs on the right, a box for each cell.
+//! DOT for Graphviz: inputs on the left, outputs on the right, a box for each cell.
 
 use std::fmt::Write;
 

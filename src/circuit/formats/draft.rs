@@ -1,4 +1,4 @@
-//! Drafts: named nets and what defines them in any order, as the text formats have them, before they become a design.
+//! Drafts: named nets with their definitions in any order, as in the text formats, before they become a design.
 
 use std::collections::BTreeMap;
 
@@ -11,12 +11,12 @@ use crate::source::Span;
 /// A net's number in a draft.
 pub type Name = u32;
 
-/// What a net is.
+/// The definition of a net.
 #[derive(Clone, Debug)]
 pub enum Definition {
     /// A gate of any number of pins, maybe inverted in the end.
     Gate(Function, bool, Vec<Name>),
-    /// A sum of cubes, each a digit `0`, `1` or `-` a pin; the net is `value` where one of them holds.
+    /// A sum of cubes, each with a digit `0`, `1` or `-` per pin; the net is `value` if one of them matches.
     Cover { pins: Vec<Name>, cubes: Vec<Vec<u8>>, value: bool },
 }
 
@@ -27,7 +27,7 @@ impl Definition {
         }
     }
 
-    /// The pins of the gates that it comes to.
+    /// The number of pins of its gates.
     fn size(&self) -> usize {
         match self {
             Self::Gate(_, _, pins) => pins.len(),
@@ -39,17 +39,17 @@ impl Definition {
 /// A register of a draft.
 #[derive(Clone, Debug)]
 pub struct DraftRegister {
-    /// What it is in the design.
+    /// Its result in the design.
     pub register: Register,
     /// The net that shows its value.
     pub output: Name,
     /// The net of its next value.
     pub next: Name,
-    /// Where it stands.
+    /// The place.
     pub span: Span,
 }
 
-/// Nets by name, with what defines them.
+/// Nets by name, with their definitions.
 #[derive(Clone, Debug, Default)]
 pub struct Draft {
     /// The circuit's name.
@@ -65,19 +65,19 @@ pub struct Draft {
     definitions: Vec<Option<(Definition, Span)>>,
     /// The nets with a start value: feedback may pass through them.
     starts: BTreeMap<Name, bool>,
-    /// What is wrong with it.
+    /// The errors.
     pub errors: Vec<Diagnostic>,
     /// The nets and the pins of definitions so far.
     size: usize,
 }
 
-/// The most nets and pins of gates, taken together.
+/// The most nets and pins of gates together.
 pub const MOST_PINS: usize = 16_000_000;
 
 /// The longest name of a net, in bytes.
 pub const MOST_NAME_BYTES: usize = 1_000;
 
-/// After so many errors no more are reported.
+/// The most errors that are reported.
 const MOST_ERRORS: usize = 20;
 
 impl Draft {
@@ -103,7 +103,7 @@ impl Draft {
         &self.names[name as usize]
     }
 
-    /// Reports a fault.
+    /// Reports an error.
     pub fn fault(&mut self, message: impl Into<String>, span: Span, label: impl Into<String>) {
         if self.errors.len() < MOST_ERRORS {
             self.errors.push(Diagnostic::new(Code::CircuitFile, message, span, label));
@@ -131,12 +131,12 @@ impl Draft {
         }
     }
 
-    /// Gives a net its value before the first cycle; a feedback loop needs one.
+    /// Sets a net's value before the first cycle, which a feedback loop needs.
     pub fn start(&mut self, name: Name, value: bool) {
         self.starts.insert(name, value);
     }
 
-    /// The net behind wires: `name` itself, or what it is a copy of.
+    /// The net behind wires: `name` itself, or the net that it copies.
     fn source(&self, name: Name) -> Name {
         let mut at = name;
         for _ in 0..self.names.len() {
@@ -150,7 +150,7 @@ impl Draft {
         at
     }
 
-    /// Registers are clocked by inputs and by registers: logic between them would be lost where registers stay registers.
+    /// Registers must be clocked by inputs or registers: logic between them would be lost when registers are kept.
     fn resolve_clocks(&mut self) {
         for at in 0..self.registers.len() {
             let DraftRegister { register, span, .. } = self.registers[at].clone();
@@ -293,7 +293,7 @@ fn add(logic: &mut Netlist, definition: &Definition, nets: &[Option<NetId>]) -> 
     }
 }
 
-/// A balanced tree of gates of an associative function, the last one inverted if asked for.
+/// A balanced tree of gates of an associative function, with the last gate inverted if requested.
 fn gate(logic: &mut Netlist, function: Function, inverted: bool, mut nets: Vec<NetId>) -> NetId {
     let last = |inverted: bool| if inverted { function.inverted() } else { function };
     while nets.len() > 2 {

@@ -1,4 +1,4 @@
-//! The formats that a design can be written in, and what each of them cannot hold.
+//! The formats for a design, and the limits of each.
 
 use std::collections::BTreeSet;
 
@@ -24,7 +24,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's ending asks for, in lower case and without the dot.
+    /// The format for a file's extension, in lower case and without the dot.
     pub fn of_ending(ending: &str) -> Option<Self> {
         Some(match ending {
             "blif" => Self::Blif,
@@ -90,7 +90,7 @@ fn fits_aiger(design: &Design) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// A circuit of the language is made of cells alone and shows something.
+/// A circuit of the language consists of cells only and has an output.
 fn fits_nb(design: &Design) -> Result<(), Diagnostic> {
     if !design.registers.is_empty() {
         let message = "a .nb file is written with its registers made of cells";

@@ -1,4 +1,4 @@
-//! Names for nets in files: each its own, with nothing in it that the format cannot read.
+//! Names of nets in files: unique, and valid in the format.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,11 +11,11 @@ pub struct Names {
     nets: BTreeMap<NetId, String>,
     /// The nets that clock registers, by the names that the registers have for them.
     clocked: BTreeMap<String, NetId>,
-    /// The clocks that are no nets of the design, likewise.
+    /// The same for clocks that are not nets of the design.
     clocks: BTreeMap<String, String>,
 }
 
-/// Where a register's clock comes from.
+/// The source of a register's clock.
 pub enum ClockName<'n> {
     /// From an input or a register's value.
     Net(NetId),
@@ -24,11 +24,11 @@ pub enum ClockName<'n> {
 }
 
 impl Names {
-    /// A name for every input, output, cell and clock; `legal` turns a wish into what the format can read, and `kept` are words
-    /// that the file uses otherwise.
+    /// A name for every input, output, cell and clock. `legal` turns a name into a valid one of the format, and `kept`
+    /// are reserved words.
     ///
-    /// Ports choose first, then clocks that are no ports, then the values and next values of registers, which are the last inputs and
-    /// outputs, then cells.
+    /// Names are assigned first to ports, then to clocks that are not ports, then to the values and next values of
+    /// registers (the last inputs and outputs), then to cells.
     pub fn new(netlist: &Netlist, registers: &[Register], kept: &[&str], legal: impl Fn(&str) -> String) -> Self {
         let mut taken: BTreeSet<String> = kept.iter().map(|&word| word.to_owned()).collect();
         let mut nets = BTreeMap::new();
@@ -55,7 +55,7 @@ impl Names {
         &self.nets[&id]
     }
 
-    /// The clocks that are no nets of the design, in order.
+    /// The clocks that are not nets of the design, in order.
     pub fn own_clocks(&self) -> impl Iterator<Item = &str> {
         self.clocks.values().map(String::as_str)
     }
@@ -68,7 +68,7 @@ impl Names {
     }
 }
 
-/// A wish, or the first number behind it that nothing has taken.
+/// The name itself, or with the first free number appended.
 fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
     let numbered = (1..).map(|i| format!("{wish}_{i}"));
     let name = std::iter::once(wish.clone()).chain(numbered).find(|name| !taken.contains(name));
@@ -77,14 +77,14 @@ fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
     name
 }
 
-/// A name in visible ASCII characters, those that a format cannot read replaced.
+/// A name in visible ASCII characters, with invalid ones replaced.
 pub fn visible(name: &str, unreadable: &[char]) -> String {
     let readable = |c: char| c.is_ascii_graphic() && !unreadable.contains(&c);
     let visible: String = name.chars().map(|c| if readable(c) { c } else { '_' }).collect();
     if visible.is_empty() { "_".to_owned() } else { visible }
 }
 
-/// For each cell or register's value that drives outputs, the output that can stand for it: the first.
+/// For each cell or register value that drives outputs, the output that names it: the first.
 pub fn stand_ins(netlist: &Netlist, registers: usize) -> BTreeMap<NetId, NetId> {
     let mut stand_ins = BTreeMap::new();
     let states = &netlist.inputs()[netlist.inputs().len() - registers..];
@@ -97,7 +97,7 @@ pub fn stand_ins(netlist: &Netlist, registers: usize) -> BTreeMap<NetId, NetId> 
     stand_ins
 }
 
-/// The cells, drivers first where there is no loop.
+/// The cells; drivers first, except on loops.
 pub fn cells_in_order(netlist: &Netlist) -> Vec<NetId> {
     let loops = crate::circuit::Loops::of(netlist);
     loops.order().iter().copied().filter(|&id| matches!(netlist.node(id), Node::Cell(_))).collect()

@@ -9,7 +9,7 @@ use crate::circuit::{NetId, Netlist, Node};
 /// Writes a design.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
-    // Escaped last: a number behind an escaped name would stand outside of it.
+    // Escaped last, because a number appended to an escaped name would be outside of it.
     let names = Names::new(netlist, &design.registers, &[], |name| visible(name, &[]));
     let name = |id: NetId| escaped(names.net(id));
     let (inputs, states) = netlist.inputs().split_at(design.inputs());
@@ -82,7 +82,7 @@ fn expression(netlist: &Netlist, id: NetId, net: &impl Fn(NetId) -> String) -> S
     }
 }
 
-/// The words that Verilog and SystemVerilog keep for themselves.
+/// The reserved words of Verilog and SystemVerilog.
 const RESERVED: &[&str] = &[
     "accept_on",
     "alias",
@@ -334,7 +334,7 @@ const RESERVED: &[&str] = &[
     "xor",
 ];
 
-/// A name as Verilog reads it, with a backslash and a space where it is no plain word.
+/// A name in Verilog; escaped with a backslash and a space if it is not a plain word.
 fn escaped(name: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let word = name.chars().all(plain) && !name.starts_with(|c: char| c.is_ascii_digit()) && !name.is_empty();

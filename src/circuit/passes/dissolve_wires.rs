@@ -1,11 +1,11 @@
-//! Replaces wires by what drives them.
+//! Replaces wires by their drivers.
 
 use std::collections::BTreeMap;
 
 use crate::circuit::passes::Pass;
 use crate::circuit::{NetId, Netlist, NetlistError, Node};
 
-/// Wires give their listeners to their drivers; their names and start values move onto the driving cells.
+/// Connects the receivers of wires to their drivers; names and start values of wires move to the driving cells.
 #[derive(Clone, Copy, Debug)]
 pub struct DissolveWires;
 
@@ -62,7 +62,7 @@ fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
     Ok(())
 }
 
-/// What drives a wire in the end.
+/// The final driver of a wire.
 fn driver(netlist: &Netlist, wire: NetId) -> Result<NetId, NetlistError> {
     let mut id = wire;
     for _ in 0..netlist.graph().node_count() {

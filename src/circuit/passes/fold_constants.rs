@@ -1,16 +1,16 @@
-//! Works out what constants, repeated pins and double inversion make of a cell.
+//! Simplifies cells with constant pins, repeated pins or double inversion.
 
 use crate::circuit::guarded::{Guarded, Role};
 use crate::circuit::passes::Pass;
 use crate::circuit::{Cell, NetId, Netlist, NetlistError, Node};
 use crate::model::Function;
 
-/// Cells that constants or repeated pins decide become constants, inverters or nothing. Memory and its guards stay as written, whatever is
-/// constant around them; of what makes an enable, only constants are taken out.
+/// A cell whose constant or repeated pins decide its output becomes a constant, an inverter or a wire. Memory and its
+/// guards stay as written even with constant pins; from the cells of an enable, only constants are removed.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldConstants;
 
-/// What a cell comes to.
+/// The result for a cell.
 enum Folded {
     Constant(bool),
     Net(NetId),
@@ -33,7 +33,7 @@ impl Pass for FoldConstants {
             let Some(cell) = netlist.cell(id).filter(|_| matches!(role, None | Some(Role::Control))) else {
                 continue;
             };
-            // An inverter of a control net is later than the net, which may be what its listeners rely on.
+            // The inverter of a control net is later than the net, and its receivers may rely on this.
             let free = |net: NetId| role.is_none() && guarded.role(net).is_none();
             match fold(netlist, cell.function, &netlist.pins(id), free) {
                 Folded::Cell(function, pins) => {
@@ -51,7 +51,7 @@ impl Pass for FoldConstants {
     }
 }
 
-/// What a cell comes to; an inverter may be looked through where its net is `free`.
+/// The result for a cell; an inverter may be bypassed if its net is `free`.
 fn fold(netlist: &Netlist, function: Function, pins: &[NetId], free: impl Fn(NetId) -> bool) -> Folded {
     let a = pins[0];
     let b = pins.get(1).copied().unwrap_or(a);
@@ -78,13 +78,13 @@ fn fold(netlist: &Netlist, function: Function, pins: &[NetId], free: impl Fn(Net
     Folded::Cell(function, vec![a, b])
 }
 
-/// Whether nets `a` and `b` can have the values `x` and `y`, as far as constants and equality tell.
+/// Whether nets `a` and `b` can have the values `x` and `y`, judged by constants and equality.
 fn possible(netlist: &Netlist, a: NetId, b: NetId, x: bool, y: bool) -> bool {
     let allowed = |id, value| !matches!(netlist.node(id), Node::Constant(constant) if *constant != value);
     allowed(a, x) && allowed(b, y) && (a != b || x == y)
 }
 
-/// The opposite of a net: of an inverter that is free, what it inverts.
+/// The opposite of a net: for a free inverter, its input.
 fn inverted(netlist: &Netlist, net: NetId, free: bool) -> Folded {
     match netlist.cell(net) {
         Some(Cell { function: Function::NOT, .. }) if free => Folded::Net(netlist.pins(net)[0]),
@@ -92,7 +92,7 @@ fn inverted(netlist: &Netlist, net: NetId, free: bool) -> Folded {
     }
 }
 
-/// Makes a cell another function of other pins; gives the cell that takes its place.
+/// Replaces a cell by another function of other pins; returns the replacement.
 fn rewrite(netlist: &mut Netlist, id: NetId, function: Function, pins: &[NetId]) -> NetId {
     let cell = netlist.cell(id).cloned().expect("only cells are folded");
     if cell.function == function && netlist.pins(id) == pins {

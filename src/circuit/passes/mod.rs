@@ -1,4 +1,4 @@
-//! Passes: small changes of a netlist that keep what it computes, each in a file of its own.
+//! Passes: small transformations that preserve the function of a netlist, each in its own file.
 
 mod dissolve_wires;
 mod fold_constants;
@@ -12,12 +12,12 @@ pub use sweep::Sweep;
 
 use crate::circuit::{Netlist, NetlistError};
 
-/// A change of a netlist that keeps what it computes.
+/// A transformation that preserves the function of a netlist.
 pub trait Pass: Sync {
     /// The name, in kebab case.
     fn name(&self) -> &'static str;
 
-    /// What it does, in one line.
+    /// A description of one line.
     fn description(&self) -> &'static str;
 
     /// Changes the netlist.
@@ -29,12 +29,12 @@ pub trait Pass: Sync {
 
 /// The passes before technology mapping, in order.
 pub const ORDER: &[&dyn Pass] = &[
-    // First, so that no other pass meets a wire.
+    // First, so that no other pass has to handle wires.
     &DissolveWires,
     // Before sharing: constants make different cells equal.
     &FoldConstants,
     &Share,
-    // Last: what the others left without listeners goes.
+    // Last, because other passes leave cells without receivers.
     &Sweep,
 ];
 

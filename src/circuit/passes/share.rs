@@ -36,7 +36,7 @@ impl Pass for Share {
     }
 }
 
-/// What a node computes of which nets, the pins of a cell in order of their numbers.
+/// The function of a node and the nets it reads, with the pins of a cell in order of their numbers.
 fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
     match netlist.node(id) {
         Node::Constant(value) => Some((if *value { Function::ONE } else { Function::ZERO }, Vec::new())),
@@ -51,7 +51,7 @@ fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
     }
 }
 
-/// Gives the listeners of `id` to `first`, which takes over the name if it has none.
+/// Moves the receivers of `id` to `first`, which takes over the name if it has none.
 fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
     for (listener, pin) in netlist.fanout(id) {
         netlist.drive(listener, pin, first);

@@ -1,11 +1,11 @@
-//! Takes out what no output listens to.
+//! Removes nodes that no output depends on.
 
 use std::collections::BTreeSet;
 
 use crate::circuit::passes::Pass;
 use crate::circuit::{Netlist, NetlistError, Node};
 
-/// Cells, loops and constants that no output port depends on go.
+/// Removes cells, loops and constants that no output port depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep;
 

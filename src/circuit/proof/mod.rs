@@ -1,7 +1,8 @@
-//! Proof that a mapped netlist computes what its source says: exhaustively up to sixteen inputs, else gate by gate, else by SAT.
+//! Proof that a mapped netlist is equivalent to its source: exhaustively up to sixteen inputs, else gate by gate, else
+//! by SAT.
 //!
-//! Loops are cut open at the cells of their cores, which keep their names in mapping; so a state's next-state function is compared
-//! cell by cell.
+//! Loops are cut open at the cells of their cores, which keep their names in mapping; so a state's next-state function
+//! is compared cell by cell.
 
 mod exhaustive;
 mod sat;
@@ -21,14 +22,14 @@ pub const EXHAUSTIVE_INPUTS: usize = 16;
 pub enum Method {
     /// Every pattern of the inputs and cuts was simulated.
     Exhaustive {
-        /// How many patterns.
+        /// The number of patterns.
         patterns: u64,
     },
-    /// Gate by gate the two are the same, whatever cells each gate is made of.
+    /// The two netlists are equal gate by gate, whatever cells each gate is made of.
     Structural,
-    /// A SAT solver found no pattern that tells them apart.
+    /// A SAT solver found no pattern in which they differ.
     Sat {
-        /// How many calls to the solver it took.
+        /// The number of calls of the solver.
         calls: usize,
     },
 }
@@ -121,7 +122,7 @@ fn same_ports(source: &Netlist, mapped: &Netlist) -> Result<(), ProofError> {
     Ok(())
 }
 
-/// A name of its own for each cell of a loop core: that of its net, with a number added where two share one.
+/// A unique name for each cell of a loop core: that of its net, with a number if two cells share one.
 pub fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
     let mut taken = BTreeSet::new();
     let cells = netlist.ids().filter(|&id| loops.contains(id) && matches!(netlist.node(id), Node::Cell(_)));

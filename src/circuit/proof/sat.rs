@@ -1,5 +1,5 @@
-//! Comparison of two networks by SAT: gates that agree in simulation are proved equal from the inputs on and merged, so that the
-//! outputs are easy in the end (SAT sweeping).
+//! Comparison of two networks by SAT: gates that agree in simulation are proved equal from the inputs on and merged, so
+//! that the outputs are easy in the end (SAT sweeping).
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)>
     Ok(Method::Sat { calls: sweep.calls })
 }
 
-/// Signals of several networks over the same inputs, merged where they are proved equal or opposite.
+/// Signals of several networks over the same inputs, merged if they are proved equal or opposite.
 pub struct Sweep {
     solver: BasicSolver,
     /// The input words so far, `patterns[word][input]`.
@@ -38,13 +38,14 @@ pub struct Sweep {
     gates: Vec<Gate>,
     /// The values of each signal, `values[signal][word]`.
     values: Vec<Vec<u64>>,
-    /// What each signal's values come to, turned over where they are 1 in the first pattern.
+    /// The signature of each signal's values, inverted if they are 1 in the first pattern.
     hashes: Vec<u64>,
-    /// Signals by their hashes. Different values with one hash are told apart by the solver, and then by the pattern that it finds.
+    /// Signals by their hashes. If different values have the same hash, the solver finds a pattern that distinguishes
+    /// them.
     classes: BTreeMap<u64, Signal>,
-    /// What each gate became, by its function and pins.
+    /// The signal of each gate, by its function and pins.
     known: BTreeMap<(u8, [Signal; 2]), (Signal, bool)>,
-    /// How often the solver was called.
+    /// The number of calls of the solver.
     pub calls: usize,
 }
 
@@ -88,7 +89,7 @@ impl Sweep {
         self.solver.add_clause(literals.iter().copied().collect()).expect("clauses fit into memory");
     }
 
-    /// Adds a network's gates and gives the signal that each of its signals became.
+    /// Adds a network's gates and returns the merged signal for each of its signals.
     pub fn add(&mut self, network: &Network) -> Vec<(Signal, bool)> {
         let mut made: Vec<(Signal, bool)> = (0..2 + network.inputs as Signal).map(|signal| (signal, false)).collect();
         for gate in &network.gates {
@@ -126,7 +127,7 @@ impl Sweep {
                 None => {
                     self.clause(&[self.literal(class, opposite), self.literal(signal, true)]);
                     self.clause(&[self.literal(class, !opposite), self.literal(signal, false)]);
-                    // The class stands for the gate from here on.
+                    // From here on the class represents the gate.
                     return (class, opposite);
                 }
                 Some(pattern) => self.learn(&pattern),
@@ -191,7 +192,7 @@ impl Sweep {
         self.classify();
     }
 
-    /// Sorts the signals that stand for themselves by their values again.
+    /// Sorts the signals that represent their classes by their values again.
     fn classify(&mut self) {
         let members: Vec<Signal> = if self.classes.is_empty() {
             (0..self.values.len() as Signal).filter(|&signal| signal != 1).collect()
@@ -206,13 +207,13 @@ impl Sweep {
     }
 }
 
-/// What values come to, those turned over that are 1 in the first pattern.
+/// The signature of values, inverted if they are 1 in the first pattern.
 fn hash(values: &[u64]) -> u64 {
     let turn = if values[0] & 1 == 1 { !0 } else { 0 };
     values.iter().fold(0, |hash, word| extended(hash, word ^ turn))
 }
 
-/// A hash with one more word: of two words each gives another one.
+/// A hash with one more word; two different words give two different hashes.
 fn extended(hash: u64, word: u64) -> u64 {
     (hash.rotate_left(23) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
@@ -221,7 +222,7 @@ fn extended(hash: u64, word: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// A chain of exclusive ors over the inputs, taken from one end or the other.
+    /// A chain of exclusive ors over the inputs, from one end or the other.
     fn parity(inputs: usize, backwards: bool) -> Network {
         let mut network = Network::new(inputs);
         let order: Vec<_> = if backwards { (0..inputs).rev().collect() } else { (0..inputs).collect() };

@@ -1,11 +1,12 @@
-//! Comparison of two networks gate by gate: every gate becomes a function of two earlier signals in one normal form, so that whatever
-//! cells a gate was made of come out as the gate itself. This is all that a network needs that was only covered, however large it is.
+//! Comparison of two networks gate by gate: every gate becomes a function of two earlier signals in one normal form, so
+//! that the cells that replaced a gate become that gate again. This suffices for a network of any size that was only
+//! covered.
 
 use std::collections::BTreeMap;
 
 use crate::circuit::cells::compose;
 use crate::circuit::network::{Gate, Network};
-/// Whether the outputs of two networks come out as the same functions of the same signals; if not, they may still be equal.
+/// Whether the outputs of two networks are the same functions of the same signals. If not, they may still be equal.
 pub fn equal(one: &Network, two: &Network) -> bool {
     let mut forms = Forms::new(one.inputs);
     let [first, second] = [one, two].map(|network| forms.outputs(network));
@@ -18,10 +19,11 @@ type Literal = (u32, bool);
 /// The functions that the two signals of a pair are of the pair, in the order of a function's bits.
 const PAIR: [u8; 2] = [0b1100, 0b1010];
 
-/// Signals in normal form: 0 is the constant 0, then the inputs, then functions of two earlier signals, each there once.
+/// Signals in normal form: 0 is the constant 0, then the inputs, then functions of two earlier signals, without
+/// duplicates.
 struct Forms {
     inputs: usize,
-    /// The functions of two signals: the pair, the lower first, and a function that is 0 where both are.
+    /// The functions of two signals: the pair, the lower first, and a function that is 0 if both are 0.
     forms: Vec<([u32; 2], u8)>,
     known: BTreeMap<([u32; 2], u8), u32>,
 }
@@ -42,7 +44,8 @@ impl Forms {
         network.outputs.iter().map(|&output| made[output as usize]).collect()
     }
 
-    /// A gate as a function of the pair that one of its pins is a function of already, if the other is too, else of its pins.
+    /// A gate as a function of the pair of one of its pins, if the other pin is a function of the same pair, else of
+    /// its pins.
     fn gate(&mut self, gate: &Gate, [a, b]: [Literal; 2]) -> Literal {
         let pairs = [self.form(b.0), self.form(a.0)].into_iter().flatten().map(|(pair, _)| pair);
         let own = [a.0.min(b.0), a.0.max(b.0)];
@@ -58,7 +61,7 @@ impl Forms {
         }
     }
 
-    /// What a signal is a function of, unless it is an input or a constant.
+    /// The function of a signal, unless it is an input or a constant.
     fn form(&self, signal: u32) -> Option<([u32; 2], u8)> {
         (signal as usize).checked_sub(1 + self.inputs).map(|at| self.forms[at])
     }

@@ -1,8 +1,9 @@
-//! Exact synthesis of functions of up to three inputs: sequences of cells are tried in order of their number, until one makes every
-//! output. What is not found is proved not to exist.
+//! Exact synthesis of functions of up to three inputs: sequences of cells are tried in order of their length, until one
+//! makes every output. If none is found, none exists.
 //!
-//! A sequence is tried in one order only, what nothing has used yet must be few enough to be used up, and inputs that the outputs
-//! cannot tell apart are told apart by the first cell (Knuth, The Art of Computer Programming 7.1.2, for the principle).
+//! Each set of cells is tried in one order only, the number of unused values must be small enough to use them all, and
+//! interchangeable inputs are distinguished by the first cell (Knuth, The Art of Computer Programming 7.1.2, for the
+//! principle).
 
 use crate::circuit::network::{Network, Signal, counting_word};
 use crate::circuit::synth::prices::Prices;
@@ -14,19 +15,19 @@ pub const MOST_INPUTS: usize = 3;
 /// The most cells of a sequence.
 const MOST_CELLS: usize = 24;
 
-/// What a search came to.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// A network of the fewest cells.
     Made(Network),
-    /// There is none of so few cells.
+    /// No sequence has so few cells.
     Impossible,
     /// The search was too long.
     Unknown,
 }
 
-/// A network of fewer than `below` cells for the outputs of another one, the fewest there can be; visits `nodes` partial sequences at
-/// most. Every cell must cost the same.
+/// A network of fewer than `below` cells with the outputs of another network, with the minimal number of cells; visits
+/// at most `nodes` partial sequences. All cells must have the same cost.
 pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64) -> Answer {
     let outputs = truths(network);
     let given = &START[..2 + network.inputs];
@@ -55,21 +56,21 @@ fn truths(network: &Network) -> Vec<u8> {
     network.outputs.iter().map(|&output| values[output as usize] as u8).collect()
 }
 
-/// What is at hand before the first cell: both constants and the inputs, in the order of a network's signals.
+/// The values before the first cell: both constants and the inputs, in the order of a network's signals.
 const START: [u8; 2 + MOST_INPUTS] = [0x00, 0xff, 0xaa, 0xcc, 0xf0];
 
-/// What one cell can make of two earlier values, or of one.
+/// A value that one cell makes of one or two earlier values.
 #[derive(Clone, Copy, Debug)]
 struct Operation {
-    /// What it computes of the two values in the order of the search.
+    /// Its function of the two values in the order of the search.
     effect: Function,
     /// The cell.
     cell: Function,
-    /// What the cell's pins hear.
+    /// The values that the cell's pins read.
     pins: [Pin; 2],
 }
 
-/// What a cell's pin hears.
+/// The value that a cell's pin reads.
 #[derive(Clone, Copy, Debug)]
 enum Pin {
     First,
@@ -116,7 +117,7 @@ fn apply(function: Function, a: u8, b: u8) -> u8 {
     crate::circuit::network::word(function, a.into(), b.into()) as u8
 }
 
-/// A cell of the sequence: its operation and the places of what it hears.
+/// A cell of the sequence: its operation and the positions of its operands.
 type Step = (Operation, [usize; 2]);
 
 /// The state of a search: a sequence of cells, each making a value that is new.
@@ -128,11 +129,11 @@ struct Search<'a> {
     values: Vec<u8>,
     steps: Vec<Step>,
     made: Set,
-    /// The places of cells that nothing hears and that are no target.
+    /// The positions of cells that no cell reads and that are not targets.
     unused: u32,
-    /// For a single target: the values that make it together with each value, as far as that was asked.
+    /// For a single target: the values that make it together with each value, as far as computed.
     closing: Vec<Option<Set>>,
-    /// The values that are the least of their images under the exchanges of inputs that leave every target as it is.
+    /// The values that are minimal among their images under the permutations of inputs that keep every target.
     least: Set,
     /// Partial sequences that may still be visited.
     nodes: u64,
@@ -157,7 +158,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Adds `left` cells in some way that makes every target; whether there is one.
+    /// Adds `left` cells that make every target; returns whether this is possible.
     fn extend(&mut self, left: u32) -> bool {
         let missing = self.targets.iter().filter(|&&target| !holds(&self.made, target)).count() as u32;
         if missing == 0 {
@@ -167,7 +168,7 @@ impl<'a> Search<'a> {
             return false;
         }
         self.nodes -= 1;
-        // Each cell uses up two at most, and all but the missing targets must be used themselves.
+        // Each cell uses up at most two values, and all values except the missing targets must be used.
         let may_stay = left + missing - 2;
         for i in 2..self.values.len() {
             let used = self.unused & !(1 << i);
@@ -187,7 +188,7 @@ impl<'a> Search<'a> {
         false
     }
 
-    /// Adds a cell, if its value is new and in order, and then the rest; takes it back if there is no rest.
+    /// Adds a cell, if its value is new and in order, and then the rest; undoes it if there is no rest.
     fn append(&mut self, operation: Operation, pins: [usize; 2], left: u32, missing: u32) -> bool {
         let [a, b] = pins.map(|pin| self.values[pin]);
         let value = apply(operation.effect, a, b);
@@ -239,7 +240,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a cell that hears `i` and one of `others` makes a value of a set.
+    /// Whether a cell that reads `i` and one of `others` makes a value of a set.
     fn one_makes(&self, i: usize, mut others: std::ops::Range<usize>, set: &Set) -> bool {
         let a = self.values[i];
         others.any(|j| match i == j {
@@ -248,14 +249,14 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Works out what is not known yet of how the values at hand make the only target.
+    /// Computes the missing entries for the values that make the only target.
     fn prepare_closing(&mut self) {
         for &value in &self.values[2..] {
             self.closing[usize::from(value)].get_or_insert_with(|| closing(&self.pairs, self.targets[0], value));
         }
     }
 
-    /// The values that make the only target together with the value at a place.
+    /// The values that make the only target together with the value at a position.
     fn closing_with(&self, place: usize) -> &Set {
         self.closing[usize::from(self.values[place])].as_ref().expect("values are prepared before they are asked for")
     }
@@ -291,7 +292,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The values that one cell makes a target of, together with `value`.
+/// The values from which one cell makes a target, together with `value`.
 fn closing(pairs: &[Operation], target: u8, value: u8) -> Set {
     let mut set = Set::default();
     for other in 0..=255u8 {
@@ -311,7 +312,7 @@ fn exchanged(order: &[usize; 3], value: u8) -> u8 {
     (0..8).fold(0, |image, row| image | (value >> place(row) & 1) << row)
 }
 
-/// The values that are the least of their images under the exchanges of inputs that leave every target as it is.
+/// The values that are minimal among their images under the permutations of inputs that keep every target.
 fn least_images(targets: &[u8]) -> Set {
     let keeps = |order: &&[usize; 3]| targets.iter().all(|&target| exchanged(order, target) == target);
     let kept: Vec<_> = EXCHANGES.iter().filter(keeps).collect();
@@ -368,7 +369,8 @@ mod tests {
         assert_eq!(fewest("nor", &[0x00, 0xaa, 0x55]), 1);
     }
 
-    /// The cells that all functions of three inputs take together; functions that differ by an exchange of inputs take the same.
+    /// The total number of cells for all functions of three inputs; functions that differ by an exchange of inputs need
+    /// the same number.
     fn total(cells: &str) -> usize {
         let images = |truth| EXCHANGES.iter().map(|order| exchanged(order, truth)).collect::<BTreeSet<u8>>();
         let classes = (1..=254).map(images).collect::<BTreeSet<_>>();

@@ -1,4 +1,4 @@
-//! The graph that the search changes: gates of a library with their values in every pattern, their listeners, and who needs them.
+//! The graph that the search changes: gates of a library with their values in every pattern and their fan-out.
 
 use crate::circuit::network::{Network, Signal, counting_word, word};
 use crate::circuit::recipes::Operand;
@@ -8,17 +8,17 @@ use crate::model::Function;
 /// A gate, or a constant or an input.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// What it computes; of no meaning for sources.
+    /// Its function; meaningless for sources.
     pub function: Function,
-    /// What its pins listen to, the same twice for functions of one input.
+    /// The signals of its pins; the same twice for functions of one input.
     pub pins: [Signal; 2],
-    /// How many pins and outputs listen.
+    /// The number of pins and outputs that read it.
     pub refs: u32,
     /// Whether it is a gate in use, as opposed to a source or a free place.
     pub alive: bool,
     /// The latest loop that it may depend on, counted in topological order.
     pub stage: u32,
-    /// Cycles after which it is right, each cell on the way taking its clock.
+    /// Cycles after which it is correct, if each cell takes its clock.
     pub arrival: u32,
 }
 
@@ -36,9 +36,9 @@ pub struct Graph<'p> {
     position: Vec<u32>,
     free: Vec<Signal>,
     cost: u32,
-    /// The gate that is about to go, which no new gate may listen to.
+    /// The gate that is about to be removed, which no new gate may read.
     leaving: Option<Signal>,
-    /// Room for walks over what goes.
+    /// Workspace for walks over the removed gates.
     pending: Vec<Signal>,
     touched: Vec<Signal>,
 }
@@ -96,7 +96,7 @@ impl<'p> Graph<'p> {
         self.width
     }
 
-    /// What the gates cost.
+    /// The total cost of the gates.
     pub fn cost(&self) -> u32 {
         self.cost
     }
@@ -121,7 +121,7 @@ impl<'p> Graph<'p> {
         &self.nodes[signal as usize]
     }
 
-    /// How many places there are, sources first.
+    /// The number of signals, sources first.
     pub fn places(&self) -> usize {
         self.nodes.len()
     }
@@ -205,12 +205,12 @@ impl<'p> Graph<'p> {
         latest + self.prices.clock(function)
     }
 
-    /// Cycles after which every output is right.
+    /// Cycles after which every output is correct.
     pub fn depth(&self) -> u32 {
         self.outputs.iter().map(|&output| self.nodes[output as usize].arrival).max().unwrap_or(0)
     }
 
-    /// A function of two signals made of library cells.
+    /// A function of two signals, made of library cells.
     pub fn compose(&mut self, function: Function, pins: [Signal; 2]) -> Option<Signal> {
         let prices = self.prices;
         let recipe = prices.recipe(function)?;
@@ -239,7 +239,7 @@ impl<'p> Graph<'p> {
         }
     }
 
-    /// Says which gate is about to go, so that it is not found for a new one to listen to.
+    /// Marks the gate that is about to be removed, so that no new gate reads it.
     pub fn set_leaving(&mut self, gate: Option<Signal>) {
         self.leaving = gate;
     }
@@ -262,7 +262,7 @@ impl<'p> Graph<'p> {
         self.nodes[signal as usize].refs -= 1;
     }
 
-    /// What would go if nothing listened to `signal` any more.
+    /// The cost released if no gate read `signal` any more.
     pub fn released(&mut self, signal: Signal) -> u32 {
         let mut released = 0;
         let (mut pending, mut touched) = (std::mem::take(&mut self.pending), std::mem::take(&mut self.touched));
@@ -283,7 +283,7 @@ impl<'p> Graph<'p> {
         released
     }
 
-    /// Takes out a gate without listeners, and what only it needed.
+    /// Removes a gate without receivers, and all gates that only it needed.
     pub fn release(&mut self, signal: Signal) {
         if !self.nodes[signal as usize].alive || self.nodes[signal as usize].refs > 0 {
             return;
@@ -297,13 +297,13 @@ impl<'p> Graph<'p> {
             }
             node.alive = false;
             let (function, pins) = (node.function, node.pins);
-            // A dead place must not be mistaken for an inverter.
+            // A removed gate must not be mistaken for an inverter.
             node.function = Function::BUF;
             self.cost -= self.prices.cell(function);
             for pin in distinct(pins) {
                 self.nodes[pin as usize].refs -= 1;
                 let listeners = &mut self.fanout[pin as usize];
-                // Most gates that go were tried a moment ago, and are last on the list.
+                // Most removed gates were added recently, and are at the end of the list.
                 let at = listeners.iter().rposition(|&listener| listener == gate).expect("a listener is on the list");
                 listeners.swap_remove(at);
                 pending.push(pin);
@@ -313,7 +313,7 @@ impl<'p> Graph<'p> {
         self.pending = pending;
     }
 
-    /// Gives the listeners of `old` to `new`, and takes out `old` and what only it needed.
+    /// Moves the receivers of `old` to `new`, and removes `old` and the gates that only it needed.
     pub fn substitute(&mut self, old: Signal, new: Signal) {
         for gate in std::mem::take(&mut self.fanout[old as usize]) {
             let before = self.nodes[gate as usize].pins;
@@ -335,7 +335,7 @@ impl<'p> Graph<'p> {
         self.release(old);
     }
 
-    /// Takes out every gate that nothing listens to.
+    /// Removes every gate without receivers.
     fn drop_unused(&mut self) {
         for signal in (0..self.nodes.len()).rev() {
             self.release(signal as Signal);
@@ -389,7 +389,7 @@ impl<'p> Graph<'p> {
         self.outputs.contains(&signal)
     }
 
-    /// Shows `outputs`, drops what they do not need, and gives the network.
+    /// Sets the outputs, removes gates they do not need, and returns the network.
     pub fn finish(mut self, outputs: impl Iterator<Item = Signal>) -> Network {
         for output in outputs {
             self.nodes[output as usize].refs += 1;
@@ -400,7 +400,7 @@ impl<'p> Graph<'p> {
         self.network()
     }
 
-    /// The network as it is now.
+    /// The current network.
     pub fn network(&self) -> Network {
         let mut network = Network::new(self.inputs);
         let mut signal: Vec<Signal> = (0..self.nodes.len() as Signal).collect();

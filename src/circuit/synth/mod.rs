@@ -1,4 +1,4 @@
-//! Logic synthesis: the search for few cells that compute what a circuit computes.
+//! Logic synthesis: the search for few cells that compute the function of a circuit.
 
 pub mod exact;
 pub mod graph;

@@ -1,4 +1,4 @@
-//! Prices: what each cell of a library costs, and the cheapest cells that make each function of two signals.
+//! Prices: the cost of each cell of a library, and the cheapest cells for each function of two signals.
 
 use crate::circuit::cells::{CellKind, CellLibrary};
 use crate::circuit::recipes::{Recipe, Recipes};
@@ -23,7 +23,8 @@ impl Prices {
         Self { cells, clocks, recipes: Recipes::of(library) }
     }
 
-    /// All functions at two units, exclusive ors at `exclusive` units, inverters free: the first aim for libraries without XOR.
+    /// All functions at two units, exclusive ors at `exclusive` units, inverters free: the first aim for libraries
+    /// without XOR.
     pub fn abstracted(exclusive: u32) -> Self {
         let price = |function: Function| match function {
             Function::XOR | Function::XNOR => exclusive,
@@ -36,7 +37,7 @@ impl Prices {
         )
     }
 
-    /// What a cell costs.
+    /// The cost of a cell.
     pub fn cell(&self, function: Function) -> u32 {
         self.cells[usize::from(function.bits())]
     }

@@ -14,7 +14,7 @@ use crate::circuit::synth::walk::{self, Pace, Plan};
 use crate::circuit::synth::window::{self, Panes};
 use crate::model::Function;
 
-/// How much work to put into the search.
+/// The amount of search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
     /// Little: for quick looks.
@@ -28,17 +28,18 @@ pub enum Effort {
 
 /// The most inputs of a network that is searched as a whole.
 const WHOLE_INPUTS: usize = 11;
-/// The most inputs of a network that is searched from several starts at high effort, and how many.
+/// The most inputs of a network that is searched from several starts at high effort, and the number of starts.
 const SMALL_INPUTS: usize = 4;
 const SMALL_STARTS: usize = 6;
 /// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 500;
 /// The most gates of a network that the walk roams as a whole.
 const MOST_ROAMED: usize = 1_000;
-/// Above so many gates, a search that no second one follows takes more of the work at normal effort: this part, where else it takes 2.
+/// Above this number of gates, a search without a second one gets this share of the work at normal effort, instead of
+/// 2.
 const MANY_GATES: usize = 100;
 const SHARE_ALONE: u64 = 8;
-/// Above so many gates, a network is only shared and mapped.
+/// Above this number of gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
 /// The network in cells of the library, as cheap as the effort finds it.
@@ -62,7 +63,7 @@ pub fn reduce(
     let alone = exclusive <= 1 && options.effort == Effort::Normal && direct.gates.len() > MANY_GATES;
     let mut best = course.search(&direct, if alone { SHARE_ALONE } else { 2 }, &mut random);
     if exclusive > 1 && (options.effort == Effort::High || is_narrow(&direct)) {
-        // Where an exclusive or is dear, first aim at few gates of any kind, then at cells.
+        // If an exclusive or is expensive, first minimize the number of gates of any kind, then the number of cells.
         let ideal = Prices::abstracted(2 * exclusive - 1);
         let few = Course { prices: &ideal, ..course }.search(&cover(network, &ideal, stages)?, 1, &mut random);
         let mapped = course.search(&cover(&few, &target, stages)?, 2, &mut random);
@@ -75,17 +76,17 @@ pub fn reduce(
     Ok(best)
 }
 
-/// The cheaper of two networks, the first where they cost the same.
+/// The cheaper of two networks; of equal cost, the first.
 fn cheaper(one: Network, two: Network, prices: &Prices) -> Network {
     if cost(&two, prices) < cost(&one, prices) { two } else { one }
 }
 
-/// What a network's cells cost.
+/// The cost of a network's cells.
 pub fn cost(network: &Network, prices: &Prices) -> u32 {
     network.gates.iter().map(|gate| prices.cell(gate.function)).sum()
 }
 
-/// Each gate made of the cheapest cells for its function, equal cells shared.
+/// Replaces each gate by the cheapest cells for its function, and shares equal cells.
 ///
 /// # Errors
 /// A function that cannot be made.
@@ -95,7 +96,7 @@ pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Netwo
     let mut made: Vec<Signal> = (0..2 + network.inputs as Signal).collect();
     for gate in &swept.gates {
         let signal = graph.compose(gate.function, gate.pins.map(|pin| made[pin as usize])).ok_or(gate.function)?;
-        // Held, because nothing listens to it yet.
+        // Held, because no gate reads it yet.
         graph.hold(signal);
         made.push(signal);
     }
@@ -108,17 +109,17 @@ fn is_narrow(network: &Network) -> bool {
     network.inputs <= WHOLE_INPUTS && network.gates.len() <= WHOLE_GATES
 }
 
-/// What every search of a synthesis goes by.
+/// The parameters of all searches of a synthesis.
 #[derive(Clone, Copy)]
 struct Course<'a> {
     prices: &'a Prices,
-    /// How many kept cells lie before each input.
+    /// The number of kept cells before each input.
     stages: &'a [u32],
     effort: Effort,
 }
 
 impl Course<'_> {
-    /// The search that fits a network's width and the effort, `share` being the part of the work that it may take.
+    /// The search for a network's width and the effort; `share` is its part of the work.
     fn search(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         if !is_narrow(network) {
             return self.search_wide(network, share, random);
@@ -135,7 +136,7 @@ impl Course<'_> {
             let first = walk::improve_all(network, self.prices, self.stages, calm, random);
             walk::improve_all(&first, self.prices, self.stages, bold, random)
         };
-        // Where few inputs make a walk cheap, a fresh start is worth more than a longer walk.
+        // With few inputs a walk is cheap, so a new start is worth more than a longer walk.
         let starts = if self.effort == Effort::High && network.inputs <= SMALL_INPUTS { SMALL_STARTS } else { 1 };
         let first = walk();
         (1..starts).fold(first, |best, _| cheaper(best, walk(), self.prices))
@@ -163,13 +164,13 @@ impl Course<'_> {
         best
     }
 
-    /// What a search makes of a network, unless that is dearer.
+    /// The result of a search, unless it is more expensive than the network.
     fn no_dearer(&self, best: Network, search: impl FnOnce(&Network) -> Network) -> Network {
         let next = cover(&search(&best), self.prices, self.stages).expect("the network is made of the library's cells");
         if cost(&next, self.prices) <= cost(&best, self.prices) { next } else { best }
     }
 
-    /// A network of the fewest cells there can be, where it has few inputs and the effort reaches as far.
+    /// A network of the minimal number of cells, if it has few inputs and the effort is sufficient.
     fn fewest(&self, best: Network) -> Network {
         let nodes = match self.effort {
             Effort::Fast => 10_000,
@@ -186,7 +187,7 @@ impl Course<'_> {
         }
     }
 
-    /// Makes the slowest path shorter, then the network cheaper without making it longer again, in turns.
+    /// Alternately shortens the slowest path and reduces the cost without making the path longer.
     fn quicken(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let rounds = match self.effort {
             Effort::Fast => 1,
@@ -212,7 +213,7 @@ impl Course<'_> {
     }
 }
 
-/// Cycles until every output is right, each cell taking its clock.
+/// Cycles until every output is correct, if each cell takes its clock.
 fn depth(network: &Network, prices: &Prices) -> u32 {
     Graph::new(network, prices, &[], &[]).depth()
 }
@@ -231,7 +232,7 @@ mod tests {
 
     #[test]
     fn gates_whose_difference_nobody_sees_take_the_place_of_dearer_ones() {
-        // The exclusive or matters only where `a` is 1: there it is the opposite of `b`.
+        // The exclusive or matters only if `a` is 1: there it is the opposite of `b`.
         let mut network = Network::new(2);
         let different = network.add(Function::XOR, [2, 3]);
         let both = network.add(Function::AND, [2, different]);

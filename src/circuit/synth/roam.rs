@@ -1,5 +1,5 @@
-//! The walk over a wide network as a whole: it sees samples of the patterns, and SAT proves what it made of them, step by step.
-//! A step that was wrong is undone, and the pattern that shows it joins the samples.
+//! The walk over a wide network as a whole: it works on samples of the patterns, and SAT checks its result every few
+//! steps. A wrong step is undone, and its counterexample is added to the samples.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -12,10 +12,11 @@ use crate::circuit::synth::walk::{self, Plan};
 const WORDS: usize = 32;
 /// Words of patterns at most.
 const MOST_WORDS: usize = 256;
-/// Visits between two proofs: at first, at least and at most.
+/// Visits between two proofs: initial, smallest and largest number.
 const BATCH: [u64; 3] = [32, 8, 4_000];
 
-/// Searches for a cheaper network in `visits` visits; every network that it passes through is proved equal to the one before.
+/// Searches for a cheaper network in `visits` visits; every network that it passes through is proved equal to the one
+/// before.
 pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: Plan, random: &mut ChaCha8Rng) -> Network {
     let mut samples = Samples::new(network.inputs, random);
     let [mut batch, least, most] = BATCH;
@@ -51,12 +52,14 @@ impl Samples {
         Self { words: (0..inputs).map(|_| (0..WORDS).map(|_| word()).collect()).collect(), next: WORDS }
     }
 
-    /// Adds a pattern with 63 of its neighbors: where there are many already, in place of the oldest that were not random.
+    /// Adds a pattern with 63 of its neighbors; if there are many already, they replace the oldest ones that were not
+    /// random.
     fn learn(&mut self, pattern: &[bool], random: &mut ChaCha8Rng) {
         let at = if self.next < MOST_WORDS { self.next } else { WORDS + self.next % (MOST_WORDS - WORDS) };
         for (words, &value) in self.words.iter_mut().zip(pattern) {
             let mut draw = || rand::Rng::next_u64(random);
-            // The first pattern as it is; of the others half are an input in sixteen away from it, half one in four.
+            // The first pattern is kept. Half of the others differ from it in one of sixteen inputs, half in one of
+            // four.
             let near = draw() & draw();
             let flips = (near & draw() & draw() & 0xffff_ffff | near & !0xffff_ffff) & !1;
             let word = flips ^ if value { !0 } else { 0 };

@@ -1,6 +1,7 @@
-//! The search: a random walk over networks that compute the same outputs. Each step gives one gate's place to another function of other
-//! signals that agrees wherever the gate matters (resubstitution under observability don't-cares), and never makes the whole dearer,
-//! except for rare steps up at a small temperature. Equal cost is welcome: that is how the walk leaves local optima.
+//! The search: a random walk over networks that compute the same outputs. Each step replaces one gate by another
+//! function of other signals that agrees wherever the gate matters (resubstitution under observability don't-cares). It
+//! never makes the network more expensive, except for rare steps up at a small temperature. Steps of equal cost are
+//! accepted, because they lead out of local optima.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -9,28 +10,28 @@ use crate::circuit::synth::graph::{Graph, every_pattern};
 use crate::circuit::synth::prices::Prices;
 use crate::model::Function;
 
-/// How long and how boldly to search.
+/// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     /// Gates to visit.
     pub visits: u64,
-    /// One in how many visits may make the network dearer by a little; 0 for never.
+    /// One of this number of visits may make the network slightly more expensive; 0 for never.
     pub climb: u32,
-    /// Visits without a new best after which the best so far is taken up again.
+    /// Visits without a new best after which the search returns to the best so far.
     pub patience: u64,
     /// Whether time matters, and how.
     pub pace: Pace,
 }
 
-/// What the walk makes of time.
+/// The role of delay in the walk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pace {
-    /// Time does not matter.
+    /// Delay does not matter.
     #[default]
     Any,
-    /// No output may be right later than it is.
+    /// No output may become later.
     Keep,
-    /// Gates on the slowest paths are made earlier, whatever that costs.
+    /// Gates on the slowest paths are made earlier at any cost.
     Hurry,
 }
 
@@ -81,7 +82,7 @@ pub fn improve_all(network: &Network, prices: &Prices, stages: &[u32], plan: Pla
     improve(network, prices, stages, &every_pattern(network.inputs), plan, random)
 }
 
-/// What may take a gate's place: one function, or a function of a signal and of another function.
+/// A replacement of a gate: one function, or a function of a signal and of another function.
 #[derive(Clone, Copy, Debug)]
 enum Candidate {
     Signal(Signal),
@@ -96,11 +97,11 @@ type Literal = (Signal, bool);
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
     pace: Pace,
-    /// When the outputs must be right.
+    /// The time at which the outputs must be correct.
     deadline: u32,
-    /// The arrival that what takes the visited gate's place may have.
+    /// The latest arrival of a replacement of the visited gate.
     limit: u32,
-    /// When each gate must be right.
+    /// The required time of each gate.
     required: Vec<u32>,
     random: &'r mut ChaCha8Rng,
     /// Values with the visited gate turned over, for the signals marked as changed.
@@ -117,10 +118,10 @@ struct Walk<'p, 'r> {
     buckets: Vec<Vec<Signal>>,
 }
 
-/// At most so many candidates are tried at a visit.
+/// The most candidates that are tried in a visit.
 const TRIES: usize = 24;
 
-/// What making one gate earlier may cost.
+/// The highest cost of making one gate earlier.
 const HURRY_PRICE: u32 = 6;
 
 /// Buckets of the table that finds exclusive ors.
@@ -177,7 +178,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
     }
 
-    /// Works out when each gate must be right.
+    /// Computes the required time of each gate.
     fn require(&mut self) {
         self.required.clear();
         self.required.resize(self.graph.places(), self.deadline);
@@ -190,7 +191,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
     }
 
-    /// Looks for what may take a gate's place at a price of `slack` at most; whether the network changed.
+    /// Looks for a replacement of a gate that costs at most `slack`; returns whether the network changed.
     fn change(&mut self, gate: Signal, slack: u32) -> bool {
         self.observe(gate);
         self.find_divisors(gate);
@@ -207,7 +208,8 @@ impl<'p, 'r> Walk<'p, 'r> {
         changed
     }
 
-    /// Finds where the gate matters (`on`: and is 1, `off`: and is 0) and what depends on it.
+    /// Finds the patterns in which the gate matters (`on`: and it is 1, `off`: and it is 0) and the gates that depend
+    /// on it.
     fn observe(&mut self, gate: Signal) {
         let width = self.graph.width();
         let places = self.graph.places();
@@ -263,7 +265,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         changed != 0
     }
 
-    /// The signals that may take part: those that do not depend on the gate, or on a later loop than it.
+    /// The candidate signals: those that do not depend on the gate or on a later loop.
     fn find_divisors(&mut self, gate: Signal) {
         let stage = self.graph.node(gate).stage;
         let sources = 2..self.graph.first_gate();
@@ -426,7 +428,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         });
     }
 
-    /// Tries candidates in random order, and takes the best that makes the network dearer by `slack` at most.
+    /// Tries candidates in random order, and uses the best one that adds at most `slack` to the cost.
     fn choose(&mut self, gate: Signal, slack: i64) -> bool {
         let mut best: Option<(i64, Candidate)> = None;
         for tried in 0..TRIES.min(self.candidates.len()) {
@@ -458,7 +460,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
     }
 
-    /// By how much the network would become dearer; none if nothing would change.
+    /// The added cost of the network; `None` if nothing would change.
     fn weigh(&mut self, gate: Signal, candidate: Candidate) -> Option<i64> {
         let before = i64::from(self.graph.cost());
         let root = self.build(candidate)?;
@@ -469,7 +471,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         (!same && !late).then_some(change)
     }
 
-    /// What the gate's going would release while `root` stays.
+    /// The cost released by removing the gate while `root` stays.
     fn hold_and_release(&mut self, root: Signal, gate: Signal) -> u32 {
         self.graph.hold(root);
         let released = self.graph.released(gate);
@@ -497,7 +499,7 @@ fn pair_function(one: bool, two: bool, and: bool) -> Function {
     function
 }
 
-/// How a signal lies to the patterns where a 1 and where a 0 is wanted.
+/// The relation of a signal to the patterns in which a 1 or a 0 is wrong.
 struct Fits {
     covers_on: bool,
     avoids_on: bool,

@@ -1,4 +1,4 @@
-//! Windows: small parts of a wide network, cut out with few inputs, made cheaper by themselves and put back.
+//! Windows: small parts of a wide network with few inputs, which are optimized separately and put back.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::walk::{Plan, improve_all};
 
-/// How large windows are, how many, and how each is searched.
+/// The size and the number of windows, and the search in each.
 #[derive(Clone, Copy, Debug)]
 pub struct Panes {
     /// Windows to cut.
@@ -22,7 +22,7 @@ pub struct Panes {
     pub plan: Plan,
 }
 
-/// Makes a network cheaper window by window.
+/// Optimizes a network window by window.
 pub fn improve(network: &Network, prices: &Prices, stages: &[u32], panes: Panes, random: &mut ChaCha8Rng) -> Network {
     let mut graph = Graph::new(network, prices, stages, &[]);
     for i in 0..panes.windows {
@@ -44,7 +44,7 @@ fn below(random: &mut ChaCha8Rng, bound: usize) -> usize {
     ((u64::from(rand::Rng::next_u32(random)) * bound as u64) >> 32) as usize
 }
 
-/// A part of a graph: no path leaves it and comes back.
+/// A part of a graph; no path leaves it and returns to it.
 struct Window {
     gates: BTreeSet<Signal>,
     leaves: Vec<Signal>,
@@ -98,7 +98,7 @@ impl Window {
         let mut made: Vec<Signal> = vec![0, 1];
         made.extend(&self.leaves);
         for gate in &network.gates {
-            // New gates even where there are equal ones: those may be about to go.
+            // Adds new gates even if there are equal ones, because those may be about to be removed.
             let signal = graph.make_new(gate.function, gate.pins.map(|pin| made[pin as usize]));
             made.push(signal);
         }
@@ -119,7 +119,7 @@ fn sources(pins: [Signal; 2]) -> impl Iterator<Item = Signal> {
     pins.into_iter().filter(|&pin| pin > 1)
 }
 
-/// The gate to take in next: one that adds the fewest inputs, of several a random one.
+/// The next gate to add: one that adds the fewest inputs; of several, a random one.
 fn next(
     graph: &Graph<'_>,
     gates: &BTreeSet<Signal>,
@@ -160,7 +160,7 @@ fn next(
     (!best.is_empty()).then(|| best[below(random, best.len())])
 }
 
-/// Takes in leaves that depend on the window, until none does; none if that takes too many inputs.
+/// Adds leaves that depend on the window, until there are none; `None` if that takes too many inputs.
 fn close(graph: &Graph<'_>, gates: &mut BTreeSet<Signal>, leaves: &mut BTreeSet<Signal>, limit: usize) -> Option<()> {
     loop {
         let position = |signal: &Signal| graph.position(*signal);

@@ -33,7 +33,7 @@ impl Printer<'_> {
         }
     }
 
-    /// How many statements at the start have their `=` aligned: drives of one target, line by line.
+    /// The number of statements at the start whose `=` are aligned: drivers of one target on adjacent lines.
     fn aligned_run(&self, statements: &[Statement]) -> usize {
         let plain = |statement: &Statement| matches!(statement.kind, StatementKind::Drive { grouped: false, .. });
         let follows = |pair: &&[Statement]| {
@@ -67,7 +67,7 @@ impl Printer<'_> {
     }
 }
 
-/// What stands before the `=` or the block of a statement.
+/// The text before the `=` or the block of a statement.
 fn left(body: &Body, statement: &Statement) -> String {
     let sizes = &body.sizes;
     match &statement.kind {

@@ -20,7 +20,7 @@ fn text(pieces: &mut Vec<Piece>, text: impl Into<String>) {
     }
 }
 
-/// Nests no deeper than the text's brackets do.
+/// The recursion is no deeper than the nesting of the text's brackets.
 fn push(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
     match &body.expressions[id.0 as usize].kind {
         ExpressionKind::Digits(digits) => text(pieces, digits.clone()),
@@ -76,7 +76,7 @@ fn negation(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
     push(body, at, pieces);
 }
 
-/// Operators of one precedence side by side are one group, however many there are.
+/// A chain of operators with the same precedence is one group.
 fn chain(body: &Body, id: ExpressionId, operator: Infix, pieces: &mut Vec<Piece>) {
     let mut links = Vec::new();
     let mut at = id;
@@ -96,7 +96,7 @@ fn chain(body: &Body, id: ExpressionId, operator: Infix, pieces: &mut Vec<Piece>
     pieces.push(Piece::Close);
 }
 
-/// A choice, with the choices after its `else` at its own level.
+/// An `if` expression; those after its `else` are at the same level.
 fn choice(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
     pieces.push(Piece::Open);
     let mut at = id;
@@ -134,7 +134,7 @@ fn table(body: &Body, inputs: &[ExpressionId], rows: &[TableRow], pieces: &mut V
     text(pieces, "}");
 }
 
-/// A size as text: always on one line.
+/// A size as text; always on one line.
 pub(super) fn size(sizes: &[Size], id: SizeId) -> String {
     match &sizes[id.0 as usize].kind {
         SizeKind::Literal(word) | SizeKind::Name(word) => word.clone(),
@@ -144,7 +144,7 @@ pub(super) fn size(sizes: &[Size], id: SizeId) -> String {
     }
 }
 
-/// Operators side by side, without recursion along the left side, which may be long.
+/// A chain of operators, without recursion into the left side, which may be long.
 fn size_chain(sizes: &[Size], id: SizeId) -> String {
     let mut links = Vec::new();
     let mut at = id;

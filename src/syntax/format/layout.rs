@@ -1,26 +1,26 @@
-//! Lays pieces of text out: on one line where they fit, else broken at the outermost places that can be broken.
+//! Lays out pieces of text: on one line if they fit, else broken at the outermost possible places.
 
-/// The greatest number of columns.
+/// The width of a line in columns.
 pub(super) const WIDTH: usize = 100;
 
-/// A piece of text, or what to do between pieces.
+/// A piece of text, or a layout instruction between pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Piece {
     /// Text without a line break.
     Text(String),
-    /// A place where the group around may be broken: that text on one line, else a line break.
+    /// A possible break of the surrounding group: this text on one line, else a line break.
     Break(&'static str),
-    /// A break after which the group's indent ends.
+    /// Like a break, but it also ends the group's indentation.
     EndBreak(&'static str),
-    /// Spaces, only where the group around is broken.
+    /// Spaces that are printed only if the surrounding group is broken.
     Pad(usize),
-    /// The start of a group: broken as a whole or not at all.
+    /// The start of a group, which is broken at all its breaks or at none.
     Open,
     /// The end of a group.
     Close,
 }
 
-/// The text of pieces that begin at a column, in lines indented by `indent` at least.
+/// The text of pieces that begin at a column, in lines indented by at least `indent`.
 pub(super) fn layout(pieces: &[Piece], column: usize, indent: usize) -> String {
     let widths = flat_widths(pieces);
     let mut out = String::new();
@@ -62,18 +62,18 @@ pub(super) fn layout(pieces: &[Piece], column: usize, indent: usize) -> String {
     out
 }
 
-/// Whether a broken comma stands between rows, which end with their lines.
+/// Whether a broken comma separates rows, which end with their lines.
 fn in_rows(pieces: &[Piece], at: usize) -> bool {
     matches!(pieces.get(at + 1), Some(Piece::Text(text)) if text.ends_with(':'))
 }
 
-/// For each group the columns it takes on one line, with what follows it up to the next place to break.
+/// The width of each group on one line, including the text after it up to the next possible break.
 fn flat_widths(pieces: &[Piece]) -> Vec<usize> {
     let mut widths = vec![0; pieces.len()];
     let mut after = 0;
     let mut ends: Vec<usize> = Vec::new();
     let mut total = 0;
-    // From the end: what follows a group on its line belongs to its width.
+    // It runs from the end, because the text after a group on its line counts in its width.
     for (at, piece) in pieces.iter().enumerate().rev() {
         match piece {
             Piece::Text(text) => {

@@ -1,5 +1,5 @@
-//! Tree to canonical text: one form for each program. Comments are kept; formatting twice changes nothing; the tree stays the same but
-//! for places.
+//! From the tree to formatted text. Comments are kept. Formatting twice changes nothing, and the tree stays the same
+//! except for places.
 
 mod circuit;
 mod expression;
@@ -12,10 +12,10 @@ use crate::source::{FileId, Sources};
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{Declaration, DeclarationKind, Tree};
 
-/// The canonical text of a file whose tree is whole.
+/// The formatted text of a file that was parsed without errors.
 ///
 /// # Panics
-/// When a comment would be lost, which is a fault of this function.
+/// When a comment would be lost, which is a bug of this function.
 pub fn format(sources: &Sources, file: FileId, tree: &Tree) -> String {
     let mut printer = Printer::new(&sources.file(file).text, &tree.comments);
     let mut at = 0;
@@ -26,7 +26,8 @@ pub fn format(sources: &Sources, file: FileId, tree: &Tree) -> String {
 }
 
 impl Printer<'_> {
-    /// Prints the first of some declarations, or the run of one-line records that they begin with; returns how many.
+    /// Prints the first of some declarations, or all adjacent one-line records at the start; returns the number of
+    /// printed declarations.
     fn declarations(&mut self, rest: &[Declaration]) -> usize {
         let run = self.record_run(rest);
         if !run.is_empty() {
@@ -56,7 +57,8 @@ impl Printer<'_> {
     }
 }
 
-/// Where the part of a declaration ends that is printed as one piece: comments before that go before the declaration.
+/// The end of the part of a declaration that is printed as one piece; comments before this place are printed before the
+/// declaration.
 fn head_end(declaration: &Declaration) -> u32 {
     use crate::syntax::tree::{TestKind, With};
     let first = |spans: Vec<u32>| spans.first().copied().unwrap_or(declaration.span.end);

@@ -1,21 +1,21 @@
-//! The output of the formatter: lines with their indent, comments and blank lines where the source has them.
+//! The output of the formatter: lines with their indentation, and the comments and blank lines of the source.
 
 use crate::source::Span;
 
-/// Spaces of one indent.
+/// Spaces per level of indentation.
 pub(super) const INDENT: usize = 4;
 
-/// A text that is being printed.
+/// A text while it is printed.
 pub(super) struct Printer<'a> {
     source: &'a str,
     comments: &'a [Span],
-    /// The first comment that is not yet printed.
+    /// The index of the first comment that is not yet printed.
     next: usize,
     out: String,
     pub(super) indent: usize,
-    /// Where in the source the last thing printed ended; `None` at the start of a block.
+    /// The end of the last printed item in the source; `None` at the start of a block.
     last: Option<u32>,
-    /// Whether a blank line must come before what is printed next.
+    /// Whether a blank line is needed before the next item.
     separate: bool,
 }
 
@@ -35,35 +35,35 @@ impl<'a> Printer<'a> {
         self.out
     }
 
-    /// Writes into the line that is being printed.
+    /// Appends to the current line.
     pub(super) fn write(&mut self, text: &str) {
         self.out.push_str(text);
     }
 
-    /// The column at which the next character will stand, from 0.
+    /// The column of the next character, from 0.
     pub(super) fn column(&self) -> usize {
         let line = self.out.rfind('\n').map_or(0, |newline| newline + 1);
         self.out[line..].chars().count()
     }
 
-    /// Asks for a blank line before what comes next.
+    /// Requests a blank line before the next item.
     pub(super) fn separate(&mut self, separate: bool) {
         self.separate |= separate && self.last.is_some();
     }
 
-    /// Asks for a blank line after what was just printed.
+    /// Requests a blank line after the last printed item.
     pub(super) fn separate_next(&mut self, separate: bool) {
         self.separate = separate;
     }
 
-    /// Prints an item with the comments before and inside it, and the one behind it on its line.
+    /// Prints an item with the comments before it, inside it, and after it on its line.
     pub(super) fn item(&mut self, span: Span, print: impl FnOnce(&mut Self)) {
         self.item_with_inside(span, span.end, print);
     }
 
-    /// Prints an item that prints the comments after `head` itself.
+    /// Prints an item that itself prints the comments after `head`.
     pub(super) fn item_with_inside(&mut self, span: Span, head: u32, print: impl FnOnce(&mut Self)) {
-        // A comment right after the opening brace belongs to what is inside.
+        // A comment directly after the opening brace belongs to the block.
         let brace = self.source[span.start as usize..head as usize].rfind('{').filter(|_| head != span.end);
         let head = brace.map_or(head, |brace| span.start + brace as u32);
         self.comments_until(head);
@@ -73,7 +73,7 @@ impl<'a> Printer<'a> {
         self.comment_behind();
     }
 
-    /// Prints a block in braces: `items` prints what is inside, `end` is where the closing brace ends.
+    /// Prints a block in braces: `items` prints its contents, and `end` is the end of the closing brace.
     pub(super) fn block(&mut self, end: u32, items: impl FnOnce(&mut Self)) {
         self.write("{");
         self.indent += INDENT;
@@ -88,7 +88,7 @@ impl<'a> Printer<'a> {
         self.write("}");
     }
 
-    /// Begins a new line, after a blank one where the source has one before `start` or one was asked for.
+    /// Begins a new line. A blank line precedes it if the source has one before `start` or one was requested.
     fn new_line(&mut self, start: u32) {
         if !self.out.is_empty() {
             let blank = self.last.is_some_and(|last| last <= start && self.has_blank_line(last, start));
@@ -110,7 +110,7 @@ impl<'a> Printer<'a> {
         self.source[from as usize..to as usize].bytes().filter(|&byte| byte == b'\n').count() >= 2
     }
 
-    /// Prints the comments that begin before a place, each on a line of its own.
+    /// Prints the comments that begin before a place, each on its own line.
     pub(super) fn comments_until(&mut self, place: u32) {
         while let Some(comment) = self.comments.get(self.next).filter(|comment| comment.start < place) {
             self.new_line(comment.start);
@@ -120,7 +120,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// Prints the next comment if it stands behind what was just printed, on the same line.
+    /// Prints the next comment if it follows the last printed item on the same line.
     fn comment_behind(&mut self) {
         let (Some(last), Some(comment)) = (self.last, self.comments.get(self.next)) else { return };
         let between = self.source.get(last as usize..comment.start as usize);
@@ -132,19 +132,19 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// Whether two items follow each other without a blank line or a comment on a line of its own between them.
+    /// Whether two items follow each other without a blank line or a comment line between them.
     pub(super) fn adjacent(&self, first: Span, second: Span) -> bool {
         let between = &self.source[first.end as usize..second.start as usize];
         between.bytes().filter(|&byte| byte == b'\n').count() <= 1
     }
 
-    /// Whether a comment stands inside a span.
+    /// Whether a comment is inside a span.
     pub(super) fn has_comment_inside(&self, span: Span) -> bool {
         let first = self.comments.partition_point(|comment| comment.start < span.start);
         self.comments.get(first).is_some_and(|comment| comment.start < span.end)
     }
 
-    /// The text under a span.
+    /// The text of a span.
     pub(super) fn text(&self, span: Span) -> &'a str {
         &self.source[span.range()]
     }

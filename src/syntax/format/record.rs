@@ -1,4 +1,4 @@
-//! Records: on one line where they fit, else a field a line.
+//! Records: on one line if they fit, else one field per line.
 
 use crate::source::Span;
 use crate::syntax::format::expression::arguments;
@@ -8,14 +8,14 @@ use crate::syntax::tree::{
     Declaration, DeclarationKind, Field, Instance, Quantity, Record, RecordDeclaration, Value, ValueKind,
 };
 
-/// The greatest number of columns of records that stand as the rows of a table, which are read downward.
+/// The width of records that form the rows of a table.
 const ROW_WIDTH: usize = 120;
 
-/// The most records that are aligned with each other: a run that turns out too wide is tried again from its second record on.
+/// The most records that are aligned with each other. A run that is too wide is tried again from its second record on.
 const MOST_ROWS: usize = 200;
 
 impl Printer<'_> {
-    /// The texts of the one-line records of one kind that follow each other, with their braces aligned.
+    /// The texts of adjacent one-line records of the same kind, with aligned braces.
     pub(super) fn record_run(&self, declarations: &[Declaration]) -> Vec<String> {
         let mut run: Vec<(&RecordDeclaration, Span)> = Vec::new();
         for declaration in declarations {
@@ -29,12 +29,12 @@ impl Printer<'_> {
             run.push((record, declaration.span));
         }
         let mut texts = aligned(&run);
-        // The first record that is too long ends the run; without it the others may be narrower.
+        // The first record that is too long ends the run; the others may be narrower without it.
         while let Some(long) = texts.iter().position(|text| text.chars().count() > ROW_WIDTH) {
             run.truncate(long);
             texts = aligned(&run);
         }
-        // A lone record stands as any other declaration does, with a blank line around it.
+        // A single record is printed like any other declaration, with a blank line around it.
         if texts.len() > 1 { texts } else { Vec::new() }
     }
 
@@ -78,7 +78,8 @@ impl Printer<'_> {
     }
 }
 
-/// The lines of records that stand as the rows of a table: their braces are aligned, and between neighbors of the same fields the values.
+/// The lines of records that form the rows of a table. Their braces are aligned, and the values of neighbors with the
+/// same fields.
 fn aligned(run: &[(&RecordDeclaration, Span)]) -> Vec<String> {
     let names = run.iter().map(|(record, _)| record.name.text.chars().count()).max().unwrap_or(0);
     let same = |a: &(&RecordDeclaration, Span), b: &(&RecordDeclaration, Span)| {

@@ -65,7 +65,7 @@ impl Printer<'_> {
                 let text = match (row.bars.len(), &row.hold) {
                     (1, None) => line(&row.inputs, &row.outputs),
                     (1, Some(hold)) => format!("{} for {}", line(&row.inputs, &row.outputs), quantity(hold)),
-                    // A row out of order is the checker's to speak of.
+                    // The checker reports rows that are out of order.
                     _ => printer.text(row.span).to_owned(),
                 };
                 printer.item(row.span, |printer| printer.write(text.trim_end()));
