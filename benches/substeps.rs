@@ -1,5 +1,5 @@
-//! Substeps a second for bodies of the paper's three boxes: one simulation alone, and eight side by side with each set of instructions that
-//! the processor has, of one body or of eight different ones.
+//! Substeps per second for bodies of the paper's three boxes: one simulation alone, and eight in parallel with each
+//! instruction set of the processor, with one body or eight different ones.
 //!
 //! `cargo bench` prints, for each, elements (lane-substeps) a second of one core.
 
@@ -12,7 +12,7 @@ use nbc::sim::{InstructionSet, Kernel, Simulator};
 
 fn substeps(criterion: &mut Criterion) {
     let setting = Setting::default();
-    // One thread: the figures are those of one core.
+    // One thread, because the figures are for one core.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
     let mut group = criterion.benchmark_group("substeps");
     group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));

@@ -10,7 +10,7 @@ fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     std::env::set_current_dir(root).expect("the package is a folder");
     let manual = std::fs::read_to_string("docs/pictures.md").expect("docs/pictures.md is a text");
-    // The runs are made afresh: their pictures are to be of this version.
+    // The runs are deleted, because their pictures must come from this version.
     let _ = std::fs::remove_dir_all("out/gallery");
     for line in manual.lines().filter_map(|line| line.strip_prefix("    nbc ")) {
         eprintln!("nbc {line}");
@@ -22,7 +22,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The words of a command; those in single quotes are one.
+/// The words of a command; a quoted text is one word.
 fn words(line: &str) -> Vec<OsString> {
     let parts = line.split('\'').enumerate();
     parts

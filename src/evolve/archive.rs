@@ -7,12 +7,12 @@ use serde::Serialize;
 use crate::evolve::{Descriptor, NicheKey};
 use crate::model::{Behavior, Body, Evolution, Genotype, Niche};
 
-/// A body that holds a niche, or a place in one.
+/// A body in a niche.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elite {
     /// The two fitnesses.
     pub fitness: [f64; 2],
-    /// Which way it walks.
+    /// Its behavior.
     pub behavior: Behavior,
     /// Displacement in voxels over the fixed simulations, patterns 00, 01, 10, 11.
     pub displacement: [f64; 4],
@@ -26,12 +26,12 @@ pub struct Elite {
     pub evaluations: u64,
 }
 
-/// What became of a newcomer.
+/// The result of offering a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AddStatus {
-    /// Those there are better, or not worse in everything.
+    /// The elites of the niche are better, or at least as good in both fitnesses.
     Rejected,
-    /// It took the place of what it dominates, or joined a Pareto set.
+    /// It replaced the elites it dominates, or joined a Pareto set.
     Improved,
     /// Its niche was empty.
     New,
@@ -53,9 +53,9 @@ pub struct Champion {
 pub struct ArchiveStats {
     /// Niches filled.
     pub filled: usize,
-    /// Niches there are.
+    /// The number of niches.
     pub niches: usize,
-    /// Filled niches as a share of all.
+    /// The share of filled niches.
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
@@ -63,7 +63,7 @@ pub struct ArchiveStats {
     pub champions: Vec<Champion>,
 }
 
-/// Niches and who holds them.
+/// Niches with their elites.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Archive {
     descriptor: Descriptor,
@@ -77,7 +77,7 @@ impl Archive {
         Self { descriptor: Descriptor::new(evolution), niche: evolution.niche, niches: BTreeMap::new() }
     }
 
-    /// The archive with these niches; those whose elites are none are left out.
+    /// An archive with these niches; niches without an elite are left out.
     pub fn with_niches(evolution: &Evolution, niches: Vec<(NicheKey, Vec<Elite>)>) -> Self {
         let niches = niches.into_iter().filter(|(_, elites)| !elites.is_empty()).collect();
         Self { niches, ..Self::new(evolution) }
@@ -125,8 +125,8 @@ impl Archive {
         }
     }
 
-    /// Whether a body with fitnesses of at most `bound` could still be taken. What cannot now cannot later either: elites give way
-    /// only to what dominates them.
+    /// Whether a body with fitnesses of at most `bound` could enter its niche. If it cannot now, it cannot later:
+    /// elites are only replaced by bodies that dominate them.
     pub fn could_take(&self, body: &Body, behavior: Behavior, bound: &[f64; 2]) -> bool {
         let Some(elites) = self.niches.get(&self.descriptor.niche(body, behavior)) else { return true };
         match self.niche {

@@ -1,10 +1,11 @@
-//! Compositional pattern-producing networks: the starting network, and its scores over a bounding box (docs/physics.md 11).
+//! Compositional pattern-producing networks: the starting network, and its scores over a bounding box (docs/physics.md
+//! 11).
 
 use crate::model::{Activation, Genotype, Link, NodeId, NodeKind, Rules};
 
 /// Inputs of a network: x, y (row), z (column), distance, bias.
 const INPUTS: u8 = 5;
-/// The input which holds the column.
+/// The input with the column.
 pub(crate) const COLUMN: u8 = 2;
 
 /// The score of one material code at each place of the box, row by row from the top.
@@ -18,8 +19,8 @@ pub struct ScoreMap {
 
 /// The network that every search starts from: each input linked to each output with weight 0, no hidden nodes.
 ///
-/// `materials` is the size of the palette; there is one output more, for empty. By the paper's text there is no input for the axis of
-/// length 1.
+/// `materials` is the size of the palette; there is one more output, for empty. By the paper's text there is no input
+/// for an axis of length 1.
 pub fn start(materials: usize, rules: Rules) -> Genotype {
     let first = if rules == Rules::Code { 0 } else { 1 };
     let inputs = (first..INPUTS).map(NodeKind::Input);
@@ -64,9 +65,9 @@ struct Run<'a> {
     genotype: &'a Genotype,
     rules: Rules,
     inputs: Vec<Vec<f64>>,
-    /// What a node gives to whoever asks again.
+    /// The value that a node gives to its later targets.
     remembered: Vec<Option<Vec<f64>>>,
-    /// Nodes being computed; asking for one of them again is a cycle, which only a damaged file can hold.
+    /// The nodes being computed. A node that needs one of them is on a cycle, which only a damaged file can contain.
     open: Vec<bool>,
 }
 
@@ -77,7 +78,7 @@ impl<'a> Run<'a> {
         Self { genotype, rules, inputs, remembered: vec![None; nodes], open: vec![false; nodes] }
     }
 
-    /// The map of the output at place `at`. By the authors' code an output that an earlier one has asked for is 0 everywhere.
+    /// The map of the output at index `at`. In the authors' code, an output that an earlier one reads is 0 everywhere.
     fn output(&mut self, at: usize) -> Vec<f64> {
         let taken = self.rules == Rules::Code && self.remembered[at].is_some();
         let map = if taken { self.zeros() } else { self.request(at) };
@@ -85,7 +86,7 @@ impl<'a> Run<'a> {
         map
     }
 
-    /// The values which the node at place `at` gives to a node that asks for them.
+    /// The values that the node at index `at` gives to its targets.
     fn request(&mut self, at: usize) -> Vec<f64> {
         let (id, kind) = self.genotype.nodes[at];
         let activation = match kind {
@@ -142,7 +143,7 @@ fn inputs(rules: Rules, width: usize, height: usize) -> Vec<Vec<f64>> {
     vec![vec![x; places], rows, columns, scaled(distance, rules), vec![1.0; places]]
 }
 
-/// Scaled linearly so that the least is -1 and the greatest 1.
+/// Scaled linearly to the range from -1 to 1.
 fn scaled(values: Vec<f64>, rules: Rules) -> Vec<f64> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -154,7 +155,7 @@ fn scaled(values: Vec<f64>, rules: Rules) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A network of one hidden node (id 100, square) which two outputs ask for: 0 first, then 1.
+    /// A network of one hidden node (id 100, square) that two outputs read: 0 first, then 1.
     fn shared_hidden() -> Genotype {
         let node = |id, kind| (NodeId(id), kind);
         let link = |source, target, weight| Link { source: NodeId(source), target: NodeId(target), weight };

@@ -1,4 +1,4 @@
-//! Descriptors: which niche of the archive a body belongs to (paper, Methods; docs/physics.md 11).
+//! Descriptors: the niche of a body in the archive (paper, Methods; docs/physics.md 11).
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ impl Descriptor {
         Self { axes: evolution.descriptors.clone(), area: evolution.width * evolution.height, rules: evolution.rules }
     }
 
-    /// Niches there are; some can never be filled, such as all voxels active and all sensory.
+    /// The number of niches; some can never be filled, such as all voxels active and all sensory.
     pub fn niches(&self) -> usize {
         self.axes.iter().map(|axis| if let Axis::Count { bins, .. } = axis { *bins } else { 16 }).product()
     }

@@ -1,4 +1,4 @@
-//! Development: from a network to a body, or why there is none (docs/physics.md 11).
+//! Development: from a network to a valid body (docs/physics.md 11).
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::model::{Body, Genotype, MaterialKind, Palette, Rules};
 /// Actuators that a body must have.
 pub const LEAST_ACTUATORS: usize = 3;
 
-/// Why a network gives no body that can be tried.
+/// The reason why a network has no valid body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Undeveloped {
     /// Too few actuators to walk with.
@@ -40,7 +40,7 @@ pub fn phenotype(genotype: &Genotype, palette: &Arc<Palette>, rules: Rules, widt
     Body::new(width, height, (0..width * height).map(best).collect(), Arc::clone(palette))
 }
 
-/// Whether a body can be tried: at least three actuators, and in one piece.
+/// Whether a body is valid: at least three actuators, and in one piece.
 ///
 /// # Errors
 /// Says what is missing.

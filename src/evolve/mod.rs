@@ -1,5 +1,5 @@
-//! Evolution of bodies: networks, their mutation and development, an archive of elites, and a search that is asked for candidates
-//! and told their outcomes. It knows no physics.
+//! Evolution of bodies: networks, their mutation and development, an archive of elites, and an ask/tell search. It
+//! knows no physics.
 
 mod archive;
 pub mod cppn;

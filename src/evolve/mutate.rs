@@ -18,7 +18,7 @@ fn activations(rules: Rules) -> &'static [Activation] {
     }
 }
 
-/// Applies one operator, drawn by weight, and prunes what hangs loose.
+/// Applies one operator, drawn by weight, and removes unconnected nodes.
 pub fn mutate<R: Rng>(genotype: &mut Genotype, weights: &MutationWeights, rules: Rules, rng: &mut R) {
     type Operator<R> = fn(&mut Genotype, Rules, &mut R);
     let operators: [(f64, Operator<R>); 6] = [
@@ -41,7 +41,7 @@ pub fn mutate<R: Rng>(genotype: &mut Genotype, weights: &MutationWeights, rules:
     prune(genotype);
 }
 
-/// One of `count` places, evenly; `None` when there are none.
+/// One of `count` indices, drawn uniformly; `None` if there are none.
 pub(crate) fn pick<R: Rng>(count: usize, rng: &mut R) -> Option<usize> {
     (count > 0).then(|| rng.random_range(0..count as u64) as usize)
 }
@@ -165,7 +165,7 @@ fn closes_cycle(genotype: &Genotype, link: Link) -> bool {
     false
 }
 
-/// Adds a link, or gives the one that is there the new weight.
+/// Adds a link, or sets the weight of the existing one.
 fn set_link(genotype: &mut Genotype, link: Link) {
     let same = |other: &&mut Link| other.source == link.source && other.target == link.target;
     match genotype.links.iter_mut().find(same) {

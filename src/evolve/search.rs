@@ -1,4 +1,5 @@
-//! The search: asked for candidates, told their outcomes, generation by generation (paper, Methods; docs/physics.md 11).
+//! The search: it is asked for candidates and told their results, generation by generation (paper, Methods;
+//! docs/physics.md 11).
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -13,14 +14,14 @@ use crate::model::{Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
 
-/// Where a candidate comes from.
+/// The origin of a candidate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// From nothing.
+    /// A new random network.
     Random,
     /// From an elite of that niche by mutation.
     Offspring(NicheKey),
-    /// The mirror image of a body that was taken in the generation before.
+    /// The mirror image of a body that entered the archive in the previous generation.
     Mirror,
 }
 
@@ -29,7 +30,7 @@ pub enum Origin {
 pub struct Candidate {
     /// Its place in the generation.
     pub index: u32,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
     /// Its network.
     pub genotype: Genotype,
@@ -51,14 +52,14 @@ pub struct Search {
     mirrors: Vec<Genotype>,
 }
 
-/// What must be kept to go on with a search later.
+/// The state needed to continue a search later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchState {
     /// The run's seed.
     pub seed: u64,
     /// Generations done.
     pub generation: u32,
-    /// How often each outcome came.
+    /// Counts of the results.
     pub counts: Counts,
     /// Networks whose bodies are mirror images to be tried next.
     pub mirrors: Vec<Genotype>,
@@ -67,8 +68,8 @@ pub struct SearchState {
 }
 
 impl SearchState {
-    /// Whether a run by that declaration can come to it: every body is what its network develops into, can be tried, and lies in its
-    /// niche.
+    /// Whether a run of this declaration can reach this state: every body is what its network develops into, is valid,
+    /// and is in its niche.
     pub fn fits(&self, evolution: &Evolution) -> bool {
         let Evolution { palette, rules, width, height, .. } = evolution;
         let descriptor = Descriptor::new(evolution);
@@ -88,7 +89,7 @@ impl SearchState {
 }
 
 impl Search {
-    /// A search that has done nothing yet.
+    /// A new search.
     pub fn new(evolution: &Evolution, seed: u64) -> Self {
         Self {
             evolution: evolution.clone(),
@@ -146,7 +147,7 @@ impl Search {
         self.generation
     }
 
-    /// How often each outcome came.
+    /// Counts of the results.
     pub fn counts(&self) -> Counts {
         self.counts
     }
@@ -156,7 +157,7 @@ impl Search {
         self.generation >= self.evolution.generations
     }
 
-    /// The candidates of the next generation. Asking twice gives the same ones.
+    /// The candidates of the next generation. Calling it twice returns the same candidates.
     pub fn ask(&self) -> Vec<Candidate> {
         let parents = self.parents();
         let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
@@ -191,8 +192,8 @@ impl Search {
         }
     }
 
-    /// Whether a body, or an image of it that its evaluation also fills, could still enter the archive with fitnesses of at most
-    /// `bound`.
+    /// Whether a body, or an image of it that its evaluation also fills, could still enter the archive with fitnesses
+    /// of at most `bound`.
     pub fn could_take(&self, body: &Body, scores: &Scores) -> bool {
         let own = || self.archive.could_take(body, scores.behavior, &scores.fitness);
         let image = |recoding: &Recoding| {
@@ -217,7 +218,7 @@ impl Search {
         }
     }
 
-    /// Offers an elite and its images; whether any was taken.
+    /// Offers an elite and its images; returns whether any entered the archive.
     fn offer(&mut self, elite: Elite) -> bool {
         let images: Vec<Elite> = match self.recodings.as_slice() {
             [] => vec![elite],
@@ -247,7 +248,7 @@ impl Search {
         parents
     }
 
-    /// Mutates until there is a body that can be tried; `None` when that seems impossible.
+    /// Mutates until the body is valid; `None` if this seems impossible.
     fn draw(&self, index: u32, origin: Origin, parent: Option<&Elite>) -> Option<Candidate> {
         let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
         let mut rng = self.stream(index);
@@ -280,19 +281,19 @@ impl Search {
     }
 }
 
-/// What is done after a mutation.
+/// The next action after a mutation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Attempt {
     /// The body is tried.
     Done,
-    /// Another mutation is put on top.
+    /// Mutate again.
     GoOn,
-    /// All mutations so far are taken back.
+    /// Undo all mutations so far.
     Undo,
 }
 
-/// By the paper's text a mutation of a parent that gives no body to try is undone, and an offspring differs from its parent. In the
-/// authors' code mutations add up until a body can be tried, were it the parent's again.
+/// By the paper's text, a mutation without a valid body is undone, and an offspring differs from its parent. In the
+/// authors' code, mutations accumulate until the body is valid, even if it is the parent's.
 fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
     match (validate(body), rules, parent) {
         (Ok(()), Rules::Paper, Some(parent)) if parent == body => Attempt::GoOn,
@@ -302,7 +303,7 @@ fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
     }
 }
 
-/// The elite that a recoding makes of another.
+/// The image of an elite under a recoding.
 fn image(recoding: &Recoding, elite: &Elite) -> Elite {
     if recoding.is_identity() {
         return elite.clone();

@@ -1,18 +1,19 @@
-//! Symmetry: exchanging and inverting inputs by exchanging sensors, which is exact to the bit, and mirroring, which is nearly so.
+//! Symmetry: exchanging and inverting inputs by exchanging sensors, which is exact to the bit, and mirroring, which is
+//! nearly so.
 
 use crate::evolve::cppn::COLUMN;
 use crate::model::{Behavior, Body, Genotype, MaterialKind, NodeKind, Palette, Pattern, Response};
 
-/// An exchange of sensor materials, and with it of what stimuli 1 and 2 mean to a body.
+/// An exchange of sensor materials, which also exchanges or inverts stimuli 1 and 2 for a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recoding {
     swap: bool,
     invert: [bool; 2],
-    /// What each code becomes, code 0 first.
+    /// The image of each code, code 0 first.
     codes: Vec<u8>,
 }
 
-/// The recodings which a palette has counterpart materials for, at most eight, the one that changes nothing first.
+/// The recodings for which a palette has counterpart materials, at most eight, the identity first.
 pub fn recodings(palette: &Palette) -> Vec<Recoding> {
     let mut found: Vec<Recoding> = Vec::new();
     for bits in 0..8u8 {
@@ -26,7 +27,7 @@ pub fn recodings(palette: &Palette) -> Vec<Recoding> {
 }
 
 impl Recoding {
-    /// Whether it changes nothing.
+    /// Whether it is the identity.
     pub fn is_identity(&self) -> bool {
         !self.swap && self.invert == [false; 2]
     }
@@ -46,7 +47,7 @@ impl Recoding {
         Genotype { nodes, links: genotype.links.clone() }
     }
 
-    /// The pattern under which the body before did what the recoded body does under `pattern`.
+    /// The pattern under which the original body moved as the recoded body does under `pattern`.
     pub fn before(&self, pattern: Pattern) -> Pattern {
         let was = |stimulus: usize| {
             let now = if self.swap { 1 - stimulus } else { stimulus };
@@ -55,7 +56,7 @@ impl Recoding {
         Pattern::new(&[was(0), was(1)])
     }
 
-    /// The recoded body's displacements from those of the body before, patterns 00, 01, 10, 11.
+    /// The displacements of the recoded body from those of the original, for patterns 00, 01, 10, 11.
     pub fn displacement(&self, displacement: &[f64; 4]) -> [f64; 4] {
         Pattern::PAIRS.map(|pattern| displacement[self.before(pattern).pair_index()])
     }
@@ -78,7 +79,7 @@ pub fn mirrored(genotype: &Genotype) -> Genotype {
     mirror
 }
 
-/// What each code becomes; `None` when a sensor has no counterpart. Of several equal sensors the first answers to the first.
+/// The image of each code; `None` if a sensor has no counterpart. Equal sensors are paired in order.
 fn recoded_palette(palette: &Palette, swap: bool, invert: [bool; 2]) -> Option<Vec<u8>> {
     let recode = |response: Response| {
         let stimulus = if swap { 1 - response.stimulus } else { response.stimulus };

@@ -1,4 +1,4 @@
-//! What came of a behavior for which a robot was asked: the robot, or why there is none.
+//! The result of `library add` for a behavior: a robot, or the reason why there is none.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use crate::model::{Behavior, Robot};
 use crate::report::Listing;
 use crate::swarm::Selected;
 
-/// The answer for one behavior.
+/// The result for one behavior.
 #[derive(Clone, Debug, Serialize)]
 pub struct Answer {
     /// Its four letters.
@@ -25,7 +25,7 @@ pub struct Answer {
     pub robot: Option<Listing>,
 }
 
-/// What came of a behavior.
+/// The kinds of results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -38,7 +38,7 @@ pub enum Outcome {
 }
 
 impl Answer {
-    /// The answer for a behavior, with the largest share of errors that was accepted.
+    /// The result for a behavior, with the highest accepted error rate.
     pub fn of(behavior: Behavior, selected: &Selected, max_error: f64) -> Self {
         let listing = |robot: &Robot| Some(Listing::of(robot));
         let (outcome, reason, robot) = match selected {
@@ -63,7 +63,7 @@ impl Answer {
     }
 }
 
-/// How often a robot errs, and how often it might.
+/// The error rate of a robot and its upper limit.
 fn errors(robot: &Robot, max_error: f64) -> String {
     let character = &robot.character;
     let wrong = (character.error_rate * f64::from(character.switches)).round();

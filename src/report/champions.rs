@@ -1,4 +1,5 @@
-//! Champions of several runs by behavior (paper, figure 4): each path in body lengths over cycles, one panel for each behavior.
+//! Champions of several runs by behavior (paper, figure 4): each path in body lengths over cycles, one panel for each
+//! behavior.
 
 use crate::model::{Behavior, CYCLE_STEPS, Trajectory};
 use crate::report::Color;
@@ -70,7 +71,7 @@ fn draw_panel(svg: &mut Svg, corner: (f64, f64), group: &Champions, changes: &[f
     panel.x_label(svg, &format!("body lengths ({mean:.1})"));
 }
 
-/// Body lengths gone, there and back counted alike: the sum over quarters of the path.
+/// The length of the path in body lengths, in both directions: the sum over its quarters.
 fn walked(path: &[f64]) -> f64 {
     let quarter = (path.len().saturating_sub(1) / 4).max(1);
     let stops: Vec<f64> = path.iter().copied().step_by(quarter).collect();

@@ -13,7 +13,8 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The scale that takes `low` to the pixel `from` and `high` to `to`; an empty or senseless range becomes one of length 1.
+    /// The scale that takes `low` to the pixel `from` and `high` to `to`; an empty or senseless range becomes one of
+    /// length 1.
     pub fn new((low, high): (f64, f64), (from, to): (f64, f64)) -> Self {
         let sound = low.is_finite() && high.is_finite() && high - low > f64::EPSILON * high.abs().max(low.abs());
         let (low, high) = if sound { (low, high) } else { (finite(low) - 0.5, finite(low) + 0.5) };
@@ -62,7 +63,7 @@ pub fn tick_label(value: f64, ticks: &[f64]) -> String {
     text.replace('-', "\u{2212}")
 }
 
-/// The range of values, a share of its length wider on each side.
+/// The range of values, extended on each side by a fraction of its length.
 pub fn range_of(values: impl IntoIterator<Item = f64>, margin: f64) -> (f64, f64) {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
@@ -84,20 +85,20 @@ pub struct Panel {
     pub left: f64,
     /// The rectangle's upper edge.
     pub top: f64,
-    /// The rectangle's right edge.
+    /// The right edge of the rectangle.
     pub right: f64,
     /// The rectangle's lower edge.
     pub bottom: f64,
 }
 
 impl Panel {
-    /// A panel with values growing to the right and upwards.
+    /// A panel with values increasing to the right and upwards.
     pub fn new((left, top): Point, width: f64, height: f64, x: (f64, f64), y: (f64, f64)) -> Self {
         let (right, bottom) = (left + width, top + height);
         Self { x: Scale::new(x, (left, right)), y: Scale::new(y, (bottom, top)), left, top, right, bottom }
     }
 
-    /// The same panel with the second axis growing downwards, as time does in a spacetime diagram.
+    /// The same panel with the second axis increasing downwards, for time in a spacetime diagram.
     pub fn downwards(self) -> Self {
         let y = Scale { from: self.top, to: self.bottom, ..self.y };
         Self { y, ..self }
@@ -138,13 +139,13 @@ impl Panel {
         }
     }
 
-    /// What the first axis counts, below its values.
+    /// The title of the first axis, below its values.
     pub fn x_label(&self, svg: &mut Svg, label: &str) {
         let middle = (self.left + self.right) / 2.0;
         svg.text((middle, self.bottom + 31.0), label, Type::new(11.0).anchored(Anchor::Middle));
     }
 
-    /// What the second axis counts, left of its values.
+    /// The title of the second axis, left of its values.
     pub fn y_label(&self, svg: &mut Svg, label: &str) {
         let middle = (self.top + self.bottom) / 2.0;
         svg.text((self.left - 34.0, middle), label, Type::new(11.0).anchored(Anchor::Middle).upwards());

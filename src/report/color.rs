@@ -25,7 +25,7 @@ impl Color {
 
     /// The ground that robots walk on.
     pub const GROUND: Self = Self::new(120, 104, 88);
-    /// What is behind robots.
+    /// The background of robots.
     pub const SKY: Self = Self::new(250, 250, 247);
 
     /// The series of Okabe and Ito: blue, vermilion, bluish green, reddish purple, orange, sky blue, yellow.
@@ -38,13 +38,13 @@ impl Color {
         Self::new(86, 180, 233),
         Self::new(240, 228, 66),
     ];
-    /// Stimulus 1 wherever it is drawn.
+    /// Stimulus 1, in all pictures.
     pub const STIMULUS_1: Self = Self::SERIES[0];
-    /// Stimulus 2 wherever it is drawn.
+    /// Stimulus 2, in all pictures.
     pub const STIMULUS_2: Self = Self::SERIES[4];
-    /// An output wherever it is drawn.
+    /// Outputs, in all pictures.
     pub const OUTPUT: Self = Self::SERIES[2];
-    /// A fault wherever it is drawn.
+    /// Faults, in all pictures.
     pub const FAULT: Self = Self::SERIES[1];
 
     /// The color of these three parts.
@@ -57,7 +57,7 @@ impl Color {
         Self::SERIES[i % Self::SERIES.len()]
     }
 
-    /// A color on the way to another: 0 is this one, 1 the other.
+    /// A mixture with another color: 0 is this one, 1 the other.
     pub fn mix(self, other: Self, share: f64) -> Self {
         let part = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share.clamp(0.0, 1.0)).round() as u8;
         Self::new(part(self.r, other.r), part(self.g, other.g), part(self.b, other.b))

@@ -1,5 +1,5 @@
-//! Performances by group of behaviors (paper, figure 5): every run as a dot, a cross at the mean, gaps where groups differ, and the
-//! statistics below.
+//! Performances by group of behaviors (paper, figure 5): every run as a dot, a cross at the mean, gaps where groups
+//! differ, and the statistics below.
 
 use crate::diag::counted;
 use crate::report::Color;
@@ -7,7 +7,7 @@ use crate::report::chart::{Panel, range_of};
 use crate::report::groups::{BehaviorGroup, GroupComparison};
 use crate::report::svg::{Anchor, Paint, Point, Svg, Type};
 
-/// Groups whose adjusted p is below this stand apart.
+/// Groups with an adjusted p below this differ significantly.
 const SIGNIFICANT: f64 = 0.05;
 const TOP: f64 = 52.0;
 const HEIGHT: f64 = 260.0;
@@ -15,7 +15,7 @@ const HEIGHT: f64 = 260.0;
 const NAMES: f64 = 100.0;
 const LINE: f64 = 14.0;
 
-/// Draws the groups side by side with every comparison of two of them; `unit` is what is measured.
+/// Draws the groups side by side with all pairwise comparisons; `unit` is the measured quantity.
 pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> Svg {
     let slots: Vec<f64> = (0..groups.len())
         .scan(-0.4, |slot, place| {
@@ -52,7 +52,7 @@ fn draw_group(svg: &mut Svg, panel: &Panel, group: &BehaviorGroup, slot: f64) {
     let color = [Color::series(4), Color::series(5), Color::series(2)][group.stimuli.min(2)];
     let count = group.values.len();
     for (i, &value) in group.values.iter().enumerate() {
-        // Dots of one group stand beside each other.
+        // The dots of a group are next to each other.
         let beside = ((i as f64 + 0.5) / count as f64 - 0.5) * 0.5;
         svg.circle(panel.at((slot + beside, value)), 3.6, Paint::fill(color).with_opacity(0.85));
     }

@@ -5,7 +5,7 @@ pub(super) fn line(cells: impl IntoIterator<Item = String>) -> String {
     cells.into_iter().collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// A text as a cell, in quotes where it needs them.
+/// A text as a cell, quoted if necessary.
 pub(super) fn cell(text: &str) -> String {
     let plain = !text.contains([',', '"', '\n', '\r']);
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }

@@ -1,10 +1,10 @@
-//! Output for programs: a JSON object that says by which schema it is made.
+//! Output for programs: a JSON object with the name of its schema.
 
 use serde::Serialize;
 
 macro_rules! schemas {
     ($($name:ident = $word:literal, $version:literal: $meaning:literal;)*) => {
-        /// What a JSON output holds; `docs/schema` describes each.
+        /// The kind of a JSON output; `docs/schema` describes each.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Schema {
             $(#[doc = $meaning] $name,)*
@@ -21,7 +21,7 @@ macro_rules! schemas {
                 }
             }
 
-            /// What identifies it: its word and its version, which rises when an output changes so that a reader may stumble.
+            /// The identifier: a word and a version, which increases with every incompatible change.
             pub fn id(self) -> &'static str {
                 match self {
                     $(Self::$name => concat!("urn:nbc:", $word, ":", $version),)*

@@ -14,12 +14,12 @@ use crate::swarm::Work;
 pub struct EvolutionLine {
     /// Generations done.
     pub generation: u32,
-    /// How often each outcome came.
+    /// Counts of the results.
     #[serde(flatten)]
     pub counts: Counts,
     /// Filled niches.
     pub filled: usize,
-    /// Filled niches as a share of all.
+    /// The share of filled niches.
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
@@ -33,7 +33,7 @@ pub struct EvolutionLine {
 }
 
 impl EvolutionLine {
-    /// The line of a search as it is.
+    /// The line for the current state of a search.
     pub fn of(search: &Search, work: Work) -> Self {
         let ArchiveStats { filled, coverage, qd_score, champions, .. } = search.archive().stats();
         Self {
@@ -49,7 +49,7 @@ impl EvolutionLine {
     }
 }
 
-/// The table at the end of a run: the best of each behavior, then what the run took.
+/// The table at the end of a run: the best of each behavior, then the totals of the run.
 pub fn evolution_table(search: &Search, work: Work) -> String {
     let stats = search.archive().stats();
     let [first, second] = match search.evolution().objective {

@@ -1,5 +1,5 @@
-//! The report of evolution runs as one HTML page that needs nothing else: the verdict, the archive whose niches open their elites and
-//! play their gaits, and the plots.
+//! The report of evolution runs as one self-contained HTML page: the verdict, the archive, whose niches open their
+//! elites and play their gaits, and the plots.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ struct Entry<'a> {
     elite: &'a Elite,
 }
 
-/// The page of what runs of one declaration found. The gaits are simulated here.
+/// The page for the runs of one declaration. The gaits are simulated here.
 pub fn draw_evolution_page(harvest: &Harvest, plates: &[Plate], scheme: Scheme) -> String {
     let entries = ranked(harvest);
     let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);
@@ -69,7 +69,8 @@ fn verdict(harvest: &Harvest, behaviors: usize, filled: usize) -> String {
     )
 }
 
-/// The best of each niche: the best of every behavior first, then the second best, and behaviors that answer more stimuli first.
+/// The best elite of each niche: first the best of every behavior, then the second best; behaviors that depend on more
+/// stimuli first.
 fn ranked(harvest: &Harvest) -> Vec<Entry<'_>> {
     let mut of_behavior: BTreeMap<Behavior, Vec<Entry<'_>>> = BTreeMap::new();
     for (key, (seed, elite)) in harvest.best() {
@@ -85,7 +86,7 @@ fn ranked(harvest: &Harvest) -> Vec<Entry<'_>> {
     ranked.into_iter().map(|(_, entry)| entry).collect()
 }
 
-/// Frames in a cycle, and the gaits of as many of the first elites as there is room for.
+/// Frames per cycle, and the gaits of the first elites, as many as fit.
 fn record(entries: &[Entry<'_>]) -> (u32, Vec<Recorded>) {
     let spell = |pattern| Spell { pattern, steps: GAIT_CYCLES as u32 * CYCLE_STEPS };
     let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };

@@ -1,4 +1,5 @@
-//! Archives and libraries as data for other programs: JSON with everything, or a table with a row for each elite or robot.
+//! Archives and libraries as data for other programs: JSON with everything, or a table with a row for each elite or
+//! robot.
 
 use serde::Serialize;
 
@@ -39,7 +40,7 @@ struct EliteData<'a> {
     evaluations: u64,
 }
 
-/// A body with what is counted of it.
+/// A body with its counts of voxels.
 #[derive(Clone, Debug, Serialize)]
 struct BodyData<'a> {
     width: usize,

@@ -1,5 +1,5 @@
-//! The paper's comparison of behaviors (paper, section 3 and figure 5): groups of equal difficulty, the exact Mann-Whitney U test
-//! between each two, Holm's correction, and the effect size A12.
+//! The paper's comparison of behaviors (paper, section 3 and figure 5): groups of equal difficulty, the exact
+//! Mann-Whitney U test between each two, Holm's correction, and the effect size A12.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -15,12 +15,12 @@ use crate::report::{Align, Table};
 /// The thresholds of significance that are spoken of; the paper's is the last.
 const THRESHOLDS: [f64; 2] = [0.05, 0.001];
 
-/// The behaviors of one difficulty, left and right exchanged.
+/// The behaviors of one difficulty, which differ by exchanging left and right.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BehaviorGroup {
     /// Such as `XXYY, XYXY`.
     pub name: &'static str,
-    /// How many stimuli its robots answer.
+    /// The number of stimuli that its robots depend on.
     pub stimuli: usize,
     /// For each run that found any, the mean distance in voxels of its champions, one for each behavior found.
     pub values: Vec<f64>,
@@ -31,11 +31,11 @@ pub struct BehaviorGroup {
 pub struct GroupComparison {
     /// The groups, by their places.
     pub groups: [usize; 2],
-    /// The probability, by the exact two-sided test, that values so far apart come from one distribution.
+    /// The probability, by the exact two-sided test, that values this far apart come from the same distribution.
     pub p: f64,
     /// The same after Holm's correction for all pairs.
     pub p_adjusted: f64,
-    /// The least adjusted value that so few runs could ever reach.
+    /// The smallest adjusted value that is possible with so few runs.
     pub p_least: f64,
     /// The probability that a value of the first group exceeds one of the second, ties counting half.
     pub a12: f64,
@@ -56,8 +56,8 @@ fn group_of(behavior: Behavior) -> usize {
     }
 }
 
-/// The groups' values, one for each run: champions of one run are not independent samples, and neither are two runs of one seed, so
-/// runs come by their seeds.
+/// The groups' values, one for each run. Champions of one run are not independent samples, and neither are two runs
+/// with the same seed, so runs are grouped by seed.
 pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup> {
     let values = |place: usize| {
         runs.values().filter_map(move |run| {
@@ -101,9 +101,10 @@ fn compare(groups: &[BehaviorGroup], pair: [usize; 2]) -> Option<GroupComparison
     Some(GroupComparison { groups: pair, p, p_adjusted: p, p_least, a12, is_approximate })
 }
 
-/// The two-sided probability of a U at least as far from its mean, without ties (`statrs` 0.19 has it right only where the first
-/// sample is the larger: else it gives the complement). Of all orders of `m + n` values, equally likely,
-/// those are counted that give each U: the greatest value is of the one sample and exceeds all of the other, or is of the other.
+/// The two-sided probability of a U at least as far from its mean, without ties. (`statrs` 0.19 is correct only if the
+/// first sample is the larger; otherwise it returns the complement.) It counts the orders of `m + n` values, all
+/// equally likely, that give each U: the largest value is from the first sample and exceeds all of the second, or it is
+/// from the second.
 fn exact_p(u: f64, m: usize, n: usize) -> f64 {
     let mut orders: Vec<Vec<Vec<f64>>> = vec![vec![Vec::new(); n + 1]; m + 1];
     for i in 0..=m {
@@ -137,7 +138,7 @@ fn holm(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// How many ways there are to choose `k` of `n`.
+/// The number of ways to choose `k` of `n`.
 fn choices(n: usize, k: usize) -> f64 {
     (0..k).map(|i| (n - i) as f64 / (i + 1) as f64).product()
 }
@@ -254,7 +255,7 @@ mod tests {
 
     #[test]
     fn a_comparison_is_the_textbooks() {
-        // The example of scipy.stats.mannwhitneyu: U = 17, exact p = 1/9. Both orders of the samples give the same.
+        // The example of scipy.stats.mannwhitneyu: U = 17, exact p = 1/9, for both orders of the samples.
         let [males, females] = [vec![19.0, 22.0, 16.0, 29.0, 24.0], vec![20.0, 11.0, 17.0, 12.0]];
         let group = |values: &[f64]| BehaviorGroup { name: "", stimuli: 0, values: values.to_vec() };
         for (a, b, u) in [(&males, &females, 17.0), (&females, &males, 3.0)] {

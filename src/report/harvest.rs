@@ -1,4 +1,5 @@
-//! What evolution runs of one declaration found: each seed's elites and progress, and the best elite of each niche over all seeds.
+//! The results of the evolution runs of one declaration: each seed's elites and progress, and the best elite of each
+//! niche over all seeds.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +15,7 @@ pub struct Harvest {
     pub name: String,
     /// The archive's axes.
     pub axes: Vec<Axis>,
-    /// What was rewarded.
+    /// The objective.
     pub objective: Objective,
     /// The runs by their seeds: a seed is one run, however often it was read.
     pub runs: BTreeMap<u64, SeedRun>,
@@ -36,7 +37,7 @@ impl SeedRun {
         fittest(own)
     }
 
-    /// The champions of all behaviors found, as an archive's statistics tell them.
+    /// The champions of all behaviors, as statistics of an archive.
     pub fn champions(&self) -> Vec<Champion> {
         let champion = |behavior| {
             let fitness = self.champion(behavior)?.fitness;
@@ -76,7 +77,7 @@ impl Harvest {
         fittest(self.runs.values().filter_map(|run| run.champion(behavior)))
     }
 
-    /// Niches there are.
+    /// The number of niches.
     pub fn niche_count(&self) -> usize {
         self.axes.iter().map(|axis| bins(*axis)).product()
     }
@@ -103,7 +104,7 @@ impl Harvest {
         ]
     }
 
-    /// What the first fitness is.
+    /// The meaning of the first fitness.
     pub fn unit(&self) -> &'static str {
         match self.objective {
             Objective::Distance => "distance (voxels)",
@@ -112,7 +113,7 @@ impl Harvest {
     }
 }
 
-/// How many bins an axis has.
+/// The number of bins of an axis.
 pub fn bins(axis: Axis) -> usize {
     match axis {
         Axis::Count { bins, .. } => bins,

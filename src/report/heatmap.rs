@@ -1,4 +1,5 @@
-//! Archives as heat maps: the best fitness over two axes, one map for each behavior where the archive has a behavior axis.
+//! Archives as heat maps: the best fitness over two axes, with one map for each behavior if the archive has a behavior
+//! axis.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +17,7 @@ const LEFT: f64 = 46.0;
 const TOP: f64 = 66.0;
 /// From map to map.
 const GAP: (f64, f64) = (28.0, 52.0);
-/// Width of the key right of the maps, and the height of its colors.
+/// Width of the key to the right of the maps, and height of its colors.
 const KEY: f64 = 80.0;
 const KEY_HEIGHT: f64 = 150.0;
 
@@ -29,12 +30,12 @@ const MAP: [Color; 5] = [
     Color::new(253, 231, 37),
 ];
 
-/// What a map shows: the best first fitness of each pair of bins.
+/// The contents of a map: the best first fitness of each pair of bins.
 type Cells = BTreeMap<(u16, u16), f64>;
 
 /// An archive as a map shows it.
 pub struct Terrain<'a> {
-    /// What the first fitness is, with its unit.
+    /// The meaning of the first fitness, with its unit.
     pub unit: &'a str,
     /// The archive's axes.
     pub axes: &'a [Axis],
@@ -42,7 +43,8 @@ pub struct Terrain<'a> {
     pub niches: &'a [(&'a NicheKey, f64)],
 }
 
-/// Draws an archive over two of its axes, by their places; a behavior axis gives small multiples unless it is one of the two.
+/// Draws an archive over two of its axes, given by index. Unless one of them is the behavior axis, there is a small map
+/// for each behavior.
 ///
 /// # Panics
 /// When an axis is not there.
@@ -100,7 +102,7 @@ pub fn heat(share: f64) -> Color {
     MAP[below].mix(MAP[below + 1], place - below as f64)
 }
 
-/// How far a value is along a range: 0 at its start, 1 at its end.
+/// The relative position of a value in a range: 0 at its start, 1 at its end.
 pub fn share((low, high): (f64, f64), value: f64) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }
@@ -110,7 +112,7 @@ struct Map<'a> {
     cells: &'a Cells,
     axes: (Axis, Axis),
     range: (f64, f64),
-    /// Whether the second axis is named beside it.
+    /// Whether the map is labeled with the second axis.
     leftmost: bool,
     /// Whether the first axis is named below it.
     lowest: bool,

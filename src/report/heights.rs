@@ -1,4 +1,4 @@
-//! How far down each slot of a layered drawing stands, so that wires run straight where they can.
+//! The vertical positions of slots in a layered drawing, so that most wires are straight.
 
 use crate::circuit::Netlist;
 use crate::report::layers::{Layers, Slot};
@@ -6,7 +6,7 @@ use crate::report::layers::{Layers, Slot};
 /// Passes over the layers.
 const SWEEPS: usize = 12;
 
-/// The top of each slot, layer by layer, the uppermost at 0; slots keep their order and are `gap` apart at least.
+/// The top of each slot, layer by layer, the uppermost at 0. Slots keep their order and are at least `gap` apart.
 pub fn straighten(layers: &Layers, netlist: &Netlist, height: impl Fn(Slot) -> f64, gap: f64) -> Vec<Vec<f64>> {
     let stacked = |slots: &Vec<Slot>| {
         let tops = slots.iter().scan(0.0, |next, &slot| {
@@ -32,7 +32,7 @@ pub fn straighten(layers: &Layers, netlist: &Netlist, height: impl Fn(Slot) -> f
     tops.into_iter().map(|layer| layer.into_iter().map(|top| top - highest).collect()).collect()
 }
 
-/// Where a slot would stand if its wires to one side ran straight on the mean; where it is, if it has none there.
+/// The position of a slot at which its wires to one side are straight on average; its current position if it has none.
 fn wanted(
     layers: &Layers,
     netlist: &Netlist,
@@ -68,8 +68,8 @@ fn wanted(
     if wires.is_empty() { tops[layer][place] } else { wires.iter().sum::<f64>() / wires.len() as f64 }
 }
 
-/// The tops nearest to the wanted ones, by least squares, that keep the order and leave each slot the room it needs: neighbors that
-/// would overlap stand together at their mean (isotonic regression by pooling adjacent violators).
+/// The tops closest to the wanted ones by least squares that keep the order and do not overlap: neighbors that would
+/// overlap are placed together at their mean (isotonic regression by pooling adjacent violators).
 fn nearest(wanted: &[f64], needed: &[f64]) -> Vec<f64> {
     let offsets: Vec<f64> = needed
         .iter()

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-/// What is read of a line of `progress.jsonl`.
+/// The fields read from a line of `progress.jsonl`.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct ProgressLine {
     /// Generations done.
     pub generation: u32,
-    /// Filled niches as a share of all.
+    /// The share of filled niches.
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
@@ -23,8 +23,8 @@ pub struct History<'a> {
 }
 
 impl<'a> History<'a> {
-    /// The history of a run of so many generations. Lines beyond them were written after the last checkpoint, and the run makes them
-    /// again; a line that cannot be read is missing.
+    /// The history of a run of this many generations. Later lines were written after the last checkpoint, and the run
+    /// will repeat them. A line that cannot be read counts as missing.
     pub fn read(text: &'a str, generations: u32) -> Self {
         let mut lines = BTreeMap::new();
         for text in text.lines() {
@@ -36,7 +36,7 @@ impl<'a> History<'a> {
         Self { lines, generations }
     }
 
-    /// The lines that are there.
+    /// The valid lines.
     pub fn lines(&self) -> impl Iterator<Item = ProgressLine> {
         self.lines.values().map(|(line, _)| *line)
     }
@@ -46,7 +46,7 @@ impl<'a> History<'a> {
         self.lines.values().flat_map(|(_, text)| [*text, "\n"]).collect()
     }
 
-    /// What is damaged about it, in words; nothing where each generation has its line.
+    /// A description of the damage; `None` if each generation has its line.
     pub fn damage(&self) -> Option<String> {
         let missing = self.generations as usize - self.lines.len();
         let first = (1..=self.generations).find(|generation| !self.lines.contains_key(generation))?;

@@ -1,4 +1,5 @@
-//! What all pages have in common: one file that fetches nothing, in the reader's theme, with its data and scripts inside.
+//! The common parts of all pages. A page is one file that loads nothing, follows the reader's theme, and contains its
+//! data and scripts.
 
 use serde_json::Value;
 
@@ -8,19 +9,19 @@ const STYLE: &str = include_str!("../../assets/page/page.css");
 /// Robots on a canvas, and the controls of a player.
 const COMMON: [&str; 2] = [include_str!("../../assets/page/robot.js"), include_str!("../../assets/page/clock.js")];
 
-/// A page under way.
+/// A page under construction.
 pub struct Html<'a> {
     /// The heading, as plain text.
     pub heading: &'a str,
     /// Whether the verdict is good.
     pub passed: bool,
-    /// The verdict, which comes first, as plain text.
+    /// The verdict at the top, as plain text.
     pub verdict: String,
-    /// What follows, as HTML.
+    /// The body, as HTML.
     pub body: String,
-    /// What the script reads.
+    /// The data for the script.
     pub data: Value,
-    /// What moves the page.
+    /// The script.
     pub script: &'static str,
 }
 
@@ -60,8 +61,8 @@ pub fn controls(speed: &str) -> String {
     )
 }
 
-/// A drawing within a page, in a frame that scrolls where the page is narrow. Several drawings may name their parts alike, so the names
-/// are no longer identities.
+/// A drawing in a page, in a frame that scrolls if the page is too narrow. Identifiers are removed, because several
+/// drawings may use the same ones.
 pub fn picture(svg: &Svg, label: &str) -> String {
     let svg = svg.finish().replace("<g id=\"", "<g data-id=\"");
     format!(

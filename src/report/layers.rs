@@ -1,4 +1,4 @@
-//! Where the nodes of a netlist stand in a layered drawing: inputs left, outputs right, feedback running back.
+//! Positions of a netlist's nodes in a layered drawing: inputs left, outputs right, feedback running back.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,12 +7,12 @@ use crate::circuit::{Loops, NetId, Netlist, Node};
 /// Passes over the layers that bring neighbors closer to each other.
 const SWEEPS: usize = 8;
 
-/// What stands at one place of a layer.
+/// The content of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slot {
     /// A node.
     Node(NetId),
-    /// A net on its way through to later layers.
+    /// A net that passes through to later layers.
     Pass(NetId),
 }
 
@@ -25,7 +25,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Lays out a netlist. Wires stand like cells.
+    /// Lays out a netlist. Wires are placed like cells.
     pub fn of(netlist: &Netlist) -> Self {
         let layer_of = assign(netlist);
         let count = layer_of.values().max().map_or(0, |last| last + 1);
@@ -82,7 +82,8 @@ impl Layers {
         self.entries(netlist, slot, layer).into_iter().map(|(before, _)| (layer - 1, before)).collect()
     }
 
-    /// The slots of the layer before that are wired to a slot, each with the share of its height at which the wire enters.
+    /// The slots of the previous layer that are wired to a slot, each with the relative height at which the wire
+    /// enters.
     pub fn entries(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(Slot, f64)> {
         let id = match slot {
             Slot::Pass(net) => return vec![(self.carrier(net, layer - 1), 0.5)],
@@ -104,20 +105,20 @@ impl Layers {
     }
 }
 
-/// How far down its layer each slot stands: 0 at the top, 1 at the bottom.
+/// The relative position of each slot in its layer: 0 at the top, 1 at the bottom.
 fn heights(slots: &[Slot]) -> BTreeMap<Slot, f64> {
     let count = slots.len() as f64;
     slots.iter().enumerate().map(|(i, &slot)| (slot, (i as f64 + 0.5) / count)).collect()
 }
 
-/// The layer of each node: inputs and constants in the first, every node after its drivers except where feedback runs back, outputs in
-/// the last.
+/// The layer of each node: inputs and constants in the first, every node after its drivers except those of feedback,
+/// outputs in the last.
 fn assign(netlist: &Netlist) -> BTreeMap<NetId, usize> {
     let loops = Loops::of(netlist);
     let mut layer: BTreeMap<NetId, usize> = BTreeMap::new();
     let mut seen: BTreeSet<NetId> = BTreeSet::new();
     for &id in loops.order() {
-        // A driver that comes later in the order drives by feedback.
+        // A driver that is later in the order is feedback.
         let drivers = netlist.pins(id).into_iter().filter(|driver| seen.contains(driver));
         let first = usize::from(!matches!(netlist.node(id), Node::Input(_) | Node::Constant(_)));
         let at = drivers.map(|driver| layer[&driver] + 1).max().unwrap_or(0).max(first);

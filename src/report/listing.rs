@@ -10,7 +10,7 @@ use crate::report::looks::material_words;
 use crate::report::{Align, Table};
 use crate::store;
 
-/// What a list says of a robot, for programs.
+/// The data of a robot in a list, for programs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Listing {
     /// Its name.
@@ -24,23 +24,23 @@ pub struct Listing {
     pub bounds: String,
     /// Its clock in cycles.
     pub clock: u32,
-    /// Its least displacement in voxels a cycle.
+    /// Its smallest displacement in voxels per cycle.
     pub margin: f64,
-    /// Wrong outputs as a share of random switches.
+    /// The share of random switches with a wrong output.
     pub error_rate: f64,
     /// Random switches over which they were counted.
     pub switches: u32,
-    /// Wrong cycles as a share of those in which the output ought to stay.
+    /// The share of wrong cycles in which the output should not change.
     pub glitch_rate: f64,
     /// Its rows of codes, top row first.
     pub body: Vec<String>,
-    /// What the codes mean, in their order, where they are not the paper's.
+    /// The materials of the codes, in their order, if they are not the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub materials: Option<Arc<Palette>>,
 }
 
 impl Listing {
-    /// What the list says of one robot.
+    /// The entry for one robot.
     pub fn of(robot: &Robot) -> Self {
         let character = &robot.character;
         Self {
@@ -96,7 +96,7 @@ fn percent(share: f64) -> String {
     if share == 0.0 { "0".to_owned() } else { format!("{:.2} %", share * 100.0) }
 }
 
-/// A robot on one page: its body, what it does, how it does as a gate, and where it comes from.
+/// A robot on one page: its body, its materials, its character and its provenance.
 pub fn describe_robot(robot: &Robot) -> String {
     let (character, provenance) = (&robot.character, &robot.provenance);
     let drawing = robot.body.rows().join("\n    ").replace('0', ".");

@@ -1,4 +1,5 @@
-//! How materials look in a picture: a color each, and beyond the paper's eight a mark too, so that they are told apart without color.
+//! The appearance of materials in pictures: a color for each, and a mark for materials beyond the paper's eight, so
+//! that they can be distinguished without color.
 
 use std::sync::Arc;
 
@@ -12,20 +13,21 @@ use crate::report::svg::{Paint, Point, Svg};
 pub struct Look {
     /// The color of its voxels.
     pub color: Color,
-    /// What is drawn on them.
+    /// The mark.
     pub mark: Option<Mark>,
 }
 
 /// A sign on a voxel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// Its color, which stands out from the voxel's.
+    /// The color of the mark, which contrasts with the voxel's.
     pub ink: Color,
-    /// Polygons in a voxel's own square: x to the right, y down, from 0 to 1.
+    /// Polygons in the unit square of a voxel: x to the right, y down.
     pub polygons: &'static [&'static [Point]],
 }
 
-/// The looks of the materials in one picture. Materials of one name and the same numbers look alike in all bodies of the picture.
+/// The looks of the materials in one picture. Materials of one name and the same numbers look alike in all bodies of
+/// the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Looks {
     palettes: Vec<Arc<Palette>>,
@@ -79,8 +81,8 @@ const SHAPES: [&[&[Point]]; 12] = [
 ];
 
 impl Look {
-    /// The look of the `i`-th material that is not the paper's: a shape, light with dark ink first, then with white ink, then dark.
-    /// The series is longer than a palette; after its end it starts again.
+    /// The look of the `i`-th material that is not the paper's: a shape, light with dark ink first, then with white
+    /// ink, then dark. The series is longer than a palette; after its end it starts again.
     fn beyond(i: usize) -> Self {
         let hue = HUES[i % HUES.len()];
         let (color, ink) = match i / SHAPES.len() % 3 {
@@ -139,13 +141,13 @@ impl Looks {
         self.materials.iter().map(|(_, look)| *look)
     }
 
-    /// The materials that occur in these bodies with what a legend says of them, in order of their looks.
+    /// The materials that occur in these bodies with their legends, in order of their looks.
     pub fn legend<'a>(&self, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<(Look, String)> {
         let mut entries: Vec<(usize, String)> = Vec::new();
         for body in bodies {
             for (code, material) in body.materials() {
                 let index = self.index(body.palette(), code);
-                // Where palettes differ a code may mean two things.
+                // If palettes differ, a code may have two meanings.
                 let number = if self.palettes.len() == 1 { format!("{} ", code_digit(code)) } else { String::new() };
                 let entry = (index, format!("{number}{}", describe_material(material)));
                 if !entries.contains(&entry) {
@@ -169,7 +171,7 @@ fn paper_look(material: &Material, scheme: Scheme) -> Option<Look> {
     Some(Look { color: scheme.color(code), mark: None })
 }
 
-/// A material's name, with its numbers where it is not the paper's.
+/// A material's name, with its numbers if it is not one of the paper's.
 pub fn describe_material(material: &Material) -> String {
     let name = &material.name;
     if material.paper_code().is_some() {
@@ -192,7 +194,7 @@ pub fn material_words(body: &Body) -> Vec<String> {
     body.materials().map(|(code, material)| format!("{} {}", code_digit(code), describe_material(material))).collect()
 }
 
-/// Draws a mark on a voxel, whose corners stand around it from the top left: `pen` draws a polygon.
+/// Draws a mark on a voxel with these corners, from the top left; `pen` draws a polygon.
 pub fn draw_mark(mark: &Mark, corners: &[Point; 4], mut pen: impl FnMut(&[Point], Color)) {
     let [a, b, c, d] = *corners;
     let across = |from: f64, to: f64, share: f64| from + (to - from) * share;

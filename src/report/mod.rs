@@ -1,4 +1,4 @@
-//! Reports: what was found, as text, pictures and data. Everything here is text or bytes; who writes them where is decided above.
+//! Reports: results as text, pictures and data. Everything here returns text or bytes; the layers above write them.
 
 mod answer;
 mod champions;

@@ -1,4 +1,4 @@
-//! Bodies on pages: their voxels, how these look, and what they are made of.
+//! Bodies on pages: their voxels, the looks of these, and their materials.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! Robots side by side: each body with its names, and one legend for all.
+//! Robots side by side: each body with its names, and one common legend.
 
 use crate::model::Body;
 use crate::report::Color;
@@ -6,12 +6,12 @@ use crate::report::looks::{Looks, draw_swatch};
 use crate::report::sprite::{LETTER, Scheme, draw_body};
 use crate::report::svg::{Anchor, Svg, Type};
 
-/// Pixels of the largest body's longer side, and of the place it stands in.
+/// Pixels of the largest body's longer side, and of its slot.
 const SIDE: f64 = 84.0;
 const PITCH: (f64, f64) = (124.0, 138.0);
 const COLUMNS: usize = 8;
 const TOP: f64 = 44.0;
-/// The least and the most width of one entry of the legend.
+/// The smallest and the largest width of a legend entry.
 const ENTRY: (f64, f64) = (106.0, 124.0);
 
 /// A robot among others.
@@ -25,7 +25,7 @@ pub struct Portrait {
     pub body: Body,
 }
 
-/// Draws robots side by side, all voxels alike in size.
+/// Draws robots side by side, with voxels of equal size.
 pub fn draw_portraits(title: &str, portraits: &[Portrait], scheme: Scheme) -> Svg {
     let columns = COLUMNS.min(portraits.len().max(1));
     let bodies = || portraits.iter().map(|portrait| &portrait.body);

@@ -9,7 +9,7 @@ use crate::report::svg::{Paint, Point, Svg, Type};
 
 const VOXEL: f64 = 30.0;
 
-/// Draws a body after an env step of a schedule; what comes after its end, or after a fault, shows the last pose there was.
+/// Draws a body after an env step of a schedule; after its end or after a fault, this is the last pose.
 pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, scheme: Scheme) -> Svg {
     let moment = moment_at(body, schedule, step);
     let (width, height) = (body.width() as f64, body.height() as f64);
@@ -42,7 +42,7 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
     svg
 }
 
-/// The last moment that is no later than `step`.
+/// The last moment that is not later than `step`.
 fn moment_at(body: &Body, schedule: &Schedule, step: u32) -> Moment {
     let mut spells = schedule.spells.clone();
     let mut left = step;
@@ -71,7 +71,7 @@ fn draw_ground(svg: &mut Svg, span: f64, ground: f64, camera: f64) {
     }
 }
 
-/// The outlines of the voxels at rest, the body's middle where its center of mass is now.
+/// The outlines of the voxels at rest, with the middle of the body at its current center of mass.
 fn draw_rest(svg: &mut Svg, body: &Body, camera: f64, to_pixel: impl Fn(Point) -> Point) {
     let left = camera - body.width() as f64 / 2.0;
     for (corners, _) in Pose::at_rest(body).voxels {

@@ -7,9 +7,9 @@ use crate::report::svg::{Paint, Point, Svg, Type};
 /// A quantity over time, for several seeds.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// What the panel is called.
+    /// The title of the panel.
     pub title: String,
-    /// What is counted upwards, with its unit.
+    /// The vertical axis, with its unit.
     pub unit: String,
     /// For each seed, pairs of time and value in order of time.
     pub runs: Vec<Vec<Point>>,
@@ -60,7 +60,7 @@ fn times(runs: &[Vec<Point>]) -> Vec<f64> {
     times
 }
 
-/// What each run had come to at a time, in order of size.
+/// The values of all runs at a time, in order of size.
 fn values_at(runs: &[Vec<Point>], time: f64) -> Vec<f64> {
     let last = |run: &Vec<Point>| run[..run.partition_point(|at| at.0 <= time)].last().or(run.first()).map(|at| at.1);
     let mut values: Vec<f64> = runs.iter().filter_map(last).collect();

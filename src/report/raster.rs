@@ -1,4 +1,4 @@
-//! Drawings as pixels, with the program's own font: the same drawing gives the same bytes on any machine.
+//! Drawings as pixels, with a built-in font: the same drawing gives the same bytes on any machine.
 
 use std::sync::{Arc, LazyLock};
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::report::SwarmTiming;
 use crate::swarm::{SimulationResult, SwarmTrace, TestVerdict};
 
-/// What a run found.
+/// The results of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct RunResult<'a> {
     /// The program that found it.
@@ -22,15 +22,15 @@ pub struct RunResult<'a> {
     pub simulations: Vec<SwarmResult<'a, SimulationResult>>,
 }
 
-/// What one test or simulation found.
+/// The results of one test or simulation.
 #[derive(Clone, Debug, Serialize)]
 pub struct SwarmResult<'a, T> {
-    /// What it came to, row by row.
+    /// The verdict, row by row.
     #[serde(flatten)]
     pub outcome: &'a T,
     /// The robots in order: net, function, robot, and the nets that the robot senses.
     pub robots: Vec<RobotResult<'a>>,
-    /// When each of them is right.
+    /// The timing of each robot.
     pub timing: SwarmTiming,
     /// The paths of pictures, waveforms and tables.
     pub files: Vec<String>,

@@ -17,11 +17,11 @@ const GAP: f64 = 22.0;
 const PASS: f64 = 12.0;
 const TRACK: f64 = 9.0;
 const TOP: f64 = 52.0;
-/// Bodies are left out of larger circuits, where they would be specks.
+/// Larger circuits are drawn without bodies, which would be too small to see.
 const MAX_BODIES: usize = 400;
 
-/// Draws a netlist; `robots` are those of its cells in order, none where no robots are chosen yet, and `critical` are the nets of the
-/// slowest path.
+/// Draws a netlist. `robots` are those of its cells in order, or empty if none are chosen yet; `critical` are the nets
+/// of the slowest path.
 pub fn draw_schematic(netlist: &Netlist, robots: &[&Robot], critical: &[NetId], scheme: Scheme) -> Svg {
     let plan = Plan::of(netlist);
     let mut svg = Svg::new(plan.width, plan.height, &format!("schematic of {}", netlist.name));
@@ -41,14 +41,14 @@ pub fn draw_schematic(netlist: &Netlist, robots: &[&Robot], critical: &[NetId], 
     svg
 }
 
-/// Where everything stands.
+/// The positions of all parts.
 struct Plan {
     layers: Layers,
     /// Upper left corner of each slot.
     corners: BTreeMap<(usize, Slot), Point>,
-    /// Left edge of each layer's slots, and of what would be the next layer.
+    /// The left edge of each layer's slots, and of the layer after the last.
     lefts: Vec<f64>,
-    /// For each channel right of a layer (channel 0 is left of all), the nets that have a vertical track there.
+    /// For each channel to the right of a layer (channel 0 is left of all), the nets with a vertical track in it.
     tracks: Vec<Vec<(NetId, bool)>>,
     /// Nets with feedback, in order of their lanes below the layers.
     lanes: Vec<NetId>,
@@ -96,7 +96,7 @@ impl Plan {
         netlist.ids().filter(|&id| !netlist.fanout(id).is_empty()).collect()
     }
 
-    /// Where the vertical track of a net is in a channel.
+    /// The position of a net's vertical track in a channel.
     fn track(&self, channel: usize, net: NetId, back: bool) -> f64 {
         let tracks = &self.tracks[channel];
         let place = tracks.iter().position(|&track| track == (net, back)).expect("a net has a track where it turns");
@@ -108,14 +108,14 @@ impl Plan {
         self.bottom + place as f64 * TRACK + 6.0
     }
 
-    /// Where a net leaves its slot in a layer.
+    /// The point at which a net leaves its slot in a layer.
     fn exit(&self, netlist: &Netlist, layer: usize, net: NetId) -> Point {
         let slot = self.layers.carrier(net, layer);
         let ((x, y), (width, height)) = (self.corners[&(layer, slot)], size(netlist, slot));
         (x + width, y + height / 2.0)
     }
 
-    /// Where a net enters a slot: a pin of a node, or a passage.
+    /// The point at which a net enters a slot: a pin of a node, or a passage.
     fn entry(&self, netlist: &Netlist, layer: usize, slot: Slot, pin: u8, pins: usize) -> Point {
         let ((x, y), (_, height)) = (self.corners[&(layer, slot)], size(netlist, slot));
         (x, y + height * (f64::from(pin) + 1.0) / (pins as f64 + 1.0))
@@ -131,7 +131,8 @@ fn feedback_nets(netlist: &Netlist, layers: &Layers) -> Vec<NetId> {
     netlist.ids().filter(runs_back).collect()
 }
 
-/// The nets that turn in each channel: forwards in every channel they cross, and back where feedback leaves and where it arrives.
+/// The nets with a track in each channel: forward nets in every channel they cross, and feedback nets where they leave
+/// and where they arrive.
 fn tracks(netlist: &Netlist, layers: &Layers) -> Vec<Vec<(NetId, bool)>> {
     let mut tracks = vec![BTreeSet::new(); layers.layers.len() + 1];
     for id in netlist.ids() {
@@ -200,7 +201,7 @@ fn draw_trunk(svg: &mut Svg, exit: Point, track: f64, ends: &[(Point, bool)], la
     let branch = |&((x, y), bold): &(Point, bool)| (vec![exit, (track, exit.1), (track, y), (x, y)], bold);
     let down = lane.map(|(lane, bold)| (vec![exit, (track, exit.1), (track, lane)], bold));
     let mut wires: Vec<(Vec<Point>, bool)> = ends.iter().map(branch).chain(down).collect();
-    // Bold ones last, so that they lie on top.
+    // Bold lines last, so that they are on top.
     wires.sort_by_key(|(_, bold)| *bold);
     for (points, bold) in wires {
         svg.polyline(&points, wire(bold));
@@ -219,7 +220,7 @@ fn draw_feedback(svg: &mut Svg, netlist: &Netlist, plan: &Plan, (net, listener, 
     svg.polyline(&[(start, lane), (end, lane), (end, y), (x, y)], wire(bold));
 }
 
-/// What is drawn at a node.
+/// Draws a node.
 struct Symbol<'a> {
     id: NetId,
     /// The cell's place among the cells.
@@ -246,7 +247,7 @@ fn draw_node(svg: &mut Svg, netlist: &Netlist, plan: &Plan, symbol: Symbol<'_>) 
     }
 }
 
-/// A port: a box with its name, cut where it is longer.
+/// A port: a box with its name, shortened if it is too long.
 fn draw_box(svg: &mut Svg, (x, y): Point, (width, height): Point, name: &str) {
     svg.rect((x, y), width, height, Paint::fill(Color::PALE).with_stroke(Color::GRAY, 1.0));
     let set = Type::new(11.0).bold().anchored(Anchor::Middle);

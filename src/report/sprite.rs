@@ -58,7 +58,7 @@ impl Scheme {
 pub struct Pose {
     /// Each voxel's corners, in order around it from the top left, and its code.
     pub voxels: Vec<([Point; 4], u8)>,
-    /// What the codes mean.
+    /// The meaning of the codes.
     pub palette: Arc<Palette>,
 }
 
@@ -75,7 +75,7 @@ impl Pose {
         Self { voxels, palette: Arc::clone(body.palette()) }
     }
 
-    /// Draws the voxels: `to_pixel` says where a point of the world is in the picture.
+    /// Draws the voxels; `to_pixel` maps a point of the world to the picture.
     pub fn draw(&self, svg: &mut Svg, looks: &Looks, opacity: f64, to_pixel: impl Fn(Point) -> Point) {
         let faded = |paint: Paint| if opacity < 1.0 { paint.with_opacity(opacity) } else { paint };
         for (corners, code) in &self.voxels {
@@ -89,7 +89,7 @@ impl Pose {
     }
 }
 
-/// The body alone, `voxel` pixels for each voxel's side, on nothing.
+/// Only the body, with `voxel` pixels for each voxel's side, on a transparent background.
 pub fn draw_body(body: &Body, looks: &Looks, voxel: f64) -> Svg {
     let (width, height) = (body.width() as f64 * voxel, body.height() as f64 * voxel);
     let mut svg = Svg::transparent(width + 2.0, height + 2.0, "a robot's body");

@@ -1,5 +1,5 @@
-//! Gait film-strips (paper, figure 3, right): one row for each spell of the schedule, snapshots of its last cycle side by side, each over
-//! the ghosts of the two before it.
+//! Gait film-strips (paper, figure 3, right): one row for each spell of the schedule, snapshots of its last cycle side
+//! by side, each over the ghosts of the two before it.
 
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};
 use crate::report::Color;
@@ -50,7 +50,7 @@ fn tallest(rows: &[Spelled]) -> f64 {
 /// A spell of the schedule as it was walked.
 struct Spelled {
     pattern: String,
-    /// Voxels gone in it, to the last of its moments.
+    /// Voxels walked in it, up to the last of its moments.
     walked: f64,
     /// Moments of its last cycle, after as many that only leave ghosts.
     moments: Vec<Moment>,
@@ -81,7 +81,7 @@ fn snapshots(setting: &Setting, body: &Body, schedule: &Schedule) -> Vec<Spelled
     rows
 }
 
-/// The last of these moments over the ghosts of those before it, in one frame of reference.
+/// The last of these moments over ghosts of those before it, in one frame of reference.
 fn draw_shot(svg: &mut Svg, moments: &[Moment], (middle, ground): Point, scale: f64, looks: &Looks) {
     let last = moments.len() - 1;
     let camera = moments[last].centers[0][0];

@@ -1,4 +1,4 @@
-//! A small typed writer of SVG: the one place where a picture becomes text. Lengths are pixels, y grows downwards.
+//! A small typed writer of SVG, used by all pictures. Lengths are pixels; y increases downwards.
 
 use std::fmt::{self, Write};
 
@@ -62,15 +62,15 @@ impl fmt::Display for Paint {
     }
 }
 
-/// Where a text stands relative to its point.
+/// The position of a text relative to its point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchor {
-    /// It starts there.
+    /// The text starts there.
     #[default]
     Start,
-    /// Its middle is there.
+    /// The middle of the text is there.
     Middle,
-    /// It ends there.
+    /// The text ends there.
     End,
 }
 
@@ -111,7 +111,7 @@ impl Type {
     }
 }
 
-/// A drawing under way.
+/// A drawing under construction.
 #[derive(Clone, Debug)]
 pub struct Svg {
     width: f64,
@@ -121,14 +121,14 @@ pub struct Svg {
 }
 
 impl Svg {
-    /// An empty drawing on white, with a title for those who cannot see it.
+    /// An empty drawing on white, with a title for screen readers.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
         let mut svg = Self { width, height, title: title.to_owned(), body: String::new() };
         svg.rect((0.0, 0.0), width, height, Paint::fill(Color::WHITE));
         svg
     }
 
-    /// An empty drawing on nothing, to be put on other drawings.
+    /// An empty drawing on a transparent background, to be placed on other drawings.
     pub fn transparent(width: f64, height: f64, title: &str) -> Self {
         Self { width, height, title: title.to_owned(), body: String::new() }
     }
@@ -194,7 +194,7 @@ impl Svg {
         self.push(format_args!("</g>"));
     }
 
-    /// Another drawing with its upper left corner there, and that many times as large.
+    /// Another drawing with its upper left corner at this point, scaled.
     pub fn place(&mut self, (x, y): Point, scale: f64, other: &Self) {
         let (x, y, scale) = (Number(x), Number(y), Number(scale));
         self.push(format_args!("<g transform=\"translate({x} {y}) scale({scale})\">"));
@@ -225,7 +225,7 @@ pub fn shorten(text: &str, most: usize) -> String {
     }
 }
 
-/// A length with at most two decimals, which is finer than any screen; what is no number becomes 0.
+/// A length with at most two decimals, which is finer than any screen; a value that is not a number becomes 0.
 struct Number(f64);
 
 impl fmt::Display for Number {
@@ -248,7 +248,7 @@ impl fmt::Display for Points<'_> {
     }
 }
 
-/// Text for an element or an attribute; characters that XML cannot hold become question marks.
+/// Text for an element or an attribute; invalid XML characters become question marks.
 struct Escaped<'a>(&'a str);
 
 impl fmt::Display for Escaped<'_> {

@@ -6,7 +6,7 @@ use crate::report::Color;
 use crate::report::looks::{Look, Looks};
 use crate::report::sprite::Scheme;
 
-/// The number that is no color: a pixel as it was in the frame before.
+/// The index that is not a color: the pixel is the same as in the previous frame.
 pub const UNCHANGED: u8 = 255;
 
 /// The colors of a film, at most 255 of them, and the nearest of them for any color.
@@ -17,7 +17,7 @@ pub struct Swatches {
 }
 
 impl Swatches {
-    /// The colors of a film with materials of such looks: theirs, and their mixtures with what is behind them.
+    /// The colors of a film with materials of these looks, and their mixtures with the background.
     pub fn new(looks: &Looks, scheme: Scheme) -> Self {
         let materials: Vec<Color> = (1..=8).map(|code| scheme.color(code)).collect();
         let own = [
@@ -33,7 +33,7 @@ impl Swatches {
         ];
         let mut colors: Vec<Color> = own.into_iter().chain(materials.iter().copied()).collect();
         let partners = [Color::SKY, Color::GROUND, Color::BLACK];
-        // Edges are mixtures with what is behind them.
+        // Pixels on edges are mixtures with the background.
         for color in materials {
             colors.extend(partners.iter().flat_map(|&other| [0.25, 0.5, 0.75].map(|share| color.mix(other, share))));
         }
@@ -54,7 +54,7 @@ impl Swatches {
         colors.truncate(usize::from(UNCHANGED));
         let of_key = |key: usize| Color::new(wide(key >> 10), wide(key >> 5), wide(key));
         let mut nearest: Vec<u8> = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();
-        // A color of the list is itself, whatever else is near; where two are as near as that, the first.
+        // A color of the list maps to itself; otherwise the nearest, and of equally near ones the first.
         for (i, color) in colors.iter().enumerate().rev() {
             nearest[key(color.r, color.g, color.b)] = i as u8;
         }
@@ -73,7 +73,7 @@ impl Swatches {
     }
 }
 
-/// The five high bits of each part as one number.
+/// The five high bits of each component as one number.
 fn key(r: u8, g: u8, b: u8) -> usize {
     usize::from(r >> 3) << 10 | usize::from(g >> 3) << 5 | usize::from(b >> 3)
 }

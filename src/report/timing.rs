@@ -1,4 +1,4 @@
-//! When the robots of a swarm are right: arrival, required and slack, the slowest path, memory and fan-out, as text and as data.
+//! The timing of a swarm: arrival, required and slack, the slowest path, memory and fan-out, as text and as data.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,13 @@ use crate::swarm::{Assembly, Member};
 /// The static timing of a swarm, in cycles after its inputs switched.
 #[derive(Clone, Debug, Serialize)]
 pub struct SwarmTiming {
-    /// Cycles after which every net is right.
+    /// Cycles after which every net is correct.
     pub hold: u32,
     /// The slowest path, input first.
     pub critical_path: Vec<PathStep>,
     /// The robots in order.
     pub robots: Vec<RobotTiming>,
-    /// What keeps the memory elements safe.
+    /// The timing requirements of the memory elements.
     pub memory: Vec<MemoryTimes>,
 }
 
@@ -33,7 +33,7 @@ pub struct PathStep {
     pub cycles: u32,
 }
 
-/// When a robot is right.
+/// The timing of a robot.
 #[derive(Clone, Debug, Serialize)]
 pub struct RobotTiming {
     /// The net that it drives.
@@ -42,13 +42,13 @@ pub struct RobotTiming {
     pub robot: String,
     /// Cycles that it takes itself.
     pub clock: u32,
-    /// Cycles after which it is right for good.
+    /// Cycles after which it is correct and stays correct.
     pub arrival: u32,
-    /// Cycles after which it must be right for the hold to suffice.
+    /// Cycles after which it must be correct so that the hold suffices.
     pub required: u32,
     /// The difference of the two.
     pub slack: u32,
-    /// Stimuli of robots and output ports that hear it.
+    /// The number of stimuli and output ports that it drives.
     pub fan_out: usize,
 }
 
@@ -57,7 +57,7 @@ pub struct RobotTiming {
 pub struct MemoryTimes {
     /// The nets of the element.
     pub nets: Vec<String>,
-    /// Cycles for which what sets it must last.
+    /// The length of the pulse that sets it, in cycles.
     pub pulse: u32,
     /// Cycles for which its inputs must have been at rest before it closes.
     pub setup: u32,

@@ -1,14 +1,14 @@
-//! What a test or a simulation came to, for people: a truth table, and what failed.
+//! The verdict of a test or a simulation as text: a truth table and the failures.
 
 use crate::diag::counted;
 use crate::model::{Column, Value};
 use crate::report::{Align, Table};
 use crate::swarm::{Lapse, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
-/// The most failing rows of a test that are told one by one.
+/// The most failing rows of a test that are described.
 const MOST_ROWS: usize = 20;
 
-/// A test's truth table with expected and observed outputs for every row, and what failed.
+/// A test's truth table with expected and observed outputs for every row, and the failures.
 pub fn describe_test(verdict: &TestVerdict) -> String {
     use Align::{Left, Right};
     let mut table =
@@ -33,13 +33,13 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
     format!("{heading}{robots}{}{}", indented(&table), describe_rows(verdict))
 }
 
-/// What failed in a test, nothing where it passed: first the robots that cannot be relied upon, then each failing row with its place, the
-/// names of its columns, and the robots to blame.
+/// The failures of a test; empty if it passed. First the unreliable robots, then each failing row with its place, the
+/// names of its columns, and the wrong robots.
 pub fn describe_failures(verdict: &TestVerdict) -> String {
     describe_weak_robots(verdict) + &describe_rows(verdict)
 }
 
-/// What the outputs of a simulated swarm did.
+/// The outputs of a simulated swarm.
 pub fn describe_simulation(result: &SimulationResult) -> String {
     use Align::{Left, Right};
     let mut table = Table::new(&[("inputs", Left), ("cycles", Right), ("at the end", Left), ("changes", Left)]);
@@ -58,7 +58,7 @@ fn indented(table: &Table) -> String {
     table.to_string().lines().map(|line| format!("    {line}\n")).collect()
 }
 
-/// The robots to look at first where a test failed.
+/// The robots to check first after a test failed.
 fn describe_weak_robots(verdict: &TestVerdict) -> String {
     let weak = verdict.weak_robots.iter().filter(|_| !verdict.passed);
     weak.map(|weak| format!("    robot {} on {}: {}\n", weak.robot, weak.nets.join(", "), weak.complaint())).collect()
@@ -162,8 +162,8 @@ fn describe_lapse(lapse: &Lapse, did: &str) -> String {
     format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {first} {second}\n")
 }
 
-/// What would most likely mend a row: robots that were wrong though they had time are to be replaced, else time was short, else the
-/// circuit itself answers so.
+/// The most likely fix for a row: replace robots that were wrong although they had enough time; otherwise a longer
+/// hold; otherwise another circuit.
 fn nearest_fix(row: &RowVerdict) -> Option<String> {
     let fix = match row.lapses.first() {
         _ if row.passed => return None,

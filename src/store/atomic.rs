@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::store::draft::{Draft, keep_owner_and_mode};
 
-/// Writes a file so that at any moment its path holds either what was there before or all of `bytes`: a new file in the same
-/// folder, flushed to the disk, takes the old one's name.
+/// Writes a file atomically: at any time, its path has either the old contents or all of `bytes`. A new file in the
+/// same folder is flushed to the disk and then takes the old name.
 ///
 /// # Errors
 /// When the folder is missing or read-only, or the disk is full; the path is then as it was.
@@ -20,7 +20,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// As [`write`], and when `content` fails.
 pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    // A link keeps pointing where it points, and a device such as /dev/null stays one.
+    // The target of a link is replaced, not the link; a device such as /dev/null is written directly.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     match fs::metadata(&target) {
         Ok(about) if about.is_dir() => Err(io::Error::other("it is a folder")),
@@ -51,7 +51,7 @@ fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>
     fs::File::open(&folder)?.sync_all()
 }
 
-/// Makes a folder and the folders above it.
+/// Creates a folder and its parents.
 ///
 /// # Errors
 /// When one of them is a file, or may not be made.
@@ -81,7 +81,7 @@ mod tests {
         let path = folder.path().join("a.nb");
         fs::write(&path, "old").unwrap();
         fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
-        // Only the superuser may give files away.
+        // Only the superuser may change the owner of a file.
         let _ = std::os::unix::fs::chown(&path, Some(12_345), Some(54_321));
         let about = |path: &Path| fs::metadata(path).map(|about| (about.mode(), about.uid(), about.gid())).unwrap();
         let before = about(&path);
@@ -100,7 +100,7 @@ mod tests {
             let before = fs::read_dir(folder.path()).unwrap().count();
             write_with(&path, |out| {
                 out.write_all(&[0; 100_000])?;
-                // A program that ended here would leave nothing.
+                // A program that ended here would leave no file behind.
                 assert_eq!(fs::read_dir(folder.path()).unwrap().count(), before);
                 Ok(())
             })

@@ -10,17 +10,17 @@ use crate::model::{Axis, Evolution, Objective, Palette};
 use crate::store::first_checkpoint;
 use crate::store::search_state::Record as StateRecord;
 
-/// The version of checkpoints that this program writes; it reads those before too.
+/// The checkpoint version that this program writes; it also reads earlier ones.
 const FORMAT: &str = "2";
-/// What every checkpoint begins with, of any version.
+/// The first bytes of checkpoints of any version.
 const MAGIC: &str = "nbc-checkpoint";
 
-/// What a checkpoint holds.
+/// The contents of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// The version of the program that wrote it.
     pub version: String,
-    /// What its run was declared as.
+    /// The declaration of its run.
     pub declared: Declared,
     /// The search.
     pub state: SearchState,
@@ -30,16 +30,16 @@ pub struct Checkpoint {
     pub left_out: u64,
 }
 
-/// A run's declaration as its checkpoint tells it.
+/// The declaration in a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declared {
     /// The declaration's name.
     pub name: String,
-    /// The archive's axes; none in the oldest checkpoints, which do not say them.
+    /// The archive's axes; `None` in the oldest checkpoints, which do not have them.
     pub axes: Vec<Axis>,
-    /// What is rewarded.
+    /// The objective.
     pub objective: Objective,
-    /// What the codes of its bodies mean.
+    /// The meaning of the codes in its bodies.
     pub palette: Arc<Palette>,
     pub(super) whole: Whole,
 }
@@ -53,7 +53,7 @@ pub(super) enum Whole {
     Text(String),
 }
 
-/// What stands in a checkpoint after its header.
+/// The part of a checkpoint after its header.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Record {
@@ -75,7 +75,8 @@ impl Declared {
         }
     }
 
-    /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be others.
+    /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be
+    /// others.
     fn fits(&self, evolution: &Evolution) -> bool {
         match &self.whole {
             Whole::Data(own) => {
@@ -151,10 +152,10 @@ impl Checkpoint {
     }
 }
 
-/// The longest header in bytes, so that a large file that is no checkpoint is refused at once.
+/// The longest header in bytes, so that a large file that is not a checkpoint is rejected at once.
 const MAX_HEADER: usize = 100;
 
-/// Reads what stands after the header of format 2.
+/// Reads the part after the header of format 2.
 fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
     let Record { version, evolution, state, env_steps, left_out } =
         serde_json::from_slice(text).map_err(|error| error.to_string())?;

@@ -1,4 +1,4 @@
-//! Circuit files: read by the ending of their names, written in the format that a name asks for.
+//! Circuit files, read and written in the format of their extension.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use crate::source::{FileError, Sources};
 use crate::store::{disk, yosys};
 use crate::syntax;
 
-/// What is wrong with a circuit file.
+/// The errors of a circuit file.
 #[derive(Debug)]
 pub struct CircuitFault {
-    /// The faults.
+    /// The diagnostics.
     pub diagnostics: Vec<Diagnostic>,
     /// The texts that they point into.
     pub sources: Sources,

@@ -1,4 +1,4 @@
-//! Reading files: regular ones only, each with the most bytes that its reader takes; and the disk as the world that sources come from.
+//! Reading regular files up to a limit of size, and the disk as a [`World`].
 
 use std::fs::{self, File, FileType};
 use std::io::Read;
@@ -17,11 +17,11 @@ pub const MAX_PROGRESS_BYTES: u64 = 256 << 20;
 /// The largest circuit file (BLIF, AIGER, .bench, Verilog), in bytes.
 pub const MAX_CIRCUIT_BYTES: u64 = 256 << 20;
 
-/// The name of standard input where it is a file.
+/// The path of standard input, which may be a pipe.
 const STANDARD_INPUT: &str = "/dev/stdin";
 
-/// The bytes of a regular file with at most `limit` bytes. Folders, pipes and devices are refused before they are opened, since a
-/// pipe waits for its writer and a device may never end. Standard input by its name is what the user puts there.
+/// The bytes of a regular file of at most `limit` bytes. Folders, pipes and devices are rejected before they are
+/// opened, because a pipe waits for its writer and a device may never end. Standard input is read in any case.
 ///
 /// # Errors
 /// When there is no such file, or it is not a regular one, too large, or the system refuses.
@@ -35,7 +35,7 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|error| refusal(&error))?;
-    // The system does not know the size of every file, so one byte more than allowed tells one that is too large.
+    // The system does not know the size of every file, so one byte more than the limit shows that a file is too large.
     file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| refusal(&error))?;
     if bytes.len() as u64 > limit { Err(FileError::TooLarge { limit }) } else { Ok(bytes) }
 }
@@ -56,7 +56,7 @@ fn refusal(error: &std::io::Error) -> FileError {
     }
 }
 
-/// What a path leads to that is not a regular file.
+/// The kind of a path that is not a regular file.
 fn kind(of: FileType) -> &'static str {
     #[cfg(unix)]
     {

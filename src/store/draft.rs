@@ -6,8 +6,8 @@ use std::path::Path;
 
 use tempfile::{Builder, NamedTempFile};
 
-/// A new file in a folder. Where the system knows files without names it has none, so that nothing stays of it however the program
-/// ends; elsewhere it is removed when it is dropped.
+/// A new file in a folder. If the system supports unnamed files it has no name, so nothing is left behind however the
+/// program ends. Elsewhere it is removed when dropped.
 pub(super) enum Draft {
     /// A file without a name.
     Unnamed(File),
@@ -19,7 +19,7 @@ impl Draft {
     pub(super) fn create(folder: &Path) -> io::Result<Self> {
         match unnamed(folder) {
             Some(file) => Ok(Self::Unnamed(file)),
-            // The name of the new file is nothing that the user wrote.
+            // The name of the new file, which the user did not write.
             None => names().tempfile_in(folder).map(Self::Named).map_err(|error| io::Error::from(error.kind())),
         }
     }
@@ -31,12 +31,12 @@ impl Draft {
         }
     }
 
-    /// Gives it its name, which another file may have had.
+    /// Gives the file its name, replacing any other file.
     pub(super) fn persist(self, folder: &Path, target: &Path) -> io::Result<()> {
         match self {
             Self::Named(file) => file.persist(target).map(drop).map_err(|error| error.error),
             Self::Unnamed(file) => match link(&file, target) {
-                // A link replaces nothing, a renamed file does.
+                // A link cannot replace a file, but a renamed file can.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                     let named = names().make_in(folder, |path| link(&file, path))?;
                     named.persist(target).map(drop).map_err(|error| error.error)
@@ -53,7 +53,7 @@ fn names() -> Builder<'static, 'static> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // Read and write for all, less what the umask takes away, as for any other new file.
+        // Read and write for all, minus the umask, as for any other new file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder
@@ -85,7 +85,7 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::Error::from(io::ErrorKind::Unsupported))
 }
 
-/// Gives a new file the owner and the mode of the one that it replaces.
+/// Copies the owner and the mode of the replaced file.
 pub(super) fn keep_owner_and_mode(file: &File, before: &fs::Metadata) -> io::Result<()> {
     #[cfg(unix)]
     {

@@ -1,4 +1,4 @@
-//! Checkpoints of format 1, which tell their declaration as text.
+//! Checkpoints of format 1, whose declaration is text.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::model::{Axis, Drive, Evolution, Material, MaterialKind, Objective, Pa
 use crate::store::checkpoint::{Checkpoint, Declared, Whole};
 use crate::store::search_state::Record as StateRecord;
 
-/// What stands in such a checkpoint after its header.
+/// The part of such a checkpoint after its header.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Record {
@@ -24,7 +24,7 @@ struct Record {
     left_out: u64,
 }
 
-/// Reads what stands after the header.
+/// Reads the part after the header.
 ///
 /// # Errors
 /// Says what is wrong with it.

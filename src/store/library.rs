@@ -1,4 +1,4 @@
-//! The robots that come with the program.
+//! The built-in library of robots.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -26,7 +26,7 @@ static SHIPPED: LazyLock<Library> = LazyLock::new(|| {
     library
 });
 
-/// The robots that come with the program, best first within each function; read when first asked for.
+/// The built-in robots, best first within each function; read at the first call.
 pub fn shipped_library() -> &'static Library {
     &SHIPPED
 }
@@ -51,7 +51,7 @@ pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
         let robot =
             read_text(&path, MAX_ROBOT_BYTES).map_err(|error| Diagnostic::unreadable(&name, &error)).and_then(|text| {
                 let id = sources.add(&name, text);
-                // The caller knows other texts, so a place in this one would mean nothing to it.
+                // The place is dropped, because the caller does not have this text.
                 read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
             });
         match robot {
@@ -62,8 +62,8 @@ pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
     if faults.is_empty() { Ok(best_first(robots)) } else { Err(faults) }
 }
 
-/// A library of robots in order of their functions' bits, and within a function the most reliable first, then the shortest clock, then
-/// the greatest margin.
+/// A library of robots in order of their functions' bits. Within a function, the most reliable come first, then those
+/// with the shortest clock, then those with the largest margin.
 pub fn best_first(mut robots: Vec<Robot>) -> Library {
     robots.sort_by(|a, b| {
         (a.function().cmp(&b.function())).then(a.character.compare(&b.character)).then(a.name.cmp(&b.name))

@@ -4,8 +4,8 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-/// The file in a locked folder that is locked, and says which process holds it. It stays there: whether the folder is in use is known
-/// to the system alone, which forgets it when the process ends in whatever way.
+/// The locked file in a run's folder, which contains the number of the process. It is never removed: the operating
+/// system holds the lock and releases it when the process ends in any way.
 const NAME: &str = "lock";
 
 /// A folder that no other process writes to until this is dropped.
@@ -15,9 +15,9 @@ pub struct FolderLock(#[expect(dead_code, reason = "the lock lasts as long as th
 /// Why a folder is not ours.
 #[derive(Debug)]
 pub enum LockFault {
-    /// Another process holds it.
+    /// Another process has the lock.
     Held {
-        /// Its number, where it has said it already.
+        /// Its number, if already written.
         process: Option<u32>,
     },
     /// The folder or its lock cannot be used.
@@ -41,10 +41,10 @@ pub fn lock_folder(folder: &Path) -> Result<FolderLock, LockFault> {
     Ok(FolderLock(file))
 }
 
-/// The process that the holder wrote into its lock.
+/// The number that the owner wrote into its lock.
 fn holder(file: &mut File) -> Option<u32> {
     let mut text = String::new();
-    // Far more than a number: what is longer is nothing of ours.
+    // Far longer than a number; a longer file was not written by `nbc`.
     file.take(64).read_to_string(&mut text).ok()?;
     text.trim().parse().ok()
 }

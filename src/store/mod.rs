@@ -1,4 +1,5 @@
-//! Files: the disk as a [`crate::source::World`], whole-or-nothing writing, robot files, the library in the program. The only user of YAML.
+//! Files: the disk as a [`crate::source::World`], atomic writes, robot files, checkpoints, the built-in library. The
+//! only user of YAML.
 
 mod atomic;
 mod checkpoint;

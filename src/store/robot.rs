@@ -11,7 +11,7 @@ use crate::model::{Behavior, Body, Character, Genotype, Palette, Provenance, Rob
 use crate::source::SourceFile;
 use crate::store::{shape, soundness, yaml};
 
-/// The version of robot files that this program writes; it reads those before too.
+/// The robot file version that this program writes; it also reads earlier ones.
 pub const FORMAT: u32 = 2;
 
 /// A robot as data: the fields of its file, in the order in which they are written.
@@ -75,8 +75,8 @@ pub fn own_materials(body: &Body) -> Option<Arc<Palette>> {
 /// Reads a robot file.
 ///
 /// # Errors
-/// A diagnostic with its place for text that is no YAML, for missing, unknown or wrong fields, for a body that is none, for numbers that
-/// cannot be a robot's, and for the file of another version.
+/// A diagnostic with its place for text that is no YAML, for missing, unknown or wrong fields, for a body that is none,
+/// for numbers that cannot be a robot's, and for the file of another version.
 pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     let version: Version = yaml::read(file)?;
     if !(1..=FORMAT).contains(&version.format) {
@@ -97,7 +97,7 @@ pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     Ok(robot)
 }
 
-/// Reads a genotype of any version: format 1 has tags where format 2 has mappings with one key.
+/// Reads a genotype of any version: format 1 has tags, format 2 has mappings with one key.
 fn genotype<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Genotype>, D::Error> {
     let value = untagged(Value::deserialize(deserializer)?);
     singleton_map_recursive::deserialize(value).map_err(|error| D::Error::custom(format!("`genotype`: {error}")))

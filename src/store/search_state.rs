@@ -1,4 +1,4 @@
-//! A search's state as data: what of it does not follow from the declaration, bodies as rows of codes.
+//! The state of a search as data, without what follows from the declaration; bodies are rows of codes.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub(super) struct Record {
     niches: Vec<(NicheKey, Vec<EliteRecord>)>,
 }
 
-/// An elite whose palette is that of the declaration.
+/// An elite with the palette of the declaration.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EliteRecord {

@@ -14,7 +14,7 @@ use crate::store::yaml;
 #[serde(expecting = "a mapping with a `body`")]
 struct Embodied {
     body: Rows,
-    /// In order of their codes; the paper's when there are none.
+    /// In order of their codes; empty for the paper's materials.
     #[serde(default)]
     materials: Option<Arc<Palette>>,
 }
@@ -58,12 +58,12 @@ impl Row {
     }
 }
 
-/// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first; `materials` may say what
-/// the codes mean.
+/// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first.
+/// `materials` may define the codes.
 ///
 /// # Errors
-/// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials, or not in one
-/// piece.
+/// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials, or
+/// not in one piece.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
     let Embodied { body, materials } = yaml::read(file)
         .map_err(|fault| fault.with_help("give the body's rows, top row first: `body: [\"00345\", \"33333\"]`"))?;
@@ -84,7 +84,7 @@ pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -
     Err(fault.with_help("the voxels of a robot are connected by their sides"))
 }
 
-/// What is wrong with a body, at the row where it can be found in the text.
+/// The error of a body, at its row if the row can be found in the text.
 fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
     let body = yaml::key_span(file, "body");
     let span = match *error {
@@ -100,7 +100,8 @@ fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
         .with_help("a body is a rectangle of material codes, top row first, 0 for empty")
 }
 
-/// Where row `wanted` stands in the text, found by walking from row to row after the key; `None` where rows are written otherwise.
+/// The place of row `wanted` in the text, found by walking from row to row after the key; `None` for other notations of
+/// rows.
 fn row_span(file: &SourceFile, body: Span, rows: &[String], wanted: usize) -> Option<Span> {
     let mut at = body.range().end;
     for row in &rows[..wanted] {

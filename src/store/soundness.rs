@@ -1,4 +1,4 @@
-//! Whether what a robot file says can be true.
+//! Checks whether the values of a robot file are possible.
 
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Behavior, Character, Robot};
@@ -29,7 +29,7 @@ pub(super) fn check(file: &SourceFile, robot: &Robot) -> Result<(), Diagnostic> 
     Ok(())
 }
 
-/// What is wrong, and with which field.
+/// The error, with the name of the field.
 type Flaw = (&'static str, String);
 
 fn words(robot: &Robot) -> Option<Flaw> {

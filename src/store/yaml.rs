@@ -7,10 +7,10 @@ use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, SourceFile, Span};
 use crate::store::MAX_ROBOT_BYTES;
 
-/// How deep brackets may stand in brackets: the reader takes time that grows with the square of it.
+/// The deepest nesting of brackets, because the reader's time grows with its square.
 const MAX_DEPTH: usize = 64;
 
-/// Words that some readers take for numbers, truth values or nothing.
+/// Words that some readers take for numbers, booleans or null.
 const RESERVED: [&str; 13] =
     ["y", "n", "yes", "no", "on", "off", "true", "false", "null", "inf", "nan", "infinity", "~"];
 
@@ -30,7 +30,7 @@ pub(super) fn read<T: DeserializeOwned>(file: &SourceFile) -> Result<T, Diagnost
     serde_yaml::from_str(&file.text).map_err(|error| fault(file, &error))
 }
 
-/// Where the first bracket stands that is too deep.
+/// The place of the first bracket that is nested too deep.
 fn too_deep(text: &str) -> Option<usize> {
     let mut depth = 0usize;
     text.bytes().position(|byte| {
@@ -68,7 +68,7 @@ fn portable(line: &str) -> String {
     if is_truth || (is_word && !is_reserved) { line.to_owned() } else { quoted() }
 }
 
-/// A number with a point and a sign in its exponent, which version 1.1 asks for: `1e-7` is text to it.
+/// A number with a point and a signed exponent, as required by YAML 1.1, which reads `1e-7` as text.
 fn portable_number(number: &str) -> String {
     let Some((digits, exponent)) = number.split_once('e') else { return number.to_owned() };
     let point = if digits.contains('.') { "" } else { ".0" };
@@ -76,7 +76,7 @@ fn portable_number(number: &str) -> String {
     format!("{digits}{point}e{sign}{exponent}")
 }
 
-/// What YAML says of a text, at its place.
+/// The error of the YAML reader, at its place.
 fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
     let words = error.to_string();
     // The place is shown by the diagnostic.
@@ -88,7 +88,7 @@ fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
     Diagnostic::new(Code::RobotFile, format!("`{}` is no robot file: {message}", file.name), span, "here")
 }
 
-/// The place of the first of the words in backticks that stands in the text, for faults that are not told with a place.
+/// The place of the first word in backticks that occurs in the text, for errors without a place.
 fn quoted_span(file: &SourceFile, message: &str) -> Span {
     let quoted = message.split('`').skip(1).step_by(2).filter(|word| !word.is_empty());
     let found = quoted.filter_map(|word| Some(span(file.id, file.text.find(word)?, word.len()))).next();
@@ -104,7 +104,7 @@ fn span_at(file: &SourceFile, line: usize, column: usize) -> Span {
     Span::new(file.id, at, at + length)
 }
 
-/// The span of a key, or the text's start where the key is missing.
+/// The span of a key, or the start of the text if the key is missing.
 pub(super) fn key_span(file: &SourceFile, key: &str) -> Span {
     let start = file.text.find(&format!("{key}:")).or_else(|| file.text.find(&format!("\"{key}\"")));
     let length = if start.is_some() { key.len() } else { 0 };

@@ -1,7 +1,7 @@
 //! Verilog through Yosys, which flattens it to gates, latches and flip-flops.
 //!
-//! Yosys is given a script that is always the same: the source lies under a name of our own in a folder of our own, and so does a link to
-//! the folder that its `include` lines mean. No name that a user chose becomes part of the script or of a shell's command.
+//! Yosys runs a fixed script in a temporary folder, where the source has a fixed name, and so has a link to the folder
+//! of `include` lines. No name chosen by a user becomes part of the script or of a shell command.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ const SOURCE: &str = "source.v";
 const INCLUDED: &str = "included";
 const FLAT: &str = "flat.blif";
 
-/// What Yosys does, with the names above.
+/// The script, with the names above.
 const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; flatten; opt; memory; opt; techmap; \
                       dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; \
                       opt_clean; write_blif flat.blif";
@@ -44,7 +44,7 @@ pub(super) fn flatten(path: &Path, source: String) -> Result<String, CircuitFaul
     })
 }
 
-/// A folder with the source and the way to what it includes.
+/// A folder with the source and a link to its includes.
 fn prepare(path: &Path, source: &str) -> std::io::Result<tempfile::TempDir> {
     let folder = tempfile::tempdir()?;
     fs::write(folder.path().join(SOURCE), source)?;
@@ -63,7 +63,7 @@ fn link(folder: &Path, at: &Path) -> std::io::Result<()> {
     std::os::windows::fs::symlink_dir(folder, at)
 }
 
-/// What Yosys said, at the line of the user's file that it named.
+/// The error message of Yosys, at the line of the user's file.
 fn fault(path: &Path, source: String, said: &str) -> CircuitFault {
     let line = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
     let message = format!("yosys cannot read `{}`", path.display());
