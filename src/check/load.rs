@@ -188,7 +188,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn used_files_are_found_beside_their_users() {
+    fn paths_of_used_files_are_relative_to_the_importing_file() {
         assert_eq!(beside("circuits/latch.nb", "adder.nb"), "circuits/adder.nb");
         assert_eq!(beside("circuits/latch.nb", "../lib/./adder.nb"), "lib/adder.nb");
         assert_eq!(beside("latch.nb", "../adder.nb"), "../adder.nb");

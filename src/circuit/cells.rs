@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_complete_a_library_is_named() {
+    fn functions_that_complete_a_library_are_listed() {
         let names = |cells| library(cells).completions().iter().map(|f| f.name()).collect::<Vec<_>>().join(" ");
         assert_eq!(names("xor not"), "nor nota_and_b a_and_notb nand and nota_or_b a_or_notb or");
         assert_eq!(
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn settle_times_are_the_longest_that_end_so() {
+    fn settle_times_are_the_longest_of_all_transitions() {
         let mut kind = CellKind::uniform(1, 1.0);
         kind.settle[0b11][0b01] = 3;
         // a falls, the output of a nand rises.

@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn loops_are_components_and_listeners_come_first() {
+    fn loops_are_components_and_receivers_come_first() {
         let mut netlist = Netlist::new("ring");
         let a = netlist.add_input("a");
         let one = netlist.add_gate(Function::NAND, &[a, a]);
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_chain_takes_no_stack() {
+    fn a_long_chain_does_not_overflow_the_stack() {
         let mut netlist = Netlist::new("chain");
         let mut net = netlist.add_input("a");
         for _ in 0..200_000 {

@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_cell_answers_after_its_own_cycles() {
+    fn each_cell_switches_after_its_own_delay() {
         let mut netlist = Netlist::new("two");
         let a = netlist.add_input("a");
         let slow = netlist.add_gate(Function::NOT, &[a]);

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn the_inverters_of_a_clock_stay_and_so_does_the_logic_of_an_enable() {
+    fn clock_inverters_and_enable_logic_stay_as_written() {
         let mut netlist = Netlist::new("gated");
         let [a, b, clock] = ["a", "b", "clk"].map(|name| netlist.add_input(name));
         let data = netlist.add_gate(Function::XOR, &[a, b]);
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn constant_and_shared_data_change_no_role() {
+    fn roles_do_not_depend_on_constant_or_shared_data() {
         let mut netlist = Netlist::new("constant");
         let clock = netlist.add_input("clk");
         let one = netlist.add_constant(true);

@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ring_does_not_come_to_rest() {
+    fn a_ring_oscillates() {
         let mut netlist = Netlist::new("ring");
         let wire = netlist.add_wire("q", Some(false), None);
         let gate = netlist.add_gate(Function::NOT, &[wire]);

@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_that_feeds_itself_is_a_loop() {
+    fn a_cell_that_drives_itself_is_a_loop() {
         let mut netlist = Netlist::new("hold");
         let a = netlist.add_input("a");
         let cell = netlist.add_gate(crate::model::Function::OR, &[a, a]);
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn the_logic_between_registers_is_no_memory() {
+    fn the_logic_between_registers_is_not_memory() {
         let mut netlist = Netlist::new("toggle");
         let clock = netlist.add_input("clk");
         let q = netlist.add_wire("q", Some(false), None);

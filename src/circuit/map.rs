@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn every_cell_is_one_that_the_library_holds() {
+    fn every_cell_is_in_the_library() {
         for cells in ["nand", "nor", "nand not", "xor and", "a_or_notb", "nota_and_b not", "and not", "or xnor"] {
             let library = library(cells);
             for netlist in [latch(), full_adder()] {
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn an_incomplete_library_names_what_is_missing_and_what_would_help() {
+    fn an_incomplete_library_reports_missing_functions_and_suggestions() {
         let error = map(&full_adder(), &library("xor not")).unwrap_err();
         assert_eq!(error.to_string(), "`and` cannot be made of `not` and `xor`");
         assert_eq!(
@@ -339,13 +339,13 @@ mod tests {
     }
 
     #[test]
-    fn too_many_cells_are_refused_with_their_number() {
+    fn too_many_cells_are_rejected_with_their_number() {
         let error = map(&chain(1_000_001), &library("nand")).unwrap_err();
         assert_eq!(error.to_string(), "the circuit has 1000001 cells, and at most 1000000 are mapped");
     }
 
     #[test]
-    fn wide_margins_are_worth_more_robots() {
+    fn the_margin_objective_accepts_more_robots() {
         let mut library = library("nand and or not");
         library.insert(Function::XOR, CellKind::uniform(1, 0.1));
         library.insert(Function::NAND, CellKind::uniform(1, 2.0));
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn short_paths_are_worth_more_robots() {
+    fn the_delay_objective_accepts_more_robots() {
         let chain = |netlist: &mut Netlist| {
             let inputs: Vec<_> = (0..8).map(|i| netlist.add_input(format!("i{i}"))).collect();
             inputs[1..].iter().fold(inputs[0], |sum, &input| netlist.add_gate(Function::XOR, &[sum, input]))

@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_latch_that_is_given_its_times_remembers_whatever_the_delays() {
+    fn a_latch_with_its_required_times_works_for_any_delays() {
         let mapped = map(&latch(), &library()).unwrap();
         let [times] = &memory(&mapped)[..] else {
             panic!("a latch is one memory element");

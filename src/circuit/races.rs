@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_multiplexer_that_hears_itself_has_a_race() {
+    fn a_multiplexer_that_drives_itself_has_a_race() {
         let netlist = with_feedback(|netlist, [d, e, q]| {
             let taken = netlist.add_gate(Function::AND, &[d, e]);
             let kept = netlist.add_gate(Function::AND.with_input_inverted(1), &[q, e]);
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn logic_without_memory_has_none_and_wide_memory_is_not_tried() {
+    fn logic_without_memory_has_no_race_and_wide_memory_is_skipped() {
         check(&example::full_adder(), &[]);
         let mut wide = with_feedback(|netlist, [d, e, _]| registers::latch(netlist, "q", d, e, false));
         for i in 0..MOST_BITS {

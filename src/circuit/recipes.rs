@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_function_with_a_cell_of_its_own_is_that_cell() {
+    fn a_function_with_its_own_cell_uses_that_cell() {
         let recipes = Recipes::of(&CellLibrary::uniform(Function::all()));
         let own = |function: Function| {
             recipes.get(function).unwrap().steps.iter().map(|step| step.function).collect::<Vec<_>>()

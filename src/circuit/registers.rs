@@ -157,12 +157,12 @@ mod tests {
     }
 
     #[test]
-    fn the_latch_is_right_whatever_the_delays() {
+    fn the_latch_works_for_all_delays() {
         check(|netlist, d, e| latch(netlist, "q", d, e, false), 4, |q, data, _, enable| if enable { data } else { q });
     }
 
     #[test]
-    fn the_flip_flop_is_right_whatever_the_delays() {
+    fn the_flip_flop_works_for_all_delays() {
         let model = |q: bool, data: bool, before: bool, clock: bool| if clock && !before { data } else { q };
         check(|netlist, d, clk| flip_flop(netlist, "q", d, clk, false), 9, model);
     }

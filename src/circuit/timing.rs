@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_latch_is_held_for_its_guards_and_for_the_way_through_its_loop_and_back() {
+    fn the_hold_of_a_latch_covers_its_guards_and_two_passes_of_its_loop() {
         let library = CellLibrary::uniform([Function::NAND, Function::NOT]);
         let mapped = map(&latch(), &library).unwrap();
         let timing = Timing::of(&mapped, &library, Delays::Clock);

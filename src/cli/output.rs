@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_pipe_swallows_and_other_faults_do_not() {
+    fn a_closed_pipe_is_ignored_and_other_errors_are_not() {
         assert!(written(io::ErrorKind::BrokenPipe).is_ok());
         assert_eq!(written(io::ErrorKind::StorageFull).unwrap_err().kind(), io::ErrorKind::StorageFull);
     }

@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn the_time_left_is_told_when_it_is_known_and_never_none() {
+    fn the_remaining_time_is_shown_when_known_and_is_never_zero() {
         assert_eq!(rest(&state(0, 0, 64), 50.0), "", "nothing is done yet");
         assert_eq!(rest(&state(0, 16, 64), 60.0), ", about 3 min left");
         assert_eq!(rest(&state(0, 16, 64), 0.2), "", "too early to tell");
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_log_has_a_line_after_ten_seconds_and_then_ever_less_often() {
+    fn a_log_has_a_line_after_ten_seconds_and_then_less_and_less_often() {
         let mut state = state(0, 16, 64);
         let mut told = Vec::new();
         for second in 0..240 {

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_have_their_place() {
+    fn errors_have_places() {
         check_fault("00*10 02*10", "`02` are no stimuli, expected 00, 01, 10 or 11", "02");
         check_fault("00*0", "`0` is no time at all, expected at least 1", "0");
         check_fault("00*0steps", "`0steps` is no time at all, expected at least 1", "0steps");
@@ -144,12 +144,12 @@ mod tests {
     }
 
     #[test]
-    fn every_fault_is_told() {
+    fn every_error_is_reported() {
         assert_eq!(read("02*1 00*0").unwrap_err().len(), 2);
     }
 
     #[test]
-    fn the_whole_is_limited() {
+    fn the_total_length_is_limited() {
         let text = "00*100000 ".repeat(2);
         assert_eq!(read(&text).unwrap_err()[0].0, "the schedule has 16800000 env steps, expected at most 10000000");
     }

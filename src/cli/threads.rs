@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_taken_and_words_refused() {
+    fn numbers_are_accepted_and_words_rejected() {
         assert_eq!([Some("3"), Some(" 7 "), Some("99999999999999999999999")].map(|v| wanted(v).unwrap()), [3, 7, MOST]);
         let cores = wanted(None).unwrap();
         assert!(cores > 0);

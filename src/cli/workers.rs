@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_come_in_order_whoever_is_first() {
+    fn results_are_in_order_for_any_timing() {
         let items: Vec<u64> = (0..40).collect();
         let slow_at_first = |&item: &u64| {
             thread::sleep(Duration::from_millis(if item % 4 == 0 { 5 } else { 0 }));
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_result_is_handed_on_before_the_last_is_made() {
+    fn the_first_result_is_returned_before_the_last_is_computed() {
         // The last item waits until the first has been handed on.
         let (items, handed_on) = ([0, 1], Barrier::new(2));
         let wait = |&item: &usize| {
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_ends_the_work() {
+    fn an_error_of_the_consumer_stops_the_work() {
         let (items, begun) = ([(); 10_000], AtomicUsize::new(0));
         let work = |(): &()| {
             thread::sleep(Duration::from_millis(1));

@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_systems_words_are_plain() {
+    fn system_errors_are_worded_plainly() {
         let words = |number| io_words(&io::Error::from_raw_os_error(number));
         assert_eq!(io_words(&io::Error::from(io::ErrorKind::NotFound)), "there is no such file or folder");
         assert!(!words(5).contains("os error"), "{}", words(5));
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_said_in_their_unit() {
+    fn sizes_are_shown_in_the_largest_unit() {
         assert_eq!([8 << 20, 1 << 30, 1000, 3 << 10].map(size), ["8 MB", "1 GB", "1000 bytes", "3 kB"]);
     }
 }

@@ -228,14 +228,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_of_megabytes_is_shown_in_part() {
+    fn a_huge_line_is_shortened() {
         let shown = render(&"x".repeat(10_000_000), 5_000_000, 5_000_001);
         assert!(shown.len() < 2_000, "{} bytes shown", shown.len());
         assert!(shown.contains("expected a name"), "{shown}");
     }
 
     #[test]
-    fn a_word_of_megabytes_is_shown_in_part_and_of_many_messages_the_first() {
+    fn a_huge_word_is_shortened_and_only_the_first_messages_are_shown() {
         let diagnostic =
             Diagnostic::without_place(Code::Unknown, format!("no net is called `{}`", "x".repeat(1_000_000)));
         let shown = text(&vec![diagnostic; 1_000], &Sources::default(), false);

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_name_is_meant() {
+    fn the_most_similar_name_is_suggested() {
         assert_eq!(nearest("latc", ["register", "latch"]), Some("latch"));
         assert_eq!(nearest("cicruit", ["circuit", "stimulus"]), Some("circuit"));
         assert_eq!(nearest("q", ["nq", "d"]), Some("nq"));

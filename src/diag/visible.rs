@@ -44,14 +44,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_steers_a_terminal_is_written_out() {
+    fn control_characters_are_escaped() {
         assert_eq!(visible("gate \u{1b}[32mpass\u{7}\r\n"), "gate \\u{1b}[32mpass\\u{7}\\u{d}\n");
         assert_eq!(visible("\u{9b}2J \u{202e}ssap"), "\\u{9b}2J \\u{202e}ssap");
         assert!(matches!(visible("größe →\n"), Cow::Borrowed(_)));
     }
 
     #[test]
-    fn bytes_of_excerpts_keep_their_places() {
+    fn escaping_excerpts_keeps_byte_offsets() {
         let text = "a\u{1b}b\u{9b}c\u{202e}d\te\r\nf\rg";
         let shown = visible_in_place(text);
         assert_eq!(shown, "a?b·c\u{fffd}d\te \nf\ng");

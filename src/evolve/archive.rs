@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn dominance_asks_for_more_in_both() {
+    fn dominance_needs_both_fitnesses() {
         use AddStatus::{Improved, New, Rejected};
         let offers = [([1.0, 1.0], New), ([2.0, 1.0], Rejected), ([1.0, 1.0], Rejected), ([1.5, 1.5], Improved)];
         check(Niche::Dominance, &offers);
@@ -235,7 +235,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn coverage_never_falls_and_elites_give_way_only_to_what_dominates_them(offers in offers(), most in 0..5usize) {
+        fn coverage_never_decreases_and_only_dominating_bodies_replace_elites(offers in offers(), most in 0..5usize) {
             let niche = if most == 0 { Niche::Dominance } else { Niche::Pareto(most) };
             let mut archive = archive(niche);
             for (voxels, behavior, fitness) in offers {

@@ -175,13 +175,13 @@ mod tests {
     }
 
     #[test]
-    fn a_hidden_node_is_seen_raw_by_its_second_consumer_in_the_code_only() {
+    fn only_the_code_gives_the_raw_sum_to_a_second_target() {
         assert_eq!(values(&shared_hidden(), Rules::Paper), [9.0, 9.0]);
         assert_eq!(values(&shared_hidden(), Rules::Code), [9.0, 3.0]);
     }
 
     #[test]
-    fn an_output_taken_by_an_earlier_one_is_zero_in_the_code_only() {
+    fn only_the_code_sets_an_output_read_by_an_earlier_one_to_zero() {
         let mut genotype = shared_hidden();
         genotype.links = vec![
             Link { source: NodeId(0), target: NodeId(2), weight: 2.0 },

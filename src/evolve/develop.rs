@@ -100,7 +100,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn development_gives_connected_bodies_or_says_why_not(seed: u64, times in 0..120usize, code: bool) {
+        fn development_gives_connected_bodies_or_a_reason(seed: u64, times in 0..120usize, code: bool) {
             let rules = if code { Rules::Code } else { Rules::Paper };
             let palette = Palette::paper();
             let mut rng = ChaCha8Rng::seed_from_u64(seed);

@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn adding_a_link_where_none_can_be_added_does_nothing_by_the_text_and_overwrites_by_the_code() {
+    fn adding_a_link_to_a_full_network_does_nothing_by_the_text_and_overwrites_by_the_code() {
         let changed = |rules| {
             let start = cppn::start(8, rules);
             (0..20).any(|seed| {
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn taking_a_node_out_bridges_it_with_the_product_of_weights() {
+    fn removing_a_node_bridges_it_with_the_product_of_weights() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let mut genotype = cppn::start(8, Rules::Paper);
         genotype.links[0].weight = 0.5;

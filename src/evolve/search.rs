@@ -366,7 +366,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn every_body_asked_for_can_be_tried_and_differs_from_its_parent() {
+    fn every_candidate_is_valid_and_differs_from_its_parent() {
         let mut search = Search::new(&evolution(), 1);
         for _ in 0..20 {
             for candidate in search.ask() {
@@ -382,7 +382,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_same_seed_gives_the_same_search_and_another_seed_another() {
+    fn equal_seeds_give_equal_searches_and_different_seeds_different_ones() {
         let run = |seed| {
             let mut search = Search::new(&evolution(), seed);
             (0..15).for_each(|_| advance(&mut search));
@@ -407,7 +407,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_resumed_search_goes_on_as_if_nothing_had_happened() {
+    fn a_resumed_search_continues_exactly() {
         for symmetry in [Symmetry::None, Symmetry::Npn] {
             let evolution = Evolution { symmetry, rules: Rules::Code, ..evolution() };
             let mut straight = Search::new(&evolution, 7);
@@ -421,7 +421,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_state_that_no_run_comes_to_is_told() {
+    fn an_impossible_state_is_rejected() {
         let evolution = Evolution { symmetry: Symmetry::Npn, ..evolution() };
         let mut search = Search::new(&evolution, 3);
         (0..4).for_each(|_| advance(&mut search));
@@ -441,7 +441,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn images_fill_the_niches_of_their_class_and_develop_from_their_networks() {
+    fn images_enter_the_niches_of_their_class_and_develop_from_their_networks() {
         let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 3);
         (0..6).for_each(|_| advance(&mut search));
         for elite in search.archive().elites() {

@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn the_papers_palette_has_all_eight_and_a_poorer_one_fewer() {
+    fn the_papers_palette_has_eight_recodings_and_a_smaller_one_fewer() {
         assert_eq!(recodings(&Palette::paper()).len(), 8);
         let without_one = Palette::new(Palette::paper().materials()[..7].to_vec());
         assert_eq!(recodings(&without_one).len(), 2);
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn one_nand_is_all_eight_and_like_functions() {
+    fn recodings_of_a_nand_give_half_of_its_npn_class() {
         let nand = Behavior::from(Function::NAND);
         let found: Vec<String> = recodings(&Palette::paper()).iter().map(|r| r.behavior(nand).to_string()).collect();
         let mut distinct = found.clone();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn recoded_voxels_answer_as_before() {
+    fn recoded_voxels_react_as_before() {
         let palette = Palette::paper();
         let width = |code: u8, pattern: Pattern| match palette.kind(code) {
             Some(MaterialKind::Sensor(r)) => Some(if pattern.has(r.stimulus) { r.present } else { r.absent }),

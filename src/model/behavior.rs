@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_papers_words_mean_the_papers_gates() {
+    fn the_papers_behaviors_are_the_papers_gates() {
         assert_eq!("RRRL".parse::<Behavior>().unwrap().function(), Function::NAND);
         assert_eq!("LRRL".parse::<Behavior>().unwrap().function(), Function::XOR);
         assert_eq!("RRLL".parse::<Behavior>().unwrap().function(), Function::NOT);

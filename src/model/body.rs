@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_rows_are_named() {
+    fn invalid_rows_are_reported() {
         check(&[], Err("the body has no voxels"));
         check(&["000", "000"], Err("the body has no voxels"));
         check(&["33", "3"], Err("row 2 has 1 voxels, expected 2 as in row 1"));
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn diagonal_voxels_do_not_hang_together() {
+    fn diagonal_voxels_are_not_connected() {
         assert!(!Body::parse(&["30", "03"], &Palette::paper()).unwrap().is_connected());
         assert!(Body::parse(&["30", "33"], &Palette::paper()).unwrap().is_connected());
     }

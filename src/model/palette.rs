@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "the numbers of materials are finite")]
-    fn a_number_that_is_not_finite_is_no_material() {
+    fn materials_need_finite_numbers() {
         let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: f64::NAN, present: 1.0 });
         Palette::new(vec![Material { name: "broken".to_owned(), kind }]);
     }

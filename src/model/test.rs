@@ -148,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bits_come_together_as_the_ports_that_they_are_of() {
+    fn bits_are_grouped_into_ports() {
         let column = |name: &str, width| Column { name: name.to_owned(), width };
         let ports = [column("a", 3), column("b", 1), column("c", 2), column("c2", 2)];
         let bits: Vec<String> = ports.iter().flat_map(Column::bits).collect();

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_written_as_they_were() {
+    fn values_keep_their_notation() {
         check("1", Base::Bits, "1");
         check("1001", Base::Decimal, "4'd9");
         check("1001", Base::Bits, "1001");

@@ -182,13 +182,13 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_goes_both_ways() {
+    fn a_scale_maps_in_both_directions() {
         let scale = Scale::new((2.0, 4.0), (100.0, 0.0));
         assert_eq!((scale.at(3.0), scale.invert(50.0)), (50.0, 3.0));
     }
 
     #[test]
-    fn a_senseless_range_still_draws() {
+    fn an_invalid_range_is_still_drawn() {
         for range in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
             let scale = Scale::new(range, (0.0, 10.0));
             assert!(scale.at(1.0).is_finite());

@@ -16,7 +16,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_would_end_a_cell_is_quoted() {
+    fn separators_in_cells_are_quoted() {
         let cells = ["plain", "a,b", "say \"x\"", "two\nlines", ""].map(cell);
         assert_eq!(line(cells), "plain,\"a,b\",\"say \"\"x\"\"\",\"two\nlines\",\n");
     }

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_document_says_its_schema_first() {
+    fn a_document_starts_with_its_schema() {
         let document = Document::new(Schema::Library, serde_json::json!({ "robots": [] }));
         assert_eq!(serde_json::to_string(&document).unwrap(), r#"{"schema":"urn:nbc:library:1","robots":[]}"#);
         assert!(Schema::ALL.is_sorted_by_key(|schema| schema.word()));

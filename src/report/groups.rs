@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn three_runs_a_group_reach_a_tenth_and_no_further() {
+    fn three_runs_per_group_reach_p_of_a_tenth_at_most() {
         let runs = seeds((0..3).map(|i| {
             run(&[("LLLL", 30.0 + f64::from(i)), ("LLRR", 20.0 + f64::from(i)), ("RRLL", 22.0 + f64::from(i))])
         }));
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comparison_is_the_textbooks() {
+    fn a_comparison_matches_the_textbook() {
         // The example of scipy.stats.mannwhitneyu: U = 17, exact p = 1/9, for both orders of the samples.
         let [males, females] = [vec![19.0, 22.0, 16.0, 29.0, 24.0], vec![20.0, 11.0, 17.0, 12.0]];
         let group = |values: &[f64]| BehaviorGroup { name: "", stimuli: 0, values: values.to_vec() };
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn holm_multiplies_the_least_by_all_and_never_falls() {
+    fn holm_adjusted_values_never_decrease() {
         let adjusted = holm(&[0.03, 0.01, 0.04]);
         let expected = [0.06, 0.03, 0.06];
         assert!(adjusted.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{adjusted:?}");
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn ten_runs_a_group_reach_the_papers_threshold() {
+    fn ten_runs_per_group_reach_the_papers_threshold() {
         let runs = seeds((0..10).map(|i| {
             let shift = 0.01 * f64::from(i);
             run(&[("LLLL", 40.0 + shift), ("LLRR", 20.0 + shift), ("LRRR", 10.0 + shift), ("LRRL", 1.0 + shift)])
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn ties_are_told() {
+    fn ties_are_reported() {
         let runs = [run(&[("LLLL", 2.0), ("LLRR", 2.0)]), run(&[("LLLL", 3.0), ("LLRR", 1.0)])];
         let groups = behavior_groups(&seeds(runs));
         let comparisons = compare_groups(&groups);

@@ -102,13 +102,13 @@ mod tests {
     }
 
     #[test]
-    fn slots_stand_where_they_want_to_if_there_is_room() {
+    fn slots_are_at_their_wanted_places_if_there_is_room() {
         check(&[0.0, 30.0], &[20.0, 20.0], &[0.0, 30.0]);
         check(&[], &[], &[]);
     }
 
     #[test]
-    fn slots_that_want_one_place_share_it() {
+    fn slots_with_the_same_wanted_place_share_it() {
         check(&[10.0, 10.0], &[20.0, 20.0], &[0.0, 20.0]);
         check(&[50.0, 0.0, 100.0], &[10.0, 10.0, 10.0], &[20.0, 30.0, 100.0]);
     }

@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn damage_is_told_and_what_is_whole_stays() {
+    fn damage_is_reported_and_valid_lines_are_kept() {
         let text = line(1) + "\0\0\0\n" + &line(3) + &line(3) + &line(4);
         let history = History::read(&text, 4);
         assert_eq!(history.damage().unwrap(), "has no readable line for 1 of 4 generations, the first of them 2");

@@ -223,7 +223,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thirty_five_materials_beyond_the_papers_are_told_apart_without_color() {
+    fn thirty_five_more_materials_are_distinct_without_color() {
         let lightness = |color: Color| (u32::from(color.r) * 3 + u32::from(color.g) * 6 + u32::from(color.b)) / 10;
         let looks: Vec<Look> = (0..36).map(Look::beyond).collect();
         for (i, look) in looks.iter().enumerate() {

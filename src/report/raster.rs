@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn colors_come_out_as_they_are() {
+    fn colors_are_exact() {
         let mut svg = Svg::new(10.0, 10.0, "t");
         svg.rect((0.0, 0.0), 5.0, 10.0, Paint::fill(Color::FAULT));
         let pixmap = rasterize(&svg, 1.0);
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn a_huge_drawing_is_made_to_fit() {
+    fn a_huge_drawing_is_scaled_down() {
         let pixmap = rasterize(&Svg::new(20_000.0, 10.0, "t"), 2.0);
         assert_eq!(pixmap.width(), 16_000);
     }

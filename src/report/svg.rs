@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn text_cannot_break_out() {
+    fn text_is_escaped() {
         check(
             |svg| svg.text((1.0, 2.0), "<a & \"b\"\u{0}>", Type::new(9.0)),
             "<text x=\"1\" y=\"2\" font-size=\"9\" fill=\"#1a1a1a\">&lt;a &amp; &quot;b&quot;?&gt;</text>",

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_stand_left_and_numbers_right() {
+    fn words_are_left_aligned_and_numbers_right_aligned() {
         let mut table = Table::new(&[("name", Align::Left), ("clock", Align::Right), ("", Align::Left)]);
         table.push(vec!["nand_1".to_owned(), "4".to_owned(), "é".to_owned()]);
         table.push(vec!["x".to_owned(), "12".to_owned(), String::new()]);

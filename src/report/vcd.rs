@@ -168,21 +168,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn codes_are_different() {
+    fn codes_are_unique() {
         let codes: BTreeSet<String> = (0..20_000).map(code).collect();
         assert_eq!(codes.len(), 20_000);
         assert!(codes.iter().all(|code| code.bytes().all(|b| b.is_ascii_graphic())));
     }
 
     #[test]
-    fn names_have_no_blanks() {
+    fn names_have_no_spaces() {
         assert_eq!(identifier("a[3]"), "a_3");
         assert_eq!(identifier("n 1"), "n_1");
         assert_eq!(identifier("__"), "__");
     }
 
     #[test]
-    fn names_stay_apart() {
+    fn names_stay_unique() {
         let named = |names: &[&str]| identifiers(names.iter().copied());
         assert_eq!(
             named(&["q", "q_", "__", "a[3]", "a_3", "a/3", ""]),

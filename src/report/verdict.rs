@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_names_the_robot() {
+    fn a_failure_reports_the_robot() {
         let text = describe_test(&verdict(false));
         assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
         assert!(text.contains("    latch.nb:7: row 2: d=1 en=0 | q=0, expected 1\n"), "{text}");
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_without_a_wrong_robot_is_a_matter_of_time_or_of_the_circuit() {
+    fn a_failure_without_a_wrong_robot_blames_the_hold_or_the_circuit() {
         let mut verdict = verdict(false);
         verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].lapses);
         let text = describe_test(&verdict);
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bus_is_one_value_as_it_was_written() {
+    fn a_bus_is_one_value_in_its_notation() {
         let decimal = |number: u8| Value {
             bits: (0..4).rev().map(|b| Some(number >> b & 1 == 1)).collect(),
             base: Base::Decimal,
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_weak_robot_comes_first_where_a_test_failed() {
+    fn a_weak_robot_is_reported_first_if_a_test_failed() {
         let weak = WeakRobot { robot: "nand_9".to_owned(), nets: vec!["q".to_owned()], error_rate: 0.43, margin: -1.0 };
         let told = |passed| {
             let failed = describe_failures(&TestVerdict { weak_robots: vec![weak.clone()], ..verdict(passed) });

@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_and_nothing_else_is_left() {
+    fn a_file_is_replaced_and_no_other_file_is_left() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.json");
         write(&path, b"old").unwrap();
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     #[cfg(target_os = "linux")]
-    fn a_file_has_no_name_before_it_is_whole() {
+    fn a_file_gets_its_name_when_it_is_complete() {
         let folder = tempfile::tempdir().unwrap();
         for path in ["new.gif", "new.gif"].map(|name| folder.path().join(name)) {
             let before = fs::read_dir(folder.path()).unwrap().count();
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn content_that_fails_leaves_what_was_there() {
+    fn failing_content_leaves_the_old_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("film.gif");
         write(&path, b"old").unwrap();

@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_comes_back_bit_for_bit() {
+    fn a_search_reads_back_bit_for_bit() {
         let bytes = Checkpoint::print(&search(), 7, 8);
         let read = Checkpoint::read("a", &bytes).unwrap();
         assert_eq!((read.env_steps, read.left_out), (7, 8));
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn every_damage_is_seen() {
+    fn every_damage_is_detected() {
         let whole = Checkpoint::print(&search(), 7, 8);
         for place in (0..whole.len()).step_by(whole.len() / 300) {
             let mut damaged = whole.clone();
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn the_foreign_is_named() {
+    fn another_declaration_or_seed_is_rejected() {
         let refused = |evolution: &Evolution, seed| {
             let checkpoint = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
             checkpoint.resume("a", evolution, seed).unwrap_err().message
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn more_generations_are_no_other_declaration() {
+    fn more_generations_are_the_same_declaration() {
         let longer = Evolution { generations: 500, seeds: vec![1, 2], name: "renamed".to_owned(), ..evolution() };
         let checkpoint = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
         assert!(checkpoint.resume("a", &longer, 1).is_ok());

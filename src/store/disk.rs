@@ -112,13 +112,13 @@ mod tests {
     }
 
     #[test]
-    fn text_is_read_and_other_bytes_are_refused() {
+    fn text_is_read_and_invalid_utf8_is_rejected() {
         check("circuit é".as_bytes(), Ok("circuit é"));
         check(b"circuit \xff", Err(FileError::NotText { offset: 8 }));
     }
 
     #[test]
-    fn a_file_over_the_limit_is_refused() {
+    fn a_file_above_the_limit_is_rejected() {
         check(b"ten bytes.", Ok("ten bytes."));
         check(b"eleven byte", Err(FileError::TooLarge { limit: 10 }));
     }
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn missing_files_and_folders_are_told_apart() {
+    fn missing_files_and_folders_are_distinguished() {
         assert_eq!(DiskWorld.read("no/such/file"), Err(FileError::NotFound));
         assert_eq!(DiskWorld.read("/"), Err(FileError::NotRegular("a folder")));
     }

@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_is_held_by_one_and_free_again_after() {
+    fn a_folder_is_locked_by_one_process_and_released_after() {
         let folder = tempfile::tempdir().unwrap();
         let held = lock_folder(folder.path()).unwrap();
         let Err(LockFault::Held { process }) = lock_folder(folder.path()) else { panic!("it is held") };
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_is_missing_is_a_fault() {
+    fn locking_a_missing_folder_is_an_error() {
         assert!(matches!(lock_folder(Path::new("/no/such/folder")), Err(LockFault::Io(_))));
     }
 }

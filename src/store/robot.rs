@@ -186,7 +186,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn materials_are_told_unless_they_are_the_papers() {
+    fn materials_are_written_unless_they_are_the_papers() {
         let text = print_robot(&own_robot());
         assert_eq!(read(&text), Ok(own_robot()));
         assert!(text.contains(
@@ -197,7 +197,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn materials_that_are_none_are_named_at_their_place() {
+    fn invalid_materials_are_reported_at_their_place() {
         let whole = print_robot(&own_robot());
         let check = |from: &str, to: &str, expected: &str, place: &str| {
             let damaged = whole.replacen(from, to, 1);
@@ -216,7 +216,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_no_measurement_gives_is_refused() {
+    fn impossible_measurements_are_rejected() {
         let whole = print_robot(&robot());
         let check = |from: &str, to: &str, place: &str| {
             let damaged = whole.replacen(from, to, 1);
@@ -248,7 +248,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn another_version_is_refused_as_such() {
+    fn another_version_is_rejected_with_its_number() {
         let (code, message, place) = read(&print_robot(&robot()).replace("format: 2", "format: 7")).unwrap_err();
         assert_eq!(code, Code::ForeignFormat);
         assert_eq!(message, "`a.yaml` is a robot file of format 7, expected format 2");
@@ -256,7 +256,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn damage_is_named() {
+    fn damage_is_reported() {
         let whole = print_robot(&robot());
         let check = |from: &str, to: &str, expected: &str| {
             let damaged = whole.replace(from, to);
@@ -274,7 +274,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_file_cut_short_anywhere_is_refused_without_a_panic() {
+    fn a_truncated_file_is_rejected_without_a_panic() {
         let whole = print_robot(&robot());
         let end = whole.find("evaluations").unwrap();
         for length in 0..end {

@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_are_read_however_their_rows_are_written() {
+    fn bodies_are_read_in_any_notation_of_rows() {
         check("body: [\"00345\", \"33333\"]", &["00345", "33333"]);
         check("{\"name\": \"x\", \"body\": [\"00345\", \"33333\"]}", &["00345", "33333"]);
         check("body:\n  - 00345\n  - 33333\n", &["00345", "33333"]);
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_are_shown_where_they_are() {
+    fn errors_are_shown_at_their_place() {
         check_fault("body: [\"33\", \"333\"]", "row 2 has 3 voxels, expected 2", "333");
         check_fault("body: [\"33\", \"39\"]", "`9` is no material", "9");
         check_fault("name: x\nbody: []", "the body has no voxels", "body");
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_mapping_with_a_body_is_refused() {
+    fn anything_but_a_mapping_with_a_body_is_rejected() {
         for text in
             ["", "name: x", "33", "body: 33.5", "body: {a: 1}", "body: [-3]", "\u{0}", "body: [", "- body", "&a [*a]"]
         {

@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scalars_are_what_every_version_of_yaml_reads() {
+    fn scalars_read_the_same_in_every_version_of_yaml() {
         let check = |line: &str, expected: &str| assert_eq!(portable(line), expected);
         check("margin: 1e-7", "margin: 1.0e-7");
         check("- -2.5e17", "- -2.5e+17");
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn brackets_have_a_depth() {
+    fn nesting_of_brackets_is_limited() {
         assert_eq!(too_deep(&"[".repeat(64)), None);
         assert_eq!(too_deep(&"[]".repeat(1000)), None);
         assert_eq!(too_deep(&format!("a: {}", "[{".repeat(100_000))), Some(3 + 64));

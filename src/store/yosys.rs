@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_yosys_says_is_shown_at_the_line_of_the_users_file() {
+    fn errors_of_yosys_are_shown_at_the_line_of_the_users_file() {
         let source = "module a;\nwrong\nendmodule\n".to_owned();
         let CircuitFault { diagnostics, sources } =
             fault(Path::new("my file.v"), source, "\nsource.v:2: ERROR: syntax error, unexpected TOK_ENDMODULE\n");
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_yosys_says_of_an_included_file_names_it_where_it_lies() {
+    fn errors_of_yosys_in_an_included_file_show_its_path() {
         let said = "included/part.vh:7: ERROR: syntax error";
         let CircuitFault { diagnostics, .. } = fault(Path::new("folder/a.v"), String::new(), said);
         assert_eq!(diagnostics[0].message, "yosys cannot read `folder/a.v`: folder/part.vh:7: ERROR: syntax error");

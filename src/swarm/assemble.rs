@@ -174,19 +174,19 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_with_exchanged_inputs_will_do() {
+    fn a_robot_with_exchanged_inputs_is_accepted() {
         let (here, there) = (Function::new(0b0100), Function::new(0b0010));
         check(here, &[there], Ok(("nota_and_b", [Signal::Input(1), Signal::Input(0)])));
     }
 
     #[test]
-    fn an_inverter_is_sensed_where_its_robot_listens() {
+    fn an_inverter_reads_the_stimulus_its_robot_depends_on() {
         check(Function::NOT, &[Function::NOT], Ok(("not", [Signal::Input(0), Signal::Constant(false)])));
         check(Function::NOT, &[Function::NOT_B], Ok(("notb", [Signal::Constant(false), Signal::Input(0)])));
     }
 
     #[test]
-    fn a_function_nobody_computes_is_named() {
+    fn a_function_without_a_robot_is_reported() {
         check(Function::XOR, &[Function::AND], Err(AssembleError::MissingFunction { function: Function::XOR }));
     }
 }

@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_word_after_a_block_begins_a_piece() {
+    fn an_unknown_word_after_a_block_begins_a_declaration() {
         check("circuit f(a) -> (q) { q = a }\ncicuit g() {}", &["circuit f(a) -> (q) { q = a }", "cicuit g() {}"]);
     }
 }

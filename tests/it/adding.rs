@@ -1,4 +1,4 @@
-//! `nbc library add`: every behavior asked for is answered, and robots that err are left out.
+//! `nbc library add`: every requested behavior has a result, and robots with errors are left out.
 
 use std::fs;
 
@@ -45,7 +45,7 @@ fn written(bench: &Bench) -> Vec<String> {
 }
 
 #[test]
-fn every_behavior_asked_for_is_answered_and_robots_that_err_are_left_out() {
+fn every_requested_behavior_has_a_result_and_robots_with_errors_are_left_out() {
     let bench = bench();
     let strict = add(&bench, &["--behavior", "RLRL", "--behavior", "LRRL", "--format", "json"]);
     assert_eq!(strict.status, 1, "a behavior that was asked for has no robot: {}", strict.err);
@@ -64,7 +64,7 @@ fn every_behavior_asked_for_is_answered_and_robots_that_err_are_left_out() {
 }
 
 #[test]
-fn a_share_of_errors_is_between_none_and_all() {
+fn the_accepted_error_rate_is_between_0_and_1() {
     for share in ["2", "-0.1", "x", "NaN"] {
         let ran = add(&Bench::new(), &[&format!("--max-error={share}")]);
         assert!(ran.status == 2 && ran.err.contains("expected a number from 0 to 1"), "{}", ran.err);

@@ -68,13 +68,14 @@ fn abc_proves_every_written_blif_of_the_benchmarks() {
     assert_eq!(said.matches("Networks are equivalent").count(), pairs, "{said}");
 }
 
-/// Seconds of processor time that this thread has used, so that a busy machine does not matter; elsewhere than on Linux, none.
+/// CPU time of this thread in seconds, which does not depend on the load of the machine; `None` where it is unknown
+/// (not Linux).
 fn seconds_used() -> f64 {
     let told = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     told.split_whitespace().next().map_or(f64::NAN, |nanoseconds| nanoseconds.parse::<f64>().unwrap_or(f64::NAN) / 1e9)
 }
 
-/// What ABC makes of a circuit, and what SAT proved, by library: fast, best, optimum. Empty where it is not known.
+/// The results of ABC for a circuit, and the optimum proved by SAT, by library: fast, best, optimum. Empty if unknown.
 fn reference(name: &str) -> Option<[[String; 3]; 3]> {
     let text = fs::read_to_string(root().join("tests/benchmarks/reference.csv")).unwrap();
     let row = text.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(','))?;
@@ -83,8 +84,8 @@ fn reference(name: &str) -> Option<[[String; 3]; 3]> {
     Some([[a1, a2, a3], [String::new(), b2, b3], [c1, c2, c3]])
 }
 
-/// Prints the table of docs/compiler.md, and fails where a circuit takes more cells than its target. `EFFORT` is `fast`, `normal` or
-/// `high`; only high effort has targets. `ONLY` chooses circuits by a part of their names.
+/// Prints the table of docs/compiler.md, and fails if a circuit needs more cells than its target. `EFFORT` is `fast`,
+/// `normal` or `high`; only high effort has targets. `ONLY` selects circuits by a part of their names.
 ///
 /// Run with `EFFORT=high cargo test --release --test it measure_the_benchmarks -- --ignored --nocapture`.
 #[test]
@@ -127,7 +128,7 @@ fn measure_the_benchmarks() {
     assert!(effort != Effort::High || missed.is_empty(), "{missed:?}");
 }
 
-/// The function of four variables with variables exchanged and turned over, in every way.
+/// All functions of four variables that follow from one by exchanging and inverting variables and the output.
 fn variants(truth: u16) -> impl Iterator<Item = u16> {
     let orders = (0..256usize).map(|code| [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6]);
     let orders = orders.filter(|order| (0..4).all(|i| order.contains(&i)));
@@ -139,12 +140,13 @@ fn variants(truth: u16) -> impl Iterator<Item = u16> {
     })
 }
 
-/// Knuth, The Art of Computer Programming 7.1.2, table 1: how many functions of four variables need 0 to 7 gates.
+/// Knuth, The Art of Computer Programming 7.1.2, table 1: the number of functions of four variables that need 0 to 7
+/// gates.
 ///
 /// Run with `cargo test --release --test it four_variables -- --ignored`.
 #[test]
 #[ignore = "takes minutes"]
-fn the_functions_of_four_variables_need_the_gates_that_knuth_counted() {
+fn functions_of_four_variables_need_as_many_gates_as_in_knuth() {
     let mut library = libraries()[2].1.clone();
     library.insert(Function::NOT, CellKind { cost: 0, ..CellKind::uniform(1, 1.0) });
     let options = MapOptions { effort: Effort::High, ..MapOptions::default() };

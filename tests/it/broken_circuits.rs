@@ -1,10 +1,10 @@
-//! Broken circuit files: what each reader says, and at which place.
+//! Broken circuit files: the message of each reader and its place.
 
 use nbc::circuit::formats::{bench, blif};
 use nbc::diag::Diagnostic;
 use nbc::source::Sources;
 
-/// The first fault as `line:column text: message; label`.
+/// The first error as `line:column text: message; label`.
 fn first(text: &str, read: impl FnOnce(&str, nbc::source::FileId) -> Result<(), Vec<Diagnostic>>) -> String {
     let mut sources = Sources::default();
     let id = sources.add("broken", text);
@@ -14,9 +14,9 @@ fn first(text: &str, read: impl FnOnce(&str, nbc::source::FileId) -> Result<(), 
     format!("{}:{} `{}`: {}; {}", place.line, place.column, sources.text(label.span), fault.message, label.text)
 }
 
-/// Models without their first line, each with what is said of it.
+/// Models without their first line, each with its message.
 #[test]
-fn faults_of_blif_are_at_their_place() {
+fn errors_in_blif_have_their_place() {
     let check = |lines: &str, expected: &str| {
         let found = first(&format!(".model m\n{lines}"), |text, file| blif::read(text, file, None).map(drop));
         assert_eq!(found, expected, "{lines}");
@@ -66,7 +66,7 @@ fn faults_of_blif_are_at_their_place() {
 }
 
 #[test]
-fn faults_of_bench_are_at_their_place() {
+fn errors_in_bench_have_their_place() {
     let check = |text: &str, expected: &str| {
         assert_eq!(first(text, |text, file| bench::read(text, file, None).map(drop)), expected, "{text}");
     };

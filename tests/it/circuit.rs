@@ -1,4 +1,4 @@
-//! Laws of the compiler: every function is found at its optimum, and no damaged file makes a reader panic.
+//! Laws of the compiler: it finds the optimum of every small function, and no damaged file makes a reader panic.
 
 use nbc::circuit::formats::{Design, aiger, bench, blif};
 use nbc::circuit::network::Network;
@@ -27,7 +27,7 @@ pub fn sum_of_products(inputs: usize, truth: u32) -> Network {
     network
 }
 
-/// The cells that the compiler makes of these functions of three inputs together, by default.
+/// The total number of cells for these functions of three inputs, at normal effort.
 fn total(library: &CellLibrary, truths: impl Iterator<Item = u32>) -> usize {
     let cells = |truth| reduce(&sum_of_products(3, truth), &[], library, MapOptions::default()).unwrap().gates.len();
     truths.map(cells).sum()
@@ -42,9 +42,10 @@ fn all_three_input_functions_reach_the_optimum() {
     assert_eq!(total(&CellLibrary::uniform(all), 1..=254), 597);
 }
 
-/// Random libraries of a few functions, and random functions: no search over all sequences of cells finds fewer than the compiler.
+/// Random libraries of a few functions, and random functions: no search over all sequences of cells finds fewer than
+/// the compiler.
 #[test]
-fn any_library_makes_a_function_of_the_fewest_cells() {
+fn any_library_makes_functions_with_the_fewest_cells() {
     let mut random = ChaCha8Rng::seed_from_u64(8);
     let mut compared = 0;
     while compared < 30 {
@@ -71,7 +72,7 @@ fn sample() -> Design {
 }
 
 #[test]
-fn damaged_files_make_no_reader_panic() {
+fn damaged_files_do_not_make_a_reader_panic() {
     let design = sample();
     let files = [aiger::write(&design, true), aiger::write(&design, false), blif::write(&design).into_bytes()];
     for bytes in files {
@@ -96,7 +97,7 @@ fn read_all(bytes: &[u8]) {
 }
 
 #[test]
-fn what_is_written_reads_back() {
+fn written_files_read_back() {
     let design = sample();
     let ports = |netlist: &Netlist| (netlist.inputs().len(), netlist.outputs().len());
     let again = blif::read(&blif::write(&design), FileId(0), None).unwrap();

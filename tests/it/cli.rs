@@ -1,4 +1,4 @@
-//! The command line through the real program: what it prints, and how it ends.
+//! The command line of the real program: its output and its exit status.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub struct Bench {
     folder: tempfile::TempDir,
 }
 
-/// What a run of the program gave.
+/// The output and exit status of a run of the program.
 pub struct Ran {
     pub status: i32,
     pub out: String,
@@ -50,7 +50,7 @@ impl Bench {
 }
 
 impl Ran {
-    /// The fault, told on standard error alone, with status 2 and without a panic.
+    /// Checks for an error on standard error only, with status 2 and without a panic.
     #[track_caller]
     pub fn expect_fault(&self, parts: &[&str]) {
         assert_eq!(self.status, 2, "{}{}", self.out, self.err);
@@ -85,7 +85,7 @@ fn check_body(bytes: &[u8], parts: &[&str]) {
 }
 
 #[test]
-fn simulate_tells_programs_every_env_step() {
+fn simulate_prints_every_env_step_as_json() {
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     let arguments = ["simulate", "walker.yaml", "--schedule", "00*1 01*56steps", "--format", "json"];
@@ -123,7 +123,7 @@ fn simulate_reads_json_and_places_the_body() {
 }
 
 #[test]
-fn an_unstable_body_is_told_and_no_error() {
+fn an_unstable_body_is_a_result_and_not_an_error() {
     let bench = Bench::new();
     bench.file("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
     let place = ["--start-x", "28", "--world-width", "60"];
@@ -138,7 +138,7 @@ fn an_unstable_body_is_told_and_no_error() {
 }
 
 #[test]
-fn bad_schedules_are_shown_where_they_are_wrong() {
+fn errors_in_schedules_have_their_place() {
     check_schedule("00*10 02*10", &["bad-schedule", "`02` are no stimuli", "--schedule:1:7"]);
     check_schedule("00*0", &["`0` is no time at all", "--schedule:1:4"]);
     check_schedule("", &["the schedule is empty"]);
@@ -147,7 +147,7 @@ fn bad_schedules_are_shown_where_they_are_wrong() {
 }
 
 #[test]
-fn bad_robot_files_are_shown_where_they_are_wrong() {
+fn errors_in_robot_files_have_their_place() {
     check_body(b"body: [\"33\", \"333\"]", &["robot-file", "row 2 has 3 voxels", "walker.yaml:1:"]);
     check_body(b"body: []", &["the body has no voxels"]);
     check_body(b"body: [\"39\"]", &["`9` is no material", "walker.yaml:1:10"]);
@@ -159,7 +159,7 @@ fn bad_robot_files_are_shown_where_they_are_wrong() {
 }
 
 #[test]
-fn missing_files_and_folders_are_named() {
+fn missing_files_and_folders_are_reported() {
     let bench = Bench::new();
     let simulate = |robot: &str| bench.run(&["simulate", robot, "--schedule", "00*1"]);
     simulate("none.yaml").expect_fault(&["cannot read `none.yaml`", "no such file"]);
@@ -202,7 +202,7 @@ fn every_command_has_help_with_an_example() {
 }
 
 #[test]
-fn faults_are_data_for_programs() {
+fn errors_are_printed_as_json() {
     let bench = Bench::new();
     let ran = bench.run(&["simulate", "none.yaml", "--schedule", "00*1", "--format", "json"]);
     assert_eq!(ran.status, 2);
@@ -211,7 +211,7 @@ fn faults_are_data_for_programs() {
 }
 
 #[test]
-fn colors_come_only_when_asked_for() {
+fn colors_are_used_only_on_request() {
     let bench = Bench::new();
     let color =
         |when| bench.run(&["simulate", "none.yaml", "--schedule", "00*1", "--color", when]).err.contains('\u{1b}');
@@ -237,7 +237,7 @@ fn flip(passes: bool) -> String {
     format!("circuit flip(a) -> (y) {{\n    y = not a\n}}\n\ntest flip {{\n    a | y\n    0 | {low}\n}}\n")
 }
 
-/// How the program ends, and what it says on standard error, when nobody reads its output from the start.
+/// The exit status and standard error of the program if its standard output is closed from the start.
 fn unread(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
@@ -246,7 +246,7 @@ fn unread(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_closed_pipe_changes_no_verdict() {
+fn a_closed_pipe_does_not_change_the_verdict() {
     let bench = Bench::new();
     bench.file("failing.nb", flip(false));
     bench.file("passing.nb", flip(true));
@@ -263,7 +263,7 @@ fn a_closed_pipe_changes_no_verdict() {
 }
 
 #[test]
-fn a_closed_pipe_ends_no_work_early() {
+fn a_closed_pipe_does_not_stop_the_work() {
     let bench = Bench::new();
     bench.file("small.nb", "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 2, seed: 1..3 }\n");
     assert_eq!(unread(&bench, &["evolve", "small.nb"]).0, Some(0));
@@ -274,7 +274,7 @@ fn a_closed_pipe_ends_no_work_early() {
 }
 
 #[test]
-fn a_full_disk_is_told() {
+fn a_full_disk_is_reported() {
     let bench = Bench::new();
     for arguments in [&["completions", "bash"][..], &["--help"], &["--version"], &["evolve", "--help"], &["explain"]] {
         let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
@@ -284,7 +284,7 @@ fn a_full_disk_is_told() {
     }
 }
 
-/// The program, run by a user who may start no more threads. Root always may, so root becomes nobody.
+/// The program, run by a user who may not start more threads. Root has no such limit, so root becomes nobody.
 #[cfg(target_os = "linux")]
 fn without_threads(bench: &Bench, arguments: &[&str]) -> Output {
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
@@ -300,7 +300,7 @@ fn without_threads(bench: &Bench, arguments: &[&str]) -> Output {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn where_threads_are_refused_fewer_do_the_work() {
+fn fewer_threads_do_the_work_if_the_system_refuses_some() {
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     bench.file("passing.nb", flip(true));
@@ -314,7 +314,7 @@ fn where_threads_are_refused_fewer_do_the_work() {
 }
 
 #[test]
-fn a_number_of_threads_that_is_none_is_named() {
+fn an_invalid_number_of_threads_is_reported() {
     let bench = Bench::new();
     let output = bench.command(&["library", "list"]).env("RAYON_NUM_THREADS", "two").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
@@ -331,7 +331,7 @@ fn completions_name_the_commands() {
 }
 
 #[test]
-fn bytes_from_a_pipe_are_read_too() {
+fn robot_files_are_read_from_a_pipe() {
     let bench = Bench::new();
     let arguments = ["simulate", "/dev/stdin", "--schedule", "00*1"];
     let mut child = bench.command(&arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -349,7 +349,7 @@ fn check_drawing(kind: &str, file: &str, start: &[u8]) {
 }
 
 #[test]
-fn a_robot_is_drawn_in_every_way() {
+fn every_picture_of_a_robot_is_drawn() {
     let png = b"\x89PNG";
     check_drawing("sprite", "a.svg", b"<svg");
     check_drawing("sprite", "a.png", png);
@@ -360,7 +360,7 @@ fn a_robot_is_drawn_in_every_way() {
 }
 
 #[test]
-fn drawings_that_cannot_be_are_refused_and_leave_nothing() {
+fn impossible_drawings_are_rejected_and_leave_no_file() {
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     let draw = |what: &str, kind: &str, file: &str| bench.run(&["draw", what, "--as", kind, "-o", file]);
@@ -373,7 +373,7 @@ fn drawings_that_cannot_be_are_refused_and_leave_nothing() {
 }
 
 #[test]
-fn the_machines_speed_is_told_as_data() {
+fn bench_prints_the_speed_as_json() {
     let ran = Bench::new().run(&["bench", "--format", "json"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let figures = crate::schemas::validate("bench", &ran.out);
@@ -396,7 +396,7 @@ fn timings(told: &str) -> std::collections::BTreeMap<&str, f64> {
 }
 
 #[test]
-fn timings_are_told_beside_results_that_they_do_not_change() {
+fn timings_do_not_change_results() {
     let bench = Bench::new();
     let file =
         "circuit flip(a) -> (y) {\n    y = not a\n}\ntest flip \"inverts\" {\n    a | y\n    0 | 1\n    1 | 0\n}\n";
@@ -414,7 +414,7 @@ fn timings_are_told_beside_results_that_they_do_not_change() {
 }
 
 #[test]
-fn timings_of_an_evolution_know_what_is_not_simulation() {
+fn timings_of_an_evolution_include_archive_and_development() {
     let bench = Bench::new();
     bench.file("small.nb", "schedule once(s1, s2) {\n 0 0 for 1 cycles\n 0 1 for 1 cycles\n 1 0 for 1 cycles\n 1 1 for 1 cycles\n}\nevolution small {\n    box: 3 x 2\n    variable: once\n    fixed: 1 cycles\n    batch: 4\n    generations: 2\n    seed: 1\n}\n");
     let ran = bench.run(&["evolve", "small.nb", "--timings"]);

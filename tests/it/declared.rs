@@ -1,4 +1,4 @@
-//! An evolution declaration: each field is read from the text, and each makes another run.
+//! Evolution declarations: each field is read from the text and has an effect on the run.
 
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ evolution base {
 }
 ";
 
-/// The run that is like `base` but for some fields.
+/// The evolution `base` with some fields changed.
 #[track_caller]
 fn declared(fields: &str) -> Evolution {
     let mut world = MemoryWorld::default();
@@ -49,7 +49,7 @@ fn declared(fields: &str) -> Evolution {
     checked.program.evolution("run").unwrap().clone()
 }
 
-/// What a declared run has come to after some generations.
+/// The state of a run after some generations.
 fn made(evolution: &Evolution) -> nbc::evolve::SearchState {
     let mut search = Search::new(evolution, evolution.seeds[0]);
     for _ in 0..GENERATIONS {
@@ -58,10 +58,10 @@ fn made(evolution: &Evolution) -> nbc::evolve::SearchState {
     search.state()
 }
 
-/// A field and what it changes in the declaration of `base`.
+/// A field and its change in the declaration of `base`.
 type Change = (&'static str, fn(&mut Evolution));
 
-/// Changes of which each makes another run.
+/// Changes that each have an effect on the run.
 fn changes() -> Vec<Change> {
     vec![
         ("box: 4 x 3", |run| run.width = 4),

@@ -1,4 +1,4 @@
-//! The same bits whatever runs beside, on whatever kernel and threads.
+//! The same bits for any neighbors in a batch, any kernel and any number of threads.
 
 use std::sync::Arc;
 
@@ -27,7 +27,8 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
     numbers.map(|number| number.to_bits()).chain([fault]).collect()
 }
 
-/// A body of that box and one of two palettes; `digits` are drawn over the codes, 9 standing for another active voxel so that most bodies move.
+/// A body of this box and one of two palettes. `digits` are drawn over the codes; 9 is another active voxel, so that
+/// most bodies move.
 fn body(width: usize, height: usize) -> impl Strategy<Value = Body> {
     let cells = proptest::collection::vec(0u8..10, width * height).prop_map(move |digits| {
         let mut codes: Vec<u8> = digits.iter().map(|&digit| if digit == 9 { 3 } else { digit }).collect();
@@ -39,7 +40,7 @@ fn body(width: usize, height: usize) -> impl Strategy<Value = Body> {
     })
 }
 
-/// Nine materials of which each code does something else than the paper's.
+/// Nine materials whose codes all differ from the paper's.
 fn own_palette() -> Arc<Palette> {
     let named = |(i, kind): (usize, MaterialKind)| Material { name: format!("own_{i}"), kind };
     let drive = |period, phase, low, high| MaterialKind::Actuator(Drive { period, phase, low, high });
@@ -89,7 +90,7 @@ proptest! {
     }
 }
 
-/// The paper's materials and one that asks for a width beyond all bounds, which blows a body up where targets are not clipped.
+/// The paper's materials and one with an extreme width, which makes a body unstable unless targets are clipped.
 fn broken_palette() -> Arc<Palette> {
     let mut materials = Palette::paper().materials().to_vec();
     let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: 0.6, present: f64::MAX });
@@ -98,7 +99,7 @@ fn broken_palette() -> Arc<Palette> {
 }
 
 #[test]
-fn a_faulting_lane_leaves_its_neighbors_alone() {
+fn a_faulting_lane_does_not_change_its_neighbors() {
     let (setting, palette) = (Setting::default(), broken_palette());
     let constants = Constants { greatest_target: f64::MAX, ..Constants::default() };
     let simulate = |kernel, trials: &[Trial]| Simulator { constants, kernel, probe: None }.run_trials(&setting, trials);
@@ -146,7 +147,7 @@ fn bodies_of_different_palettes_run_side_by_side() {
     }
 }
 
-/// Trials of different lengths in the paper's smaller boxes, so that lanes are refilled one after another.
+/// Trials of different lengths in the paper's smaller boxes, so that lanes are refilled at different times.
 fn patchwork() -> Vec<Trial> {
     let trial = |i: usize| Trial {
         body: Body::patchwork(if i < 10 { 5 } else { 7 }, i / 2),
@@ -178,7 +179,7 @@ fn golden_hash_on_every_kernel_and_number_of_threads() {
 }
 
 #[test]
-fn a_swarm_advances_as_its_robots_do_alone() {
+fn robots_of_a_swarm_advance_as_they_do_alone() {
     let setting = Setting::default();
     let bodies: Vec<Body> = (0..9).map(|robot| Body::patchwork(5, robot / 6)).collect();
     let patterns = |turn: usize| (0..bodies.len()).map(|robot| Pattern::PAIRS[(robot + turn) % 4]).collect::<Vec<_>>();

@@ -1,4 +1,5 @@
-//! `nbc draw` through the real program: libraries, evolution runs and swarms, by what is in the files; and what cannot be drawn.
+//! `nbc draw` in the real program: the contents of pictures of libraries, evolution runs and swarms, and impossible
+//! pictures.
 
 use std::fs;
 
@@ -43,7 +44,7 @@ fn draw(bench: &Bench, line: &str) -> Ran {
     bench.run(&arguments)
 }
 
-/// Draws a picture and gives its SVG.
+/// Draws a picture and returns its SVG.
 #[track_caller]
 fn svg(bench: &Bench, line: &str) -> String {
     let ran = draw(bench, &format!("{line} -o a.svg"));
@@ -62,7 +63,7 @@ fn ids(svg: &str, start: &str) -> usize {
 }
 
 #[test]
-fn a_run_is_drawn_in_every_way() {
+fn every_picture_of_a_run_is_drawn() {
     let bench = evolved();
     let archive = svg(&bench, "out/tiny --as heatmap");
     assert_eq!(ids(&archive, "map-"), 16, "a map for each behavior");
@@ -84,7 +85,7 @@ fn a_run_is_drawn_in_every_way() {
 }
 
 #[test]
-fn what_a_run_has_not_is_told() {
+fn missing_pictures_of_a_run_are_reported() {
     let bench = evolved();
     draw(&bench, "out/tiny --as heatmap --axes voxels,depth -o a.svg")
         .expect_fault(&["`depth` is no axis", "`voxels`, `active`, `sensory`, `behavior`"]);
@@ -126,7 +127,7 @@ fn robots_of_a_swarm_are_chosen_by_their_nets() {
 }
 
 #[test]
-fn a_pose_is_the_body_bent_over_its_outline() {
+fn a_pose_shows_the_deformed_body_over_its_outline() {
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     let pose = |at: &str| svg(&bench, &format!("walker.yaml --as pose --schedule 00*2 --at {at}"));
@@ -187,7 +188,7 @@ fn options_that_cannot_apply_are_refused() {
 }
 
 #[test]
-fn what_cannot_be_drawn_leaves_nothing() {
+fn failed_drawings_leave_no_file() {
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     bench.file("idle.nb", "circuit inverter(a) -> (q) { q = not a }\n");

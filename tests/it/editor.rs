@@ -1,4 +1,4 @@
-//! The editor's grammar: the gallery is tokenized with it, and every word has the scope that its meaning asks for.
+//! The editor's grammar: it tokenizes the gallery, and every word has the correct scope.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::language::{programs, root};
 
-/// A rule of the grammar: a pattern, the scope of all of it, and those of its groups.
+/// A rule of the grammar: a pattern, the scope of the whole match, and the scopes of its groups.
 struct Rule {
     pattern: Regex,
     scope: Option<String>,
@@ -36,7 +36,8 @@ fn rules() -> Vec<Rule> {
     grammar["patterns"].as_array().unwrap().iter().map(rule).collect()
 }
 
-/// The words of a line with their scopes, as an editor finds them: at each place the leftmost match, of equally left ones the first rule's.
+/// The words of a line with their scopes, as an editor finds them: at each position the leftmost match; of equal ones,
+/// the first rule's.
 fn tokens<'a>(rules: &[Rule], line: &'a str) -> Vec<(&'a str, String)> {
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -102,7 +103,7 @@ fn every_snippet_is_a_program_or_a_part_of_one() {
     let holes = Regex::new(r"\$\{\d+:([^}]*)\}|\$0").unwrap();
     for (name, snippet) in read("snippets/nb.json").as_object().unwrap() {
         let lines: Vec<_> = snippet["body"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
-        // A placeholder stands for its own text.
+        // A placeholder is replaced by its own text.
         let text = holes.replace_all(&lines.join("\n"), "$1").into_owned();
         let program = match name.as_str() {
             "for" => format!("circuit f(a) -> (q) {{\n q = a\n {text}\n}}"),

@@ -1,5 +1,5 @@
-//! Evolution runs through the real program: the same bits on any number of threads and after any interruption; images that
-//! are exact.
+//! Evolution runs through the real program: the same bits on any number of threads and after any interruption; images
+//! that are exact.
 
 use std::fs;
 use std::process::{Child, Stdio};
@@ -53,7 +53,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// The runs' checkpoints after they went through in one go, on that many threads.
+/// The checkpoints of uninterrupted runs on this number of threads.
 fn straight(bench: &Bench, threads: &str) -> Vec<Vec<u8>> {
     let out = format!("threads-{threads}");
     let mut command = bench.command(&["evolve", "runs.nb", "--out", &out]);
@@ -104,7 +104,7 @@ fn the_same_seed_gives_the_same_archive_on_any_number_of_threads_and_after_being
 
 #[test]
 #[cfg(unix)]
-fn a_signal_ends_a_run_in_good_order() {
+fn a_signal_ends_a_run_with_a_checkpoint() {
     let bench = bench();
     for signal in ["TERM", "USR1", "INT"] {
         let child = start(&bench, signal, &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 1);
@@ -119,7 +119,7 @@ fn a_signal_ends_a_run_in_good_order() {
 }
 
 #[test]
-fn a_checkpoint_that_does_not_fit_is_refused_and_left_alone() {
+fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
     let bench = bench();
     let first = ["evolve", "runs.nb", "--run", "walks", "--generations", "2", "--out", "out"];
     assert_eq!(bench.run(&first).status, 0);
@@ -154,7 +154,7 @@ fn a_checkpoint_that_does_not_fit_is_refused_and_left_alone() {
 }
 
 #[test]
-fn a_folder_in_use_is_left_alone_and_its_holder_named() {
+fn a_folder_in_use_is_unchanged_and_its_process_reported() {
     let bench = bench();
     let mut first = start(&bench, "shared", &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 2);
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--out", "shared", "--resume"];
@@ -170,7 +170,7 @@ fn a_folder_in_use_is_left_alone_and_its_holder_named() {
 }
 
 #[test]
-fn a_damaged_history_is_told_and_set_aside() {
+fn a_damaged_history_is_reported_and_set_aside() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--resume"];
     assert_eq!(bench.run(&[&arguments[..], &["--generations", "6"]].concat()).status, 0);
@@ -194,7 +194,7 @@ fn a_damaged_history_is_told_and_set_aside() {
 }
 
 #[test]
-fn one_run_is_never_counted_twice() {
+fn the_same_run_is_not_counted_twice() {
     let bench = bench();
     assert_eq!(bench.run(&["evolve", "runs.nb", "--run", "walks", "--generations", "2"]).status, 0);
     let (own, copy) = (bench.path().join("out/walks/seed-3"), bench.path().join("out/walks/seed-4"));
@@ -205,7 +205,7 @@ fn one_run_is_never_counted_twice() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_named() {
+fn a_folder_that_cannot_be_written_is_reported() {
     let bench = bench();
     bench.file("taken", "a file");
     let ran = bench.run(&["evolve", "runs.nb", "--run", "walks", "--out", "taken"]);
@@ -218,7 +218,7 @@ fn a_folder_that_cannot_be_written_is_named() {
 /// A limit on the size of files is like a full disk: a write fails in the middle.
 #[test]
 #[cfg(unix)]
-fn a_full_disk_leaves_the_last_checkpoint_to_go_on_from() {
+fn a_run_continues_from_its_last_checkpoint_after_a_full_disk() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--checkpoint-every", "0"];
     let program = bench.command(&[]).get_program().to_owned();
@@ -240,7 +240,7 @@ fn a_full_disk_leaves_the_last_checkpoint_to_go_on_from() {
 }
 
 #[test]
-fn each_generation_leaves_a_line_and_the_run_a_table() {
+fn each_generation_writes_a_line_and_the_run_prints_a_table() {
     let bench = bench();
     let ran = bench.run(&["evolve", "runs.nb", "--run", "walks"]);
     let text = fs::read_to_string(bench.path().join("out/walks/seed-3/progress.jsonl")).unwrap();
@@ -276,7 +276,7 @@ fn declared(name: &str) -> Evolution {
 }
 
 #[test]
-fn what_is_left_out_changes_no_archive() {
+fn skipped_simulations_do_not_change_the_archive() {
     for name in ["walks", "turns"] {
         let evolution = declared(name);
         let empty = Search::new(&evolution, 3);
@@ -285,7 +285,7 @@ fn what_is_left_out_changes_no_archive() {
             let candidates = staged.ask();
             assert_eq!(candidates, full.ask());
             staged.tell(&candidates, &evaluate(&Simulator::default(), &staged, &candidates).0);
-            // An empty archive could take everything, so nothing is left out.
+            // An empty archive accepts every body, so nothing is skipped.
             full.tell(&candidates, &evaluate(&Simulator::default(), &empty, &candidates).0);
             assert_eq!(staged.archive(), full.archive());
         }
@@ -295,7 +295,7 @@ fn what_is_left_out_changes_no_archive() {
 }
 
 #[test]
-fn a_run_is_told_in_words_and_in_json() {
+fn a_run_is_reported_as_text_and_as_json() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--generations", "3"];
     let text = bench.run(&[&arguments[..], &["--out", "a"]].concat());
@@ -310,7 +310,7 @@ fn a_run_is_told_in_words_and_in_json() {
 }
 
 #[test]
-fn several_runs_are_compared_in_words_and_in_json() {
+fn several_runs_are_compared_as_text_and_as_json() {
     let bench = bench();
     bench.file("three.nb", RUNS.replace("seed:        3", "seed:        1..3"));
     let arguments = ["evolve", "three.nb", "--run", "walks", "--generations", "8"];

@@ -1,4 +1,4 @@
-//! What README and `circuits/` promise, done by the program itself.
+//! The promises of README and `circuits/`, checked with the real program.
 
 use std::path::Path;
 

@@ -23,7 +23,7 @@ evolution own {
 }
 ";
 
-/// A table without quoted cells that hold a comma: its header and its rows.
+/// A table without quoted commas: its header and its rows.
 fn table(text: &str) -> (Vec<&str>, Vec<Vec<&str>>) {
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     (lines.next().unwrap(), lines.collect())
@@ -51,7 +51,7 @@ fn a_librarys_table_has_a_row_for_each_robot() {
 }
 
 #[test]
-fn an_archive_is_exported_whole_with_its_own_materials() {
+fn an_archive_is_exported_completely_with_its_materials() {
     let bench = Bench::new();
     bench.file("own.nb", RUN);
     let ran = bench.run(&["evolve", "own.nb"]);
@@ -82,7 +82,7 @@ fn an_archive_is_exported_whole_with_its_own_materials() {
 }
 
 #[test]
-fn what_cannot_be_exported_is_named() {
+fn impossible_exports_are_reported() {
     let bench = Bench::new();
     bench.run(&["export", "none"]).expect_fault(&["none"]);
     fs::create_dir(bench.path().join("empty")).unwrap();

@@ -1,4 +1,5 @@
-//! Faults together: one broken declaration hides nothing of the others, and programs read what people are told.
+//! Several errors at once: an error in one declaration does not hide others, and JSON has the same messages as the
+//! text.
 
 use nbc::check;
 use nbc::diag::{Code, Diagnostic};
@@ -8,8 +9,8 @@ use serde_json::{Value, json};
 
 use crate::cli::Bench;
 
-/// Declarations with one fault each, of names that no other uses. A word that begins no declaration is left out: it belongs to the one
-/// before it.
+/// Declarations with one error each, whose names no other declaration uses. A word that begins no declaration is not
+/// included, because it belongs to the previous one.
 const BROKEN: &[(Code, &str)] = &[
     (Code::Ambiguous, "circuit f0(a, b, c) -> (q) { q = a nand b nand c }"),
     (Code::Duplicate, "circuit f1(a, a) -> (q) { q = a }"),
@@ -43,10 +44,10 @@ const BROKEN: &[(Code, &str)] = &[
     (Code::Width, "circuit g4(a[2], b[3]) -> (q[2]) { q = a and b }"),
 ];
 
-/// What the others speak of.
+/// The declarations that the others refer to.
 const SOUND: &str = "circuit and_gate(a, b) -> (q) { q = a and b }";
 
-/// Codes and messages of what is found.
+/// The codes and messages of a check.
 fn found(declarations: &[&str]) -> Vec<(Code, String)> {
     let mut sources = Sources::default();
     let file = sources.add("main.nb", declarations.join("\n\n"));
@@ -55,7 +56,7 @@ fn found(declarations: &[&str]) -> Vec<(Code, String)> {
 }
 
 #[test]
-fn each_fault_is_found_alone() {
+fn each_error_is_found_alone() {
     for (code, text) in BROKEN {
         let found = found(&[SOUND, text]);
         assert!(found.iter().all(|(found, _)| found == code) && !found.is_empty(), "{text}: {found:?}");
@@ -66,7 +67,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn no_broken_declaration_hides_the_faults_of_others(
+    fn an_error_in_a_declaration_does_not_hide_others(
         order in Just((0..BROKEN.len()).collect::<Vec<_>>()).prop_shuffle(),
         count in 2..=BROKEN.len(),
     ) {
@@ -74,7 +75,7 @@ proptest! {
         let together = found(&[&[SOUND], &chosen[..]].concat());
         for text in &chosen {
             for (code, message) in found(&[SOUND, text]) {
-                // What was meant by an unclosed brace or a stray one depends on what follows.
+                // The right place of an unclosed or stray brace depends on the following text.
                 let here = |found: &&(Code, String)| found.0 == code && (code == Code::Syntax || found.1 == message);
                 prop_assert!(together.iter().any(|one| here(&one)), "{} of {} is not among {:?}", message, text, together);
             }

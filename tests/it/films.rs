@@ -28,7 +28,7 @@ fn gif_bytes(body: &Body, cycles: u32) -> Vec<u8> {
     bytes
 }
 
-/// The whole pictures of a GIF as color numbers, each frame put over the one before, with the palette.
+/// The complete frames of a GIF as color indices, each drawn over the previous one, with the palette.
 fn decode_gif(bytes: &[u8]) -> (Vec<Vec<u8>>, Vec<u8>) {
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::Indexed);
@@ -47,7 +47,7 @@ fn decode_gif(bytes: &[u8]) -> (Vec<Vec<u8>>, Vec<u8>) {
     (pictures, palette)
 }
 
-/// Pixels over those of the frame before; the last color number leaves what is there.
+/// Draws pixels over the previous frame; the last color index is transparent.
 fn put_over(picture: &mut [u8], line: &[u8]) {
     for (pixel, &new) in picture.iter_mut().zip(line) {
         *pixel = if new == 255 { *pixel } else { new };
@@ -95,7 +95,7 @@ fn an_apng_shows_the_same_film() {
     }
 }
 
-/// Counts what is written.
+/// Counts the written bytes.
 struct Counter(Rc<Cell<usize>>);
 
 impl Write for Counter {
@@ -152,7 +152,7 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
 }
 
 #[test]
-fn a_large_robot_has_its_film_too() {
+fn a_large_robot_has_a_film_too() {
     let rows: Vec<&str> = (0..10).map(|row| if row < 7 { "3434343434" } else { "3400000034" }).collect();
     let bytes = gif_bytes(&Body::parse(&rows, &Palette::paper()).unwrap(), 2);
     assert_eq!(decode_gif(&bytes).0.len(), 2 * 12 + 1);
@@ -175,7 +175,7 @@ fn a_fault_stops_the_robot_and_not_the_film() {
 }
 
 #[test]
-fn no_time_at_all_is_one_frame() {
+fn an_empty_schedule_gives_one_frame() {
     let body = Body::parse(&["33"], &Palette::paper()).unwrap();
     let (film, _) = film(&body, 1);
     let stage = Stage::of_trial(&Setting::default(), &body, &Schedule::default(), STRIDE);

@@ -19,7 +19,7 @@ fn formatted(text: &str) -> String {
     syntax::format(&sources, file, &parsed.tree)
 }
 
-/// The words of a text without its layout: no blanks, no commas, which line breaks may stand for; and its comments.
+/// The tokens and comments of a text without its layout: no spaces, and no commas, which line breaks may replace.
 fn words(text: &str) -> (String, Vec<String>) {
     let (mut words, mut comments) = (String::new(), Vec::new());
     for line in text.lines() {
@@ -37,7 +37,7 @@ fn check_laws(text: &str) {
 }
 
 #[test]
-fn every_program_of_the_repository_is_in_its_canonical_form() {
+fn every_program_of_the_repository_is_formatted() {
     let update = std::env::var_os("NBC_UPDATE_UI").is_some();
     for path in programs("circuits").into_iter().chain(programs("library")) {
         let text = fs::read_to_string(&path).unwrap();
@@ -56,7 +56,7 @@ fn the_laws_hold_for_every_program_that_can_be_parsed() {
     let mut seen = 0;
     for path in programs("tests/ui").into_iter().chain(programs("tests/ui/used")) {
         let mut sources = Sources::default();
-        // Some of them are no text, for that is their fault.
+        // Some of them are not text; that is their error.
         let Ok(text) = fs::read_to_string(&path) else { continue };
         let file = sources.add("a.nb", text.clone());
         if syntax::parse(&sources, file).errors.is_empty() {
@@ -90,7 +90,7 @@ fn expression() -> impl Strategy<Value = String> {
     })
 }
 
-/// What stands between two lines: nothing, blank lines, comments.
+/// Separators between lines: nothing, blank lines, comments.
 fn gap() -> impl Strategy<Value = &'static str> {
     prop_oneof![Just("\n"), Just("\n\n\n"), Just(" // behind\n"), Just("\n  // before\n"), Just("\r\n\t")]
 }
@@ -146,7 +146,7 @@ proptest! {
     }
 }
 
-/// What programs are made of.
+/// Fragments of programs.
 const WORDS: &[&str] = &[
     "\ncircuit",
     "f",

@@ -36,7 +36,7 @@ fn nesting_is_bounded() {
 }
 
 #[test]
-fn long_chains_are_no_nesting() {
+fn long_chains_do_not_count_as_nesting() {
     let long = 20_000;
     for sign in ["~", "! ", "!not "] {
         refused(circuit(&format!("q = {}a", sign.repeat(long))), Code::Syntax);
@@ -48,7 +48,7 @@ fn long_chains_are_no_nesting() {
 }
 
 #[test]
-fn nested_choices_are_parsed_or_refused() {
+fn nested_ifs_are_parsed_or_rejected() {
     for depth in [10, 60] {
         let text = circuit(&format!("q = {}a{}", "if a then ".repeat(depth), " else a".repeat(depth)));
         assert_eq!(found(text), [], "{depth} deep");
@@ -72,7 +72,7 @@ fn sizes_are_bounded() {
 }
 
 #[test]
-fn hierarchies_that_double_at_each_step_are_counted_not_built() {
+fn exponential_hierarchies_are_rejected_without_building_them() {
     let mut text = "circuit c0(a) -> (q) { q = not a }\n".to_owned();
     for level in 1..60 {
         text += &format!("circuit c{level}(a) -> (q) {{ q = c{0}(c{0}(a)) }}\n", level - 1);
@@ -81,7 +81,7 @@ fn hierarchies_that_double_at_each_step_are_counted_not_built() {
 }
 
 #[test]
-fn long_chains_of_circuits_are_refused() {
+fn long_chains_of_circuits_are_rejected() {
     let mut text = String::new();
     for level in (1..5_000).rev() {
         text += &format!("circuit c{level}(a) -> (q) {{ q = c{}(a) }}\n", level - 1);
@@ -91,7 +91,7 @@ fn long_chains_of_circuits_are_refused() {
 }
 
 #[test]
-fn a_long_line_and_a_long_file_are_refused() {
+fn a_long_line_and_a_long_file_are_rejected() {
     refused("a".repeat(10_000_000), Code::Unreadable);
     refused("a".repeat(7_000_000), Code::Syntax);
     refused("(".repeat(1_000_000), Code::Nesting);
@@ -101,7 +101,7 @@ fn a_long_line_and_a_long_file_are_refused() {
 }
 
 #[test]
-fn a_circle_of_many_files_is_refused() {
+fn a_circle_of_many_files_is_rejected() {
     let mut world = MemoryWorld::default();
     for at in 0..200 {
         world.insert(format!("{at}.nb"), format!("use \"{}.nb\"\ncircuit c{at}(a) -> (q) {{ q = a }}", (at + 1) % 200));
@@ -112,7 +112,7 @@ fn a_circle_of_many_files_is_refused() {
     assert!(diagnostics.iter().any(|diagnostic| diagnostic.code == Code::Nesting), "{diagnostics:?}");
 }
 
-/// What is found in `main.nb` of a world.
+/// The diagnostics of `main.nb` in a world.
 fn found_in(world: &MemoryWorld) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
     let file = check::open(world, "main.nb", &mut sources).unwrap();
@@ -120,7 +120,7 @@ fn found_in(world: &MemoryWorld) -> Vec<Diagnostic> {
 }
 
 #[test]
-fn programs_of_many_or_large_files_are_refused() {
+fn programs_of_many_or_large_files_are_rejected() {
     let mut world = MemoryWorld::default();
     let uses = |files: usize| (0..files).map(|at| format!("use \"{at}.nb\"\n")).collect::<String>();
     for at in 0..300 {
@@ -142,7 +142,7 @@ fn programs_of_many_or_large_files_are_refused() {
 #[cfg(unix)]
 fn links_to_folders_do_not_multiply_files() {
     let bench = Bench::new();
-    // Through links to its own folder each file has as many paths as one cares to write.
+    // Links to its own folder give each file any number of paths.
     for link in ["x", "y"] {
         std::os::unix::fs::symlink(".", bench.path().join(link)).unwrap();
     }
@@ -157,7 +157,7 @@ fn links_to_folders_do_not_multiply_files() {
 
 #[test]
 #[cfg(unix)]
-fn pipes_are_not_waited_for_and_other_files_not_shown() {
+fn pipes_are_not_read_and_other_files_not_shown() {
     let bench = Bench::new();
     assert!(std::process::Command::new("mkfifo").arg(bench.path().join("pipe.nb")).status().unwrap().success());
     bench.run(&["check", "pipe.nb"]).expect_fault(&["it is a pipe, expected a regular file"]);
@@ -192,7 +192,7 @@ fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
 }
 
 #[test]
-fn hostile_files_are_refused_within_a_second_and_a_gigabyte() {
+fn hostile_files_are_rejected_within_a_second_and_a_gigabyte() {
     let bench = Bench::new();
     let refused = |text: &[u8], code: Code| {
         bench.file("hostile.nb", text);
@@ -233,7 +233,7 @@ fn hostile_files_are_refused_within_a_second_and_a_gigabyte() {
 }
 
 #[test]
-fn long_tables_are_formatted_in_time_that_grows_with_them() {
+fn long_tables_are_formatted_in_linear_time() {
     let bench = Bench::new();
     let rows = "    0 | 0\n".repeat(400_000);
     bench.file("rows.nb", format!("circuit f(a) -> (q) {{\n    q = a\n}}\n\ntest f {{\n    a | q\n{rows}}}\n"));
@@ -249,7 +249,7 @@ fn long_tables_are_formatted_in_time_that_grows_with_them() {
 }
 
 #[test]
-fn hostile_circuit_files_are_refused_within_a_second_and_a_gigabyte() {
+fn hostile_circuit_files_are_rejected_within_a_second_and_a_gigabyte() {
     let bench = Bench::new();
     let refused = |name: &str, bytes: &[u8]| {
         bench.file(name, bytes);

@@ -33,7 +33,7 @@ pub(crate) fn sound(name: &str, text: &str) -> Program {
     program
 }
 
-/// Runs a program's test at the level of logic, and fails at the first row that is wrong.
+/// Runs a program's test at the level of logic, and fails at the first wrong row.
 pub(crate) fn passes(program: &Program, test: &CircuitTest) {
     let mut logic = Logic::new(&elaborate(program, &test.circuit).unwrap());
     match &test.stimulation {
@@ -68,7 +68,7 @@ pub(crate) fn passes(program: &Program, test: &CircuitTest) {
 }
 
 #[test]
-fn the_prelude_holds_the_papers_palette() {
+fn the_prelude_has_the_papers_palette() {
     let program = sound("a.nb", "circuit inverter(a) -> (q) { q = not a }");
     assert_eq!(program.evolution("gates").unwrap().palette, Palette::paper());
     assert_eq!(program.stimuli, ["s1", "s2"]);
@@ -106,7 +106,7 @@ fn the_prelude_is_read_extended_and_redeclared() {
     assert_eq!((own.batch, own.generations, own.palette.materials().len()), (4, 3000, 2));
     assert_eq!(redeclared.evolutions.len(), 1, "what is declared again replaces the prelude's");
     assert_eq!(own.palette.materials()[1], *redeclared.materials.last().unwrap());
-    // What the standard circuits are made of stays theirs.
+    // Standard circuits still use the original standard circuits.
     passes(&redeclared, &redeclared.tests[0]);
 }
 

@@ -1,4 +1,4 @@
-//! The robots that come with the program, as gates.
+//! The built-in robots as gates.
 
 use nbc::model::{CYCLE_STEPS, Direction, Pattern, Robot, Schedule, Setting, Spell, Trial};
 use nbc::sim::run_trials;
@@ -7,10 +7,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 const SWITCHES: usize = 50;
-/// Cycles that a hold may be longer than the clock.
+/// Cycles by which a hold may exceed the clock.
 const SLACK: u32 = 3;
 
-/// Random patterns, each another than the one before, and for how many cycles each is held.
+/// Random patterns, each different from the previous one, with the number of cycles of each hold.
 fn holds(clock: u32, seed: u64) -> Vec<(Pattern, u32)> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut pattern = 0;
@@ -21,7 +21,7 @@ fn holds(clock: u32, seed: u64) -> Vec<(Pattern, u32)> {
     (0..=SWITCHES).map(&mut hold).collect()
 }
 
-/// The holds after the first in which some output was wrong from the clock's cycle on.
+/// The holds after the first with a wrong output from the clock's cycle on.
 fn wrong(robot: &Robot, holds: &[(Pattern, u32)], com_x: &[f64]) -> usize {
     let clock = robot.character.clock as usize;
     let mut cycles = com_x.windows(CYCLE_STEPS as usize + 1).step_by(CYCLE_STEPS as usize);
@@ -36,7 +36,7 @@ fn wrong(robot: &Robot, holds: &[(Pattern, u32)], com_x: &[f64]) -> usize {
 }
 
 #[test]
-fn each_gate_is_right_after_fifty_random_switches() {
+fn each_gate_is_correct_after_fifty_random_switches() {
     let robots = &shipped_library().robots;
     let setting = Setting { world_width: 2000, ..Setting::default() };
     let plans: Vec<_> = (0u64..).zip(robots).map(|(seed, robot)| holds(robot.character.clock, seed)).collect();
@@ -51,7 +51,7 @@ fn each_gate_is_right_after_fifty_random_switches() {
     for ((robot, plan), trajectory) in robots.iter().zip(&plans).zip(run_trials(&setting, &trials)) {
         assert_eq!(trajectory.fault, None, "{}", robot.name);
         let wrong = wrong(robot, plan, &trajectory.com_x);
-        // A robot that owns to errors may make some here too: three times its share, and one.
+        // A robot with a known error rate may make some errors here too: three times its rate, plus one.
         let allowed = match robot.character.error_rate {
             0.0 => 0,
             rate => 1 + (3.0 * rate * SWITCHES as f64) as usize,

@@ -1,5 +1,5 @@
-//! The manual and the pages of the codes: every example is executed, and what is said of a page's failing one is recorded in
-//! `tests/ui/pages`; `NBC_UPDATE_UI=1 cargo test --test it manual` writes it anew.
+//! Executes every example of the manual and of the error pages. The message of each failing example is recorded in
+//! `tests/ui/pages`; `NBC_UPDATE_UI=1 cargo test --test it manual` rewrites the records.
 
 use std::fs;
 
@@ -38,7 +38,7 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// What the checker says of a program called `main.nb`.
+/// The diagnostics of a program called `main.nb`.
 fn said(text: &str) -> (Vec<Diagnostic>, String) {
     let mut world = MemoryWorld::default();
     world.insert("main.nb", text);
@@ -49,7 +49,7 @@ fn said(text: &str) -> (Vec<Diagnostic>, String) {
     (diagnostics, text)
 }
 
-/// Runs the command of a fence, checks how it ends, and returns what it said.
+/// Runs the command of a fence, checks its exit status, and returns its standard error.
 fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
     let line = fence.text.trim().strip_prefix("$ nbc ").expect("a command of the program");
     let arguments: Vec<String> = line.split_whitespace().map(|word| word.trim_matches('\'').to_owned()).collect();
@@ -63,7 +63,7 @@ fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
     ran.err
 }
 
-/// Executes a page; returns what was said of its failing example.
+/// Executes a page; returns the message of its failing example.
 fn check_page(code: Code) -> String {
     let bench = Bench::new();
     let fences = fences(&read(&format!("docs/errors/{code}.md")));
@@ -92,7 +92,7 @@ fn check_page(code: Code) -> String {
 }
 
 #[test]
-fn every_page_of_a_code_shows_what_fails_and_how_it_is_mended() {
+fn every_error_page_has_a_failing_and_a_corrected_example() {
     let recorded = |code| root().join(format!("tests/ui/pages/{code}.stderr"));
     let mut differing = Vec::new();
     for code in Code::ALL {

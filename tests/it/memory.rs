@@ -1,4 +1,4 @@
-//! Memory made of cells remembers what it should, whatever its data is and however long its cells take; in physics too.
+//! Memory made of cells works for any data and any delays of its cells, also in physics.
 
 use nbc::check;
 use nbc::circuit::formats::{Design, blif};
@@ -18,13 +18,13 @@ const INPUTS: [&str; 4] = ["a", "b", "clk", "en"];
 const CLOCK: usize = 2;
 const ENABLE: usize = 3;
 
-/// What a memory element takes: of nets that are numbered with `a` and `b` first, then the elements.
+/// The inputs of a memory element; nets are numbered `a` and `b` first, then the elements.
 #[derive(Clone, Copy, Debug)]
 enum Data {
     Constant(bool),
     Net(usize, bool),
     Xor(usize, usize),
-    /// The first net while `en` is on, else the second.
+    /// The first net if `en` is on, else the second.
     Choice(usize, usize),
 }
 
@@ -87,7 +87,7 @@ fn text(elements: &[Element]) -> String {
     text + "}\n"
 }
 
-/// The state after the inputs came to what they are: registers take their data where their clock rose, then latches follow.
+/// The state for new inputs: first registers whose clock rose store their data, then latches follow.
 fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [bool]) {
     let old = state.to_vec();
     for (i, element) in elements.iter().enumerate() {
@@ -110,8 +110,8 @@ fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [boo
     }
 }
 
-/// One to five elements. A register takes any net, itself too; a latch takes inputs and the elements before it, so that none chases
-/// itself, and none that changes with the enable that closes it.
+/// One to five elements. A register takes any net, itself too; a latch takes inputs and the elements before it, so that
+/// none chases itself, and none that changes with the enable that closes it.
 fn elements() -> impl Strategy<Value = Vec<Element>> {
     let element = (0..9u8, 0..8u8, 0..100usize, 0..100usize, any::<bool>(), any::<bool>());
     proptest::collection::vec(element, 1..6).prop_map(|drawn| {
@@ -137,7 +137,7 @@ fn elements() -> impl Strategy<Value = Vec<Element>> {
     })
 }
 
-/// Checks a text without looking at warnings, such as that of an input that nothing uses.
+/// Checks a text without its warnings, such as that of an unused input.
 fn program(text: &str) -> Program {
     let mut sources = Sources::default();
     let file = sources.add("memory.nb", text);
@@ -153,10 +153,12 @@ fn mapped(text: &str, cells: &CellLibrary) -> Netlist {
     mapped
 }
 
-/// Switches one input after another, each held until all has come to rest, and compares every output with what the elements mean.
+/// Switches one input after another, holds each until the circuit has settled, and compares every output with the model
+/// of the elements.
 fn remembers(elements: &[Element], netlist: &Netlist, random: &mut ChaCha8Rng) {
     let guarded = Guarded::of(netlist);
-    // One to three cycles; but what makes a clock is no slower than two other cells, or a register would hear the next value of another.
+    // One to three cycles. But cells of a clock must be no slower than two other cells, or a register would store the
+    // next value of another one.
     let most = |id| if guarded.role(id) == Some(Role::Control) { 2 } else { 3 };
     let mut delayed = Delayed::new(netlist, |id| random.random_range(1..=most(id)));
     let rest = 6 * netlist.cells().count() + 30;
@@ -186,7 +188,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn registers_and_latches_of_any_data_remember_whatever_the_delays(elements in elements(), seed: u64) {
+    fn registers_and_latches_work_with_any_data_and_delays(elements in elements(), seed: u64) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         for library in libraries() {
             let netlist = mapped(&text(&elements), &library);
@@ -195,9 +197,9 @@ proptest! {
     }
 }
 
-/// A register that takes 1, for which constants made one of its guards hear the clock too early.
+/// A register that stores 1; constants made one of its guards read the clock too early.
 #[test]
-fn a_register_of_a_constant_has_its_guards_as_written() {
+fn a_register_of_a_constant_keeps_its_guards() {
     let netlist = mapped("circuit memory(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n", &libraries()[0]);
     let guarded = Guarded::of(&netlist);
     let count = |role| netlist.ids().filter(|&id| guarded.role(id) == Some(role)).count();
@@ -212,18 +214,18 @@ fn run(program: &str) {
 }
 
 #[test]
-fn a_register_of_a_constant_takes_it_in_physics() {
+fn a_register_stores_a_constant_in_physics() {
     run("circuit once(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n\
          test once \"takes 1 at the first rise\" {\n    clk | q\n    0   | 0\n    1   | 1\n    0   | 1\n    1   | 1\n}\n");
 }
 
 #[test]
-fn ones_are_shifted_in_one_by_one_in_physics() {
+fn ones_are_shifted_in_step_by_step_in_physics() {
     run("circuit ones(clk) -> (q[3]) {\n    q = register({q[1], q[0], 1}, clk)\n}\n\
          test ones \"counts rises\" {\n    clk | q\n    0 | 000\n    1 | 001\n    0 | 001\n    1 | 011\n}\n");
 }
 
-/// The circuits of the gallery that hold a bit, mapped.
+/// The circuits of the gallery with memory, mapped.
 fn gallery(library: &CellLibrary) -> Vec<Netlist> {
     let mut found = Vec::new();
     for path in programs("circuits") {
@@ -241,7 +243,7 @@ fn gallery(library: &CellLibrary) -> Vec<Netlist> {
 }
 
 #[test]
-fn blif_of_robots_that_remember_reads_back_equal() {
+fn blif_of_a_swarm_with_memory_reads_back_equal() {
     let mut random = ChaCha8Rng::seed_from_u64(4);
     for netlist in libraries().iter().flat_map(gallery) {
         let text = blif::write(&Design { logic: netlist.clone(), registers: Vec::new() });

@@ -1,5 +1,5 @@
-//! `THIRD-PARTY.md`: the licenses of the crates that the program is built of. `NBC_UPDATE_NOTICES=1 cargo test --test it notices`
-//! writes it anew after a change of Cargo.lock.
+//! `THIRD-PARTY.md`: the licenses of the crates in the program. After a change of Cargo.lock, `NBC_UPDATE_NOTICES=1
+//! cargo test --test it notices` rewrites it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -18,7 +18,7 @@ struct Crate {
     texts: Vec<String>,
 }
 
-/// What cargo knows of the packages for this machine.
+/// Cargo's metadata of the packages for this machine.
 fn metadata() -> Value {
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["metadata", "--format-version", "1", "--locked", "--offline", "--filter-platform"]);
@@ -27,7 +27,7 @@ fn metadata() -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// The packages that a normal build needs, by their identity: those of tests are none of them.
+/// The packages that a normal build needs, by their identity, without those of tests.
 fn used(metadata: &Value) -> BTreeSet<String> {
     let nodes: BTreeMap<&str, &Value> = metadata["resolve"]["nodes"]
         .as_array()
@@ -63,7 +63,7 @@ fn crates() -> Vec<Crate> {
     packages.filter(|package| used.contains(package["id"].as_str().unwrap())).map(describe).collect()
 }
 
-/// The texts of the licenses in a package's folder: the short one where there is a choice, and what must go with it.
+/// The license texts in a package's folder: the short one if there is a choice, and the notices that must accompany it.
 fn license_texts(folder: &Path) -> Vec<String> {
     let name = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().to_lowercase();
     let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -77,13 +77,13 @@ fn license_texts(folder: &Path) -> Vec<String> {
     paths.iter().map(|path| clean(&String::from_utf8_lossy(&fs::read(path).unwrap()))).collect()
 }
 
-/// A text without what differs from crate to crate and says nothing: ends of lines.
+/// A text with normalized line ends.
 fn clean(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     lines.join("\n").trim_matches('\n').to_owned()
 }
 
-/// The file as it is to be.
+/// The expected contents of the file.
 fn expected() -> String {
     let crates = crates();
     let mut by_text: BTreeMap<&str, Vec<String>> = BTreeMap::new();
@@ -131,6 +131,6 @@ fn every_crate_has_a_license() {
 }
 
 #[test]
-fn the_manifest_names_no_place_that_does_not_exist() {
+fn paths_in_the_manifest_exist() {
     assert!(!fs::read_to_string(root().join("Cargo.toml")).unwrap().contains("example.org"));
 }

@@ -1,5 +1,5 @@
-//! The fewest cells for functions of three inputs, found by breadth-first search over sets of functions, which shares nothing with the
-//! search of the compiler.
+//! The fewest cells for functions of three inputs, found by a breadth-first search over sets of functions that shares
+//! no code with the compiler.
 
 use nbc::circuit::synth::reduce;
 use nbc::circuit::{CellLibrary, MapOptions};
@@ -51,7 +51,7 @@ fn composed(function: Function, a: u8, b: u8) -> u8 {
     (0..8).fold(0, |made, row| made | u8::from(function.output(a >> row & 1 == 1, b >> row & 1 == 1)) << row)
 }
 
-/// What one more cell makes of a set that it does not hold.
+/// The functions that one more cell adds to a set.
 fn extensions(cells: &[Vec<u8>], set: &Set) -> Vec<u8> {
     let members = members(set);
     let (mut made, mut news) = (*set, Vec::new());
@@ -68,8 +68,8 @@ fn extensions(cells: &[Vec<u8>], set: &Set) -> Vec<u8> {
     news
 }
 
-/// The fewest cells for each function, and the number of cells up to which all were tried. Every set of so many functions is formed that
-/// cells can make one after another, until there are more than `most`.
+/// The fewest cells for each function, and the number of cells up to which all sets were tried. Sets are built cell by
+/// cell until there are more than `most`.
 fn optima(library: &CellLibrary, most: usize) -> (Vec<Option<usize>>, usize) {
     let pairs = || (0..=255u8).flat_map(|a| (0..=255u8).map(move |b| (a, b)));
     let table = |cell: Function| pairs().map(|(a, b)| composed(cell, a, b)).collect::<Vec<u8>>();
@@ -102,7 +102,7 @@ fn optima(library: &CellLibrary, most: usize) -> (Vec<Option<usize>>, usize) {
     unreachable!("the sets grow until there are too many")
 }
 
-/// The least of the functions that exchanges of inputs make of one.
+/// The smallest function that follows from one by exchanging inputs.
 fn representative(truth: u8) -> u8 {
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let place = |order: [usize; 3], row: usize| (0..3).fold(0, |place, i| place | (row >> order[i] & 1) << i);
@@ -110,8 +110,8 @@ fn representative(truth: u8) -> u8 {
     orders.into_iter().map(image).min().expect("there are six orders")
 }
 
-/// Compares what the compiler makes by default of every `step`-th function with the search; gives the functions that the search did not
-/// reach.
+/// Compares the compiler's result for every `step`-th function with the search; returns the functions that the search
+/// did not reach.
 fn compare(cells: &str, most: usize, step: usize) -> Vec<u8> {
     let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
     let (fewest, deepest) = optima(&library, most);
@@ -134,7 +134,7 @@ fn compare(cells: &str, most: usize, step: usize) -> Vec<u8> {
 }
 
 #[test]
-fn the_compiler_makes_functions_of_the_fewest_cells_of_any_library() {
+fn the_compiler_uses_the_fewest_cells_of_any_library() {
     for cells in LIBRARIES {
         compare(cells, 1_000, 7);
     }
@@ -143,7 +143,7 @@ fn the_compiler_makes_functions_of_the_fewest_cells_of_any_library() {
 /// Run with `cargo test --release --test it optima -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
-fn every_three_input_function_takes_the_fewest_cells_of_any_library() {
+fn every_three_input_function_uses_the_fewest_cells_of_any_library() {
     for cells in LIBRARIES {
         let beyond = compare(cells, 150_000, 1);
         println!("{cells}: {} of 80 classes beyond the search", beyond.len());

@@ -1,4 +1,4 @@
-//! The HTML report: what is in it, and that it works in a real browser where there is one.
+//! The HTML report: its contents, and its scripts in a real browser if there is one.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -120,7 +120,7 @@ fn data(page: &str) -> Value {
 }
 
 #[test]
-fn the_page_holds_everything_and_fetches_nothing() {
+fn the_page_is_self_contained() {
     let page = page();
     assert!(page.len() < 2_000_000, "{} bytes", page.len());
     for outside in ["src=\"", "href=\"http", "url(", "@import", "fetch("] {
@@ -141,7 +141,7 @@ fn the_page_holds_everything_and_fetches_nothing() {
 }
 
 #[test]
-fn a_recording_has_room_for_what_fits() {
+fn a_recording_keeps_the_robots_that_fit() {
     assert_eq!(Room::SWARM.fit(&[36; 5], 60), (7, 5));
     let (stride, robots) = Room::SWARM.fit(&[36; 100], 300);
     assert!(stride > 7 && robots <= 100);
@@ -157,7 +157,7 @@ fn chromium() -> Option<PathBuf> {
     found
 }
 
-/// Runs Chromium on a file without a window; gives what it printed.
+/// Runs headless Chromium on a file; returns its output.
 fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> String {
     let profile = format!("--user-data-dir={}", folder.join("profile").display());
     let output = Command::new(browser)
@@ -169,7 +169,7 @@ fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> Str
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// What a reader does, as scripts put before and after the page's own.
+/// A reader's actions, as scripts before and after the page's own.
 const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => faults.push(e.message));\
     addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => faults.push(String(m));\
     const tell = found => { document.body.innerHTML = ''; const told = document.createElement('pre'); told.id = 'found';\
@@ -213,7 +213,7 @@ section.querySelector(".play").click();
 later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
 </script>"#;
 
-/// What the reader's script found on a page in a window of that size.
+/// The findings of the reader's script on a page in a window of this size.
 fn found(browser: &Path, page: &str, reader: &str, size: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let watched =

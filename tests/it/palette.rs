@@ -26,7 +26,7 @@ fn first_format() -> Bench {
 }
 
 #[test]
-fn a_checkpoint_of_format_1_goes_on_and_becomes_one_of_format_2() {
+fn a_checkpoint_of_format_1_continues_and_becomes_format_2() {
     let bench = first_format();
     let evolve = |out: &str, more: &[&str]| {
         let arguments = [&["evolve", "own.nb", "--generations", "4", "--out", out], more].concat();
@@ -50,7 +50,7 @@ fn a_checkpoint_of_format_1_is_compared_with_its_declaration() {
 }
 
 #[test]
-fn robot_files_are_rewritten_in_the_newest_format_and_say_the_same() {
+fn rewriting_robot_files_keeps_their_contents() {
     let bench = Bench::new();
     fs::create_dir(bench.path().join("robots")).unwrap();
     let first = fs::read_to_string(root().join("tests/golden/robot_1.yaml")).unwrap();
@@ -102,7 +102,7 @@ fn sealed(text: &str) -> String {
 }
 
 #[test]
-fn a_foreign_checkpoint_with_the_right_checksum_is_refused() {
+fn a_foreign_checkpoint_with_a_correct_checksum_is_rejected() {
     let bench = first_format();
     assert_eq!(bench.run(&["evolve", "own.nb", "--resume"]).status, 0);
     let path = bench.path().join("out/hearts/seed-1/checkpoint.nbc");
@@ -128,7 +128,7 @@ fn a_foreign_checkpoint_with_the_right_checksum_is_refused() {
     check(&text.replacen("\"bins\":4", "\"bins\":0", 1), "an axis of 0 bins");
 }
 
-/// Three materials of the program's own between six of the paper's, so that no code but 1 means what it means in the paper.
+/// Three new materials between six of the paper's, so that no code except 1 has the paper's meaning.
 const NINE: &str = "
 material heart { kind: actuator, period: 42 steps, phase: 30 deg, range: 0.7..1.5 }
 material ear   { kind: sensor, stimulus: s2, absent: 1.3, present: 0.8 }
@@ -177,7 +177,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     let verified = bench.run(&["library", "verify", "robots"]);
     assert_eq!(verified.status, 0, "{}{}", verified.out, verified.err);
 
-    // It walks as far when its file is simulated.
+    // It walks the same distance when its file is simulated.
     let file = format!("robots/{}.yaml", robot.name);
     let walked = |file: &str, pattern: &str| {
         let schedule = format!("{pattern}*10");
@@ -191,7 +191,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         assert_ne!(walked("paper.json", "00"), robot.displacement[0], "the same codes are another robot in the paper");
     }
 
-    // The picture of the run and that of the file show the same voxels and name the same materials.
+    // The pictures of the run and of the file show the same voxels and materials.
     let draw = |arguments: &[&str]| {
         let ran = bench.run(&[&["draw"], arguments, &["--as", "sprite", "-o", "a.svg"]].concat());
         assert_eq!(ran.status, 0, "{}", ran.err);
@@ -212,7 +212,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         assert_eq!(draw(&["out/nine/seed-5", "--behavior", &word]), (voxels, legend));
     }
 
-    // In a swarm beside one of the paper's it takes the path that it takes alone.
+    // In a swarm with a robot of the paper's palette it takes the same path as alone.
     let paper = &store::shipped_library().robots[0];
     let member = |robot: &Robot| Member {
         net: robot.name.clone(),
@@ -238,7 +238,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     }
 }
 
-/// The robot with its materials under other names and codes, which changes nothing of what it does.
+/// The robot with other names and codes for its materials, which does not change its behavior.
 fn renamed(robot: &Robot) -> Robot {
     let mut materials: Vec<Material> = robot.body.palette().materials().to_vec();
     materials.push(Material { name: "unused".to_owned(), kind: MaterialKind::Rigid });

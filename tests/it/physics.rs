@@ -75,12 +75,12 @@ impl Case {
         Schedule { spells: self.schedule.iter().map(spell).collect() }
     }
 
-    /// The env steps that are to be compared strictly.
+    /// The number of env steps that are compared strictly.
     fn strict(&self) -> usize {
         self.rounding_sensitive_from.unwrap_or(self.com_x.len())
     }
 
-    /// The largest difference of the center of mass from the reference, in voxels; infinite where the fault differs.
+    /// The largest difference of the center of mass from the reference, in voxels; infinite if the fault differs.
     fn difference(&self, found: &Trajectory) -> f64 {
         let fault = found.fault.map(|fault| (fault.env_step, fault.kind));
         if fault != self.unstable_at.map(|step| (step, FaultKind::Unstable)) || found.com_x.len() != self.com_x.len() {
@@ -108,8 +108,8 @@ fn reference_trajectories() {
     }
 }
 
-/// Whether all cases that share a box and a setting are at parity when simulated side by side, three of each case so that lanes hold both equal
-/// and different bodies.
+/// Whether all cases with the same box and setting agree when simulated side by side, three of each case, so that lanes
+/// have both equal and different bodies.
 #[test]
 fn reference_trajectories_in_the_lanes_of_every_kernel() {
     let mut groups: BTreeMap<_, Vec<Case>> = BTreeMap::new();
@@ -131,7 +131,7 @@ fn reference_trajectories_in_the_lanes_of_every_kernel() {
     }
 }
 
-/// Where points are after 1, 2, 3 and 30 substeps of the first env step.
+/// The positions of points after 1, 2, 3 and 30 substeps of the first env step.
 #[test]
 fn reference_substeps() {
     let check = |rows: &[&str], start_x: usize, digits: &str, expected: &[(u32, usize, [f64; 2])]| {
@@ -239,7 +239,8 @@ fn published_robots_walk_as_published() {
 /// A constant by its name, to be changed.
 type Knob = (&'static str, fn(&mut Constants) -> &mut f64);
 
-/// Every constant that is no tie-breaker between degenerate shapes (`parallel`, `shortest`, `nowhere`) nor a whole number (`substeps`).
+/// Every constant except thresholds for degenerate shapes (`parallel`, `shortest`, `nowhere`) and integers
+/// (`substeps`).
 const KNOBS: &[Knob] = &[
     ("cell", |c| &mut c.cell),
     ("substep", |c| &mut c.substep),
@@ -268,7 +269,7 @@ const KNOBS: &[Knob] = &[
     ("rigid_correction", |c| &mut c.rigid_correction),
 ];
 
-/// Constants that only a robot below the ground meets.
+/// Constants that matter only to a robot below the ground.
 const PLANE_KNOBS: &[Knob] = &[
     ("plane_stiffness", |c| &mut c.plane_stiffness),
     ("plane_friction", |c| &mut c.plane_friction),
@@ -282,7 +283,7 @@ fn changed(knob: &Knob, factor: f64) -> Constants {
 }
 
 #[test]
-fn a_change_of_any_constant_by_one_percent_is_seen() {
+fn a_change_of_any_constant_by_one_percent_is_detected() {
     let cases = traces();
     for knob in KNOBS {
         for factor in [0.99, 1.01] {
@@ -293,7 +294,7 @@ fn a_change_of_any_constant_by_one_percent_is_seen() {
     }
 }
 
-/// A wider range of targets is not seen, since no material asks for more than the range there is.
+/// A wider range of targets has no effect, because no material exceeds the range.
 fn is_clipped(knob: &Knob, factor: f64) -> bool {
     matches!((knob.0, factor < 1.0), ("least_target", true) | ("greatest_target", false))
 }

@@ -1,4 +1,4 @@
-//! Pictures by their content: what is drawn, where, and that the same input gives the same bytes.
+//! Pictures by their content: what is drawn and where, and that the same input gives the same bytes.
 
 use nbc::circuit::{Cell, Netlist};
 use nbc::model::{Body, Column, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
@@ -10,7 +10,7 @@ pub fn port(name: &str) -> Column {
     Column { name: name.to_owned(), width: 1 }
 }
 
-/// A latch of five made-up robots: each walks half a voxel a cycle the way its bit says.
+/// A latch of five artificial robots: each walks half a voxel per cycle in the direction of its bit.
 pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
     let names = ["n1", "q", "n3", "not_d", "nq"];
     let senses = [
@@ -100,7 +100,7 @@ fn the_swarm_diagram_has_a_panel_for_each_robot_and_each_output() {
 }
 
 #[test]
-fn paths_go_the_way_of_the_bits() {
+fn paths_follow_the_bits() {
     let svg = report::draw_swarm(&latch(&[(true, true)], 8)).finish();
     let document = roxmltree::Document::parse(&svg).unwrap();
     let group = document
@@ -143,7 +143,7 @@ fn the_png_is_the_drawing_at_twice_its_size() {
 }
 
 #[test]
-fn a_fault_is_shown_where_it_happened() {
+fn a_fault_is_shown_at_its_place() {
     let mut trace = paper_rows();
     trace.robots[1].fault = Some(Fault { env_step: 1, kind: FaultKind::Unstable });
     trace.robots[1].com_x.fill(250.0);
@@ -151,7 +151,7 @@ fn a_fault_is_shown_where_it_happened() {
 }
 
 #[test]
-fn an_empty_trace_still_draws() {
+fn an_empty_trace_is_still_drawn() {
     let mut trace = latch(&[], 8);
     report::png(&report::draw_swarm(&trace));
     trace.robots.clear();
@@ -206,12 +206,12 @@ fn the_schematic_has_a_box_for_each_cell_and_a_wire_for_each_pin() {
     for wanted in ["d_latch", "d", "e", "q", "nq", "NAND", "NOT", "critical path"] {
         assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");
     }
-    // Nine pins of cells and two of outputs; two nets pass a layer on their way, and one runs down to its lane.
+    // Nine pins of cells and two of outputs; two nets pass through a layer, and one has a lane of its own.
     assert_eq!(count(&svg, "polyline", "points"), 11 + 2 + 1);
 }
 
 #[test]
-fn odd_netlists_draw_too() {
+fn unusual_netlists_are_drawn() {
     report::png(&report::draw_schematic(&Netlist::new("empty"), &[], &[], Scheme::Safe));
     let mut netlist = Netlist::new("through");
     let a = netlist.add_input("a_name_that_is_much_too_long");

@@ -108,7 +108,7 @@ fn progress_shows_every_seed_the_median_and_the_band() {
 
 #[test]
 fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
-    // Ten runs: robots that answer no stimulus go farthest, those that answer one and two alike.
+    // Ten runs: robots that depend on no stimulus walk farthest; those that depend on one and on two walk equally far.
     let run = |i: u32| {
         let champion = |word: &str, distance: f64| Champion {
             behavior: word.parse().unwrap(),

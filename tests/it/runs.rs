@@ -1,4 +1,4 @@
-//! What a file declares is what runs: swarms, libraries and simulations, by the program itself.
+//! A file's declarations decide what runs: swarms, libraries and simulations, in the real program.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::cli::{Bench, Ran};
 
-/// A robot that is right, and one of the same body whose file says that it is not.
+/// A correct robot, and one with the same body whose file has errors.
 const TURNER: &str = "format: 1
 name: turner
 behavior: RRLL
@@ -49,9 +49,9 @@ fn texts(values: &Value) -> Vec<&str> {
 }
 
 #[test]
-fn a_library_and_its_swarm_hold_for_every_command() {
+fn a_declared_library_and_swarm_apply_to_every_command() {
     let bench = bench();
-    // The swarm's `n` is given by its default, which is the same circuit.
+    // The swarm's `n` is the default, which gives the same circuit.
     let program = "circuit many[n = 1](a[n]) -> (q[n]) { q = not a }\nlibrary mine { from: \"robots\" }\n\
          swarm one { circuit: many[1], library: mine, window: 2 cycles }\ntest many {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
     bench.file("a.nb", program);
@@ -69,7 +69,7 @@ fn a_library_and_its_swarm_hold_for_every_command() {
 }
 
 #[test]
-fn the_folder_of_a_library_starts_from_the_file_that_names_it() {
+fn the_folder_of_a_library_is_relative_to_its_file() {
     let bench = bench();
     fs::create_dir(bench.path().join("parts")).unwrap();
     fs::rename(bench.path().join("robots"), bench.path().join("parts/robots")).unwrap();
@@ -87,7 +87,7 @@ fn the_folder_of_a_library_starts_from_the_file_that_names_it() {
 }
 
 #[test]
-fn robots_of_an_evolution_are_where_the_runs_are() {
+fn robots_of_an_evolution_are_read_from_the_folder_of_runs() {
     let bench = bench();
     let program = format!(
         "{INVERTER}evolution walkers {{ generations: 1 }}\nlibrary mine {{ from: walkers }}\n\
@@ -108,7 +108,7 @@ fn robots_of_an_evolution_are_where_the_runs_are() {
 }
 
 #[test]
-fn of_several_swarms_all_run() {
+fn all_swarms_of_a_circuit_run() {
     let bench = bench();
     let program = format!(
         "{INVERTER}library mine {{ from: \"robots\" }}\nswarm usual {{ circuit: inverter }}\n\
@@ -140,7 +140,7 @@ fn of_several_swarms_all_run() {
 }
 
 #[test]
-fn a_library_that_nothing_uses_is_told() {
+fn an_unused_library_is_reported() {
     let bench = bench();
     bench.file("a.nb", format!("{INVERTER}library mine {{ from: \"robots\" }}\n{TEST}"));
     let ran = run(&bench, "check a.nb");
@@ -151,7 +151,7 @@ const SWARM: &str = "swarm ring_of_three { circuit: ring }\n";
 const RING: &str = "circuit ring() -> (q) {\n    q init 0 = not not not q\n}\n";
 
 #[test]
-fn a_simulation_runs_and_leaves_everything_behind() {
+fn a_simulation_writes_all_its_results() {
     let bench = Bench::new();
     let program = "circuit delay(d[2], en) -> (q[2]) { q = latch(d, en) }\nswarm cells { circuit: delay }\n\
                    simulate cells with schedule (d, en) {\n    2'd1 1 for 12 cycles\n    2'd2 0 for 3 cycles\n    2'd2 1 for 12 cycles\n}\n";
@@ -180,7 +180,8 @@ fn a_simulation_runs_and_leaves_everything_behind() {
     }
 }
 
-/// A row a cycle: the inputs, the outputs, the other nets, and how far each robot went, which adds up to what it walked in all.
+/// A row for each cycle: the inputs, the outputs, the other nets, and the distance of each robot, which add up to its
+/// total.
 fn check_table(table: &str, robots: &[Value]) {
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 27);
@@ -197,7 +198,7 @@ fn check_table(table: &str, robots: &[Value]) {
 }
 
 #[test]
-fn what_runs_can_be_chosen() {
+fn tests_and_simulations_can_be_selected() {
     let bench = Bench::new();
     bench.file(
         "a.nb",
@@ -240,10 +241,11 @@ fn a_ring_without_inputs_is_tested_and_simulated() {
 }
 
 #[test]
-fn a_failed_test_lists_its_rows_with_buses_as_they_were_written() {
+fn a_failed_test_lists_its_rows_in_their_notation() {
     let bench = Bench::new();
     let program = "circuit add_four(a[4], b[4]) -> (sum[4], odd) {\n    sum = a + b\n    odd = sum[0]\n}\n\n\
-                   // rows are counted as they stand\ntest add_four \"adds\" {\n    a     b    | sum   odd\n    4'd3  0001 | 4'd4  0\n\n    4'd5  0100 | 4'd8  -\n    4'hf  0000 | 1111  0\n}\n";
+                   // rows are counted as they stand\ntest add_four \"adds\" {\n    a     b    | sum   odd\n    4'd3
+                   // 0001 | 4'd4  0\n\n    4'd5  0100 | 4'd8  -\n    4'hf  0000 | 1111  0\n}\n";
     bench.file("a.nb", program);
     let ran = run(&bench, "test a.nb --logic");
     assert_eq!(ran.status, 1);
@@ -260,7 +262,7 @@ fn a_failed_test_lists_its_rows_with_buses_as_they_were_written() {
 }
 
 #[test]
-fn build_makes_what_is_meant() {
+fn build_chooses_the_right_circuit() {
     let bench = Bench::new();
     bench.file("a.nb", "circuit choose[w = 2](a[w], b[w], s) -> (q[w]) { q = if s then a else b }\ntest choose for all inputs { q = if not s then b else a }\n");
     let circuit = |more: &[&str]| {
@@ -278,13 +280,13 @@ fn build_makes_what_is_meant() {
     build("choose[v = 3]").expect_fault(&["no parameter `v`"]);
     build("choose[").expect_fault(&["`choose[` is not the name of a circuit"]);
     build("choose as tested").expect_fault(&["is not the name of a circuit"]);
-    // A circuit whose width nothing says is built as its test has it.
+    // A circuit without inferable widths is built with the parameters of its test.
     bench.file("b.nb", "circuit turn[w](a[w]) -> (q[w]) { q = not a }\ntest turn[3] {\n    a | q\n    000 | 111\n}\n");
     assert!(run(&bench, "build b.nb").out.starts_with("netlist turn[3]("));
 }
 
 #[test]
-fn a_circuit_without_tests_is_drawn_without_a_simulation() {
+fn a_circuit_without_tests_is_drawn_without_simulation() {
     let bench = Bench::new();
     bench.file("a.nb", format!("circuit wide[n](a[n]) -> (q[n]) {{ q = not a }}\n{INVERTER}"));
     assert_eq!(run(&bench, "draw a.nb --as dot -o a.dot").status, 0);
@@ -302,7 +304,7 @@ fn a_circuit_without_tests_is_drawn_without_a_simulation() {
 }
 
 #[test]
-fn a_robot_with_errors_is_told_once_and_first() {
+fn a_robot_with_errors_is_reported_once_and_first() {
     let bench = bench();
     let weak = TURNER.replace("error_rate: 0.0", "error_rate: 0.43");
     bench.file("robots/turner.yaml", weak);

@@ -1,4 +1,4 @@
-//! Output for programs: what every command prints with `--format json` is as its schema in `docs/schema` says.
+//! Output for programs: with `--format json`, every command prints what its schema in `docs/schema` describes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -29,7 +29,7 @@ fn schema(word: &str) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// Runs a command for programs, and validates what it prints.
+/// Runs a command with `--format json` and validates its output.
 #[track_caller]
 fn check(bench: &Bench, word: &str, status: i32, arguments: &[&str]) -> Value {
     let ran = bench.run(&[arguments, &["--format", "json"]].concat());
@@ -59,7 +59,7 @@ fn every_schema_has_its_file_and_is_a_schema() {
 }
 
 #[test]
-fn a_schema_refuses_what_it_does_not_know() {
+fn a_schema_rejects_unknown_fields() {
     let validator = jsonschema::draft202012::new(&schema("drawn")).unwrap();
     let drawn = serde_json::json!({ "schema": "urn:nbc:drawn:1", "file": "a.svg", "kind": "sprite" });
     assert!(validator.is_valid(&drawn));
@@ -71,7 +71,7 @@ fn a_schema_refuses_what_it_does_not_know() {
 }
 
 #[test]
-fn every_command_prints_json_by_its_schema_or_refuses() {
+fn every_command_prints_valid_json_or_rejects_the_option() {
     let (bench, latch) = (bench(), root().join("circuits/latch.nb"));
     assert_eq!(check(&bench, "diagnostics", 0, &["check", "flip.nb"])["diagnostics"], Value::Array(Vec::new()));
     check(&bench, "diagnostics", 2, &["check", "flip.nb", "wrong.nb"]);
@@ -111,7 +111,7 @@ fn every_command_prints_json_by_its_schema_or_refuses() {
 }
 
 #[test]
-fn runs_and_their_archives_are_data() {
+fn runs_and_archives_match_their_schemas() {
     let bench = Bench::new();
     bench.file("small.nb", "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 3, seed: 1..2 }\n");
     let evolved = check(&bench, "evolve", 0, &["evolve", "small.nb"]);
@@ -124,7 +124,7 @@ fn runs_and_their_archives_are_data() {
 }
 
 #[test]
-fn every_fault_is_told_in_one_shape() {
+fn every_error_has_the_same_shape() {
     let bench = bench();
     for arguments in [
         &["run", "wrong.nb"][..],

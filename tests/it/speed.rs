@@ -1,5 +1,5 @@
-//! How fast the language is. Measured in release builds, when asked for:
-//! `cargo test --release --test it speed:: -- --ignored --nocapture --test-threads=1`.
+//! The speed of the language, measured in release builds on request: `cargo test --release --test it speed:: --
+//! --ignored --nocapture --test-threads=1`.
 
 use std::fs;
 use std::process::Command;
@@ -11,7 +11,7 @@ use nbc::source::{MemoryWorld, Sources};
 use crate::cli::Bench;
 use crate::language::programs;
 
-/// Processor seconds that this thread has taken; less than the clock's where the machine has other work.
+/// CPU time of this thread in seconds, which does not depend on other programs.
 fn processor_seconds() -> f64 {
     let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap();
     text.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-9
@@ -24,7 +24,7 @@ fn peak_megabytes() -> f64 {
     peak.trim().trim_end_matches(" kB").parse::<f64>().unwrap() / 1024.0
 }
 
-/// The least processor seconds of several runs of the program.
+/// The smallest CPU time of several runs of the program.
 fn program_seconds(bench: &Bench, arguments: &[&str], runs: usize) -> f64 {
     let seconds = |minutes: &str| {
         let (minutes, seconds) = minutes.trim_end_matches('s').split_once('m').unwrap();
@@ -50,7 +50,7 @@ fn long_program() -> String {
         text += &format!(
             "
 circuit c{at}(a, b, v[8]) -> (q, w[8]) {{
-    // What the one before says, and something of its own.
+    // The outputs of the previous circuit, and one of its own.
     (t, x) = c{before}(a, b, v)
     u      = if a then t and not b else nand(t, v[3], b)
     y      = table(a, b, t) {{ 00-: 1, 011: 0, else: 1 }}

@@ -1,4 +1,4 @@
-//! Compiled swarms in full physics give the truth tables of their logic, held for as long as static timing says.
+//! Compiled swarms in full physics match their truth tables, with the holds of static timing.
 
 use std::fs;
 
@@ -61,7 +61,7 @@ fn some_functions_of_three_inputs_compute() {
 }
 
 #[test]
-fn a_hold_that_is_too_short_is_told_with_the_one_that_suffices() {
+fn a_short_hold_is_reported_with_a_sufficient_one() {
     let latch = fs::read_to_string("circuits/latch.nb").unwrap().replace("1 1 | 1", "1 1 | 1 for 2 cycles");
     let report = run(&latch, &Options::default());
     let told = describe_test(&report.tests[0].verdict);
@@ -71,7 +71,7 @@ fn a_hold_that_is_too_short_is_told_with_the_one_that_suffices() {
 }
 
 #[test]
-fn a_robot_that_is_another_gate_is_named_with_its_net_and_cycle() {
+fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
     let mut library = shipped_library().clone();
     let place = |function| library.robots.iter().position(|robot| robot.function() == function).unwrap();
     let (not, buf) = (place(Function::NOT), place(Function::BUF));
@@ -85,7 +85,7 @@ fn a_robot_that_is_another_gate_is_named_with_its_net_and_cycle() {
 }
 
 #[test]
-fn a_robot_never_comes_to_the_end_of_its_ground() {
+fn a_robot_never_reaches_the_end_of_its_ground() {
     let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
     let member = Member { net: "y".to_owned(), robot, senses: [Signal::Constant(false); 2], start: true };

@@ -1,4 +1,4 @@
-//! `nbc synth` and `nbc build` through the real program: what they read, write, prove and refuse.
+//! `nbc synth` and `nbc build` in the real program: what they read, write, prove and reject.
 
 use std::process::Command;
 
@@ -33,7 +33,7 @@ n1 = XOR(q1, c)
 ";
 
 #[test]
-fn a_full_adder_takes_nine_nand_cells() {
+fn a_full_adder_needs_nine_nand_cells() {
     let bench = Bench::new();
     bench.file("fa.blif", FULL_ADDER);
     let ran = bench.run(&["synth", "fa.blif", "-o", "out.blif", "--cells", "nand,not", "--format", "json"]);
@@ -44,7 +44,7 @@ fn a_full_adder_takes_nine_nand_cells() {
 }
 
 #[test]
-fn what_is_written_reads_back_in_every_format() {
+fn every_format_reads_back() {
     let bench = Bench::new();
     bench.file("fa.blif", FULL_ADDER);
     for ending in ["blif", "aig", "aag"] {
@@ -81,7 +81,7 @@ fn registers_are_kept_or_made_of_cells() {
 }
 
 #[test]
-fn a_missing_gate_is_valued() {
+fn what_if_reports_the_cells_saved() {
     let bench = Bench::new();
     bench.file("fa.blif", FULL_ADDER);
     let arguments = ["synth", "fa.blif", "--cells", "nand,not", "--what-if", "xor,and", "--format", "json"];
@@ -97,7 +97,7 @@ fn timing_memory_and_fan_out_are_reported() {
     let latch = std::fs::read_to_string("circuits/latch.nb").unwrap();
     bench.file("latch.nb", latch);
     let report = bench.run(&["build", "latch.nb", "--cells", "nand,not", "--emit", "json"]).expect_json();
-    // Two cells on the way in, twice through the pair less where it was entered.
+    // Two cells on the way in, and twice the pair minus the cell where it was entered.
     assert_eq!((&report["hold"], &report["races"]), (&5.into(), &serde_json::json!([])));
     assert_eq!(report["memory"], serde_json::json!([{ "nets": ["q", "nq"], "pulse": 2, "setup": 3, "hold": 1 }]));
     let q = report["cells"].as_array().unwrap().iter().find(|cell| cell["name"] == "q").unwrap();
@@ -133,7 +133,7 @@ fn the_same_source_gives_the_same_cells() {
     }
 }
 
-/// A Yosys that notes what it is given, and writes the `flat.blif` beside it as the result.
+/// A fake Yosys that records its input and writes the given `flat.blif` as the result.
 const FAKE_YOSYS: &str = "#!/bin/sh
 here=$(dirname \"$0\")
 echo \"$@\" >> \"$here/given\"
@@ -167,7 +167,7 @@ const HOSTILE_NAME: &str = "a.v\"; exec -- touch PWNED; read_verilog -sv \"a.v";
 
 #[cfg(unix)]
 #[test]
-fn a_file_name_is_no_part_of_what_yosys_is_told() {
+fn a_file_name_is_not_part_of_the_yosys_script() {
     use std::os::unix::fs::PermissionsExt;
     let bench = Bench::new();
     let fake = bench.file("yosys", FAKE_YOSYS);
@@ -193,7 +193,7 @@ fn has_yosys() -> bool {
 }
 
 #[test]
-fn yosys_runs_no_command_of_a_file_name_and_finds_what_is_included() {
+fn yosys_runs_no_command_in_a_file_name_and_finds_includes() {
     if !has_yosys() {
         eprintln!("yosys is not installed, so Verilog is not read");
         return;
@@ -237,7 +237,7 @@ fn yosys_keeps_latches_and_flip_flops() {
     bench.run(&["synth", "broken.v", "--cells", "all"]).expect_fault(&["yosys cannot read"]);
 }
 
-/// Runs `nbc synth` on a text that is at fault, and compares the first line of the message.
+/// Runs `nbc synth` on an invalid text and compares the first line of the message.
 fn refused(name: &str, text: &str, expected: &str) {
     let bench = Bench::new();
     bench.file(name, text);
@@ -250,7 +250,7 @@ fn refused(name: &str, text: &str, expected: &str) {
 }
 
 #[test]
-fn damaged_files_are_refused_with_a_reason() {
+fn damaged_files_are_rejected_with_a_reason() {
     refused("a.blif", "", "no `.model` in this BLIF file");
     refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names z y\n1 1\n", "`z` is used and not defined");
     refused("a.blif", ".model a\n.outputs y\n.names y y\n1 1\n", "`y` depends on itself");
@@ -265,7 +265,7 @@ fn damaged_files_are_refused_with_a_reason() {
 }
 
 #[test]
-fn faults_of_an_aiger_file_are_told_with_their_line() {
+fn errors_in_an_aiger_file_have_their_line() {
     let told = |text: &str, message: &str, line: usize| {
         refused("a.aag", text, &format!("{message}, line {line} of the AIGER file"));
     };
@@ -292,7 +292,7 @@ fn faults_of_an_aiger_file_are_told_with_their_line() {
 }
 
 #[test]
-fn an_incomplete_library_says_what_would_complete_it() {
+fn an_incomplete_library_lists_functions_that_complete_it() {
     let bench = Bench::new();
     bench.file("fa.blif", FULL_ADDER);
     let ran = bench.run(&["synth", "fa.blif", "--cells", "xor,not"]);
@@ -305,7 +305,7 @@ fn equivalent(bench: &Bench, one: &str, two: &str) {
     abc_agrees(bench, "cec", one, two);
 }
 
-/// Lets ABC prove two files equal, where it is installed; under CI it must be.
+/// Lets ABC prove that two files are equal, if it is installed; under CI it must be.
 fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
     let script = format!("{command} {one} {two}");
     let Ok(output) = Command::new("berkeley-abc").args(["-c", &script]).current_dir(bench.path()).output() else {

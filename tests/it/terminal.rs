@@ -1,4 +1,4 @@
-//! What reaches a terminal: nothing that users name or write steers it.
+//! Output to a terminal: no name or text of a user can control it.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::language::root;
 /// Clears the screen, sets the title, rings, colors, and reads from right to left.
 const HOSTILE: &str = "\u{1b}[2J\u{1b}]0;pwned\u{7}\u{9b}31m\u{202e}x";
 
-/// The characters of a text that steer a terminal, once our own colors are taken away.
+/// The control characters in a text, apart from `nbc`'s own colors.
 fn steering(text: &str) -> Vec<char> {
     let colors = regex::Regex::new("\u{1b}\\[[0-9;]*m").unwrap();
     let hidden =
@@ -16,7 +16,7 @@ fn steering(text: &str) -> Vec<char> {
     colors.replace_all(text, "").chars().filter(hidden).collect()
 }
 
-/// Runs a command in both ways of printing; the hostile text is told to people, as codes.
+/// Runs a command with text and JSON output; the text shows the hostile string as codes.
 #[track_caller]
 fn check(bench: &Bench, arguments: &[&str]) {
     let quiet = |further: &[&str]| {

@@ -1,4 +1,4 @@
-//! `nbc test`: every kind of test tells right from wrong, and the level is chosen by the number of robots.
+//! `nbc test`: every kind of test detects errors, and the number of robots decides the level.
 
 use crate::cli::Bench;
 use crate::language::{programs, root};
@@ -13,7 +13,7 @@ circuit both(a, b) -> (q) { q = a and b }
 circuit toggle(clk) -> (q) { q = register(not q, clk) }
 ";
 
-/// Runs one test at the level of logic: whether it passes, and what is said.
+/// Runs one test at the level of logic: whether it passes, and its output.
 #[track_caller]
 fn check_test(test: &str, passes: bool, says: &str) {
     let bench = Bench::new();
@@ -42,7 +42,7 @@ fn sequences_remember() {
 }
 
 #[test]
-fn all_inputs_are_tried_against_an_expression_or_a_circuit() {
+fn all_inputs_are_compared_with_an_expression_or_a_circuit() {
     check_test("test exclusive for all inputs { q = a == not b }", true, "4 rows");
     check_test("test exclusive for all inputs { q = a or b }", false, "row 4: a=1 b=1 | q=0, expected 1");
     check_test("test exclusive for all inputs against other", true, "4 rows");
@@ -53,7 +53,7 @@ fn all_inputs_are_tried_against_an_expression_or_a_circuit() {
 fn small_swarms_are_tested_in_physics_and_large_ones_in_logic() {
     let bench = Bench::new();
     bench.file("small.nb", "circuit inverter(a) -> (q) { q = not a }\n\ntest inverter {\n a | q\n 1 | 0\n}\n");
-    // As many inverters of inverters cannot be told apart by optimization from what they are: a chain of 13 full adders.
+    // A chain of 13 full adders, which optimization cannot reduce to fewer than 40 robots.
     bench.file(
         "large.nb",
         "circuit sum(a[13], b[13]) -> (q[13]) { q = a + b }\n\ntest sum {\n a b | q\n 13'd4000 13'd77 | 13'd4077\n}\n",
@@ -79,7 +79,7 @@ fn slow_then_quick() -> Bench {
 }
 
 #[test]
-fn tests_are_told_in_order_for_any_number_of_threads() {
+fn tests_are_reported_in_order_for_any_number_of_threads() {
     let bench = slow_then_quick();
     for format in ["text", "json"] {
         let told = |threads: &str| {
@@ -96,7 +96,7 @@ fn tests_are_told_in_order_for_any_number_of_threads() {
 }
 
 #[test]
-fn no_test_runs_while_a_file_is_at_fault() {
+fn no_test_runs_if_a_file_has_errors() {
     let bench = slow_then_quick();
     bench.file("broken.nb", "circuit inverter(a) -> (q) { q = not b }\n");
     bench.file("bare.nb", "circuit inverter(a) -> (q) { q = not a }\n");
@@ -105,7 +105,7 @@ fn no_test_runs_while_a_file_is_at_fault() {
 }
 
 #[test]
-fn the_gallery_passes_by_the_program_itself() {
+fn the_gallery_passes_nbc_test() {
     let paths: Vec<_> = programs("circuits").iter().map(|path| path.to_str().unwrap().to_owned()).collect();
     let arguments: Vec<&str> =
         ["test", "--logic", "--format", "json"].into_iter().chain(paths.iter().map(String::as_str)).collect();
@@ -120,7 +120,7 @@ fn the_gallery_passes_by_the_program_itself() {
     }
 }
 
-/// What the gallery shows.
+/// The output for the gallery.
 const GALLERY: &[&str] = &[
     "comparator",
     "counter",

@@ -1,4 +1,4 @@
-//! The invariants of ARCHITECTURE.md that are about the text of the source.
+//! The invariants of ARCHITECTURE.md that can be checked in the text of the source.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -57,8 +57,8 @@ fn layer(folder: &str) -> Option<u8> {
     LAYERS.iter().find(|(name, _)| *name == folder).map(|&(_, layer)| layer)
 }
 
-/// Fails with the rule when a line of product code outside the allowed places holds one of the words, unless the line is marked
-/// `// lookups only`.
+/// Fails with the rule when a line of product code outside the allowed places holds one of the words, unless the line
+/// is marked `// lookups only`.
 fn forbid(rule: &str, words: &[&str], allowed: impl Fn(&Path) -> bool) {
     let mut found = Vec::new();
     for (path, text) in source_files() {

@@ -1,4 +1,4 @@
-//! Messages: each program of `tests/ui` with exactly what the checker says of it, beside it as `.stderr`.
+//! Messages: each program of `tests/ui` with its exact diagnostics beside it as `.stderr`.
 //!
 //! `NBC_UPDATE_UI=1 cargo test --test it ui` writes what is said now; read it before it is committed.
 
@@ -28,7 +28,7 @@ fn name(path: &Path) -> String {
 }
 
 #[test]
-fn every_message_is_as_recorded() {
+fn every_message_matches_its_record() {
     let update = std::env::var_os("NBC_UPDATE_UI").is_some();
     let mut differing = Vec::new();
     for path in programs("tests/ui") {
@@ -59,7 +59,7 @@ fn every_code_has_a_program_and_its_message() {
 }
 
 #[test]
-fn messages_are_written_as_messages_are() {
+fn messages_follow_the_style() {
     for path in programs("tests/ui") {
         for diagnostic in found(&name(&path)).0 {
             let help = diagnostic.help.iter();
@@ -75,7 +75,7 @@ fn messages_are_written_as_messages_are() {
 }
 
 #[test]
-fn every_fix_removes_what_it_is_offered_for() {
+fn every_fix_removes_its_error() {
     let mut offered = 0;
     for path in programs("tests/ui") {
         let mut sources = Sources::default();

@@ -41,7 +41,7 @@ fn a_dump_reads_back_with_the_traces_values() {
 }
 
 #[test]
-fn a_run_leaves_its_waveforms_beside_the_report() {
+fn a_run_writes_its_waveforms_beside_the_report() {
     let bench = Bench::new();
     let program =
         "circuit inverter(a) -> (q) { q = not a }\ntest inverter \"inverts\" {\n    a | q\n    1 | 0\n    0 | 1\n}\n";

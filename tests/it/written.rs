@@ -1,4 +1,4 @@
-//! What is written for other tools and for the language itself: legal names that never collide, canonical programs, the same function.
+//! Files written for other tools and in the language: valid unique names, formatted programs, the same function.
 
 use nbc::circuit::formats::{Design, Format, aiger, blif};
 use nbc::circuit::{Logic, Netlist, elaborate};
@@ -7,7 +7,7 @@ use nbc::source::{FileId, MemoryWorld, Sources};
 use nbc::{check, store, syntax};
 use proptest::prelude::*;
 
-/// Names that some format cannot read, or that come to the same where they are made readable.
+/// Names that some format cannot read, or that become equal when they are made valid.
 const NAMES: &[&str] = &[
     "a",
     "b",
@@ -76,7 +76,7 @@ fn netlists() -> impl Strategy<Value = Netlist> {
     })
 }
 
-/// Two netlists give the same outputs, port by port, for every input.
+/// Whether two netlists give the same outputs, port by port, for every input.
 fn same(one: &Netlist, two: &Netlist, text: &str) {
     let bits = one.inputs().len();
     let (mut first, mut second) = (Logic::new(one), Logic::new(two));
@@ -86,7 +86,7 @@ fn same(one: &Netlist, two: &Netlist, text: &str) {
     }
 }
 
-/// The text of a design as a program, checked to be what `nbc fmt` would make of it, and its circuit.
+/// The text of a design as a program, checked to be formatted, and its circuit.
 fn as_program(design: &Design) -> (String, Netlist) {
     let text = String::from_utf8(store::encode_circuit(design, Format::Nb).unwrap()).unwrap();
     let mut sources = Sources::default();
@@ -105,7 +105,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn programs_are_written_in_canonical_form_and_mean_the_same(netlist in netlists()) {
+    fn written_programs_are_formatted_and_equivalent(netlist in netlists()) {
         let design = Design { logic: netlist, registers: Vec::new() };
         let (text, again) = as_program(&design);
         same(&design.logic, &again, &text);
@@ -141,7 +141,7 @@ proptest! {
 }
 
 #[test]
-fn a_model_without_outputs_is_no_program() {
+fn a_model_without_outputs_is_not_a_program() {
     let mut logic = Netlist::new("silent");
     logic.add_input("a");
     let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, Format::Nb).unwrap_err();

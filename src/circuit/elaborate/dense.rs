@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn every_function_of_three_bits_is_decomposed_into_itself() {
+    fn decomposition_preserves_every_function_of_three_bits() {
         for bits in 0..256usize {
             let outputs: Vec<_> = (0..8).map(|pattern| Some(bits >> pattern & 1 == 1)).collect();
             let shape = Dense { outputs: outputs.clone() }.shape();
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn outputs_that_do_not_matter_are_chosen_to_save_parts() {
+    fn dont_cares_are_chosen_to_share_parts() {
         let outputs = vec![Some(false), None, Some(false), Some(true)];
         assert_eq!(Dense { outputs }.shape(), [Shape::Input(0)]);
     }

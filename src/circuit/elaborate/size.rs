@@ -72,12 +72,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn log2_counts_the_bits_that_tell_things_apart() {
+    fn log2_is_the_number_of_bits_for_that_many_values() {
         assert_eq!([0, 1, 2, 3, 4, 5, 8, 9].map(log2), [0, 0, 1, 2, 2, 3, 3, 4]);
     }
 
     #[test]
-    fn what_cannot_be_computed_is_no_number() {
+    fn overflow_and_division_by_zero_have_no_value() {
         assert_eq!(binary(SizeOperator::Divide, 1, 0), None);
         assert_eq!(binary(SizeOperator::Power, 2, 64), None);
         assert_eq!(binary(SizeOperator::Power, 2, -1), None);

@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn aiger_refuses_what_it_cannot_hold() {
+    fn aiger_rejects_unsupported_registers() {
         use RegisterKind::{Falling, High, Rising};
         check(&[(Rising, "clk"), (Rising, "clk")], None);
         check(&[(Rising, "a"), (Rising, "b")], Some("AIGER has one clock, and the registers have `a`, `b`"));

@@ -109,7 +109,7 @@ mod tests {
     use crate::model::Function;
 
     #[test]
-    fn wishes_that_come_to_the_same_are_numbered() {
+    fn equal_names_are_numbered() {
         let mut netlist = Netlist::new("m");
         let a = netlist.add_input("a b");
         let b = netlist.add_input("a_b");

@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_two_nets_share_is_numbered_inside_its_escape() {
+    fn the_number_of_a_shared_name_is_inside_its_escape() {
         let mut netlist = Netlist::new("one");
         let a = netlist.add_input("q[0]");
         netlist.add_output("q[0]", a);

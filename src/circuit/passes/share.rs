@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_cells_merge_whatever_the_order_of_their_pins() {
+    fn equal_cells_merge_for_any_order_of_pins() {
         let mut netlist = Netlist::new("twice");
         let a = netlist.add_input("a");
         let b = netlist.add_input("b");

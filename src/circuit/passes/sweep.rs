@@ -39,7 +39,7 @@ mod tests {
     use crate::model::Function;
 
     #[test]
-    fn unused_cells_go_and_ports_stay() {
+    fn unused_cells_are_removed_and_ports_stay() {
         let mut netlist = Netlist::new("waste");
         let a = netlist.add_input("a");
         netlist.add_input("b");

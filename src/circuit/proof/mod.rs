@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_cell_is_found_with_the_pattern_that_shows_it() {
+    fn a_wrong_cell_is_found_with_a_counterexample() {
         let mut wrong = full_adder();
         let (id, _) = wrong.cells().find(|(_, cell)| cell.function == Function::OR).unwrap();
         if let Node::Cell(cell) = wrong.node_mut(id) {

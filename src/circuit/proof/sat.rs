@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_networks_are_proved_and_different_ones_told_apart() {
+    fn equal_networks_are_proved_and_different_ones_distinguished() {
         assert!(equal(&parity(12, false), &parity(12, true)).is_ok());
         let mut other = parity(12, true);
         let last = other.gates.len() - 1;

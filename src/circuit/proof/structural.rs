@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_come_out_as_the_gates_that_they_were_made_of() {
+    fn covered_gates_become_the_same_gates_again() {
         for cells in ["nand", "nor not", "xor and", "a_or_notb", "nand and or xor not"] {
             let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
             let covered = cover(&chain(), &Prices::of(&library), &[]).unwrap();
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gate_or_an_output_that_differs_is_seen() {
+    fn a_different_gate_or_output_is_found() {
         let mut other = chain();
         other.gates[20].function = other.gates[20].function.inverted();
         assert!(!equal(&chain(), &other));

@@ -378,13 +378,13 @@ mod tests {
     }
 
     #[test]
-    fn all_functions_of_three_inputs_take_as_many_cells_as_sat_proved() {
+    fn all_functions_of_three_inputs_need_the_number_of_cells_proved_by_sat() {
         assert_eq!(total("nand not"), 1318);
         assert_eq!(total("nand and or nor xor xnor not a_and_notb nota_and_b a_or_notb nota_or_b"), 597);
     }
 
     #[test]
-    fn a_function_and_its_dual_take_as_many_cells_of_a_library_and_of_its_dual() {
+    fn a_function_and_its_dual_need_equally_many_cells_of_dual_libraries() {
         let dual = |truth: u8| !truth.reverse_bits();
         for (cells, duals) in [("nand", "nor"), ("xor and", "xnor or"), ("a_and_notb or", "nota_or_b and")] {
             for truth in [0x01, 0x16, 0x68, 0xca, 0xe8] {
@@ -394,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_is_told_from_what_takes_too_long() {
+    fn impossible_and_aborted_searches_are_distinguished() {
         let prices = Prices::of(&CellLibrary::uniform([Function::NAND]));
         assert_eq!(fewer(&wanted(&[0x96]), &prices, 8, u64::MAX), Answer::Impossible);
         assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, 100), Answer::Unknown);

@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn gates_whose_difference_nobody_sees_take_the_place_of_dearer_ones() {
+    fn observability_dont_cares_allow_cheaper_gates() {
         // The exclusive or matters only if `a` is 1: there it is the opposite of `b`.
         let mut network = Network::new(2);
         let different = network.add(Function::XOR, [2, 3]);
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn outputs_that_are_constants_or_inputs_take_no_cells() {
+    fn constant_outputs_and_copied_inputs_need_no_cells() {
         let mut network = Network::new(2);
         let never = network.add(Function::XOR, [2, 2]);
         let same = network.add(Function::OR, [3, never]);

@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn comments_stay_with_what_they_are_about() {
+    fn comments_stay_with_their_declarations() {
         check(
             "// one\n\n// two\ncircuit f(a) -> (q) { // three\n  q = // four\n a // five\n // six\n}\n// seven",
             "// one\n\n// two\ncircuit f(a) -> (q) {\n    // three\n    // four\n    q = a  // five\n    // six\n}\n// seven\n",
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn records_are_on_one_line_where_they_fit() {
+    fn records_that_fit_are_on_one_line() {
         check(
             "material bone {kind:rigid}\nmaterial antimuscle { kind : actuator\n range:0.6 .. 1.6 }",
             "material bone       { kind: rigid }\nmaterial antimuscle { kind: actuator, range: 0.6..1.6 }\n",
