@@ -6,7 +6,7 @@ use crate::check::names::{Home, Names};
 use crate::check::quantity;
 use crate::diag::{Code, Diagnostic, suggest};
 use crate::model::{Behavior, Function, LibrarySource, Origin};
-use crate::source::{FileError, Sources, World};
+use crate::source::{FileError, SourceWorld, Sources};
 use crate::syntax::tree::{DeclarationKind, Record, RecordDeclaration, RecordKeyword, Tree, Value, ValueKind};
 
 /// Checks a library.
@@ -26,7 +26,7 @@ pub(crate) fn library(
 }
 
 /// Folders of libraries that contain no robots.
-pub(crate) fn folders(world: &dyn World, sources: &Sources, trees: &[(Home, Tree)]) -> Vec<Diagnostic> {
+pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home, Tree)]) -> Vec<Diagnostic> {
     let declarations = trees.iter().flat_map(|(_, tree)| &tree.declarations);
     let records = declarations.filter_map(|declaration| match &declaration.kind {
         DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => Some(&record.record),
@@ -37,7 +37,7 @@ pub(crate) fn folders(world: &dyn World, sources: &Sources, trees: &[(Home, Tree
     records.filter_map(from).filter_map(|value| folder_fault(world, sources, &value)).collect()
 }
 
-fn folder_fault(world: &dyn World, sources: &Sources, value: &Value) -> Option<Diagnostic> {
+fn folder_fault(world: &dyn SourceWorld, sources: &Sources, value: &Value) -> Option<Diagnostic> {
     let ValueKind::Text(path) = &value.kind else { return None };
     let folder = beside(&sources.file(value.span.file).name, path);
     let why = match world.list(&folder) {

@@ -2,7 +2,7 @@
 
 use crate::check::names::Home;
 use crate::diag::{Code, Diagnostic};
-use crate::source::{FileError, FileId, Sources, Span, World};
+use crate::source::{FileError, FileId, SourceWorld, Sources, Span};
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
 
@@ -34,7 +34,7 @@ pub(crate) struct Loaded {
 ///
 /// # Errors
 /// When the file cannot be read as source text.
-pub fn open(world: &dyn World, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
+pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
     match world.read(path) {
         Ok(text) => Ok(sources.add(path, text)),
         Err(error) => Err(Diagnostic::unreadable(path, &error)),
@@ -42,7 +42,7 @@ pub fn open(world: &dyn World, path: &str, sources: &mut Sources) -> Result<File
 }
 
 /// Parses a file and all files it uses.
-pub(crate) fn load(world: &dyn World, sources: &mut Sources, file: FileId) -> Loaded {
+pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Loaded {
     let mut loader =
         Loader { world, loaded: Loaded { trees: Vec::new(), faults: Vec::new() }, open: Vec::new(), done: Vec::new() };
     for (name, text) in PRELUDE {
@@ -54,7 +54,7 @@ pub(crate) fn load(world: &dyn World, sources: &mut Sources, file: FileId) -> Lo
 }
 
 struct Loader<'a> {
-    world: &'a dyn World,
+    world: &'a dyn SourceWorld,
     loaded: Loaded,
     /// The files being loaded, outermost first: each with its identity and its path as written.
     open: Vec<(String, String)>,

@@ -30,7 +30,7 @@ use std::collections::BTreeSet;
 
 use crate::diag::{Code, Diagnostic};
 use crate::model::Program;
-use crate::source::{FileId, Sources, Span, World};
+use crate::source::{FileId, SourceWorld, Sources, Span};
 
 /// A program and its diagnostics.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +49,7 @@ impl Checked {
 }
 
 /// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
-pub fn check(world: &dyn World, sources: &mut Sources, file: FileId) -> Checked {
+pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Checked {
     let loaded = load::load(world, sources, file);
     let (program, mut diagnostics) = program::program(&loaded.trees, sources);
     forget_consequences(&mut diagnostics, sources, &loaded);

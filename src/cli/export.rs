@@ -88,11 +88,8 @@ impl Arguments {
     }
 
     fn library(&self) -> Result<Library, Failure> {
-        let found = if self.what == "shipped" {
-            store::shipped_library().clone()
-        } else {
-            library::robots(Path::new(&self.what))?
-        };
+        let found =
+            if self.what == "shipped" { store::shipped_library() } else { library::robots(Path::new(&self.what))? };
         if found.robots.is_empty() {
             let message = format!("`{}` has neither a run nor robots", self.what);
             let help = "name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`";

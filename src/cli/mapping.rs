@@ -30,7 +30,7 @@ pub(super) struct MappingArguments {
 impl MappingArguments {
     /// The library that the user chose, else that of the robots in the program.
     pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
-        Ok(self.chosen()?.unwrap_or_else(|| swarm::cells(store::shipped_library())))
+        Ok(self.chosen()?.unwrap_or_else(|| swarm::cells(&store::shipped_library())))
     }
 
     /// The library that the user chose.

@@ -86,7 +86,7 @@ pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
             store::read_body(sources.file(id)).map_err(|fault| Failure::input(vec![fault], sources))
         }
         Err(FileError::NotFound) if !robot.contains(['/', '.']) => {
-            library::find(store::shipped_library(), robot).map(|robot| robot.body.clone())
+            library::find(&store::shipped_library(), robot).map(|robot| robot.body.clone())
         }
         Err(error) => Err(Failure::plain(Diagnostic::unreadable(robot, &error))),
     }

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -31,8 +31,6 @@ pub enum PaletteError {
     Name(String),
 }
 
-static PAPER: LazyLock<Arc<Palette>> = LazyLock::new(|| Arc::new(Palette::new(paper_materials())));
-
 impl Palette {
     /// The most materials of a palette. Codes are written as digits and lower-case letters; `0` is empty.
     pub const MAX_MATERIALS: usize = 35;
@@ -50,12 +48,12 @@ impl Palette {
     /// The paper's eight materials (paper, Methods; codes as in docs/physics.md 1 and 10): 1 rigid, 2 soft, 3 active, 4
     /// active in antiphase, 5 and 6 shrink, 7 and 8 grow while stimulus 1 and 2 is present.
     pub fn paper() -> Arc<Self> {
-        Arc::clone(&PAPER)
+        Arc::new(Self::new(paper_materials()))
     }
 
     /// Whether these are the paper's materials.
     pub fn is_paper(&self) -> bool {
-        *self == **PAPER
+        *self == *Self::paper()
     }
 
     /// The materials in order of their codes, code 1 first.
@@ -88,7 +86,7 @@ impl Palette {
 impl Material {
     /// The paper's code for a material with this name and these numbers, if there is one.
     pub fn paper_code(&self) -> Option<u8> {
-        (1..).zip(PAPER.materials()).find(|(_, known)| *known == self).map(|(code, _)| code)
+        (1..).zip(&paper_materials()).find(|(_, known)| *known == self).map(|(code, _)| code)
     }
 }
 

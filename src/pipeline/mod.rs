@@ -16,7 +16,7 @@ use crate::circuit::{CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, 
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Library, Program};
 use crate::sim::Simulator;
-use crate::source::{FileId, MemoryWorld, Sources, Span, World};
+use crate::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
 use crate::swarm::{self, Assembly, SwarmTrace, WeakRobot};
 
 /// A program with everything that was found in its text.
@@ -81,7 +81,7 @@ impl Default for Options {
 }
 
 /// Reads and checks a file. What cannot be read is a diagnostic like any other.
-pub fn load(world: &dyn World, path: &str) -> Loaded {
+pub fn load(world: &dyn SourceWorld, path: &str) -> Loaded {
     let mut sources = Sources::default();
     match check::open(world, path, &mut sources) {
         Ok(file) => {

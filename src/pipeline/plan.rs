@@ -5,7 +5,7 @@ use crate::circuit::is_same_instance;
 use crate::diag::{Code, Diagnostic, suggest};
 use crate::model::{CircuitTest, Hold, Instance, Library, LibrarySource, Origin, Program, Swarm};
 use crate::pipeline::{Loaded, Options};
-use crate::store;
+use crate::store::{self, DiskWorld};
 
 /// A circuit with all that a swarm declares for it.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub fn plan(
     let library = match (&options.library, declared) {
         (Some(library), _) => library.clone(),
         (None, Some(declared)) => robots(declared, options)?,
-        (None, None) => store::shipped_library().clone(),
+        (None, None) => store::shipped_library(),
     };
     Ok(Plan {
         circuit: circuit.clone(),
@@ -70,15 +70,15 @@ fn robots(declared: &LibrarySource, options: &Options) -> Result<Library, Vec<Di
         placed.map(|fault| help.iter().fold(fault, |fault, help| fault.with_help(help.as_str()))).collect::<Vec<_>>()
     };
     let mut library = match &declared.from {
-        Origin::Shipped => store::shipped_library().clone(),
-        Origin::Folder(folder) => store::read_library(folder).map_err(|faults| placed(faults, None))?,
+        Origin::Shipped => store::shipped_library(),
+        Origin::Folder(folder) => store::read_library(&DiskWorld, folder).map_err(|faults| placed(faults, None))?,
         Origin::Evolution(name) => {
             let run = format!("{}/{name}", options.runs);
             let help = format!(
                 "`nbc evolve --run {name} --out {}`, then `nbc library add {run}/seed-1 --into {run}/robots`",
                 options.runs
             );
-            store::read_library(&format!("{run}/robots")).map_err(|faults| placed(faults, Some(help)))?
+            store::read_library(&DiskWorld, &format!("{run}/robots")).map_err(|faults| placed(faults, Some(help)))?
         }
     };
     if let Some(behaviors) = &declared.behaviors {

@@ -1,6 +1,6 @@
 //! Drawings as pixels, with a built-in font: the same drawing gives the same bytes on any machine.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::Database;
@@ -8,25 +8,26 @@ use resvg::usvg::{Options, Tree};
 
 use crate::report::Svg;
 
-static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
-    let mut fonts = Database::new();
-    fonts.load_font_data(include_bytes!("../../assets/DejaVuSans-subset.ttf").to_vec());
-    fonts.load_font_data(include_bytes!("../../assets/DejaVuSans-Bold-subset.ttf").to_vec());
-    Arc::new(fonts)
-});
-
 /// The most pixels along one side of a picture.
 const MAX_SIDE: f64 = 16_000.0;
 
 /// The drawing as pixels, `scale` of them for each of its own; less for a drawing that would be too large.
 pub fn rasterize(svg: &Svg, scale: f64) -> Pixmap {
-    let options = Options { fontdb: FONTS.clone(), font_family: "DejaVu Sans".to_owned(), ..Options::default() };
+    let options = Options { fontdb: Arc::new(fonts()), font_family: "DejaVu Sans".to_owned(), ..Options::default() };
     let tree = Tree::from_str(&svg.finish(), &options).expect("drawings are well-formed SVG");
     let scale = scale.min(MAX_SIDE / svg.width().max(svg.height()));
     let side = |length: f64| ((length * scale).ceil() as u32).max(1);
     let mut pixmap = Pixmap::new(side(svg.width()), side(svg.height())).expect("a picture has pixels");
     resvg::render(&tree, Transform::from_scale(scale as f32, scale as f32), &mut pixmap.as_mut());
     pixmap
+}
+
+/// The program's own fonts, whatever the machine has.
+fn fonts() -> Database {
+    let mut fonts = Database::new();
+    fonts.load_font_data(include_bytes!("../../assets/DejaVuSans-subset.ttf").to_vec());
+    fonts.load_font_data(include_bytes!("../../assets/DejaVuSans-Bold-subset.ttf").to_vec());
+    fonts
 }
 
 /// The drawing as a PNG file of twice its size, for sharp print.

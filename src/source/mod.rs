@@ -1,4 +1,4 @@
-//! Source text: files, spans, and the [`World`] that reads files for the core, which itself does no input or output.
+//! Source text: files, spans, and the [`SourceWorld`] that reads files for the core, which itself does no input or output.
 
 mod file;
 mod span;
@@ -6,4 +6,4 @@ mod world;
 
 pub use file::{LineColumn, SourceFile, Sources};
 pub use span::{FileId, Span};
-pub use world::{FileError, MemoryWorld, World};
+pub use world::{FileError, MemoryWorld, OverlayWorld, SourceWorld};

@@ -1,6 +1,6 @@
-//! Reading files: the core asks a [`World`]. The command line provides the disk; tests provide memory.
+//! Who reads files: the core asks a [`SourceWorld`]. The command line gives it the disk, tests and other doors give it memory.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The reason why a file could not be read as source text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,12 +23,12 @@ pub enum FileError {
     Io(String),
 }
 
-/// The environment of the core: a place with source files.
-pub trait World {
+/// Where sources and robot files are: everything that the core reads, it reads here.
+pub trait SourceWorld {
     /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
-    /// The names in a folder, in order.
+    /// The names of the entries of a folder, in order.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 
     /// The unique name of the file at `path`, however many paths and links lead to it.
@@ -48,16 +48,137 @@ impl MemoryWorld {
     pub fn insert(&mut self, path: impl Into<String>, text: impl Into<String>) {
         self.files.insert(path.into(), text.into());
     }
+
+    /// Removes the file at `path`, if there is one.
+    pub fn remove(&mut self, path: &str) {
+        self.files.remove(path);
+    }
 }
 
-impl World for MemoryWorld {
+impl SourceWorld for MemoryWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
         self.files.get(path).cloned().ok_or(FileError::NotFound)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        let inside = |path: &String| Some(path.strip_prefix(folder)?.strip_prefix('/')?.to_owned());
-        let names: Vec<_> = self.files.keys().filter_map(inside).collect();
-        if names.is_empty() { Err(FileError::NotFound) } else { Ok(names) }
+        let entry = |path: &String| {
+            let inside = path.strip_prefix(folder)?.strip_prefix('/')?;
+            inside.split('/').next().map(str::to_owned)
+        };
+        let names: BTreeSet<String> = self.files.keys().filter_map(entry).collect();
+        if names.is_empty() { Err(FileError::NotFound) } else { Ok(names.into_iter().collect()) }
+    }
+}
+
+/// Files in memory over another world, such as an editor's buffers over the disk.
+#[derive(Clone, Debug, Default)]
+pub struct OverlayWorld<W> {
+    /// What is read first, by the identities of `under`.
+    over: MemoryWorld,
+    under: W,
+}
+
+impl<W: SourceWorld> OverlayWorld<W> {
+    /// Nothing over a world.
+    pub fn new(under: W) -> Self {
+        Self { over: MemoryWorld::default(), under }
+    }
+
+    /// Puts a text over the file at `path`, which need not exist below.
+    pub fn insert(&mut self, path: &str, text: impl Into<String>) {
+        self.over.insert(self.under.identity(path), text);
+    }
+
+    /// Takes the text over `path` away: the file below counts again.
+    pub fn remove(&mut self, path: &str) {
+        self.over.remove(&self.under.identity(path));
+        self.over.remove(path);
+    }
+}
+
+impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        // A file that did not exist when its buffer was opened has had its path for an identity.
+        let over = self.over.read(&self.under.identity(path)).or_else(|_| self.over.read(path));
+        over.or_else(|_| self.under.read(path))
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        match (self.over.list(&self.under.identity(folder)), self.under.list(folder)) {
+            (Ok(over), Ok(under)) => Ok(BTreeSet::from_iter(over.into_iter().chain(under)).into_iter().collect()),
+            (Ok(over), Err(_)) => Ok(over),
+            (Err(_), under) => under,
+        }
+    }
+
+    fn identity(&self, path: &str) -> String {
+        self.under.identity(path)
+    }
+}
+
+impl<W: SourceWorld + ?Sized> SourceWorld for Box<W> {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        (**self).read(path)
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        (**self).list(folder)
+    }
+
+    fn identity(&self, path: &str) -> String {
+        (**self).identity(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(files: &[(&str, &str)]) -> MemoryWorld {
+        let mut world = MemoryWorld::default();
+        files.iter().for_each(|(path, text)| world.insert(*path, *text));
+        world
+    }
+
+    #[test]
+    fn a_folder_in_memory_lists_its_entries_once() {
+        let world = files(&[("a/x.nb", ""), ("a/b/y.nb", ""), ("a/b/z.nb", ""), ("ab/w.nb", "")]);
+        assert_eq!(world.list("a"), Ok(vec!["b".to_owned(), "x.nb".to_owned()]));
+        assert_eq!(world.list("c"), Err(FileError::NotFound));
+    }
+
+    #[test]
+    fn a_buffer_hides_the_file_below_until_it_is_removed() {
+        let mut world = OverlayWorld::new(files(&[("a/x.nb", "below"), ("a/y.nb", "other")]));
+        world.insert("a/x.nb", "above");
+        world.insert("a/new.nb", "new");
+        assert_eq!(["a/x.nb", "a/y.nb", "a/new.nb"].map(|path| world.read(path).unwrap()), ["above", "other", "new"]);
+        assert_eq!(world.list("a"), Ok(["new.nb", "x.nb", "y.nb"].map(str::to_owned).to_vec()));
+        world.remove("a/x.nb");
+        assert_eq!(world.read("a/x.nb").as_deref(), Ok("below"));
+    }
+
+    /// A world in which every path that ends in a file's name leads to that file.
+    struct Linked(MemoryWorld);
+
+    impl SourceWorld for Linked {
+        fn read(&self, path: &str) -> Result<String, FileError> {
+            self.0.read(&self.identity(path))
+        }
+
+        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+            self.0.list(folder)
+        }
+
+        fn identity(&self, path: &str) -> String {
+            path.rsplit('/').next().unwrap_or(path).to_owned()
+        }
+    }
+
+    #[test]
+    fn a_buffer_is_read_by_every_path_of_its_file() {
+        let mut world = OverlayWorld::new(Linked(files(&[("x.nb", "below")])));
+        world.insert("folder/x.nb", "above");
+        assert_eq!(world.read("link/x.nb").as_deref(), Ok("above"));
     }
 }

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::diag::io_words;
-use crate::source::{FileError, World};
+use crate::source::{FileError, SourceWorld};
 use crate::syntax::MAX_SOURCE_BYTES;
 
 /// The largest robot file, in bytes; the largest body takes a tenth of it.
@@ -78,7 +78,7 @@ fn kind(of: FileType) -> &'static str {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DiskWorld;
 
-impl World for DiskWorld {
+impl SourceWorld for DiskWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
         read_text(Path::new(path), MAX_SOURCE_BYTES)
     }

@@ -1,20 +1,23 @@
 //! The built-in library of robots.
 
 use std::collections::BTreeSet;
-use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Library, Robot};
-use crate::source::Sources;
-use crate::store::{MAX_ROBOT_BYTES, read_robot, read_text};
+use crate::source::{FileError, SourceWorld, Sources};
+use crate::store::read_robot;
 
-static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
+const FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
 
-static SHIPPED: LazyLock<Library> = LazyLock::new(|| {
+/// How the names of robot files end.
+const ENDING: &str = ".yaml";
+
+/// The robots that come with the program, best first within each function; read afresh at each call.
+pub fn shipped_library() -> Library {
     let mut sources = Sources::default();
-    let files = FILES.files().filter(|file| file.path().extension().is_some_and(|extension| extension == "yaml"));
+    let files = FILES.files().filter(|file| file.path().to_string_lossy().ends_with(ENDING));
     let robots = files.map(|file| {
         let text = file.contents_utf8().expect("robot files in the program are text");
         let id = sources.add(file.path().to_string_lossy(), text);
@@ -24,37 +27,18 @@ static SHIPPED: LazyLock<Library> = LazyLock::new(|| {
     let names: BTreeSet<&str> = library.robots.iter().map(|robot| robot.name.as_str()).collect();
     assert_eq!(names.len(), library.robots.len(), "the robots in the program have different names");
     library
-});
-
-/// The built-in robots, best first within each function; read at the first call.
-pub fn shipped_library() -> &'static Library {
-    &SHIPPED
 }
 
 /// The robots of a folder's `.yaml` files, best first within each function.
 ///
 /// # Errors
 /// What is wrong with the folder or its files; several faults where several files are wrong.
-pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
-    let unreadable = |error: std::io::Error| {
-        let message = format!("cannot read the library `{folder}`: {}", error.to_string().to_lowercase());
-        vec![Diagnostic::without_place(Code::Unreadable, message)]
-    };
-    let entries = std::fs::read_dir(folder).and_then(|entries| entries.collect::<Result<Vec<_>, _>>());
-    let mut paths: Vec<_> = entries.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
-    paths.sort();
+pub fn read_library(world: &dyn SourceWorld, folder: &str) -> Result<Library, Vec<Diagnostic>> {
+    let mut names = world.list(folder).map_err(|error| vec![unreadable(folder, &error)])?;
+    names.retain(|name| name.ends_with(ENDING));
     let (mut robots, mut faults) = (Vec::new(), Vec::new());
-    for path in paths {
-        let name = path.display().to_string();
-        let mut sources = Sources::default();
-        let robot =
-            read_text(&path, MAX_ROBOT_BYTES).map_err(|error| Diagnostic::unreadable(&name, &error)).and_then(|text| {
-                let id = sources.add(&name, text);
-                // The place is dropped, because the caller does not have this text.
-                read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
-            });
-        match robot {
+    for name in names {
+        match read_member(world, &format!("{folder}/{name}")) {
             Ok(robot) => robots.push(robot),
             Err(fault) => faults.push(fault),
         }
@@ -62,8 +46,25 @@ pub fn read_library(folder: &str) -> Result<Library, Vec<Diagnostic>> {
     if faults.is_empty() { Ok(best_first(robots)) } else { Err(faults) }
 }
 
-/// A library of robots in order of their functions' bits. Within a function, the most reliable come first, then those
-/// with the shortest clock, then those with the largest margin.
+fn read_member(world: &dyn SourceWorld, path: &str) -> Result<Robot, Diagnostic> {
+    let text = world.read(path).map_err(|error| Diagnostic::unreadable(path, &error))?;
+    let mut sources = Sources::default();
+    let id = sources.add(path, text);
+    // The caller has other texts, so a place in this one would mean nothing to it.
+    read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
+}
+
+fn unreadable(folder: &str, error: &FileError) -> Diagnostic {
+    let why = match error {
+        FileError::NotFound => "there is no such folder",
+        FileError::Io(words) => words.as_str(),
+        FileError::NotRegular(_) | FileError::TooLarge { .. } | FileError::NotText { .. } => "it is not a folder",
+    };
+    Diagnostic::without_place(Code::Unreadable, format!("cannot read the library `{folder}`: {why}"))
+}
+
+/// A library of robots in order of their functions' bits, and within a function the most reliable first, then the shortest clock, then
+/// the greatest margin.
 pub fn best_first(mut robots: Vec<Robot>) -> Library {
     robots.sort_by(|a, b| {
         (a.function().cmp(&b.function())).then(a.character.compare(&b.character)).then(a.name.cmp(&b.name))
@@ -74,11 +75,26 @@ pub fn best_first(mut robots: Vec<Robot>) -> Library {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::MemoryWorld;
+    use crate::store::print_robot;
     use crate::store::robot::tests::robot;
 
     #[test]
     fn every_robot_in_the_program_reads() {
         assert!(shipped_library().robots.iter().all(|robot| robot.body.is_connected()));
+    }
+
+    #[test]
+    fn a_library_in_memory_is_read_and_its_faults_are_named() {
+        let mut world = MemoryWorld::default();
+        world.insert("parts/one.yaml", print_robot(&robot()));
+        world.insert("parts/notes.txt", "no robot");
+        assert_eq!(read_library(&world, "parts").unwrap().robots, [robot()]);
+        world.insert("parts/two.yaml", "format: 2");
+        let faults = read_library(&world, "parts").unwrap_err();
+        assert!(faults.len() == 1 && faults[0].message.contains("`parts/two.yaml`"), "{faults:?}");
+        let missing = &read_library(&world, "nowhere").unwrap_err()[0].message;
+        assert_eq!(missing, "cannot read the library `nowhere`: there is no such folder");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Files: the disk as a [`crate::source::World`], atomic writes, robot files, checkpoints, the built-in library. The
+//! Files: the disk as a [`crate::source::SourceWorld`], atomic writes, robot files, checkpoints, the built-in library. The
 //! only user of YAML.
 
 mod atomic;

@@ -57,6 +57,35 @@ fn nested_ifs_are_parsed_or_rejected() {
     assert_eq!(found(circuit(&format!("q = {}a", "if a then a else ".repeat(10_000)))), []);
 }
 
+/// Half of the smallest stack that a door gives: 1 MiB, in the browser and on Windows.
+const STACK: usize = 512 << 10;
+
+#[test]
+fn the_deepest_nesting_needs_a_small_stack() {
+    let depth = nbc::syntax::MAX_NESTING - 3;
+    let within = |open: &str, close: &str| circuit(&format!("q = {}a{}", open.repeat(depth), close.repeat(depth)));
+    let texts = [
+        within("(", ")"),
+        within("nand(a, ", ")"),
+        within("if a then ", " else a"),
+        within("{", "}"),
+        within("not (a and ", ")"),
+        format!("circuit f(a[{}1{}]) -> (q) {{ q = any(a) }}", "(".repeat(depth), ")".repeat(depth)),
+        circuit(&format!("{}_ = a{}\n q = a", "for i in 0..1 { ".repeat(depth), " }".repeat(depth))),
+        format!("material m {{ kind: {}{} }}", "[".repeat(depth), "]".repeat(depth)),
+    ];
+    let parse = move || {
+        for text in texts {
+            assert!(found(text.clone()).iter().all(|fault| fault.code != Code::Nesting), "{text}");
+            let mut sources = Sources::default();
+            let file = sources.add("a.nb", text);
+            let parsed = nbc::syntax::parse(&sources, file);
+            nbc::syntax::format(&sources, file, &parsed.tree);
+        }
+    };
+    std::thread::Builder::new().stack_size(STACK).spawn(parse).unwrap().join().unwrap();
+}
+
 #[test]
 fn sizes_are_bounded() {
     refused("circuit f(a[8000000000]) -> (q) { q = any(a) }", Code::OutOfRange);

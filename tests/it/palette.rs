@@ -9,7 +9,7 @@ use nbc::model::{
 };
 use nbc::pipeline::{self, Options};
 use nbc::sim::{Simulator, run_trials};
-use nbc::store::{self, Checkpoint};
+use nbc::store::{self, Checkpoint, DiskWorld};
 use nbc::swarm::{self, Assembly, Exposure, Member, Signal};
 
 use crate::cli::Bench;
@@ -170,7 +170,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     let add = ["library", "add", "out/nine/seed-5", "--into", "robots", "--tries", "1", "--max-error", "1"];
     let ran = bench.run(&[&add[..], &["--behavior", &word]].concat());
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let library = store::read_library(bench.path().join("robots").to_str().unwrap()).unwrap();
+    let library = store::read_library(&DiskWorld, bench.path().join("robots").to_str().unwrap()).unwrap();
     let [robot] = &library.robots[..] else { panic!("one robot was written") };
     let elite = elites.clone().find(|elite| elite.body == robot.body).expect("the robot is of the archive");
     assert_eq!(robot.displacement, elite.displacement);
@@ -253,7 +253,8 @@ fn renamed(robot: &Robot) -> Robot {
 
 #[test]
 fn two_swarms_of_different_palettes_run_in_one_file() {
-    let not = store::shipped_library().robots_for(Function::NOT).next().unwrap();
+    let shipped = store::shipped_library();
+    let not = shipped.robots_for(Function::NOT).next().unwrap();
     let own = renamed(not);
     assert_eq!(own.body.palette().materials().len(), 9);
     let bench = Bench::new();

@@ -72,7 +72,7 @@ fn a_short_hold_is_reported_with_a_sufficient_one() {
 
 #[test]
 fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
-    let mut library = shipped_library().clone();
+    let mut library = shipped_library();
     let place = |function| library.robots.iter().position(|robot| robot.function() == function).unwrap();
     let (not, buf) = (place(Function::NOT), place(Function::BUF));
     library.robots[not].body = library.robots[buf].body.clone();
@@ -134,7 +134,7 @@ fn every_circuit_of_the_gallery_computes() {
 fn measured_settle_times_are_within_the_clocks() {
     let report = nbc::run_file("circuits/half_adder.nb", &Options::default()).unwrap();
     let compiled = &swarm(&report).compiled;
-    let cells = nbc::swarm::cells(shipped_library());
+    let cells = nbc::swarm::cells(&shipped_library());
     let measured = Timing::of(&compiled.mapped, &cells, Delays::Transition);
     assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);
 }

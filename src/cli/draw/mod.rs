@@ -119,7 +119,7 @@ impl Arguments {
 
     fn draw_library(&self, canvas: &Canvas) -> Result<(), Failure> {
         let folder = Path::new(&self.what);
-        let library = if self.what == "shipped" { store::shipped_library().clone() } else { library::robots(folder)? };
+        let library = if self.what == "shipped" { store::shipped_library() } else { library::robots(folder)? };
         match self.behavior {
             None => self.draw_several(canvas, &several::of_library(&self.what, &library)),
             Some(behavior) => {
@@ -132,7 +132,7 @@ impl Arguments {
 
     fn robot(&self) -> Result<Subject, Failure> {
         let body = simulate::read_body(&self.what)?;
-        match library::find(store::shipped_library(), &self.what) {
+        match library::find(&store::shipped_library(), &self.what) {
             Ok(robot) => Ok(Subject::of(robot)),
             Err(_) => {
                 let title = Path::new(&self.what).file_stem().map(|stem| stem.to_string_lossy().into_owned());

@@ -51,10 +51,10 @@ impl Arguments {
         let library = store::shipped_library();
         match self.action {
             Action::Add(arguments) => arguments.run(context),
-            Action::List => list(library, context),
+            Action::List => list(&library, context),
             Action::Rewrite(arguments) => arguments.run(context),
-            Action::Show { name } => show(find(library, &name)?, context),
-            Action::Verify { path: None } => verify::verify(library, context),
+            Action::Show { name } => show(find(&library, &name)?, context),
+            Action::Verify { path: None } => verify::verify(&library, context),
             Action::Verify { path: Some(path) } => verify::verify(&robots(&path)?, context),
         }
     }
