@@ -4,8 +4,8 @@
 //! A circuit with its tests, run in full physics:
 //!
 //! ```
-//! nbc::run_file("circuits/half_adder.nb", &nbc::Options::default())?.assert_passed();
-//! # Ok::<(), nbc::RunError>(())
+//! nbc::run_file("circuits/half_adder.nb", &nbc::CompileOptions::default())?.assert_passed();
+//! # Ok::<(), nbc::Diagnostics>(())
 //! ```
 #![deny(missing_docs)]
 
@@ -15,12 +15,13 @@ pub mod cli;
 pub mod diag;
 pub mod evolve;
 pub mod model;
-pub mod pipeline;
 pub mod report;
+pub mod session;
 pub mod sim;
 pub mod source;
 pub mod store;
 pub mod swarm;
 pub mod syntax;
 
-pub use pipeline::{Options, RunError, RunReport, run_file};
+pub use diag::Diagnostics;
+pub use session::{CompileOptions, RunReport, Session, run_file};

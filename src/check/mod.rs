@@ -34,14 +34,14 @@ use crate::source::{FileId, SourceWorld, Sources, Span};
 
 /// A program and its diagnostics.
 #[derive(Clone, Debug, Default)]
-pub struct Checked {
+pub struct Analysis {
     /// The program, complete only if there are no errors.
     pub program: Program,
     /// Errors and warnings, ordered by place.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-impl Checked {
+impl Analysis {
     /// Whether there are errors.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
@@ -49,7 +49,7 @@ impl Checked {
 }
 
 /// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
-pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Checked {
+pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
     let loaded = load::load(world, sources, file);
     let (program, mut diagnostics) = program::program(&loaded.trees, sources);
     forget_consequences(&mut diagnostics, sources, &loaded);
@@ -57,7 +57,7 @@ pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Ch
     diagnostics.extend(loaded.faults);
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();
-    Checked { program, diagnostics }
+    Analysis { program, diagnostics }
 }
 
 /// A name whose declaration could not be parsed is not reported as unknown, because the declaration has its own

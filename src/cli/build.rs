@@ -6,16 +6,16 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::circuit::elaborate::elaborate;
 use crate::circuit::formats::{Design, blif, dot, verilog};
 use crate::circuit::timing::fan_out;
-use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
-use crate::cli::mapping::{MappingArguments, synthesize};
-use crate::cli::program::{CircuitArguments, RunsArguments, SourceProgram};
+use crate::circuit::{CellLibrary, Delays, MapOptions, Memory, NetId, Netlist, Race, Timing, levels, races};
+use crate::cli::mapping::MappingArguments;
+use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::report::{Document, Schema};
-use crate::{pipeline, store, swarm};
+use crate::session::{CompileOptions, Mapping, Session};
+use crate::store::{self, DiskWorld};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,19 +65,17 @@ impl Arguments {
     /// When the file has errors, the library lacks a function, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (kind, chosen) = (self.emit(context.format)?, self.mapping.chosen()?);
-        let mut file = SourceProgram::load(&self.file)?;
-        let subject = pipeline::choose(&mut file.loaded, &self.circuit.choice(), chosen.is_none());
-        let (circuit, swarm) = subject.map_err(|fault| file.failure(vec![fault]))?;
-        let source = elaborate(file.program(), &circuit).map_err(|faults| file.failure(faults))?;
-        let library = match chosen {
-            Some(library) => library,
-            None => {
-                let plan = pipeline::plan(file.program(), &circuit, swarm.as_ref(), &self.runs.options());
-                swarm::cells(&plan.map_err(|faults| file.failure(faults))?.library)
-            }
+        let mut session = Session::new(DiskWorld);
+        let checked = session.open(&self.file.to_string_lossy())?;
+        let choice = self.circuit.choice();
+        let circuit = checked.circuit(&choice)?;
+        let MapOptions { objective, effort } = self.mapping.options();
+        let options = CompileOptions { swarm: choice.swarm, objective, effort, ..self.runs.options() };
+        let mapping = match chosen {
+            Some(cells) => session.map_onto(&checked, &circuit, &cells, &options)?,
+            None => session.map(&checked, &circuit, &options)?,
         };
-        let mapped = synthesize(&source, &library, self.mapping.options())?;
-        let text = emit(kind, mapped, &library);
+        let text = emit(kind, mapping);
         match &self.output {
             Some(path) => store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?,
             None => context.print(text)?,
@@ -98,14 +96,15 @@ impl Arguments {
     }
 }
 
-fn emit(emit: Emit, mapped: Netlist, library: &CellLibrary) -> String {
+fn emit(emit: Emit, mapping: Mapping) -> String {
+    let mapped = mapping.netlist;
     match emit {
         Emit::Netlist => mapped.to_string(),
         Emit::Blif => blif::write(&Design { logic: mapped, registers: Vec::new() }),
         Emit::Verilog => verilog::write(&Design { logic: mapped, registers: Vec::new() }),
         Emit::Dot => dot::write(&mapped),
         Emit::Json => {
-            let document = Document::new(Schema::Build, describe(&mapped, library));
+            let document = Document::new(Schema::Build, describe(&mapped, &mapping.cells));
             serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
         }
     }

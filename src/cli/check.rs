@@ -1,12 +1,11 @@
 //! `nbc check`: what is wrong with programs.
 
 use clap::Args;
+use serde_json::Value;
 
-use crate::check;
 use crate::cli::{Context, Failure, Format, Status};
-use crate::diag::{Diagnostic, json};
 use crate::report::Schema;
-use crate::source::Sources;
+use crate::session::Session;
 use crate::store::DiskWorld;
 
 /// Check programs and print their errors
@@ -28,21 +27,16 @@ impl Arguments {
     /// # Errors
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let mut sources = Sources::default();
-        let mut all: Vec<Diagnostic> = Vec::new();
-        for path in &self.files {
-            match check::open(&DiskWorld, path, &mut sources) {
-                Ok(file) => all.extend(check::check(&DiskWorld, &mut sources, file).diagnostics),
-                Err(fault) => all.push(fault),
-            }
-        }
-        let status = if all.iter().any(Diagnostic::is_error) { Status::BadInput } else { Status::Done };
+        let mut session = Session::new(DiskWorld);
+        let found: Vec<_> = self.files.iter().map(|path| session.checked(path)).collect();
         match context.format {
             Format::Json => {
-                context.print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": json(&all, &sources) }))?
+                let all: Vec<Value> = found.iter().flat_map(|checked| checked.json()).collect();
+                context.print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": all }))?
             }
-            Format::Text => context.tell(&all, &sources),
+            Format::Text => found.iter().for_each(|checked| context.tell(&checked.diagnostics, &checked.sources)),
         }
-        Ok(status)
+        let has_errors = found.iter().any(|checked| checked.has_errors());
+        Ok(if has_errors { Status::BadInput } else { Status::Done })
     }
 }

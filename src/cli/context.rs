@@ -11,6 +11,7 @@ use crate::cli::Failure;
 use crate::cli::output::Output;
 use crate::diag::{Diagnostic, is_hidden, render, visible};
 use crate::report::{Document, Schema};
+use crate::session::Checked;
 use crate::source::Sources;
 
 /// The format of the output.
@@ -103,6 +104,16 @@ impl Context {
     /// them.
     pub fn log(&self, text: &str) {
         let _ = io::stderr().write_all(visible(text).as_bytes());
+    }
+
+    /// Logs warnings about a source, each one once.
+    pub fn warn<'d>(&self, source: &Checked, warnings: impl IntoIterator<Item = &'d Diagnostic>) {
+        let mut told: Vec<Diagnostic> = Vec::new();
+        for warning in warnings {
+            let is_new = told.iter().all(|known| (known.code, &known.message) != (warning.code, &warning.message));
+            told.extend(is_new.then(|| warning.clone()));
+        }
+        self.tell(&told, &source.sources);
     }
 
     /// Writes diagnostics to standard error, with excerpts of the sources.

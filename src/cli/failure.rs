@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::{Context, Format, Status};
-use crate::diag::{Code, Diagnostic, io_words, json};
+use crate::diag::{Code, Diagnostic, Diagnostics, io_words};
 use crate::report::Schema;
 use crate::source::Sources;
 
@@ -12,12 +12,7 @@ use crate::source::Sources;
 #[derive(Debug)]
 pub enum Failure {
     /// The user's input is at fault.
-    Input {
-        /// What is wrong with it.
-        diagnostics: Vec<Diagnostic>,
-        /// The texts that the diagnostics point into.
-        sources: Sources,
-    },
+    Input(Diagnostics),
     /// Standard output cannot be written.
     Output(io::Error),
 }
@@ -25,12 +20,12 @@ pub enum Failure {
 impl Failure {
     /// Input at fault in places of `sources`.
     pub fn input(diagnostics: Vec<Diagnostic>, sources: Sources) -> Self {
-        Self::Input { diagnostics, sources }
+        Self::Input(Diagnostics { list: diagnostics, sources })
     }
 
     /// A fault without a place in a text.
     pub fn plain(diagnostic: Diagnostic) -> Self {
-        Self::Input { diagnostics: vec![diagnostic], sources: Sources::default() }
+        Self::Input(diagnostic.into())
     }
 
     /// A file or folder that cannot be written.
@@ -41,17 +36,14 @@ impl Failure {
     /// Tells the user, and says how the program ends.
     pub fn report(self, context: &mut Context) -> Status {
         match self {
-            Self::Input { diagnostics, sources } => {
+            Self::Input(found) => {
                 if context.format == Format::Json {
                     // The failure itself is what matters if this cannot be written either.
                     let _ = context
-                        .print_json(
-                            Schema::Diagnostics,
-                            &serde_json::json!({ "diagnostics": json(&diagnostics, &sources) }),
-                        )
+                        .print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": found.json() }))
                         .and_then(|()| context.flush());
                 }
-                context.tell(&diagnostics, &sources);
+                context.tell(&found.list, &found.sources);
                 Status::BadInput
             }
             Self::Output(error) => {
@@ -66,6 +58,12 @@ impl Failure {
 pub(super) fn unprintable(error: &io::Error) -> Diagnostic {
     let message = format!("cannot write the output: {}", io_words(error));
     Diagnostic::without_place(Code::Unwritable, message)
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(found: Diagnostics) -> Self {
+        Self::Input(found)
+    }
 }
 
 impl From<io::Error> for Failure {

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::circuit::{CellLibrary, Effort, MapOptions, Netlist, Objective};
+use crate::circuit::{CellLibrary, Effort, MapOptions, Objective};
 use crate::cli::{Failure, library};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
-use crate::{pipeline, store, swarm};
+use crate::{store, swarm};
 
 /// Which cells there are, and what to make of them.
 #[derive(Args)]
@@ -103,9 +103,4 @@ pub(super) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
         })
     };
     names.iter().map(parse).collect()
-}
-
-/// Maps a netlist and proves the result; what is not proved is not written.
-pub(super) fn synthesize(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, Failure> {
-    pipeline::synthesize(source, library, options).map(|(mapped, _)| mapped).map_err(Failure::plain)
 }

@@ -65,6 +65,12 @@ impl Progress {
         self.change(|state| state.done += more);
     }
 
+    /// An observer of one of several parts of the work, which counts from 0.
+    pub fn part(&self) -> impl FnMut(u64, u64) {
+        let mut before = 0;
+        move |done, _| self.add(done - std::mem::replace(&mut before, done))
+    }
+
     /// Sets the amount done and a note.
     pub fn set_with_note(&self, done: u64, note: String) {
         self.change(|state| (state.done, state.note) = (done, note));

@@ -6,17 +6,19 @@ use std::time::Instant;
 
 use clap::Args;
 
-use crate::cli::program::{RunsArguments, SourceProgram};
+use crate::cli::program::RunsArguments;
 use crate::cli::timings::{self, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CYCLE_STEPS, CircuitTest, Robot, Simulation};
-use crate::pipeline::{self, Options, SimulationRun, SwarmRun, TestRun};
 use crate::report::{
     self, Document, PageSwarm, Recording, Room, RunResult, Schema, Scheme, Stage, Svg, SwarmOutcome, SwarmResult,
     SwarmTiming,
 };
-use crate::store;
+use crate::session::{
+    self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun,
+};
+use crate::store::{self, DiskWorld};
 use crate::swarm::Level;
 
 /// Compile the circuits of a file to robots, then run its tests and simulations in physics
@@ -93,32 +95,32 @@ impl Arguments {
     /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
-        let file = SourceProgram::load(&self.file)?;
+        let mut session = Session::new(DiskWorld).with_simulator(self.timings.simulator());
+        let file = session.open(&self.file.to_string_lossy())?;
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
         store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
-        let options = Options { simulator: self.timings.simulator(), ..self.runs.options() };
+        let options = self.runs.options();
         let mut runs = Vec::new();
         for test in tests {
-            runs.extend(run_test(&file, test, None, &options)?.into_iter().map(Ran::Test));
+            runs.extend(run_test(&session, &file, test, &options)?.into_iter().map(Ran::Test));
         }
         for simulation in simulations {
-            runs.push(Ran::Simulation(run_simulation(&file, simulation, &options)?));
+            runs.push(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?));
         }
-        let of_runs = runs.iter().flat_map(Ran::warnings);
-        file.warn(file.loaded.checked.diagnostics.iter().chain(of_runs), context);
+        context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
         let status = timings::time(timings::Stage::Output, || self.report(&runs, &folder, context))?;
         self.timings.tell(started, context);
         Ok(status)
     }
 
     /// The tests and simulations that are asked for.
-    fn chosen<'f>(&self, file: &'f SourceProgram) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
-        let program = file.program();
+    fn chosen<'f>(&self, file: &'f Checked) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
+        let program = &file.program;
         let only = self.only.as_deref();
         let tests = program.tests.iter();
         let tests: Vec<_> =
-            tests.filter(|test| only.is_none_or(|name| pipeline::is_called(program, test, name))).collect();
+            tests.filter(|test| only.is_none_or(|name| session::is_called(program, test, name))).collect();
         let is_called = |simulation: &Simulation, name: &str| {
             let circuit = program.swarm(&simulation.swarm).map(|swarm| swarm.circuit.to_string());
             simulation.swarm == name || circuit.as_deref() == Some(name)
@@ -172,14 +174,14 @@ impl Arguments {
     }
 }
 
-fn nothing_to_run(file: &SourceProgram, only: Option<&str>) -> Diagnostic {
+fn nothing_to_run(file: &Checked, only: Option<&str>) -> Diagnostic {
     let Some(name) = only else {
         let message = format!("`{}` declares no test and no simulation, so there is nothing to run", file.path);
         let help =
             "declare a test: `test my_circuit { a b | q` and a row for each input pattern; `nbc check` only checks";
         return Diagnostic::without_place(Code::Empty, message).with_help(help);
     };
-    let program = file.program();
+    let program = &file.program;
     let mut names: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
     names.extend(program.tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty()));
     names.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
@@ -190,32 +192,32 @@ fn nothing_to_run(file: &SourceProgram, only: Option<&str>) -> Diagnostic {
     Diagnostic::without_place(Code::Unknown, message).with_help(format!("there are {}", names.join(", ")))
 }
 
-/// Runs a test in physics, once for each swarm of its circuit, or as the swarm of that name alone.
+/// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen.
 pub(super) fn run_test(
-    file: &SourceProgram,
+    session: &Session,
+    file: &Checked,
     test: &CircuitTest,
-    swarm: Option<&str>,
-    options: &Options,
+    options: &CompileOptions,
 ) -> Result<Vec<TestRun>, Failure> {
-    let cases = pipeline::cases(file.program(), test, Some(Level::Physics), options);
-    let mut cases = cases.map_err(|faults| file.failure(faults))?;
-    cases.retain(|case| swarm.is_none() || case.swarm() == swarm);
-    let bar = Progress::new("simulating", cases.iter().map(pipeline::Case::work).sum());
-    Ok(cases.into_iter().map(|case| case.run(options, &mut |done| bar.add(done))).collect())
+    let options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
+    let cases = session.cases(file, test, &options)?;
+    let bar = Progress::new("simulating", cases.iter().map(TestCase::work).sum());
+    Ok(cases.into_iter().map(|case| session.run_case(case, &mut bar.part())).collect())
 }
 
 /// Runs a simulation.
 pub(super) fn run_simulation(
-    file: &SourceProgram,
+    session: &Session,
+    file: &Checked,
     simulation: &Simulation,
-    options: &Options,
+    options: &CompileOptions,
 ) -> Result<SimulationRun, Failure> {
     let bar = Progress::new("simulating", 0);
-    let run = pipeline::run_simulation(file.program(), simulation, options, &mut |done, all| {
-        bar.set_total(all as u64);
-        bar.set(done as u64);
-    });
-    run.map_err(|faults| file.failure(faults))
+    let mut observer = |done, all| {
+        bar.set_total(all);
+        bar.set(done);
+    };
+    Ok(session.simulate(file, simulation, options, &mut observer)?)
 }
 
 /// The names of the runs' files: the circuit's, with the swarm's where a test runs as several, and a number where a
@@ -248,7 +250,7 @@ fn stems(runs: &[Ran]) -> Vec<String> {
 fn drawings(ran: &Ran, scheme: Scheme) -> Drawn<'_> {
     let SwarmRun { compiled, trace } = ran.swarm();
     let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
-    let schematic = report::draw_schematic(&compiled.mapped, &robots, &compiled.timing.critical_path, scheme);
+    let schematic = report::draw_schematic(&compiled.mapping.netlist, &robots, &compiled.timing.critical_path, scheme);
     Drawn { ran, spacetime: report::draw_swarm(trace), schematic, files: Vec::new() }
 }
 
@@ -336,5 +338,5 @@ fn result<'a>(source: &'a str, drawn: &'a [Drawn<'a>]) -> RunResult<'a> {
 
 fn timing(ran: &Ran) -> SwarmTiming {
     let compiled = &ran.swarm().compiled;
-    SwarmTiming::of(&compiled.mapped, &compiled.timing, &compiled.assembly)
+    SwarmTiming::of(&compiled.mapping.netlist, &compiled.timing, &compiled.assembly)
 }

@@ -9,11 +9,12 @@ use serde::Serialize;
 
 use crate::circuit::formats::Design;
 use crate::circuit::{self, Netlist, levels, registers};
-use crate::cli::mapping::{MappingArguments, functions, synthesize};
+use crate::cli::mapping::{MappingArguments, functions};
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::report::Schema;
-use crate::store::{self, CircuitFault};
+use crate::session::synthesize;
+use crate::store;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -86,7 +87,7 @@ impl Arguments {
         };
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let options = self.mapping.options();
-        let mapped = synthesize(&source, &library, options)?;
+        let mapped = synthesize(source.clone(), &library, options).map_err(Failure::plain)?.netlist;
         let result = Design { logic: mapped, registers: if expand { Vec::new() } else { design.registers.clone() } };
         if let (Some(path), Some(target)) = (&self.output, target) {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
@@ -96,7 +97,8 @@ impl Arguments {
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, crate::circuit::CellKind::uniform(1, 1.0));
-            let cells = synthesize(&source, &more, options)?.cells().count();
+            let found = synthesize(source.clone(), &more, options).map_err(Failure::plain)?;
+            let cells = found.netlist.cells().count();
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
         }
         match context.format {
@@ -153,10 +155,4 @@ fn format(path: &Path) -> Result<circuit::formats::Format, Failure> {
             format!("unrecognized circuit format of `{}`; expected .blif, .aig, .aag, .v, .dot or .nb", path.display());
         Failure::plain(Diagnostic::without_place(Code::BadValue, message))
     })
-}
-
-impl From<CircuitFault> for Failure {
-    fn from(fault: CircuitFault) -> Self {
-        Self::input(fault.diagnostics, fault.sources)
-    }
 }

@@ -7,7 +7,7 @@ use crate::source::{Sources, Span};
 
 /// All diagnostics in their order, as `docs/schema/diagnostics.json` describes them: a place is `file`, `start` and `end`, each with its
 /// byte from 0, and its line and column from 1.
-pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> Value {
+pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<Value> {
     diagnostics.iter().map(|diagnostic| one(diagnostic, sources)).collect()
 }
 

@@ -4,6 +4,7 @@
 mod code;
 mod counted;
 mod diagnostic;
+mod diagnostics;
 mod file;
 mod fix;
 mod json;
@@ -13,6 +14,7 @@ mod visible;
 
 pub use code::Code;
 pub use counted::counted;
+pub use diagnostics::Diagnostics;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
 pub use file::io_words;
 pub use fix::{Edit, Fix};

@@ -3,31 +3,16 @@
 use std::path::Path;
 
 use crate::circuit::formats::{Design, Format, aiger, bench, blif};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileError, Sources};
 use crate::store::{disk, yosys};
 use crate::syntax;
-
-/// The errors of a circuit file.
-#[derive(Debug)]
-pub struct CircuitFault {
-    /// The diagnostics.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The texts that they point into.
-    pub sources: Sources,
-}
-
-impl From<Diagnostic> for CircuitFault {
-    fn from(diagnostic: Diagnostic) -> Self {
-        Self { diagnostics: vec![diagnostic], sources: Sources::default() }
-    }
-}
 
 /// Reads a circuit; `clock` names the clock of registers for which the file names none.
 ///
 /// # Errors
 /// A file that cannot be read, of an unknown format, or damaged.
-pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, CircuitFault> {
+pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnostics> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     match ending.as_str() {
         "aig" | "aag" => {
@@ -79,11 +64,11 @@ fn canonical(text: String) -> Result<String, Diagnostic> {
     Ok(syntax::format(&sources, file, &parsed.tree))
 }
 
-fn unreadable(path: &Path, error: &FileError) -> CircuitFault {
+fn unreadable(path: &Path, error: &FileError) -> Diagnostics {
     Diagnostic::unreadable(&path.display().to_string(), error).into()
 }
 
-fn text(path: &Path) -> Result<String, CircuitFault> {
+fn text(path: &Path) -> Result<String, Diagnostics> {
     disk::read_text(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))
 }
 
@@ -92,9 +77,9 @@ fn parse(
     name: String,
     text: String,
     read: impl FnOnce(&str, crate::source::FileId) -> Result<Design, Vec<Diagnostic>>,
-) -> Result<Design, CircuitFault> {
+) -> Result<Design, Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
     let read = read(&sources.file(file).text, file);
-    read.map_err(|diagnostics| CircuitFault { diagnostics, sources })
+    read.map_err(|diagnostics| Diagnostics { list: diagnostics, sources })
 }

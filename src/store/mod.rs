@@ -18,7 +18,7 @@ mod yosys;
 
 pub use atomic::{create_folder, write, write_with};
 pub use checkpoint::{Checkpoint, Declared};
-pub use circuit_file::{CircuitFault, encode_circuit, read_circuit};
+pub use circuit_file::{encode_circuit, read_circuit};
 pub use disk::{
     DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
 };

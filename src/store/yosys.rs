@@ -7,9 +7,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::diag::{Code, Diagnostic, io_words};
+use crate::diag::{Code, Diagnostic, Diagnostics, io_words};
 use crate::source::{Sources, Span};
-use crate::store::CircuitFault;
 
 /// The names in the temporary folder.
 const SOURCE: &str = "source.v";
@@ -25,7 +24,7 @@ const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -au
 ///
 /// # Errors
 /// When Yosys is missing or refuses the source.
-pub(super) fn flatten(path: &Path, source: String) -> Result<String, CircuitFault> {
+pub(super) fn flatten(path: &Path, source: String) -> Result<String, Diagnostics> {
     let folder = prepare(path, &source).map_err(|error| {
         let message = format!("cannot write a temporary folder: {}", io_words(&error));
         Diagnostic::without_place(Code::Unwritable, message)
@@ -64,7 +63,7 @@ fn link(folder: &Path, at: &Path) -> std::io::Result<()> {
 }
 
 /// The error message of Yosys, at the line of the user's file.
-fn fault(path: &Path, source: String, said: &str) -> CircuitFault {
+fn fault(path: &Path, source: String, said: &str) -> Diagnostics {
     let line = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
     let message = format!("yosys cannot read `{}`", path.display());
     let mut sources = Sources::default();
@@ -82,7 +81,7 @@ fn fault(path: &Path, source: String, said: &str) -> CircuitFault {
             Diagnostic::without_place(Code::CircuitFile, format!("{message}: {line}"))
         }
     };
-    CircuitFault { diagnostics: vec![diagnostic], sources }
+    Diagnostics { list: vec![diagnostic], sources }
 }
 
 /// The line of the source and the reason of a message such as `source.v:3: ERROR: syntax error`.
@@ -105,7 +104,7 @@ mod tests {
     #[test]
     fn errors_of_yosys_are_shown_at_the_line_of_the_users_file() {
         let source = "module a;\nwrong\nendmodule\n".to_owned();
-        let CircuitFault { diagnostics, sources } =
+        let Diagnostics { list: diagnostics, sources } =
             fault(Path::new("my file.v"), source, "\nsource.v:2: ERROR: syntax error, unexpected TOK_ENDMODULE\n");
         let label = &diagnostics[0].labels[0];
         assert_eq!(sources.text(label.span), "wrong");
@@ -116,7 +115,7 @@ mod tests {
     #[test]
     fn errors_of_yosys_in_an_included_file_show_its_path() {
         let said = "included/part.vh:7: ERROR: syntax error";
-        let CircuitFault { diagnostics, .. } = fault(Path::new("folder/a.v"), String::new(), said);
+        let Diagnostics { list: diagnostics, .. } = fault(Path::new("folder/a.v"), String::new(), said);
         assert_eq!(diagnostics[0].message, "yosys cannot read `folder/a.v`: folder/part.vh:7: ERROR: syntax error");
     }
 }

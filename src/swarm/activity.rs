@@ -47,21 +47,22 @@ pub struct RowActivity {
 }
 
 /// What the outputs did, row by row.
-///
-/// # Panics
-/// When the trace is shorter than the schedule.
+/// A trace that is shorter than the schedule has the rows that were held to their end.
 pub fn activity(simulation: &Simulation, trace: &SwarmTrace) -> Vec<RowActivity> {
     let mut start = 0;
     let row = |(at, spell): (usize, &crate::model::InputSpell)| {
         let cycles = start..start + spell.cycles as usize;
         start = cycles.end;
+        if cycles.end > trace.cycles.len() {
+            return None;
+        }
         let outputs = |cycle: usize| trace.output_values(cycle);
         // The first cycle has no cycle before it.
         let changed = |port: usize| {
             cycles.clone().filter(move |&cycle| cycle > 0 && outputs(cycle - 1)[port] != outputs(cycle)[port])
         };
         let ports = 0..trace.outputs.len();
-        RowActivity {
+        Some(RowActivity {
             row: at + 1,
             line: spell.line,
             inputs: Value::of_ports(&trace.inputs, spell.inputs.iter().copied().map(Some), &spell.bases),
@@ -69,7 +70,7 @@ pub fn activity(simulation: &Simulation, trace: &SwarmTrace) -> Vec<RowActivity>
             observed: cycles.end.checked_sub(1).map_or(Vec::new(), outputs),
             changes: ports.clone().map(|port| changed(port).count()).collect(),
             last_change: ports.map(|port| changed(port).next_back().map(|cycle| cycle + 1)).collect(),
-        }
+        })
     };
-    simulation.spells.iter().enumerate().map(row).collect()
+    simulation.spells.iter().enumerate().map_while(row).collect()
 }

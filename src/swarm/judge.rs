@@ -59,10 +59,10 @@ pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> V
 }
 
 /// Judges a trace whose cycles are the rows of a test one after another, held as demanded; `clocks[k]` is the clock of robot `k` in
-/// cycles.
+/// cycles. Of a trace that is shorter than its rows, the rows that were held to their end are judged.
 ///
 /// # Panics
-/// When the trace is shorter than its rows, or a row has no cycle.
+/// When a row has no cycle.
 pub fn judge_swarm(
     test: &CircuitTest,
     rows: &[TestRow],
@@ -74,6 +74,9 @@ pub fn judge_swarm(
     let judge = |(row, demand): (&TestRow, &Demand)| {
         let cycles = start..start + demand.hold;
         start = cycles.end;
+        if cycles.end > trace.cycles.len() {
+            return None;
+        }
         let last = &trace.cycles[cycles.end - 1];
         let steady = steady_outputs(trace, &cycles);
         let verdict = judge_row(test, row, &last.outputs, &steady);
@@ -81,9 +84,9 @@ pub fn judge_swarm(
         let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
         let late = late.filter(|lapse| lapse.cycle + 1 == cycles.end).collect();
         let lapses = wrong.into_iter().map(|(lapse, _)| lapse).collect();
-        RowVerdict { cycles: Some(demand.hold), needed: Some(demand.needed), lapses, late, ..verdict }
+        Some(RowVerdict { cycles: Some(demand.hold), needed: Some(demand.needed), lapses, late, ..verdict })
     };
-    rows.iter().zip(demands).map(judge).collect()
+    rows.iter().zip(demands).map_while(judge).collect()
 }
 
 /// Which outputs had one value over the last cycles of a row.

@@ -6,7 +6,7 @@ use nbc::evolve::Search;
 use nbc::model::{
     Axis, Count, Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Spell, Symmetry,
 };
-use nbc::pipeline;
+use nbc::Session;
 use nbc::source::MemoryWorld;
 use nbc::swarm::evolve_generation;
 
@@ -44,7 +44,7 @@ evolution base {
 fn declared(fields: &str) -> Evolution {
     let mut world = MemoryWorld::default();
     world.insert("run.nb", format!("{DECLARATIONS}\nevolution run {{ from: base, {fields} }}\n"));
-    let checked = pipeline::load(&world, "run.nb").checked;
+    let checked = Session::new(world).checked("run.nb");
     assert_eq!(checked.diagnostics, [], "{fields}");
     checked.program.evolution("run").unwrap().clone()
 }
@@ -134,7 +134,8 @@ fn each_field_makes_another_run() {
 fn the_papers_experiment_is_declared_as_the_paper_says() {
     let mut world = MemoryWorld::default();
     world.insert("paper.nb", include_str!("../../library/paper.nb"));
-    let program = pipeline::load(&world, "paper.nb").checked.program;
+    let checked = Session::new(world).checked("paper.nb");
+    let program = &checked.program;
     for (name, side) in [("paper5", 5), ("paper7", 7), ("paper10", 10)] {
         let run = program.evolution(name).unwrap();
         assert_eq!((run.width, run.height), (side, side));

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use nbc::evolve::{Search, recodings};
 use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
-use nbc::pipeline;
+use nbc::Session;
 use nbc::sim::Simulator;
 use nbc::sim::run_trials;
 use nbc::source::MemoryWorld;
@@ -271,8 +271,7 @@ fn each_generation_writes_a_line_and_the_run_prints_a_table() {
 fn declared(name: &str) -> Evolution {
     let mut world = MemoryWorld::default();
     world.insert("runs.nb", RUNS);
-    let evolutions = pipeline::load(&world, "runs.nb").checked.program.evolutions;
-    evolutions.into_iter().find(|evolution| evolution.name == name).unwrap()
+    Session::new(world).checked("runs.nb").program.evolution(name).unwrap().clone()
 }
 
 #[test]

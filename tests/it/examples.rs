@@ -51,5 +51,5 @@ fn a_file_with_errors_ends_with_status_two_and_writes_nothing() {
 
 #[test]
 fn the_adder_of_nine_robots_adds() {
-    nbc::run_file(root().join("circuits/full_adder.nb"), &nbc::Options::default()).unwrap().assert_passed();
+    nbc::run_file(root().join("circuits/full_adder.nb"), &nbc::CompileOptions::default()).unwrap().assert_passed();
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use nbc::check::{self, Checked};
+use nbc::check::{self, Analysis};
 use nbc::circuit::{Logic, elaborate, elaborate_reference};
 use nbc::diag::render;
 use nbc::model::{CircuitTest, Palette, Program, Stimulation};
@@ -28,7 +28,7 @@ pub(crate) fn programs(folder: &str) -> Vec<PathBuf> {
 pub(crate) fn sound(name: &str, text: &str) -> Program {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
-    let Checked { program, diagnostics } = check::check(&MemoryWorld::default(), &mut sources, file);
+    let Analysis { program, diagnostics } = check::check(&MemoryWorld::default(), &mut sources, file);
     assert!(diagnostics.is_empty(), "{}", render::text(&diagnostics, &sources, false));
     program
 }

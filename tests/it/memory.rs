@@ -210,7 +210,7 @@ fn run(program: &str) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("memory.nb");
     std::fs::write(&path, program).unwrap();
-    nbc::run_file(&path, &nbc::Options::default()).unwrap_or_else(|error| panic!("{error}")).assert_passed();
+    nbc::run_file(&path, &nbc::CompileOptions::default()).unwrap_or_else(|error| panic!("{error}")).assert_passed();
 }
 
 #[test]
@@ -229,8 +229,8 @@ fn ones_are_shifted_in_step_by_step_in_physics() {
 fn gallery(library: &CellLibrary) -> Vec<Netlist> {
     let mut found = Vec::new();
     for path in programs("circuits") {
-        let loaded = nbc::pipeline::load(&DiskWorld, path.to_str().unwrap());
-        let program = &loaded.checked.program;
+        let checked = nbc::Session::new(DiskWorld).checked(path.to_str().unwrap());
+        let program = &checked.program;
         let circuits: std::collections::BTreeSet<_> =
             program.tests.iter().map(|test| test.circuit.to_string()).collect();
         let of = |name: &String| program.tests.iter().find(|test| test.circuit.to_string() == *name).unwrap();

@@ -7,7 +7,7 @@ use nbc::evolve::Elite;
 use nbc::model::{
     Body, CYCLE_STEPS, Column, Function, Material, MaterialKind, Palette, Pattern, Robot, Schedule, Spell, Trial,
 };
-use nbc::pipeline::{self, Options};
+use nbc::session;
 use nbc::sim::{Simulator, run_trials};
 use nbc::store::{self, Checkpoint, DiskWorld};
 use nbc::swarm::{self, Assembly, Exposure, Member, Signal};
@@ -277,7 +277,7 @@ test inverter \"turns over\" {
 }
 ";
     let file = bench.file("two.nb", source);
-    let report = pipeline::run_file(&file, &Options::default()).unwrap();
+    let report = session::run_file(&file, &nbc::CompileOptions::default()).unwrap();
     let traces: Vec<_> = report.tests.iter().map(|run| &run.swarm.as_ref().unwrap().trace.robots[0]).collect();
     let [of_paper, of_own] = traces[..] else { panic!("the test runs once for each swarm") };
     assert_eq!((of_paper.robot.as_str(), of_own.robot.as_str()), (not.name.as_str(), "own_not"));

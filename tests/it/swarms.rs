@@ -5,12 +5,12 @@ use std::fs;
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
 use nbc::model::{CYCLE_STEPS, Function, Robot};
-use nbc::pipeline::SwarmRun;
+use nbc::session::SwarmRun;
 use nbc::report::describe_test;
 use nbc::sim::Simulator;
 use nbc::store::shipped_library;
 use nbc::swarm::{Assembly, Exposure, Member, Signal, simulate};
-use nbc::{Options, RunReport};
+use nbc::{CompileOptions, RunReport};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -36,7 +36,7 @@ fn program(truth: u8) -> String {
 }
 
 /// Runs a program's tests in physics.
-fn run(program: &str, options: &Options) -> RunReport {
+fn run(program: &str, options: &CompileOptions) -> RunReport {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("f.nb");
     fs::write(&path, program).unwrap();
@@ -49,10 +49,10 @@ fn swarm(report: &RunReport) -> &SwarmRun {
 }
 
 fn check(truth: u8) {
-    let report = run(&program(truth), &Options::default());
+    let report = run(&program(truth), &CompileOptions::default());
     report.assert_passed();
     let compiled = &swarm(&report).compiled;
-    println!("{truth:08b}: {} robots, hold {}", compiled.mapped.cells().count(), compiled.timing.hold);
+    println!("{truth:08b}: {} robots, hold {}", compiled.mapping.netlist.cells().count(), compiled.timing.hold);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn some_functions_of_three_inputs_compute() {
 #[test]
 fn a_short_hold_is_reported_with_a_sufficient_one() {
     let latch = fs::read_to_string("circuits/latch.nb").unwrap().replace("1 1 | 1", "1 1 | 1 for 2 cycles");
-    let report = run(&latch, &Options::default());
+    let report = run(&latch, &CompileOptions::default());
     let told = describe_test(&report.tests[0].verdict);
     let needed = swarm(&report).compiled.timing.hold + 1;
     assert!(!report.passed());
@@ -78,7 +78,7 @@ fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
     library.robots[not].body = library.robots[buf].body.clone();
     let name = library.robots[not].name.clone();
     let inverter = "circuit flip(a) -> (y) {\n    y = not a\n}\ntest flip \"inverts\" {\n    a | y\n    0 | 1\n}\n";
-    let report = run(inverter, &Options { library: Some(library), ..Options::default() });
+    let report = run(inverter, &CompileOptions { robots: Some(library), ..CompileOptions::default() });
     let told = describe_test(&report.tests[0].verdict);
     assert!(told.contains(&format!("robot {name} on net y output 0 on stimuli 0")), "{told}");
     assert!(told.contains(&format!("nearest fix: another robot than {name} on net y")), "{told}");
@@ -117,9 +117,9 @@ fn fifty_random_functions_of_three_inputs_compute() {
 fn every_circuit_of_the_gallery_computes() {
     let mut failed = String::new();
     for path in programs("circuits") {
-        let report = nbc::run_file(&path, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        let report = nbc::run_file(&path, &CompileOptions::default()).unwrap_or_else(|error| panic!("{error}"));
         for test in &report.tests {
-            let robots = test.swarm.as_ref().unwrap().compiled.mapped.cells().count();
+            let robots = test.swarm.as_ref().unwrap().compiled.mapping.netlist.cells().count();
             let (passed, hold) = (test.verdict.passed, test.swarm.as_ref().unwrap().compiled.timing.hold);
             println!("{} `{}`: {robots} robots, hold {hold}, passed {passed}", path.display(), test.verdict.title);
             if robots < 40 && !passed {
@@ -132,9 +132,9 @@ fn every_circuit_of_the_gallery_computes() {
 
 #[test]
 fn measured_settle_times_are_within_the_clocks() {
-    let report = nbc::run_file("circuits/half_adder.nb", &Options::default()).unwrap();
+    let report = nbc::run_file("circuits/half_adder.nb", &CompileOptions::default()).unwrap();
     let compiled = &swarm(&report).compiled;
     let cells = nbc::swarm::cells(&shipped_library());
-    let measured = Timing::of(&compiled.mapped, &cells, Delays::Transition);
+    let measured = Timing::of(&compiled.mapping.netlist, &cells, Delays::Transition);
     assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);
 }

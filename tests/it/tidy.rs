@@ -18,7 +18,7 @@ const LAYERS: &[(&str, u8)] = &[
     ("swarm", 3),
     ("store", 3),
     ("report", 4),
-    ("pipeline", 5),
+    ("session", 5),
     ("cli", 6),
 ];
 
@@ -46,7 +46,7 @@ fn product_code(text: &str) -> &str {
     text.split("#[cfg(test)]").next().unwrap()
 }
 
-/// The folder under `src` that a file belongs to; `pipeline` and `lib` are files.
+/// The folder under `src` that a file belongs to; `lib` and `main` are files.
 fn folder(path: &Path) -> String {
     let inside = path.strip_prefix(root().join("src")).unwrap();
     let first = inside.components().next().unwrap().as_os_str().to_string_lossy().into_owned();

@@ -1,7 +1,5 @@
 //! Pictures of the circuits of a source file, and of the swarms of its tests and simulations.
 
-use std::path::Path;
-
 use crate::circuit::formats::dot;
 use crate::circuit::is_same_instance;
 use crate::cli::Failure;
@@ -9,12 +7,12 @@ use crate::cli::draw::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::several::{One, Several};
-use crate::cli::program::SourceProgram;
 use crate::cli::run::{Ran, run_page, run_simulation, run_test};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitTest, Instance, Robot};
-use crate::pipeline::{self, Compiled, SwarmRun, TestRun};
+use crate::model::{CircuitTest, Instance, Robot, Swarm};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
+use crate::session::{self, Checked, CompileOptions, Compiled, Session, SwarmRun};
+use crate::store::DiskWorld;
 use crate::swarm::{Assembly, SwarmTrace};
 
 impl Arguments {
@@ -32,11 +30,11 @@ impl Arguments {
     /// What needs no simulation.
     fn draw_circuit(&self, canvas: &Canvas, compiled: &Compiled) -> Result<(), Failure> {
         match self.kind {
-            Kind::Dot => canvas.bytes(dot::write(&compiled.mapped).as_bytes()),
+            Kind::Dot => canvas.bytes(dot::write(&compiled.mapping.netlist).as_bytes()),
             Kind::Sprite => self.draw_several(canvas, &cast(&compiled.assembly)),
             _ => {
                 let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
-                let (netlist, path) = (&compiled.mapped, &compiled.timing.critical_path);
+                let (netlist, path) = (&compiled.mapping.netlist, &compiled.timing.critical_path);
                 canvas.picture(&report::draw_schematic(netlist, &robots, path, self.scheme()))
             }
         }
@@ -71,43 +69,38 @@ impl Arguments {
 
     /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
     fn compiled(&self) -> Result<Compiled, Failure> {
-        let mut file = SourceProgram::load(Path::new(&self.what))?;
+        let mut session = Session::new(DiskWorld);
+        let file = session.open(&self.what)?;
         let mut choice = self.circuit.choice();
         if let Some(name) = &self.test {
             choice.circuit = Some(test_called(&file, name)?.circuit.to_string());
         }
-        let chosen = pipeline::choose(&mut file.loaded, &choice, true);
-        let (circuit, swarm) = chosen.map_err(|fault| file.failure(vec![fault]))?;
-        let program = file.program();
-        let place = program.circuit(&circuit.circuit).expect("the circuit was found").span;
-        let compiled = pipeline::plan(program, &circuit, swarm.as_ref(), &self.runs.options())
-            .and_then(|plan| pipeline::compile(program, plan, place));
-        compiled.map_err(|faults| file.failure(faults))
+        let circuit = file.circuit(&choice)?;
+        let options = CompileOptions { swarm: choice.swarm, ..self.runs.options() };
+        Ok(session.compile(&file, &circuit, &options)?)
     }
 
     /// The chosen test, run in full physics: the first one, or the first simulation where the file has no test.
     fn ran(&self) -> Result<Ran, Failure> {
-        let mut file = SourceProgram::load(Path::new(&self.what))?;
+        let mut session = Session::new(DiskWorld);
+        let file = session.open(&self.what)?;
         let choice = self.circuit.choice();
-        let chosen = match choice.circuit.is_some() || choice.swarm.is_some() {
-            true => {
-                Some(pipeline::choose(&mut file.loaded, &choice, false).map_err(|fault| file.failure(vec![fault]))?.0)
-            }
-            false => None,
-        };
-        let (program, options) = (file.program(), self.runs.options());
+        let is_choice = choice.circuit.is_some() || choice.swarm.is_some();
+        let chosen = if is_choice { Some(file.circuit(&choice)?) } else { None };
+        let program = &file.program;
         let is_chosen =
             |circuit: &Instance| chosen.as_ref().is_none_or(|chosen| is_same_instance(program, chosen, circuit));
         let test = match &self.test {
             Some(name) => Some(test_called(&file, name)?),
             None => program.tests.iter().find(|test| is_chosen(&test.circuit)),
         };
+        let options = CompileOptions { swarm: choice.swarm.clone(), ..self.runs.options() };
         if let Some(test) = test {
-            let mut runs = run_test(&file, test, choice.swarm.as_deref(), &options)?;
-            return match runs.len() {
-                1 => Ok(Ran::Test(runs.remove(0))),
-                _ => Err(Failure::plain(several_swarms(&runs))),
-            };
+            let swarms = session::swarms_of(program, &test.circuit);
+            if swarms.len() > 1 && options.swarm.is_none() {
+                return Err(Failure::plain(several_swarms(&test.circuit, &swarms)));
+            }
+            return Ok(Ran::Test(run_test(&session, &file, test, &options)?.remove(0)));
         }
         let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");
         let simulation = program.simulations.iter().find(|simulation| {
@@ -115,7 +108,7 @@ impl Arguments {
                 && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
         });
         match simulation {
-            Some(simulation) => Ok(Ran::Simulation(run_simulation(&file, simulation, &options)?)),
+            Some(simulation) => Ok(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?)),
             None => {
                 let what = chosen.map_or_else(|| format!("`{}`", self.what), |circuit| format!("`{circuit}`"));
                 let message = format!("{what} has no test and no simulation, so there is no run to draw");
@@ -126,17 +119,16 @@ impl Arguments {
     }
 }
 
-fn several_swarms(runs: &[TestRun]) -> Diagnostic {
-    let swarms: Vec<String> =
-        runs.iter().filter_map(|run| run.verdict.swarm.as_ref()).map(|swarm| format!("`--swarm {swarm}`")).collect();
-    let message = format!("several swarms are declared for `{}`", runs[0].verdict.circuit);
+fn several_swarms(circuit: &Instance, swarms: &[&Swarm]) -> Diagnostic {
+    let swarms: Vec<String> = swarms.iter().map(|swarm| format!("`--swarm {}`", swarm.name)).collect();
+    let message = format!("several swarms are declared for `{circuit}`");
     Diagnostic::without_place(Code::BadValue, message).with_help(format!("choose one: {}", swarms.join(" or ")))
 }
 
 /// The first test of that title or circuit.
-fn test_called<'f>(file: &'f SourceProgram, name: &str) -> Result<&'f CircuitTest, Failure> {
-    let program = file.program();
-    let found = program.tests.iter().find(|test| pipeline::is_called(program, test, name));
+fn test_called<'f>(file: &'f Checked, name: &str) -> Result<&'f CircuitTest, Failure> {
+    let program = &file.program;
+    let found = program.tests.iter().find(|test| session::is_called(program, test, name));
     found.ok_or_else(|| {
         let message = format!("no test of `{}` is called `{name}`", file.path);
         Failure::plain(Diagnostic::without_place(Code::Unknown, message))

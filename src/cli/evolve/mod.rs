@@ -16,7 +16,7 @@ use crate::cli::{Context, Failure, Format, Interrupt, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, Objective};
-use crate::pipeline;
+use crate::session::{self, Session};
 use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
 use crate::sim::Simulator;
 use crate::store::{self, DiskWorld};
@@ -216,13 +216,10 @@ impl Arguments {
 
     /// The evolutions of the file, or of the prelude without a file, or the one given by name.
     fn chosen(&self) -> Result<Vec<Evolution>, Failure> {
-        let prelude = pipeline::prelude().evolutions;
+        let prelude = session::prelude().evolutions;
         let Some(path) = &self.file else { return self.named(prelude.clone(), prelude) };
-        let loaded = pipeline::load(&DiskWorld, &path.to_string_lossy());
-        if loaded.checked.has_errors() {
-            return Err(Failure::input(loaded.checked.diagnostics, loaded.sources));
-        }
-        let all = loaded.checked.program.evolutions;
+        let checked = Session::new(DiskWorld).open(&path.to_string_lossy())?;
+        let all = checked.program.evolutions.clone();
         let own: Vec<Evolution> = all.iter().filter(|evolution| !prelude.contains(evolution)).cloned().collect();
         if own.is_empty() && self.run.is_none() {
             let message = format!("`{}` declares no evolution", path.display());

@@ -1,15 +1,17 @@
 //! `nbc test`: files' tests, at the level of logic or in full physics.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 
-use crate::cli::program::{RunsArguments, SourceProgram};
+use crate::cli::program::RunsArguments;
 use crate::cli::{Context, Failure, Format, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic, counted};
-use crate::pipeline::{self, Case, Options};
 use crate::report::{self, Schema};
+use crate::session::{Checked, Session, TestCase, TestOptions};
+use crate::store::DiskWorld;
 use crate::swarm::{Level, TestVerdict};
 
 /// Test the circuits of a file
@@ -38,7 +40,7 @@ pub struct Arguments {
 }
 
 /// A case with the index of its file on the command line.
-type Numbered<'a> = (usize, Case<'a>);
+type Numbered<'a> = (usize, TestCase<'a>);
 
 impl Arguments {
     /// Runs the tests in parallel and prints each result as soon as those before it are done.
@@ -46,13 +48,13 @@ impl Arguments {
     /// # Errors
     /// When a file has errors or declares no test; then no test runs.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let files = self.files.iter().map(|file| load(file)).collect::<Result<Vec<_>, _>>()?;
-        let options = self.runs.options();
-        let cases = self.cases(&files, &options)?;
+        let mut session = Session::new(DiskWorld);
+        let files = self.files.iter().map(|file| load(&mut session, file)).collect::<Result<Vec<_>, _>>()?;
+        let cases = self.cases(&session, &files)?;
         for file in &files {
-            file.warn(&file.loaded.checked.diagnostics, context);
+            context.warn(file, &file.diagnostics);
         }
-        let verdicts = run_cases(&cases, &files, &options, context)?;
+        let verdicts = run_cases(&session, &cases, &files, context)?;
         let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
         match context.format {
             Format::Json => {
@@ -72,21 +74,21 @@ impl Arguments {
     }
 
     /// The tests of the files, in order.
-    fn cases<'a>(&self, files: &'a [SourceProgram], options: &Options) -> Result<Vec<Numbered<'a>>, Failure> {
+    fn cases<'a>(&self, session: &Session, files: &'a [Arc<Checked>]) -> Result<Vec<Numbered<'a>>, Failure> {
+        let options = TestOptions { level: self.level(), compile: self.runs.options() };
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
-            for test in &file.program().tests {
-                let of_test = pipeline::cases(file.program(), test, self.level(), options);
-                cases.extend(of_test.map_err(|faults| file.failure(faults))?.into_iter().map(|case| (number, case)));
+            for test in &file.program.tests {
+                cases.extend(session.cases(file, test, &options)?.into_iter().map(|case| (number, case)));
             }
         }
         Ok(cases)
     }
 }
 
-fn load(path: &std::path::Path) -> Result<SourceProgram, Failure> {
-    let file = SourceProgram::load(path)?;
-    if file.program().tests.is_empty() {
+fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
+    let file = session.open(&path.to_string_lossy())?;
+    if file.program.tests.is_empty() {
         let fault = Diagnostic::without_place(Code::Empty, format!("`{}` declares no test", file.path));
         let help = "declare one: `test my_circuit { a b | q` and a row for each input pattern";
         return Err(Failure::plain(fault.with_help(help)));
@@ -96,21 +98,21 @@ fn load(path: &std::path::Path) -> Result<SourceProgram, Failure> {
 
 /// Runs the tests; in text format each verdict is printed when it is known.
 fn run_cases(
+    session: &Session,
     cases: &[Numbered<'_>],
-    files: &[SourceProgram],
-    options: &Options,
+    files: &[Arc<Checked>],
     context: &mut Context,
 ) -> Result<Vec<TestVerdict>, Failure> {
     let bar = Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum());
     // What the swarm did is large and nobody asks for it.
     let run = |(file, case): &Numbered<'_>| {
-        let run = case.clone().run(options, &mut |done| bar.add(done));
+        let run = session.run_case(case.clone(), &mut bar.part());
         (*file, run.verdict, run.warnings)
     };
     let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
     let mut tell = |(file, verdict, mut warnings): (usize, TestVerdict, Vec<Diagnostic>)| -> Result<(), Failure> {
         warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
-        files[file].warn(&warnings, context);
+        context.warn(&files[file], &warnings);
         if context.format == Format::Text {
             context.print(describe(&verdict))?;
             context.flush()?;

@@ -1,10 +1,16 @@
-//! A test that is ready to run, at the level of logic or in physics: nothing about it can be at fault any more.
+//! Tests: compiled to cases, which nothing can be wrong with any more, and run at the level of logic or in physics.
 
 use crate::circuit::{Logic, Netlist, Timing, elaborate, elaborate_reference};
 use crate::diag::{Code, Diagnostic, counted};
-use crate::model::{Base, CYCLE_STEPS, CircuitTest, Hold, Program, Stimulation, TestRow};
-use crate::pipeline::{Compiled, Options, SwarmRun, compile, plans};
-use crate::swarm::{self, Demand, Exposure, Level, TestVerdict};
+use crate::model::{Base, CircuitTest, Hold, Program, Stimulation, TestRow};
+use crate::session::compile::{Compiled, compile};
+use crate::session::observer::Observer;
+use crate::session::options::CompileOptions;
+use crate::session::plan::plans;
+use crate::session::robots::Supply;
+use crate::session::swarm_run::{self, RunEnd, SwarmRun};
+use crate::sim::Simulator;
+use crate::swarm::{self, Demand, Level, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
 const MAX_EXHAUSTIVE_BITS: usize = 16;
@@ -18,11 +24,22 @@ const LARGE: usize = 40;
 /// Circuits of as many gates are not compiled to find out: no library makes them of fewer than [`LARGE`] robots.
 const SURELY_LARGE: usize = 10 * LARGE;
 
+/// How a test is run.
+#[derive(Clone, Debug, Default)]
+pub struct TestOptions {
+    /// On gates or on robots; by default on robots where there are few.
+    pub level: Option<Level>,
+    /// How its circuit becomes a swarm.
+    pub compile: CompileOptions,
+}
+
 /// A test with what came of it.
 #[derive(Clone, Debug)]
 pub struct TestRun {
-    /// Whether the circuit did what was asked.
+    /// Whether the circuit did what was asked. A run that was cancelled has not passed, and its verdict has the rows that were done.
     pub verdict: TestVerdict,
+    /// How the run ended.
+    pub end: RunEnd,
     /// What the swarm did; none at the level of logic.
     pub swarm: Option<SwarmRun>,
     /// What is legal and surely not meant.
@@ -31,7 +48,7 @@ pub struct TestRun {
 
 /// A test that is ready to run.
 #[derive(Clone, Debug)]
-pub struct Case<'a> {
+pub struct TestCase<'a> {
     test: &'a CircuitTest,
     rows: Vec<TestRow>,
     subject: Subject,
@@ -44,26 +61,26 @@ enum Subject {
     Robots(Box<Compiled>),
 }
 
-/// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic. Where no level is asked for,
-/// it is that of physics for small swarms.
+/// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
 ///
 /// # Errors
 /// When the circuit cannot be built or compiled, robots cannot be read, or there are too many rows.
-pub fn cases<'a>(
+pub(super) fn cases<'a>(
+    supply: Supply<'_>,
     program: &Program,
     test: &'a CircuitTest,
-    level: Option<Level>,
-    options: &Options,
-) -> Result<Vec<Case<'a>>, Vec<Diagnostic>> {
+    options: &TestOptions,
+) -> Result<Vec<TestCase<'a>>, Vec<Diagnostic>> {
     let rows = rows(program, test)?;
-    let case = |subject| Case { test, rows: rows.clone(), subject };
+    let case = |subject| TestCase { test, rows: rows.clone(), subject };
     let netlist = elaborate(program, &test.circuit)?;
+    let level = options.level;
     if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
         return Ok(vec![case(Subject::Gates(netlist))]);
     }
     let mut cases = Vec::new();
-    for plan in plans(program, &test.circuit, options)? {
-        let compiled = compile(program, plan, test.span)?;
+    for plan in plans(supply, program, &test.circuit, &options.compile)? {
+        let compiled = compile(program, plan, options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
         }
@@ -72,7 +89,7 @@ pub fn cases<'a>(
     Ok(cases)
 }
 
-impl Case<'_> {
+impl TestCase<'_> {
     /// How much there is to do: cycles in physics, rows at the level of logic.
     pub fn work(&self) -> u64 {
         match &self.subject {
@@ -89,16 +106,16 @@ impl Case<'_> {
         }
     }
 
-    /// Runs the test, telling `observe` of each piece of work that is done.
-    pub fn run(self, options: &Options, observe: &mut dyn FnMut(u64)) -> TestRun {
+    /// Runs the test.
+    pub(super) fn run(self, simulator: &Simulator, observer: &mut dyn Observer) -> TestRun {
         match self.subject {
             Subject::Gates(ref netlist) => {
                 let rows = swarm::judge_logic(self.test, &self.rows, netlist);
-                observe(rows.len() as u64);
+                observer.progress(rows.len() as u64, rows.len() as u64);
                 let verdict = verdict(self.test, Level::Logic, None, rows);
-                TestRun { verdict, swarm: None, warnings: Vec::new() }
+                TestRun { verdict, end: RunEnd::Complete, swarm: None, warnings: Vec::new() }
             }
-            Subject::Robots(compiled) => in_physics(self.test, &self.rows, *compiled, options, observe),
+            Subject::Robots(compiled) => in_physics(self.test, &self.rows, *compiled, simulator, observer),
         }
     }
 }
@@ -107,20 +124,19 @@ fn in_physics(
     test: &CircuitTest,
     rows: &[TestRow],
     compiled: Compiled,
-    options: &Options,
-    observe: &mut dyn FnMut(u64),
+    simulator: &Simulator,
+    observer: &mut dyn Observer,
 ) -> TestRun {
     let demands = demands(rows, &compiled);
     let mut warnings = compiled.warnings.clone();
     warnings.extend(short_hold(test, rows, &demands, &compiled));
     let held = rows.iter().zip(&demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
-    let window = compiled.plan.window as usize;
-    let exposure = Exposure { inputs: held.collect(), cycle_steps: CYCLE_STEPS, window };
-    let trace = swarm::simulate(&options.simulator, &compiled.assembly, &exposure, &mut |_| observe(1));
+    let (trace, end) = swarm_run::run(simulator, &compiled, held.collect(), observer);
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
     let judged = swarm::judge_swarm(test, rows, &demands, &trace, &clocks);
-    let verdict = verdict(test, Level::Physics, Some(&compiled), judged);
-    TestRun { verdict, swarm: Some(SwarmRun { compiled, trace }), warnings }
+    let mut verdict = verdict(test, Level::Physics, Some(&compiled), judged);
+    verdict.passed &= end == RunEnd::Complete;
+    TestRun { verdict, end, swarm: Some(SwarmRun { compiled, trace }), warnings }
 }
 
 fn verdict(test: &CircuitTest, level: Level, compiled: Option<&Compiled>, rows: Vec<swarm::RowVerdict>) -> TestVerdict {
@@ -185,9 +201,9 @@ fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
 
 /// Warns where a row is held for fewer cycles than the slowest path needs; names the path.
 fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Option<Diagnostic> {
-    let Compiled { mapped, timing: Timing { hold, critical_path, .. }, .. } = compiled;
+    let Compiled { mapping, timing: Timing { hold, critical_path, .. }, .. } = compiled;
     let needed = *hold as usize;
-    let path: Vec<String> = critical_path.iter().map(|&net| mapped.net_name(net)).collect();
+    let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
     let (row, demand) = rows.iter().zip(demands).find(|(_, demand)| demand.hold < needed)?;
     let message = format!("a hold of {} is too short, expected {needed} at least", counted(demand.hold, "cycle"));
     let place = if row.hold.is_some() { row.span } else { test.span };

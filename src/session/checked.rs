@@ -1,0 +1,70 @@
+//! A source that was parsed and checked, with everything that is needed to speak of it.
+
+use serde_json::Value;
+
+use crate::check;
+use crate::diag::{Diagnostic, Diagnostics, json};
+use crate::model::{Instance, Program};
+use crate::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
+
+/// A source with its program and what was found in its text.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The path by which it was asked for.
+    pub path: String,
+    /// The revision of its text; 0 where the text is the world's.
+    pub revision: u64,
+    /// The texts that spans point into: the source, the prelude, and what the source uses.
+    pub sources: Sources,
+    /// The source itself, where it could be read.
+    pub file: Option<FileId>,
+    /// What could be made of the source; whole only where there are no errors.
+    pub program: Program,
+    /// Errors and warnings, in order of place.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Checked {
+    /// Reads, parses and checks a source. A file that cannot be read is a diagnostic like any other.
+    pub(super) fn read(world: &dyn SourceWorld, path: &str, revision: u64) -> Self {
+        let mut sources = Sources::default();
+        let (file, program, diagnostics) = match check::open(world, path, &mut sources) {
+            Ok(file) => {
+                let analysis = check::check(world, &mut sources, file);
+                (Some(file), analysis.program, analysis.diagnostics)
+            }
+            Err(fault) => (None, Program::default(), vec![fault]),
+        };
+        Self { path: path.to_owned(), revision, sources, file, program, diagnostics }
+    }
+
+    /// Whether there are errors, so that the program has no meaning.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// Diagnostics with this source's texts.
+    pub fn fail(&self, list: Vec<Diagnostic>) -> Diagnostics {
+        Diagnostics { list, sources: self.sources.clone() }
+    }
+
+    /// Its diagnostics as data for programs.
+    pub fn json(&self) -> Vec<Value> {
+        json(&self.diagnostics, &self.sources)
+    }
+
+    /// Where a circuit is declared.
+    ///
+    /// # Panics
+    /// When the program has no such circuit.
+    pub(super) fn place(&self, circuit: &Instance) -> Span {
+        self.program.circuit(&circuit.circuit).expect("the circuit is of this program").span
+    }
+}
+
+/// The program of the prelude alone.
+pub fn prelude() -> Program {
+    let mut sources = Sources::default();
+    let nothing = sources.add("nothing", "");
+    check::check(&MemoryWorld::default(), &mut sources, nothing).program
+}

@@ -1,0 +1,83 @@
+//! Which circuit and which test of a source are meant, by the words of a user.
+
+use crate::circuit::is_same_instance;
+use crate::diag::{Code, Diagnostic, Diagnostics, suggest};
+use crate::model::{CircuitTest, Instance, Program, Swarm};
+use crate::session::checked::Checked;
+
+/// Which circuit of a source is meant; what is left out is chosen by the source.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// A circuit, such as `adder` or `adder[8]`.
+    pub circuit: Option<String>,
+    /// A declared swarm.
+    pub swarm: Option<String>,
+}
+
+impl Checked {
+    /// The circuit that is meant: the one chosen, else that of the chosen swarm, else the last circuit that the source itself declares.
+    /// Where that needs numbers for its parameters, they are those of its swarm or its test.
+    ///
+    /// # Errors
+    /// When there is no such circuit or swarm.
+    pub fn circuit(&self, choice: &Choice) -> Result<Instance, Diagnostics> {
+        match (&choice.circuit, &choice.swarm) {
+            (Some(circuit), _) => self.named(circuit),
+            (None, Some(swarm)) => match declared_swarm(&self.program, swarm) {
+                Ok(swarm) => Ok(swarm.circuit.clone()),
+                Err(fault) => Err(self.fail(vec![fault])),
+            },
+            (None, None) => self.last_circuit().map_err(|fault| self.fail(vec![fault])),
+        }
+    }
+
+    /// The circuit that a text of its own names.
+    fn named(&self, circuit: &str) -> Result<Instance, Diagnostics> {
+        let mut sources = self.sources.clone();
+        let file = sources.add("--circuit", circuit);
+        let named = crate::check::named(&self.program, &sources, file);
+        named.map_err(|fault| Diagnostics { list: vec![fault], sources })
+    }
+
+    /// The last circuit of the source itself.
+    fn last_circuit(&self) -> Result<Instance, Diagnostic> {
+        let program = &self.program;
+        let Some(last) = program.circuits.iter().rfind(|circuit| Some(circuit.span.file) == self.file) else {
+            let help = "choose one that it uses: `--circuit NAME`";
+            return Err(Diagnostic::without_place(Code::Empty, "the file declares no circuit").with_help(help));
+        };
+        if last.parameters.iter().all(|parameter| parameter.default.is_some()) {
+            return Ok(last.name.as_str().into());
+        }
+        let swarms = program.swarms.iter().map(|swarm| &swarm.circuit);
+        let mut used = swarms.chain(program.tests.iter().map(|test| &test.circuit));
+        Ok(used.find(|used| used.circuit == last.name).cloned().unwrap_or_else(|| last.name.as_str().into()))
+    }
+}
+
+/// The swarms that are declared for a circuit, in order.
+pub fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p Swarm> {
+    program.swarms.iter().filter(|swarm| is_same_instance(program, &swarm.circuit, circuit)).collect()
+}
+
+/// The declared swarm of that name.
+///
+/// # Errors
+/// When there is none.
+pub(super) fn declared_swarm<'p>(program: &'p Program, name: &str) -> Result<&'p Swarm, Diagnostic> {
+    program.swarm(name).ok_or_else(|| {
+        let fault = Diagnostic::without_place(Code::Unknown, format!("no swarm is called `{name}`"));
+        match suggest::help(name, program.swarms.iter().map(|swarm| swarm.name.as_str())) {
+            Some(help) => fault.with_help(help),
+            None => fault,
+        }
+    })
+}
+
+/// Whether a test goes by a name: its title, its circuit, or one of its circuit's swarms.
+pub fn is_called(program: &Program, test: &CircuitTest, name: &str) -> bool {
+    test.title == name
+        || test.circuit.circuit == name
+        || test.circuit.to_string() == name
+        || swarms_of(program, &test.circuit).iter().any(|swarm| swarm.name == name)
+}

@@ -1,0 +1,103 @@
+//! A circuit on its way from source to swarm: elaborate, map, prove, time, assemble.
+
+use crate::circuit::timing::Delays;
+use crate::circuit::{CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, map_with, prove};
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Instance, Program};
+use crate::session::plan::Plan;
+use crate::source::Span;
+use crate::swarm::{self, Assembly, WeakRobot};
+
+/// A circuit made of cells, and proved.
+#[derive(Clone, Debug)]
+pub struct Mapping {
+    /// The netlist as written.
+    pub source: Netlist,
+    /// The netlist of cells.
+    pub netlist: Netlist,
+    /// The cells that there were.
+    pub cells: CellLibrary,
+    /// How the two netlists were proved equal.
+    pub proof: Proof,
+}
+
+/// A circuit compiled to a swarm.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// What it is made of.
+    pub plan: Plan,
+    /// The circuit as cells of its robots.
+    pub mapping: Mapping,
+    /// When each net has settled.
+    pub timing: Timing,
+    /// The robots and their wiring.
+    pub assembly: Assembly,
+    /// The robots that make errors or have a thin margin.
+    pub weak_robots: Vec<WeakRobot>,
+    /// What is legal and surely not meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Maps a netlist onto a library's cells, and proves that the result is equal to it.
+///
+/// # Errors
+/// When the library lacks functions, or the netlist is not well formed or too large.
+///
+/// # Panics
+/// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
+pub fn synthesize(source: Netlist, cells: &CellLibrary, options: MapOptions) -> Result<Mapping, Diagnostic> {
+    let netlist = map_with(&source, cells, options).map_err(|error| unmapped(&error))?;
+    match prove(&source, &netlist) {
+        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof }),
+        Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
+    }
+}
+
+fn unmapped(error: &MapError) -> Diagnostic {
+    let code = match error {
+        MapError::Netlist(_) => Code::CircuitFile,
+        MapError::TooLarge { .. } => Code::TooLarge,
+        MapError::Incomplete { .. } => Code::IncompleteLibrary,
+    };
+    let fault = Diagnostic::without_place(code, error.to_string());
+    error.help().into_iter().fold(fault, Diagnostic::with_help)
+}
+
+/// Elaborates a circuit of a program without errors, and maps it as asked for at `place`.
+///
+/// # Errors
+/// When the circuit cannot be built, or the library lacks a function.
+pub(super) fn map(
+    program: &Program,
+    circuit: &Instance,
+    cells: &CellLibrary,
+    options: MapOptions,
+    place: Span,
+) -> Result<Mapping, Vec<Diagnostic>> {
+    let source = elaborate(program, circuit)?;
+    synthesize(source, cells, options).map_err(|fault| vec![fault.with_label(place, "for this circuit")])
+}
+
+/// Compiles a circuit of a program without errors to a swarm of its plan's robots, as asked for at `place`.
+///
+/// # Errors
+/// As [`map`].
+pub(super) fn compile(
+    program: &Program,
+    plan: Plan,
+    options: MapOptions,
+    place: Span,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let mapping = map(program, &plan.circuit, &swarm::cells(&plan.library), options, place)?;
+    let timing = Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock);
+    let assembly = swarm::assemble(&mapping.netlist, &plan.library).expect("the netlist was mapped onto this library");
+    let weak_robots = swarm::weak_robots(&assembly);
+    let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();
+    Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })
+}
+
+fn warn_of(weak: &WeakRobot, plan: &Plan, place: Span) -> Diagnostic {
+    let message = format!("`{}` uses the robot `{}`, {}", plan.circuit, weak.robot, weak.complaint());
+    let help = format!("it drives {}; a library without it, or a longer hold, may do better", weak.nets.join(", "));
+    Diagnostic::new(Code::WeakRobot, message, place, "for this circuit").with_help(help)
+}

@@ -1,0 +1,155 @@
+//! The sources of a session: the texts that it was given over those of its world, and what is known of each.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::session::Checked;
+use crate::source::{FileError, OverlayWorld, SourceWorld};
+
+/// The sources of a session.
+pub(super) struct Documents {
+    world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
+    /// The revisions of the texts that were given, by the identities of their files.
+    revisions: BTreeMap<String, u64>,
+    /// What was checked and still holds, by path.
+    known: BTreeMap<String, Known>,
+}
+
+/// A checked source, with what it was made of.
+struct Known {
+    checked: Arc<Checked>,
+    /// The identities of the files and folders that were asked for.
+    asked: BTreeSet<String>,
+}
+
+impl Documents {
+    pub(super) fn new(world: Box<dyn SourceWorld + Send + Sync>) -> Self {
+        Self { world: OverlayWorld::new(world), revisions: BTreeMap::new(), known: BTreeMap::new() }
+    }
+
+    /// What sources and robots are read from.
+    pub(super) fn world(&self) -> &dyn SourceWorld {
+        &self.world
+    }
+
+    pub(super) fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
+        let identity = self.world.identity(path);
+        if self.revisions.get(&identity).is_some_and(|&known| revision < known) {
+            return;
+        }
+        self.forget(path);
+        self.world.insert(path, text);
+        self.revisions.insert(identity, revision);
+    }
+
+    pub(super) fn close(&mut self, path: &str) {
+        self.forget(path);
+        self.revisions.remove(&self.world.identity(path));
+        self.world.remove(path);
+    }
+
+    pub(super) fn checked(&mut self, path: &str) -> Arc<Checked> {
+        if let Some(known) = self.known.get(path) {
+            return known.checked.clone();
+        }
+        let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
+        let asking = Asking { world: &self.world, asked: RefCell::default() };
+        let checked = Arc::new(Checked::read(&asking, path, revision));
+        let known = Known { checked: checked.clone(), asked: asking.asked.into_inner() };
+        self.known.insert(path.to_owned(), known);
+        checked
+    }
+
+    /// Drops everything that was made of the file at `path` or of the list of its folder.
+    fn forget(&mut self, path: &str) {
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let changed = [path, folder].map(|path| self.world.identity(path));
+        self.known.retain(|_, known| changed.iter().all(|path| !known.asked.contains(path)));
+    }
+}
+
+/// A world that remembers what it was asked for.
+struct Asking<'a> {
+    world: &'a dyn SourceWorld,
+    asked: RefCell<BTreeSet<String>>,
+}
+
+impl Asking<'_> {
+    fn note(&self, path: &str) {
+        self.asked.borrow_mut().insert(self.world.identity(path));
+    }
+}
+
+impl SourceWorld for Asking<'_> {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        self.note(path);
+        self.world.read(path)
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        self.note(folder);
+        self.world.list(folder)
+    }
+
+    fn identity(&self, path: &str) -> String {
+        self.world.identity(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::MemoryWorld;
+
+    const INVERTER: &str = "circuit inverter(a) -> (q) { q = not a }";
+
+    fn documents(files: &[(&str, &str)]) -> Documents {
+        let mut world = MemoryWorld::default();
+        files.iter().for_each(|(path, text)| world.insert(*path, *text));
+        Documents::new(Box::new(world))
+    }
+
+    fn circuits(checked: &Checked) -> Vec<&str> {
+        let own = checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == checked.file);
+        own.map(|circuit| circuit.name.as_str()).collect()
+    }
+
+    #[test]
+    fn a_source_is_checked_again_only_when_its_text_changes() {
+        let mut documents = documents(&[("a.nb", INVERTER), ("b.nb", INVERTER)]);
+        let [first, other] = ["a.nb", "b.nb"].map(|path| documents.checked(path));
+        assert!(Arc::ptr_eq(&first, &documents.checked("a.nb")));
+        documents.update("a.nb", 1, INVERTER.replace("inverter", "n"));
+        let second = documents.checked("a.nb");
+        assert_eq!((second.revision, circuits(&second)), (1, vec!["n"]));
+        assert!(Arc::ptr_eq(&other, &documents.checked("b.nb")), "another source stays as it is");
+        documents.close("a.nb");
+        assert_eq!(circuits(&documents.checked("a.nb")), ["inverter"]);
+    }
+
+    #[test]
+    fn a_text_of_an_older_revision_is_ignored() {
+        let mut documents = documents(&[]);
+        documents.update("a.nb", 5, INVERTER);
+        documents.update("a.nb", 4, "circuit");
+        let checked = documents.checked("a.nb");
+        assert_eq!((checked.revision, &checked.diagnostics[..]), (5, &[][..]));
+    }
+
+    #[test]
+    fn a_source_is_checked_again_when_a_file_that_it_uses_appears() {
+        let mut documents = documents(&[("a.nb", "use \"b.nb\"\ncircuit f(a) -> (q) { q = inverter(a) }")]);
+        assert!(documents.checked("a.nb").has_errors());
+        documents.update("b.nb", 1, INVERTER);
+        assert_eq!(documents.checked("a.nb").diagnostics, []);
+    }
+
+    #[test]
+    fn a_source_is_checked_again_when_a_robot_appears_in_the_folder_of_its_library() {
+        let mut documents = documents(&[("a.nb", "library l { from: \"robots\" }")]);
+        assert!(documents.checked("a.nb").has_errors());
+        documents.update("robots/x.yaml", 1, "");
+        assert!(!documents.checked("a.nb").has_errors());
+    }
+}

@@ -1,0 +1,213 @@
+//! Every stage in order, from source text to a running swarm. Each door (command line, editor, page, cluster) calls a [`Session`] and
+//! repeats none of its steps. A session is a value: it can be dropped at any moment, and two sessions share nothing that changes.
+
+mod checked;
+mod choice;
+mod compile;
+mod documents;
+mod observer;
+mod options;
+mod plan;
+mod report;
+mod robots;
+mod simulation;
+mod swarm_run;
+mod test;
+
+use std::sync::{Arc, OnceLock};
+
+pub use checked::{Checked, prelude};
+pub use choice::{Choice, is_called, swarms_of};
+pub use compile::{Compiled, Mapping, synthesize};
+pub use report::RunReport;
+pub use observer::Observer;
+pub use options::{CompileOptions, RUNS};
+pub use plan::Plan;
+pub use simulation::SimulationRun;
+pub use swarm_run::{RunEnd, SwarmRun};
+pub use test::{TestCase, TestOptions, TestRun};
+
+use crate::circuit::CellLibrary;
+use crate::diag::Diagnostics;
+use crate::model::{CircuitTest, Instance, Library, Simulation};
+use crate::sim::Simulator;
+use crate::source::SourceWorld;
+use crate::swarm::{self, Level};
+use documents::Documents;
+use robots::Supply;
+
+/// From sources in a [`SourceWorld`] to checked programs, compiled circuits, tests and running swarms.
+pub struct Session {
+    documents: Documents,
+    simulator: Simulator,
+    /// The robots in the program, once they have been asked for.
+    shipped: OnceLock<Library>,
+}
+
+impl Session {
+    /// A session over the sources of a world.
+    pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
+        Self { documents: Documents::new(Box::new(world)), simulator: Simulator::default(), shipped: OnceLock::new() }
+    }
+
+    /// The same session, with its robots simulated by `simulator`.
+    pub fn with_simulator(self, simulator: Simulator) -> Self {
+        Self { simulator, ..self }
+    }
+
+    /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than the last is
+    /// ignored.
+    pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
+        self.documents.update(path, revision, text);
+    }
+
+    /// Forgets what was read of `path`, and the text that [`Session::update`] gave it: the world's text counts again.
+    pub fn close(&mut self, path: &str) {
+        self.documents.close(path);
+    }
+
+    /// The source at `path`, parsed and checked; the same value until something that it was made of changes. A file that cannot be read
+    /// has a diagnostic that says so.
+    pub fn checked(&mut self, path: &str) -> Arc<Checked> {
+        self.documents.checked(path)
+    }
+
+    /// The source at `path`, without errors.
+    ///
+    /// # Errors
+    /// Its diagnostics, where one of them is an error.
+    pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
+        let checked = self.checked(path);
+        if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
+    }
+
+    /// The robots that come with the program.
+    pub fn shipped(&self) -> &Library {
+        self.supply().shipped()
+    }
+
+    fn supply(&self) -> Supply<'_> {
+        Supply { world: self.documents.world(), shipped: &self.shipped }
+    }
+
+    /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
+    pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
+        let plan = plan::plan(self.supply(), &checked.program, circuit, options);
+        let cells = swarm::cells(&plan.map_err(|faults| checked.fail(faults))?.library);
+        self.map_onto(checked, circuit, &cells, options)
+    }
+
+    /// Elaborates a circuit, maps it onto cells that need not be of robots, and proves the result.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, or a function is missing among the cells.
+    pub fn map_onto(
+        &self,
+        checked: &Checked,
+        circuit: &Instance,
+        cells: &CellLibrary,
+        options: &CompileOptions,
+    ) -> Result<Mapping, Diagnostics> {
+        let mapping = compile::map(&checked.program, circuit, cells, options.mapping(), checked.place(circuit));
+        mapping.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, robots cannot be read or a function is missing among them, or several swarms are declared and
+    /// none is chosen.
+    pub fn compile(
+        &self,
+        checked: &Checked,
+        circuit: &Instance,
+        options: &CompileOptions,
+    ) -> Result<Compiled, Diagnostics> {
+        let plan = plan::plan(self.supply(), &checked.program, circuit, options);
+        let compiled =
+            plan.and_then(|plan| compile::compile(&checked.program, plan, options.mapping(), checked.place(circuit)));
+        compiled.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Makes a test ready to run: one case for each swarm that is declared for its circuit, or one at the level of logic.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built or compiled, robots cannot be read, or there are too many rows.
+    pub fn cases<'a>(
+        &self,
+        checked: &Checked,
+        test: &'a CircuitTest,
+        options: &TestOptions,
+    ) -> Result<Vec<TestCase<'a>>, Diagnostics> {
+        test::cases(self.supply(), &checked.program, test, options).map_err(|faults| checked.fail(faults))
+    }
+
+    /// Runs one case of a test.
+    pub fn run_case(&self, case: TestCase<'_>, observer: &mut dyn Observer) -> TestRun {
+        case.run(&self.simulator, observer)
+    }
+
+    /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
+    ///
+    /// # Errors
+    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
+    pub fn test(
+        &self,
+        checked: &Checked,
+        test: &CircuitTest,
+        options: &TestOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<TestRun>, Diagnostics> {
+        let cases = self.cases(checked, test, options)?;
+        Ok(cases.into_iter().map(|case| self.run_case(case, observer)).collect())
+    }
+
+    /// Runs a declared simulation in physics.
+    ///
+    /// # Errors
+    /// When the swarm's circuit cannot be compiled, or its robots cannot be read.
+    pub fn simulate(
+        &self,
+        checked: &Checked,
+        simulation: &Simulation,
+        options: &CompileOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<SimulationRun, Diagnostics> {
+        let compiled = simulation::compiled(self.supply(), &checked.program, simulation, options);
+        let compiled = compiled.map_err(|faults| checked.fail(faults))?;
+        Ok(simulation::run(&self.simulator, simulation, compiled, observer))
+    }
+
+    /// Runs every test and every simulation of a source in physics.
+    ///
+    /// # Errors
+    /// When the source has errors or its circuits cannot be compiled. A test that fails is no error.
+    pub fn run(
+        &mut self,
+        path: &str,
+        options: &CompileOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, Diagnostics> {
+        let checked = self.open(path)?;
+        let test_options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
+        let mut report = RunReport { tests: Vec::new(), simulations: Vec::new() };
+        for test in &checked.program.tests {
+            report.tests.extend(self.test(&checked, test, &test_options, observer)?);
+        }
+        for simulation in &checked.program.simulations {
+            report.simulations.push(self.simulate(&checked, simulation, options, observer)?);
+        }
+        Ok(report)
+    }
+}
+
+/// Runs every test and every simulation of a file of the disk in physics; see [`Session::run`].
+///
+/// # Errors
+/// As [`Session::run`].
+pub fn run_file(path: impl AsRef<std::path::Path>, options: &CompileOptions) -> Result<RunReport, Diagnostics> {
+    Session::new(crate::store::DiskWorld).run(&path.as_ref().to_string_lossy(), options, &mut ())
+}

@@ -1,0 +1,106 @@
+//! What a circuit's swarm is made of: which declared swarm is meant, and with it the robots, the hold and the window.
+
+use crate::check::DEFAULT_LIBRARY;
+use crate::diag::{Code, Diagnostic};
+use crate::model::{Hold, Instance, Library, Program, Swarm};
+use crate::session::choice::{declared_swarm, swarms_of};
+use crate::session::options::CompileOptions;
+use crate::session::robots::Supply;
+
+/// A circuit with all that a swarm declares for it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The circuit.
+    pub circuit: Instance,
+    /// The declared swarm; none where the source declares none for the circuit.
+    pub swarm: Option<String>,
+    /// The robots.
+    pub library: Library,
+    /// How long a row of a test is held that does not say so itself.
+    pub hold: Hold,
+    /// Cycles over which an output is taken.
+    pub window: u32,
+}
+
+/// The plans of a circuit: one for each swarm that is declared for it, or that of the default library where there is none; only the chosen
+/// one where a swarm is chosen.
+///
+/// # Errors
+/// When robots cannot be read, or the chosen swarm is not one of the circuit's.
+pub(super) fn plans(
+    supply: Supply<'_>,
+    program: &Program,
+    circuit: &Instance,
+    options: &CompileOptions,
+) -> Result<Vec<Plan>, Vec<Diagnostic>> {
+    let swarms = swarms_of(program, circuit);
+    match (&options.swarm, &swarms[..]) {
+        (Some(name), swarms) => {
+            let swarm = chosen(program, circuit, name, swarms).map_err(|fault| vec![fault])?;
+            Ok(vec![of_swarm(supply, program, circuit, Some(swarm), options)?])
+        }
+        (None, []) => Ok(vec![of_swarm(supply, program, circuit, None, options)?]),
+        (None, swarms) => {
+            swarms.iter().map(|swarm| of_swarm(supply, program, circuit, Some(swarm), options)).collect()
+        }
+    }
+}
+
+/// The one plan of a circuit.
+///
+/// # Errors
+/// As [`plans`], and when several swarms are declared and none is chosen.
+pub(super) fn plan(
+    supply: Supply<'_>,
+    program: &Program,
+    circuit: &Instance,
+    options: &CompileOptions,
+) -> Result<Plan, Vec<Diagnostic>> {
+    if let (None, [first, second, ..]) = (&options.swarm, &swarms_of(program, circuit)[..]) {
+        let message = format!("several swarms are declared for `{circuit}`");
+        let help = format!("choose one, for example `--swarm {}` or `--swarm {}`", first.name, second.name);
+        return Err(vec![Diagnostic::without_place(Code::BadValue, message).with_help(help)]);
+    }
+    Ok(plans(supply, program, circuit, options)?.remove(0))
+}
+
+/// The plan of a circuit as a declared swarm, or of the default library.
+///
+/// # Errors
+/// When robots cannot be read.
+pub(super) fn of_swarm(
+    supply: Supply<'_>,
+    program: &Program,
+    circuit: &Instance,
+    swarm: Option<&Swarm>,
+    options: &CompileOptions,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let declared = program.library(swarm.map_or(DEFAULT_LIBRARY, |swarm| swarm.library.as_str()));
+    let library = match (&options.robots, declared) {
+        (Some(robots), _) => robots.clone(),
+        (None, Some(declared)) => supply.library(declared, &options.runs)?,
+        (None, None) => supply.shipped().clone(),
+    };
+    Ok(Plan {
+        circuit: circuit.clone(),
+        swarm: swarm.map(|swarm| swarm.name.clone()),
+        library,
+        hold: swarm.map_or(Hold::Auto, |swarm| swarm.hold),
+        window: swarm.map_or(1, |swarm| swarm.window),
+    })
+}
+
+/// The swarm of that name, which must be one of the circuit's.
+fn chosen<'p>(
+    program: &'p Program,
+    circuit: &Instance,
+    name: &str,
+    swarms: &[&'p Swarm],
+) -> Result<&'p Swarm, Diagnostic> {
+    let swarm = declared_swarm(program, name)?;
+    if swarms.iter().any(|one| one.name == swarm.name) {
+        return Ok(swarm);
+    }
+    let message = format!("the swarm `{name}` is of `{}`, not of `{circuit}`", swarm.circuit);
+    Err(Diagnostic::without_place(Code::BadValue, message))
+}

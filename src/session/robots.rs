@@ -1,0 +1,53 @@
+//! Where the robots of swarms come from: the program, a folder of the world, or an evolution's run.
+
+use std::sync::OnceLock;
+
+use crate::diag::Diagnostic;
+use crate::model::{Library, LibrarySource, Origin};
+use crate::source::SourceWorld;
+use crate::store;
+
+/// Everything that robots can be taken from.
+#[derive(Clone, Copy)]
+pub(super) struct Supply<'a> {
+    pub(super) world: &'a dyn SourceWorld,
+    /// The robots in the program, once they have been asked for.
+    pub(super) shipped: &'a OnceLock<Library>,
+}
+
+impl<'a> Supply<'a> {
+    /// The robots that come with the program.
+    pub(super) fn shipped(self) -> &'a Library {
+        self.shipped.get_or_init(store::shipped_library)
+    }
+
+    /// The robots of a declared library; evolution runs are in the folder `runs`.
+    ///
+    /// # Errors
+    /// What is wrong with the folder or its files, at the declaration.
+    pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
+        let mut library = match &declared.from {
+            Origin::Shipped => self.shipped().clone(),
+            Origin::Folder(folder) => self.folder(folder, declared, None)?,
+            Origin::Evolution(name) => {
+                let run = format!("{runs}/{name}");
+                let help = format!(
+                    "`nbc evolve --run {name} --out {runs}`, then `nbc library add {run}/seed-1 --into {run}/robots`"
+                );
+                self.folder(&format!("{run}/robots"), declared, Some(&help))?
+            }
+        };
+        if let Some(behaviors) = &declared.behaviors {
+            library.robots.retain(|robot| behaviors.contains(&robot.behavior));
+        }
+        Ok(library)
+    }
+
+    fn folder(self, folder: &str, declared: &LibrarySource, help: Option<&str>) -> Result<Library, Vec<Diagnostic>> {
+        let placed = |fault: Diagnostic| {
+            let fault = fault.with_label(declared.span, "the robots of this library");
+            help.into_iter().fold(fault, Diagnostic::with_help)
+        };
+        store::read_library(self.world, folder).map_err(|faults| faults.into_iter().map(placed).collect())
+    }
+}

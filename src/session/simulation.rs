@@ -1,0 +1,66 @@
+//! Simulations: a declared swarm under a schedule of its inputs, without a demand on its outputs.
+
+use crate::diag::Diagnostic;
+use crate::model::{Program, Simulation};
+use crate::session::compile::{self, Compiled};
+use crate::session::observer::Observer;
+use crate::session::options::CompileOptions;
+use crate::session::plan;
+use crate::session::robots::Supply;
+use crate::session::swarm_run::{self, RunEnd, SwarmRun};
+use crate::sim::Simulator;
+use crate::swarm::{self, SimulationResult};
+
+/// A simulation with what came of it.
+#[derive(Clone, Debug)]
+pub struct SimulationRun {
+    /// What the outputs did.
+    pub result: SimulationResult,
+    /// How the run ended.
+    pub end: RunEnd,
+    /// What the swarm did.
+    pub swarm: SwarmRun,
+    /// What is legal and surely not meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// The swarm of a simulation, compiled.
+///
+/// # Errors
+/// When the swarm's circuit cannot be compiled, or its robots cannot be read.
+///
+/// # Panics
+/// When the simulation is of another program.
+pub(super) fn compiled(
+    supply: Supply<'_>,
+    program: &Program,
+    simulation: &Simulation,
+    options: &CompileOptions,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let swarm = program.swarm(&simulation.swarm).expect("a simulation names a swarm of its program");
+    let plan = plan::of_swarm(supply, program, &swarm.circuit, Some(swarm), options)?;
+    compile::compile(program, plan, options.mapping(), simulation.span)
+}
+
+/// Runs a simulation in full physics.
+pub(super) fn run(
+    simulator: &Simulator,
+    simulation: &Simulation,
+    compiled: Compiled,
+    observer: &mut dyn Observer,
+) -> SimulationRun {
+    let held = simulation.spells.iter().flat_map(|spell| std::iter::repeat_n(&spell.inputs, spell.cycles as usize));
+    let (trace, end) = swarm_run::run(simulator, &compiled, held.cloned().collect(), observer);
+    let result = SimulationResult {
+        file: simulation.file.clone(),
+        line: simulation.line,
+        circuit: compiled.plan.circuit.to_string(),
+        swarm: simulation.swarm.clone(),
+        inputs: trace.inputs.clone(),
+        outputs: trace.outputs.clone(),
+        weak_robots: compiled.weak_robots.clone(),
+        rows: swarm::activity(simulation, &trace),
+    };
+    let warnings = compiled.warnings.clone();
+    SimulationRun { result, end, swarm: SwarmRun { compiled, trace }, warnings }
+}
