@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use crate::check::names::{Home, Names, duplicate};
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::{CircuitError, NameError};
+use crate::diag::{Code, Diagnostic, Suggestion, suggest};
 use crate::model::{
     Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Net, NetSlot, Parameter, SizeId, Statement,
     Target,
@@ -254,19 +255,12 @@ impl<'a> CircuitChecker<'a> {
         let net = &self.circuit.nets[slot.0 as usize];
         let slot = slot.0 as usize;
         if slot < self.circuit.inputs {
-            let message = format!("the input `{}` is driven from inside", net.name);
-            let fault = Diagnostic::new(Code::MultipleDrivers, message, target.span, "driven here");
-            return Some(
-                fault.with_label(net.span, "an input is driven from outside").with_help("drive a net of another name"),
-            );
+            let error = CircuitError::DrivenInput { net: net.name.clone(), declared: net.span };
+            return Some(error.at(target.span));
         }
         let is_port = slot < self.circuit.inputs + self.circuit.outputs;
-        (target.index.is_some() && net.width.is_none() && !is_port).then(|| {
-            let message = format!("the width of `{}` cannot be told", net.name);
-            let help = format!("declare it before: `net {}[8]`", net.name);
-            Diagnostic::new(Code::UnknownWidth, message, target.span, "only some of its bits are driven here")
-                .with_help(help)
-        })
+        let open = target.index.is_some() && net.width.is_none() && !is_port;
+        open.then(|| CircuitError::UnknownWidth { net: net.name.clone() }.at(target.span))
     }
 
     pub(crate) fn index(&mut self, index: &tree::Index) -> (SizeId, SizeId) {
@@ -279,18 +273,13 @@ impl<'a> CircuitChecker<'a> {
         // After an unknown name it is not certain which nets are read.
         let typo = self.diagnostics.iter().any(|fault| fault.code == Code::Unknown);
         for (slot, net) in self.circuit.nets.iter().enumerate() {
+            let name = net.name.clone();
             if !self.driven[slot] {
                 let what = if slot < self.circuit.inputs + self.circuit.outputs { "output" } else { "net" };
-                let message = format!("nothing drives the {what} `{}`", net.name);
-                let help = format!("add a line `{} = …`", net.name);
-                self.diagnostics
-                    .push(Diagnostic::new(Code::Undriven, message, net.span, "declared here").with_help(help));
+                self.diagnostics.push(CircuitError::Undriven { what, net: name }.at(net.span));
             } else if !self.used[slot] && !typo && self.home != Home::Prelude {
                 let what = if slot < self.circuit.inputs { "input" } else { "net" };
-                let message = format!("nothing listens to the {what} `{}`", net.name);
-                let help = format!("take it out, or call it `_{}`", net.name);
-                self.diagnostics
-                    .push(Diagnostic::new(Code::Unused, message, net.span, "declared here").with_help(help));
+                self.diagnostics.push(CircuitError::Unused { what, net: name }.at(net.span));
             }
         }
     }
@@ -303,10 +292,7 @@ impl<'a> CircuitChecker<'a> {
                 Some(slot)
             }
             Some(Binding::Variable(..)) => {
-                let message = format!("`{}` is a number, not a net", name.text);
-                let fault = Diagnostic::new(Code::Unknown, message, name.span, "expected a net");
-                self.diagnostics
-                    .push(fault.with_help("numbers stand in widths, bits and ranges; a constant is `4'd9`"));
+                self.diagnostics.push(NameError::NumberForNet { name: name.text.clone() }.at(name.span));
                 None
             }
             None => {
@@ -317,19 +303,14 @@ impl<'a> CircuitChecker<'a> {
     }
 
     fn unknown_net(&self, name: &tree::Name) -> Diagnostic {
-        let diagnostic =
-            Diagnostic::new(Code::Unknown, format!("no net is called `{}`", name.text), name.span, "not declared");
-        if let Some(circuit) = self.names.find(&name.text, self.home) {
-            let signature = self.headers.circuits[circuit].signature();
-            return diagnostic.with_help(format!("it is a circuit, to be called with operands: `{signature}`"));
-        }
-        if self.diagnostics.len() >= suggest::MOST {
-            return diagnostic;
-        }
-        match suggest::help(&name.text, self.nets_in_scope()) {
-            Some(help) => diagnostic.with_help(help),
-            None => diagnostic,
-        }
+        let circuit = self.names.find(&name.text, self.home);
+        let circuit = circuit.map(|circuit| self.headers.circuits[circuit].signature());
+        let meant = if circuit.is_some() || self.diagnostics.len() >= suggest::MOST {
+            Suggestion::None
+        } else {
+            Suggestion::of(&name.text, self.nets_in_scope())
+        };
+        NameError::UnknownNet { name: name.text.clone(), circuit, meant }.at(name.span)
     }
 
     fn nets_in_scope(&self) -> impl Iterator<Item = &'a str> {

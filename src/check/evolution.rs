@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::diag::{Code, Diagnostic, counted, suggest};
+use crate::check::wording::{EvolutionError, Expected, NameError};
+use crate::diag::Diagnostic;
 use crate::evolve::LEAST_ACTUATORS;
 use crate::model::{
     Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Objective, Palette, Pattern, Program,
@@ -17,6 +18,9 @@ use crate::syntax::tree::{Name, Number, Quantity, RecordDeclaration, Value, Valu
 
 /// The largest width and height of a body's box, in voxels.
 const MAX_BOX: u32 = 64;
+
+/// The most seeds of a range.
+const MAX_SEEDS: u32 = 10_000;
 
 /// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
@@ -51,7 +55,7 @@ pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &Names) -> Ve
             chain.push(place);
             let (home, source) = sources[place];
             let from = source.record.fields.iter().find(|field| field.name.text == "from");
-            let word = from.and_then(|field| fields::word(&field.value, "").ok());
+            let word = from.and_then(|field| fields::word(&field.value, Expected::Name("evolution")).ok());
             at = word.and_then(|name| names.find(&name.text, home));
         }
         order.extend(chain.into_iter().rev());
@@ -66,8 +70,7 @@ pub(crate) fn evolution(
     known: &Known<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> State {
-    let what = format!("the evolution `{}`", source.name.text);
-    let mut fields = Fields::new(what, source.name.span, &source.record);
+    let mut fields = Fields::new("evolution", source);
     let base = fields.read("from", &known.checked[0], |value| base(value, home, known));
     let (base, whole) = match base {
         State::Sound(base) => (Evolution::clone(base), true),
@@ -129,19 +132,17 @@ fn paper() -> Evolution {
 }
 
 fn base<'a>(value: &Value, home: Home, known: &Known<'a>) -> Result<&'a State, Diagnostic> {
-    let name = fields::word(value, "the name of an evolution")?;
+    let name = fields::word(value, Expected::Name("evolution"))?;
     let found = &known.checked[known.evolutions.resolve(name, home)?];
     if matches!(found, State::Open) {
-        let message = format!("the evolution `{}` takes its fields from itself", name.text);
-        let fault = Diagnostic::new(Code::Recursion, message, name.span, "this closes the circle");
-        return Err(fault.with_help("let one of them do without `from`, or take the fields of another"));
+        return Err(EvolutionError::Circular { evolution: name.text.clone() }.at(name.span));
     }
     Ok(found)
 }
 
 fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
     let ValueKind::Product(width, height) = &value.kind else {
-        return Err(quantity::wrong_kind("a box in voxels such as `5 x 5`", value.span));
+        return Err(quantity::wrong_kind(Expected::Box, value.span));
     };
     let side = |side: &Number| {
         let found = quantity::whole(quantity::number(side)?, 1..=MAX_BOX, side.span, "voxels")?;
@@ -149,9 +150,7 @@ fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
     };
     let (columns, rows) = (side(width)?, side(height)?);
     if columns * rows < LEAST_ACTUATORS {
-        let message = format!("a box of {columns} x {rows} voxels holds no body");
-        let label = format!("a body has at least {} that move it", counted(LEAST_ACTUATORS, "voxel"));
-        return Err(Diagnostic::new(Code::OutOfRange, message, value.span, label));
+        return Err(EvolutionError::SmallBox { columns, rows, least: LEAST_ACTUATORS }.at(value.span));
     }
     Ok((columns, rows))
 }
@@ -160,17 +159,15 @@ fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>,
     let mut materials: Vec<Material> = Vec::new();
     let values = fields::list(value);
     if values.is_empty() || values.len() > Palette::MAX_MATERIALS {
-        let message = format!("a palette of {} materials", values.len());
-        let label = format!("expected 1 to {}", Palette::MAX_MATERIALS);
-        return Err(Diagnostic::new(Code::OutOfRange, message, value.span, label));
+        let error = EvolutionError::PaletteSize { materials: values.len(), most: Palette::MAX_MATERIALS };
+        return Err(error.at(value.span));
     }
     for value in values {
-        let name = fields::word(value, "the name of a material")?;
+        let name = fields::word(value, Expected::Name("material"))?;
         let material = known.program.materials.get(known.materials.resolve(name, home)?);
         let twice = materials.iter().any(|known| known.name == name.text);
         if twice {
-            let message = format!("the material `{}` is listed twice", name.text);
-            return Err(Diagnostic::new(Code::Duplicate, message, name.span, "listed again here"));
+            return Err(NameError::RepeatedMaterial { name: name.text.clone() }.at(name.span));
         }
         materials.extend(material.cloned());
     }
@@ -178,7 +175,7 @@ fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>,
 }
 
 fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {
-    let name = fields::word(value, "the name of a schedule")?;
+    let name = fields::word(value, Expected::Name("schedule"))?;
     let found: Option<&NamedSchedule> = known.program.schedules.get(known.schedules.resolve(name, home)?);
     if let Some(fault) = found.and_then(|found| missing_patterns(found, name)) {
         return Err(fault);
@@ -193,33 +190,31 @@ fn missing_patterns(schedule: &NamedSchedule, name: &Name) -> Option<Diagnostic>
     };
     let missing: Vec<String> =
         Pattern::PAIRS.iter().filter(|pattern| !shown(pattern)).map(Pattern::to_string).collect();
-    let first = missing.first()?;
-    let message = format!("the schedule `{}` never gives {}", name.text, suggest::alternatives(&missing, "or"));
-    let fault = Diagnostic::new(Code::Value, message, name.span, "a behavior is measured under all four patterns");
-    let cells: Vec<String> = first.chars().map(String::from).collect();
-    Some(fault.with_help(format!("add a row such as `{} for 10 cycles`", cells.join(" "))))
+    if missing.is_empty() {
+        return None;
+    }
+    Some(EvolutionError::MissingPatterns { schedule: name.text.clone(), missing }.at(name.span))
 }
 
 fn steps(value: &Value) -> Result<u32, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => quantity::steps(quantity),
-        _ => Err(quantity::wrong_kind("a time such as `10 cycles`", value.span)),
+        _ => Err(quantity::wrong_kind(Expected::Time("10 cycles"), value.span)),
     }
 }
 
 fn axis(value: &Value) -> Result<Axis, Diagnostic> {
-    const EXPECTED: &str = "`voxels in 4 bins`, `active in 4 bins`, `sensory in 4 bins` or `behavior`";
     let ValueKind::Bins(name, bins) = &value.kind else {
-        return match fields::word(value, EXPECTED) {
+        return match fields::word(value, Expected::Axis) {
             Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
-            _ => Err(quantity::wrong_kind(EXPECTED, value.span)),
+            _ => Err(quantity::wrong_kind(Expected::Axis, value.span)),
         };
     };
     let of = match name.text.as_str() {
         "voxels" => Count::Voxels,
         "active" => Count::Active,
         "sensory" => Count::Sensory,
-        _ => return Err(quantity::wrong_kind(EXPECTED, name.span)),
+        _ => return Err(quantity::wrong_kind(Expected::Axis, name.span)),
     };
     let bins = quantity::whole(quantity::number(bins)?, 1..=1000, bins.span, "bins")?;
     Ok(Axis::Count { of, bins: bins as usize })
@@ -235,12 +230,7 @@ fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
         let seed = quantity::count(value, 0..=u32::MAX)?;
         match known.insert(seed, value.span) {
             None => Ok(u64::from(seed)),
-            Some(first) => {
-                let message = format!("the seed `{seed}` is listed twice");
-                let fault = Diagnostic::new(Code::Duplicate, message, value.span, "listed again here");
-                let fault = fault.with_label(first, "first listed here");
-                Err(fault.with_help("the same seed makes the same run, which would count twice"))
-            }
+            Some(first) => Err(NameError::RepeatedSeed { seed, first }.at(value.span)),
         }
     })
 }
@@ -248,9 +238,8 @@ fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
 fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u64>, Diagnostic> {
     let seed = |end| quantity::whole(quantity::bare(end)?, 0..=u32::MAX, Quantity::span(end), "");
     let (first, last) = (seed(first)?, seed(last)?);
-    if first > last || last - first >= 10_000 {
-        let message = "a range of no or too many seeds";
-        return Err(Diagnostic::new(Code::OutOfRange, message, span, "expected 1 to 10000 seeds"));
+    if first > last || last - first >= MAX_SEEDS {
+        return Err(EvolutionError::SeedRange { most: MAX_SEEDS }.at(span));
     }
     Ok((first..=last).map(u64::from).collect())
 }
@@ -265,15 +254,15 @@ fn niche(value: &Value) -> Result<Niche, Diagnostic> {
             Ok(Niche::Pareto(quantity::count(&size[0], 1..=1000)? as usize))
         }
         _ => fields::choice(value, &[("dominance", Niche::Dominance)])
-            .map_err(|_| quantity::wrong_kind("`dominance` or `pareto(8)`", value.span)),
+            .map_err(|_| quantity::wrong_kind(Expected::Niche, value.span)),
     }
 }
 
 fn mutation(value: &Value) -> Result<MutationWeights, Diagnostic> {
     let ValueKind::Record(record) = &value.kind else {
-        return Err(quantity::wrong_kind("weights such as `{ add_node: 1, change_weight: 2 }`", value.span));
+        return Err(quantity::wrong_kind(Expected::Weights, value.span));
     };
-    let mut fields = Fields::new("a mutation", value.span, record);
+    let mut fields = Fields::inner("mutation", value.span, record);
     let weights = MutationWeights {
         add_node: fields.read("add_node", 1.0, weight),
         remove_node: fields.read("remove_node", 1.0, weight),
@@ -291,6 +280,6 @@ fn mutation(value: &Value) -> Result<MutationWeights, Diagnostic> {
 fn weight(value: &Value) -> Result<f64, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => quantity::within(quantity::bare(quantity)?, 0.0..=1e6, value.span),
-        _ => Err(quantity::wrong_kind("a weight", value.span)),
+        _ => Err(quantity::wrong_kind(Expected::Weight, value.span)),
     }
 }

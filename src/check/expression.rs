@@ -3,10 +3,11 @@
 
 use std::num::IntErrorKind;
 
-use crate::check::circuit::CircuitChecker;
+use crate::check::circuit::{CircuitChecker, Header};
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::diag::{Code, Diagnostic, counted};
+use crate::check::wording::{CircuitError, NameError};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
 use crate::source::Span;
 use crate::syntax::tree::{self, Infix};
@@ -50,13 +51,8 @@ impl<'a> CircuitChecker<'a> {
         if targets.len() == 1 || is_call {
             return None;
         }
-        let message = format!("one value for {} nets", targets.len());
-        let bits = targets.iter().rev().enumerate().map(|(bit, target)| format!("`{} = t[{bit}]`", target.name.text));
-        let mut lines: Vec<_> = bits.filter(|line| !line.starts_with("`_ ")).collect();
-        lines.reverse();
-        lines.truncate(4);
-        let help = format!("give the value a name, `t = …`, and drive each net with a bit of it: {}", lines.join(", "));
-        Some(Diagnostic::new(Code::Operands, message, span, "expected a call of a circuit").with_help(help))
+        let nets = targets.iter().map(|target| target.name.text.clone()).collect();
+        Some(CircuitError::OneValue { nets }.at(span))
     }
 
     fn kind(
@@ -104,11 +100,9 @@ impl<'a> CircuitChecker<'a> {
 
     fn digits(&mut self, digits: &str, span: Span) -> ExpressionKind {
         if !matches!(digits, "0" | "1") {
-            let message = format!("the width of `{digits}` cannot be told");
-            let fault =
-                Diagnostic::new(Code::UnknownWidth, message, span, "a constant of more than one bit needs its width");
             let bits = digits.parse::<u64>().map_or(8, |value| u64::BITS - value.leading_zeros()).max(1);
-            self.diagnostics.push(fault.with_help(format!("write `{bits}'d{digits}`")));
+            let error = CircuitError::ConstantWithoutWidth { digits: digits.to_owned(), bits };
+            self.diagnostics.push(error.at(span));
         }
         ExpressionKind::Bits(vec![digits == "1"])
     }
@@ -117,15 +111,11 @@ impl<'a> CircuitChecker<'a> {
         let width = self.size(width);
         let radix = constant::radix(base).expect("the grammar lets the three bases through only");
         let value = constant::value(digits, radix).unwrap_or_else(|error| {
-            let fault = match error {
-                IntErrorKind::PosOverflow => {
-                    Diagnostic::new(Code::OutOfRange, "the constant is too large", span, "expected less than 128 bits")
-                        .with_help("put it together from parts: `{64'h…, 64'h…}`")
-                }
-                _ => Diagnostic::new(Code::Syntax, format!("`{digits}` is no number in base {radix}"), span, "here")
-                    .with_help("`4'b1010` is binary, `4'd10` decimal, `4'ha` hexadecimal"),
+            let error = match error {
+                IntErrorKind::PosOverflow => CircuitError::ConstantTooLarge,
+                _ => CircuitError::WrongDigits { digits: digits.to_owned(), radix },
             };
-            self.diagnostics.push(fault);
+            self.diagnostics.push(error.at(span));
             0
         });
         ExpressionKind::Number { width, value }
@@ -168,14 +158,11 @@ impl<'a> CircuitChecker<'a> {
             _ => ("two operands or more", count >= 2),
         };
         if !fits {
-            let message = format!("`{operator}` with {}", counted(count, "operand"));
-            let fault = Diagnostic::new(Code::Operands, message, span, format!("expected {expected}"));
-            self.diagnostics.push(match operator {
-                Operator::Xnor if count > 2 => {
-                    fault.with_help("of more than two, say which is meant: `not xor(a, b, c)`")
-                }
-                _ => fault,
-            });
+            let error = match operator {
+                Operator::Xnor if count > 2 => CircuitError::WideXnor { found: count },
+                _ => CircuitError::OperatorOperands { operator: operator.word(), found: count, expected },
+            };
+            self.diagnostics.push(error.at(span));
         }
     }
 
@@ -190,9 +177,8 @@ impl<'a> CircuitChecker<'a> {
         let circuit = match self.names.resolve(name, self.home) {
             Ok(circuit) => circuit,
             Err(fault) => {
-                let word = name.text.to_lowercase();
-                self.diagnostics.push(match Operator::parse(&word) {
-                    Some(_) => fault.with_help(format!("operators are written in lower case: `{word}(…)`")),
+                self.diagnostics.push(match Operator::parse(&name.text.to_lowercase()) {
+                    Some(_) => NameError::Operator { name: name.text.clone() }.at(name.span),
                     None => fault,
                 });
                 return ExpressionKind::Bits(vec![false]);
@@ -201,21 +187,22 @@ impl<'a> CircuitChecker<'a> {
         let headers = self.headers;
         let header = &headers.circuits[circuit];
         self.calls.push((CircuitId(circuit as u32), name.span));
-        let message = if operands.len() != header.inputs.len() {
-            let expected = counted(header.inputs.len(), "operand");
-            Some((format!("`{}` takes {expected}", name.text), format!("found {}", operands.len())))
-        } else if outputs != header.outputs.len() {
-            let expected = counted(header.outputs.len(), "output");
-            Some((format!("`{}` has {expected}", name.text), format!("{outputs} taken here")))
-        } else {
-            None
-        };
-        if let Some((message, label)) = message {
-            let help = format!("it is declared as `{}`", header.signature());
-            self.diagnostics.push(Diagnostic::new(Code::Operands, message, span, label).with_help(help));
-        }
+        self.call_counts(name, header, [operands.len(), outputs], span);
         let arguments = self.arguments(name, &header.parameters, arguments);
         ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
+    }
+
+    /// Counts the operands and outputs of a call.
+    fn call_counts(&mut self, name: &tree::Name, header: &Header, [operands, outputs]: [usize; 2], span: Span) {
+        let (circuit, signature) = (name.text.clone(), header.signature());
+        let error = if operands != header.inputs.len() {
+            CircuitError::CallOperands { circuit, expected: header.inputs.len(), found: operands, signature }
+        } else if outputs != header.outputs.len() {
+            CircuitError::CallOutputs { circuit, expected: header.outputs.len(), found: outputs, signature }
+        } else {
+            return;
+        };
+        self.diagnostics.push(error.at(span));
     }
 
     /// Parameters given by position or by name, in the order of the circuit's parameters.
@@ -239,20 +226,16 @@ pub(crate) fn parameter_place(
     place: usize,
     argument: &tree::Argument,
 ) -> Result<usize, Diagnostic> {
-    let known: Vec<_> = parameters.iter().map(String::as_str).collect();
     match &argument.name {
-        Some(name) => known.iter().position(|known| *known == name.text).ok_or_else(|| {
-            let message = format!("`{}` has no parameter `{}`", circuit.text, name.text);
-            let fault = Diagnostic::new(Code::Unknown, message, name.span, "not declared");
-            match crate::diag::suggest::help(&name.text, known.iter().copied()) {
-                Some(help) => fault.with_help(help),
-                None => fault,
-            }
+        Some(name) => parameters.iter().position(|known| *known == name.text).ok_or_else(|| {
+            let meant = Suggestion::of(&name.text, parameters.iter().map(String::as_str));
+            let (circuit, parameter) = (circuit.text.clone(), name.text.clone());
+            NameError::UnknownParameter { circuit, name: parameter, meant }.at(name.span)
         }),
         None if place < parameters.len() => Ok(place),
         None => {
-            let message = format!("`{}` has {}", circuit.text, counted(parameters.len(), "parameter"));
-            Err(Diagnostic::new(Code::Operands, message, argument.span, "one too many"))
+            let (circuit, parameters) = (circuit.text.clone(), parameters.len());
+            Err(CircuitError::TooManyParameters { circuit, parameters }.at(argument.span))
         }
     }
 }

@@ -1,23 +1,33 @@
 //! The fields of a record: no duplicates, no unknown fields, all required fields present.
 
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::names::duplicate;
+use crate::check::quantity::wrong_kind;
+use crate::check::wording::{self, Expected, FieldError, ValueError};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::source::Span;
-use crate::syntax::tree::{Record, Value, ValueKind};
+use crate::syntax::tree::{Name, Record, RecordDeclaration, Value, ValueKind};
 
 /// A record while it is read.
 pub(crate) struct Fields<'a> {
     /// The owner of the fields, for messages.
-    what: String,
-    name: Span,
+    what: wording::Record,
+    place: Span,
     record: &'a Record,
     known: Vec<&'static str>,
     pub(crate) faults: Vec<Diagnostic>,
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of `what`, whose name is at `name`.
-    pub(crate) fn new(what: impl Into<String>, name: Span, record: &'a Record) -> Self {
-        Self { what: what.into(), name, record, known: Vec::new(), faults: Vec::new() }
+    /// The fields of a declaration of that kind.
+    pub(crate) fn new(kind: &'static str, source: &'a RecordDeclaration) -> Self {
+        let what = wording::Record { kind, name: Some(source.name.text.clone()) };
+        Self { what, place: source.name.span, record: &source.record, known: Vec::new(), faults: Vec::new() }
+    }
+
+    /// The fields of a record of that kind inside another.
+    pub(crate) fn inner(kind: &'static str, place: Span, record: &'a Record) -> Self {
+        let what = wording::Record { kind, name: None };
+        Self { what, place, record, known: Vec::new(), faults: Vec::new() }
     }
 
     /// The value of a field.
@@ -53,8 +63,7 @@ impl<'a> Fields<'a> {
         let (entries, faults): (Vec<_>, Vec<_>) = list(value).iter().map(read).partition(Result::is_ok);
         self.faults.extend(faults.into_iter().filter_map(Result::err));
         if list(value).is_empty() {
-            let message = format!("`{field}` is an empty list");
-            self.faults.push(Diagnostic::new(Code::OutOfRange, message, value.span, "expected one entry at least"));
+            self.faults.push(ValueError::EmptyList { field }.at(value.span));
         }
         Some(entries.into_iter().filter_map(Result::ok).collect())
     }
@@ -63,15 +72,13 @@ impl<'a> Fields<'a> {
     pub(crate) fn need<T>(
         &mut self,
         field: &'static str,
-        example: &str,
+        example: &'static str,
         read: impl FnOnce(&'a Value) -> Result<T, Diagnostic>,
     ) -> Option<T> {
         if let Some(value) = self.value(field) {
             return read(value).map_err(|fault| self.faults.push(fault)).ok();
         }
-        let message = format!("{} has no `{field}`", self.what);
-        let fault = Diagnostic::new(Code::MissingField, message, self.name, format!("needs `{field}`"));
-        self.faults.push(fault.with_help(format!("add `{example}`")));
+        self.faults.push(FieldError::Missing { record: self.what.clone(), field, example }.at(self.place));
         None
     }
 
@@ -80,14 +87,11 @@ impl<'a> Fields<'a> {
         for (at, field) in self.record.fields.iter().enumerate() {
             let name = &field.name;
             if let Some(first) = self.record.fields[..at].iter().find(|first| first.name.text == name.text) {
-                self.faults.push(crate::check::names::duplicate("field", name, first.name.span));
+                self.faults.push(duplicate("field", name, first.name.span));
             } else if !self.known.contains(&name.text.as_str()) {
-                let message = format!("{} has no field `{}`", self.what, name.text);
-                let fault = Diagnostic::new(Code::UnknownField, message, name.span, "unknown field");
-                self.faults.push(match suggest::help(&name.text, self.known.iter().copied()) {
-                    Some(help) => fault.with_help(help),
-                    None => fault.with_help(format!("its fields are {}", suggest::alternatives(&self.known, "and"))),
-                });
+                let meant = Suggestion::near(&name.text, self.known.iter().copied());
+                let (record, field, known) = (self.what.clone(), name.text.clone(), self.known.clone());
+                self.faults.push(FieldError::Unknown { record, field, known, meant }.at(name.span));
             }
         }
         self.faults
@@ -95,25 +99,21 @@ impl<'a> Fields<'a> {
 }
 
 /// A single word.
-pub(crate) fn word<'a>(value: &'a Value, expected: &str) -> Result<&'a crate::syntax::tree::Name, Diagnostic> {
+pub(crate) fn word(value: &Value, expected: Expected) -> Result<&Name, Diagnostic> {
     match &value.kind {
         ValueKind::Instance(instance) if instance.arguments.is_empty() => Ok(&instance.name),
-        _ => Err(super::quantity::wrong_kind(expected, value.span)),
+        _ => Err(wrong_kind(expected, value.span)),
     }
 }
 
 /// One word of a set.
 pub(crate) fn choice<T: Copy>(value: &Value, choices: &[(&'static str, T)]) -> Result<T, Diagnostic> {
     let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
-    let expected = suggest::alternatives(&words, "or");
-    let name = word(value, &expected)?;
+    let expected = Expected::OneOf(words.clone());
+    let name = word(value, expected.clone())?;
     choices.iter().find(|(word, _)| *word == name.text).map(|(_, choice)| *choice).ok_or_else(|| {
-        let message = format!("`{}` where {expected} belongs", name.text);
-        let fault = Diagnostic::new(Code::Value, message, name.span, "not one of them");
-        match suggest::nearest(&name.text, words) {
-            Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-            None => fault,
-        }
+        let meant = Suggestion::near(&name.text, words);
+        ValueError::UnknownChoice { found: name.text.clone(), expected, meant }.at(name.span)
     })
 }
 

@@ -3,7 +3,8 @@
 use crate::check::circuit::Headers;
 use crate::check::expression::parameter_place;
 use crate::check::names::{Home, Names};
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::{CircuitError, NameError, ValueError};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Instance, Program};
 use crate::source::{FileId, Sources};
 use crate::syntax::parse_instance;
@@ -28,12 +29,8 @@ pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Insta
     let source = parse_instance(sources, file)?;
     let name = source.name.text.as_str();
     let circuit = program.circuit(name).ok_or_else(|| {
-        let fault =
-            Diagnostic::new(Code::Unknown, format!("no circuit is called `{name}`"), source.name.span, "not declared");
-        match suggest::help(name, program.circuits.iter().map(|circuit| circuit.name.as_str())) {
-            Some(help) => fault.with_help(help),
-            None => fault,
-        }
+        let meant = Suggestion::of(name, program.circuits.iter().map(|circuit| circuit.name.as_str()));
+        NameError::Unknown { kind: "circuit", name: name.to_owned(), meant }.at(source.name.span)
     })?;
     let parameters: Vec<String> = circuit.parameters.iter().map(|parameter| parameter.name.clone()).collect();
     with_numbers(&source, &circuit.name, &parameters)
@@ -52,22 +49,18 @@ fn with_numbers(source: &tree::Instance, circuit: &str, parameters: &[String]) -
         Some(arguments) => Ok(Instance { circuit: circuit.to_owned(), arguments }),
         None => {
             let missing = values.iter().position(Option::is_none).unwrap_or_default();
-            let message = format!("`{}` without its parameter `{}`", source.name.text, parameters[missing]);
-            Err(Diagnostic::new(
-                Code::Operands,
-                message,
-                source.name.span,
-                "parameters before the last one given are needed",
-            ))
+            let parameter = parameters[missing].clone();
+            let error = CircuitError::MissingParameter { circuit: source.name.text.clone(), parameter };
+            Err(error.at(source.name.span))
         }
     }
 }
 
 fn literal(size: &tree::Size) -> Result<u64, Diagnostic> {
     match &size.kind {
-        SizeKind::Literal(digits) => digits.parse::<u32>().map(u64::from).map_err(|_| {
-            Diagnostic::new(Code::OutOfRange, "the number is too large", size.span, "expected at most 4294967295")
-        }),
-        _ => Err(Diagnostic::new(Code::Value, "a parameter that is no number", size.span, "expected a number")),
+        SizeKind::Literal(digits) => {
+            digits.parse::<u32>().map(u64::from).map_err(|_| ValueError::TooLarge.at(size.span))
+        }
+        _ => Err(ValueError::NotANumber.at(size.span)),
     }
 }

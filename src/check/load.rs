@@ -1,8 +1,9 @@
 //! The files of a program: the checked file, the files it uses, and the prelude.
 
 use crate::check::names::Home;
-use crate::diag::{Code, Diagnostic};
-use crate::source::{FileError, FileId, SourceWorld, Sources, Span};
+use crate::check::wording::LoadError;
+use crate::diag::Diagnostic;
+use crate::source::{FileId, SourceWorld, Sources, Span};
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
 
@@ -74,7 +75,8 @@ impl Loader<'_> {
         let identity = self.world.identity(&name);
         let parsed = parse(sources, id);
         if home == Home::Own && parsed.tree.declarations.is_empty() && parsed.errors.is_empty() {
-            self.loaded.faults.push(empty(sources, id));
+            let file = sources.file(id).name.clone();
+            self.loaded.faults.push(LoadError::Empty { file }.at(Span::new(id, 0, 0)));
         }
         self.loaded.faults.extend(parsed.errors);
         self.open.push((identity, name));
@@ -91,10 +93,11 @@ impl Loader<'_> {
         let name = beside(&sources.file(from).name, &path.text);
         let identity = self.world.identity(&name);
         if let Some(at) = self.open.iter().position(|(open, _)| *open == identity) {
-            self.loaded.faults.push(circular(&self.open[at..], path.span));
+            let open = &self.open[at..];
+            let circle = open.iter().chain(open.first()).map(|(_, name)| name.clone()).collect();
+            self.loaded.faults.push(LoadError::Circular { circle }.at(path.span));
         } else if self.open.len() >= MAX_DEPTH {
-            let message = format!("files use files more than {MAX_DEPTH} deep");
-            self.loaded.faults.push(Diagnostic::new(Code::Nesting, message, path.span, "when it came to this one"));
+            self.loaded.faults.push(LoadError::TooDeep { most: MAX_DEPTH }.at(path.span));
         } else if !self.done.contains(&identity) {
             self.read(sources, name, identity, path.span);
         }
@@ -103,17 +106,18 @@ impl Loader<'_> {
     /// Reads and parses a file at its first use.
     fn read(&mut self, sources: &mut Sources, name: String, identity: String, place: Span) {
         let text = if [&name, &identity].iter().all(|path| path.ends_with(ENDING)) {
-            self.world.read(&name).map_err(|error| unreadable(&name, &error, place))
+            self.world.read(&name).map_err(|error| LoadError::Unreadable { file: name.clone(), error })
         } else {
-            Err(no_program(&name, place))
+            Err(LoadError::NotAProgram { file: name.clone(), ending: ENDING })
         };
-        let text = text.and_then(|text| within_limits(sources, &text, place).map_or(Ok(text), Err));
+        let text = text.and_then(|text| over_limits(sources, &text).map_or(Ok(text), Err));
         match text {
             Ok(text) => {
                 let id = sources.add(name, text);
                 self.file(sources, id, Home::Used);
             }
-            Err(fault) => {
+            Err(error) => {
+                let fault = error.at(place);
                 self.done.push(identity);
                 // There may be thousands more after the first file above the limit.
                 if !self.loaded.faults.iter().any(|known| known.message == fault.message) {
@@ -125,40 +129,12 @@ impl Loader<'_> {
 }
 
 /// The error of adding one more file, if any.
-fn within_limits(sources: &Sources, text: &str, place: Span) -> Option<Diagnostic> {
+fn over_limits(sources: &Sources, text: &str) -> Option<LoadError> {
     let bytes = sources.iter().map(|file| file.text.len()).sum::<usize>() + text.len();
-    let message = if sources.iter().count() - PRELUDE.len() >= MAX_FILES {
-        format!("a program of more than {MAX_FILES} files")
-    } else if bytes > MAX_PROGRAM_BYTES {
-        format!("a program of more than {} MB", MAX_PROGRAM_BYTES >> 20)
-    } else {
-        return None;
-    };
-    Some(Diagnostic::new(Code::TooLarge, message, place, "this file is one too many"))
-}
-
-fn unreadable(name: &str, error: &FileError, place: Span) -> Diagnostic {
-    let fault = Diagnostic::unreadable(name, error).with_label(place, "used here");
-    fault.with_help("the path of a used file starts from the file that uses it")
-}
-
-fn no_program(name: &str, place: Span) -> Diagnostic {
-    let message = format!("cannot use `{name}`: it is not a program");
-    Diagnostic::new(Code::Unreadable, message, place, "used here")
-        .with_help(format!("the names of programs, and of what links lead to, end in `{ENDING}`"))
-}
-
-fn empty(sources: &Sources, id: FileId) -> Diagnostic {
-    let name = &sources.file(id).name;
-    Diagnostic::new(Code::Empty, format!("`{name}` declares nothing"), Span::new(id, 0, 0), "expected a declaration")
-        .with_help("declare a circuit: `circuit inverter(a) -> (q) { q = not a }`")
-}
-
-fn circular(open: &[(String, String)], span: Span) -> Diagnostic {
-    let circle: Vec<_> = open.iter().chain(open.first()).map(|(_, name)| format!("`{name}`")).collect();
-    let message = format!("files use each other in a circle: {}", circle.join(" uses "));
-    Diagnostic::new(Code::CircularUse, message, span, "this closes the circle")
-        .with_help("put what both need into a file of its own")
+    if sources.iter().count() - PRELUDE.len() >= MAX_FILES {
+        return Some(LoadError::TooManyFiles { most: MAX_FILES });
+    }
+    (bytes > MAX_PROGRAM_BYTES).then_some(LoadError::TooLarge { megabytes: MAX_PROGRAM_BYTES >> 20 })
 }
 
 /// A path relative to the folder of another file.

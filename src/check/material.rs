@@ -3,7 +3,8 @@
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, Names};
 use crate::check::quantity::{self, Measure};
-use crate::diag::{Code, Diagnostic};
+use crate::check::wording::{Expected, ValueError};
+use crate::diag::Diagnostic;
 use crate::model::{Drive, Material, MaterialKind, Response};
 use crate::source::Span;
 use crate::syntax::tree::{Quantity, RecordDeclaration, Value, ValueKind};
@@ -26,8 +27,7 @@ pub(crate) fn material(
     stimuli: &Names,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Material> {
-    let what = format!("the material `{}`", source.name.text);
-    let mut fields = Fields::new(what, source.name.span, &source.record);
+    let mut fields = Fields::new("material", source);
     let kinds = [("rigid", Kind::Rigid), ("soft", Kind::Soft), ("actuator", Kind::Actuator), ("sensor", Kind::Sensor)];
     let kind = fields.need("kind", "kind: soft", |value| fields::choice(value, &kinds));
     let Some(kind) = kind else {
@@ -57,8 +57,9 @@ fn drive(fields: &mut Fields<'_>) -> Option<Drive> {
 }
 
 fn response(fields: &mut Fields<'_>, home: Home, stimuli: &Names) -> Option<Response> {
-    let stimulus =
-        fields.need("stimulus", "stimulus: s1", |value| stimuli.resolve(fields::word(value, "a stimulus")?, home));
+    let stimulus = fields.need("stimulus", "stimulus: s1", |value| {
+        stimuli.resolve(fields::word(value, Expected::Name("stimulus"))?, home)
+    });
     let absent = fields.need("absent", "absent: 0.6", width);
     let present = fields.need("present", "present: 1.6", width);
     Some(Response { stimulus: stimulus?, absent: absent?, present: present? })
@@ -67,7 +68,7 @@ fn response(fields: &mut Fields<'_>, home: Home, stimuli: &Names) -> Option<Resp
 fn quantity_of(value: &Value) -> Result<&Quantity, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => Ok(quantity),
-        _ => Err(quantity::wrong_kind("a number with its unit", value.span)),
+        _ => Err(quantity::wrong_kind(Expected::Quantity, value.span)),
     }
 }
 
@@ -76,18 +77,19 @@ fn width(value: &Value) -> Result<f64, Diagnostic> {
 }
 
 fn width_of(quantity: &Quantity, span: Span) -> Result<f64, Diagnostic> {
-    let fault = |fault: Diagnostic| fault.with_help("actuation is a share of the width at rest");
-    quantity::within(quantity::bare(quantity)?, WIDTHS, span).map_err(fault)
+    let found = quantity::bare(quantity)?;
+    let (least, most) = WIDTHS.into_inner();
+    if WIDTHS.contains(&found) { Ok(found) } else { Err(ValueError::WidthOutOfRange { found, least, most }.at(span)) }
 }
 
 fn range(value: &Value) -> Result<(f64, f64), Diagnostic> {
     let ValueKind::Range(low, high) = &value.kind else {
-        return Err(quantity::wrong_kind("a range such as `0.6..1.6`", value.span));
+        return Err(quantity::wrong_kind(Expected::Range, value.span));
     };
-    let (low, high) = (width_of(low, low.span())?, width_of(high, high.span())?);
-    if low <= high {
-        return Ok((low, high));
+    let (first, last) = (width_of(low, low.span())?, width_of(high, high.span())?);
+    if first <= last {
+        Ok((first, last))
+    } else {
+        Err(ValueError::Descending { high: first, low: last }.at(value.span))
     }
-    let fault = Diagnostic::new(Code::OutOfRange, "the range runs downwards", value.span, "here");
-    Err(fault.with_help(format!("write `{high}..{low}`")))
 }

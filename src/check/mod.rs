@@ -21,6 +21,7 @@ mod size;
 mod swarm;
 mod table;
 mod test;
+mod wording;
 
 pub use instance::named;
 pub use load::{PRELUDE, open};

@@ -3,7 +3,8 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::NameError;
+use crate::diag::{Diagnostic, Suggestion, suggest};
 use crate::source::Span;
 use crate::syntax::tree::Name;
 
@@ -60,19 +61,15 @@ impl Names {
     /// The meaning of a name, or an error if it is unknown.
     pub(crate) fn resolve(&self, name: &Name, home: Home) -> Result<usize, Diagnostic> {
         self.find(&name.text, home).ok_or_else(|| {
-            let message = format!("no {} is called `{}`", self.kind, name.text);
-            let diagnostic = Diagnostic::new(Code::Unknown, message, name.span, "not declared");
-            match self.suggestion(&name.text) {
-                Some(help) => diagnostic.with_help(help),
-                None => diagnostic,
-            }
+            let meant = self.suggestion(&name.text);
+            NameError::Unknown { kind: self.kind, name: name.text.clone(), meant }.at(name.span)
         })
     }
 
     /// A suggestion for an unknown name, for the first unknown names only.
-    fn suggestion(&self, name: &str) -> Option<String> {
+    fn suggestion(&self, name: &str) -> Suggestion {
         self.unknown.set(self.unknown.get() + 1);
-        if self.unknown.get() <= suggest::MOST { suggest::help(name, self.all()) } else { None }
+        if self.unknown.get() <= suggest::MOST { Suggestion::of(name, self.all()) } else { Suggestion::None }
     }
 
     /// Every name, in order.
@@ -87,18 +84,6 @@ impl Names {
 }
 
 /// A name that is declared twice.
-pub(crate) fn duplicate(kind: &str, name: &Name, first: Span) -> Diagnostic {
-    let diagnostic = Diagnostic::new(
-        Code::Duplicate,
-        format!("the {kind} `{}` is declared twice", name.text),
-        name.span,
-        "declared again here",
-    );
-    let text = "first declared here";
-    let diagnostic = if first.file == name.span.file {
-        diagnostic.with_label(first, text)
-    } else {
-        diagnostic.with_related(first, text)
-    };
-    diagnostic.with_help("give one of them another name")
+pub(crate) fn duplicate(kind: &'static str, name: &Name, first: Span) -> Diagnostic {
+    NameError::Duplicate { kind, name: name.text.clone(), first }.at(name.span)
 }

@@ -13,6 +13,7 @@ use crate::check::schedule::schedule;
 use crate::check::simulate::{Schedules, spells};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
+use crate::check::wording::{CircuitError, EvolutionError};
 use crate::circuit::Inspector;
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Reference, Simulation, Stimulation};
@@ -116,8 +117,7 @@ impl<'a> Assembly<'a> {
         }
         self.program.stimuli.push(name.text.clone());
         if self.program.stimuli.len() == Pattern::MAX_STIMULI + 1 {
-            let label = format!("expected at most {} stimuli", Pattern::MAX_STIMULI);
-            self.faults.push(Diagnostic::new(Code::OutOfRange, "too many stimuli", name.span, label));
+            self.faults.push(EvolutionError::TooManyStimuli { most: Pattern::MAX_STIMULI }.at(name.span));
         }
     }
 
@@ -267,10 +267,7 @@ impl<'a> Assembly<'a> {
             let name = source.name.text.as_str();
             let used = name == DEFAULT_LIBRARY || self.program.swarms.iter().any(|swarm| swarm.library == name);
             if home == Home::Own && !used {
-                let message = format!("no swarm uses the library `{name}`");
-                let help = format!("declare one: `swarm my_swarm {{ circuit: my_circuit, library: {name} }}`");
-                let warning = Diagnostic::new(Code::Unused, message, source.name.span, "declared here");
-                self.faults.push(warning.with_help(help));
+                self.faults.push(CircuitError::UnusedLibrary { library: name.to_owned() }.at(source.name.span));
             }
         }
     }
@@ -383,10 +380,9 @@ impl<'a> Assembly<'a> {
         let (inputs, outputs) = self.ports(&reference, other.name.span, inspector)?;
         let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
         if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
-            let message = format!("`{}` and `{}` have different ports", tested.name.text, other.name.text);
-            let fault =
-                Diagnostic::new(Code::Operands, message, other.name.span, "ports as many and as wide are needed");
-            self.faults.push(fault.with_label(tested.name.span, "as those of this circuit"));
+            let circuits = [&tested.name, &other.name].map(|name| name.text.clone());
+            let error = CircuitError::DifferentPorts { circuits, first: tested.name.span };
+            self.faults.push(error.at(other.name.span));
             return None;
         }
         Some(Stimulation::All { reference: Reference::Circuit(reference) })
@@ -421,12 +417,7 @@ impl<'a> Assembly<'a> {
     fn all_inputs(&mut self, inputs: &[Column], span: Span) {
         let bits: usize = inputs.iter().map(|column| column.width).sum();
         if bits > MAX_TRIED_BITS {
-            let message = format!("all patterns of {bits} input bits");
-            let label = format!("expected at most {MAX_TRIED_BITS} bits");
-            self.faults.push(
-                Diagnostic::new(Code::TooLarge, message, span, label)
-                    .with_help("test a narrower instance, or list rows"),
-            );
+            self.faults.push(CircuitError::TooManyInputs { bits, most: MAX_TRIED_BITS }.at(span));
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::{Bounds, Expected, ValueError};
+use crate::diag::Diagnostic;
 use crate::model::CYCLE_STEPS;
 use crate::source::Span;
 use crate::syntax::tree::{Number, Quantity, Value, ValueKind};
@@ -49,19 +50,15 @@ impl Measure {
 pub(crate) fn measured(quantity: &Quantity, measure: Measure) -> Result<f64, Diagnostic> {
     let wanted = measure.wanted();
     let Some(word) = &quantity.unit else {
-        let message = format!("`{}` without a unit", quantity.number.text);
-        let label = format!("expected {}", suggest::alternatives(&wanted, "or"));
-        let help = format!("write `{} {}`", quantity.number.text, wanted[0]);
-        return Err(Diagnostic::new(Code::Unit, message, quantity.number.span, label).with_help(help));
+        let number = quantity.number.text.clone();
+        return Err(ValueError::MissingUnit { number, wanted }.at(quantity.number.span));
     };
     let known = |unit: &&Unit| unit.words.contains(&word.text.as_str());
     match UNITS.iter().filter(|unit| unit.measure == measure).find(known) {
         Some(unit) => Ok(number(&quantity.number)? * unit.factor),
         None => {
-            let message = format!("the unit `{}` where {} belongs", word.text, suggest::alternatives(&wanted, "or"));
-            let what = if UNITS.iter().any(|unit| known(&unit)) { "a unit of something else" } else { "no unit" };
-            Err(Diagnostic::new(Code::Unit, message, word.span, what)
-                .with_help(format!("write `{} {}`", quantity.number.text, wanted[0])))
+            let (number, unit) = (quantity.number.text.clone(), word.text.clone());
+            Err(ValueError::WrongUnit { number, unit, wanted }.at(word.span))
         }
     }
 }
@@ -80,7 +77,7 @@ pub(crate) fn cycles(quantity: &Quantity) -> Result<u32, Diagnostic> {
 pub(crate) fn count(value: &Value, range: RangeInclusive<u32>) -> Result<u32, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => whole(bare(quantity)?, range, quantity.span(), ""),
-        _ => Err(wrong_kind("a number", value.span)),
+        _ => Err(wrong_kind(Expected::Number, value.span)),
     }
 }
 
@@ -89,9 +86,8 @@ pub(crate) fn bare(quantity: &Quantity) -> Result<f64, Diagnostic> {
     match &quantity.unit {
         None => number(&quantity.number),
         Some(unit) => {
-            let message = format!("the unit `{}` where no unit belongs", unit.text);
-            let help = format!("write `{}`", quantity.number.text);
-            Err(Diagnostic::new(Code::Unit, message, unit.span, "this number counts").with_help(help))
+            let number = quantity.number.text.clone();
+            Err(ValueError::UnexpectedUnit { number, unit: unit.text.clone() }.at(unit.span))
         }
     }
 }
@@ -99,24 +95,24 @@ pub(crate) fn bare(quantity: &Quantity) -> Result<f64, Diagnostic> {
 /// A number as written.
 pub(crate) fn number(number: &Number) -> Result<f64, Diagnostic> {
     let value: f64 = number.text.parse().expect("the grammar lets numbers through only");
-    if value.is_finite() { Ok(value) } else { Err(outside(&number.text, number.span, "a smaller number".to_owned())) }
+    if value.is_finite() { Ok(value) } else { Err(outside(number.text.clone(), Bounds::Smaller, number.span)) }
 }
 
 /// An integer in a range.
-pub(crate) fn whole(value: f64, range: RangeInclusive<u32>, span: Span, unit: &str) -> Result<u32, Diagnostic> {
-    // Seconds may differ from an integer number of steps by rounding.
+pub(crate) fn whole(value: f64, range: RangeInclusive<u32>, span: Span, unit: &'static str) -> Result<u32, Diagnostic> {
+    // Seconds need not be a whole number of steps to the last bit.
     let rounded = value.round();
     let near = (value - rounded).abs() < 1e-6;
-    if near && rounded >= f64::from(*range.start()) && rounded <= f64::from(*range.end()) {
+    let (least, most) = range.into_inner();
+    if near && rounded >= f64::from(least) && rounded <= f64::from(most) {
         return Ok(rounded as u32);
     }
-    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let expected = match (near, *range.end()) {
-        (false, _) => format!("a whole number of{}", if unit.is_empty() { " things" } else { &unit }),
-        (true, u32::MAX) => format!("{} or more{unit}", range.start()),
-        (true, end) => format!("{} to {end}{unit}", range.start()),
+    let expected = match (near, most) {
+        (false, _) => Bounds::Whole { unit },
+        (true, u32::MAX) => Bounds::From { least, unit },
+        (true, most) => Bounds::Between { least, most, unit },
     };
-    Err(outside(&shortest(value), span, expected))
+    Err(outside(value.to_string(), expected, span))
 }
 
 /// A real number in a range.
@@ -124,18 +120,15 @@ pub(crate) fn within(value: f64, range: RangeInclusive<f64>, span: Span) -> Resu
     if range.contains(&value) {
         return Ok(value);
     }
-    Err(outside(&shortest(value), span, format!("{} to {}", shortest(*range.start()), shortest(*range.end()))))
+    let (least, most) = range.into_inner();
+    Err(outside(value.to_string(), Bounds::Real { least, most }, span))
 }
 
-fn outside(found: &str, span: Span, expected: String) -> Diagnostic {
-    Diagnostic::new(Code::OutOfRange, format!("`{found}` is out of range"), span, format!("expected {expected}"))
-}
-
-fn shortest(value: f64) -> String {
-    format!("{value}")
+fn outside(found: String, expected: Bounds, span: Span) -> Diagnostic {
+    ValueError::OutOfRange { found, expected }.at(span)
 }
 
 /// The error for a value of another kind than expected.
-pub(crate) fn wrong_kind(expected: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::Value, "a value of the wrong kind", span, format!("expected {expected}"))
+pub(crate) fn wrong_kind(expected: Expected, span: Span) -> Diagnostic {
+    ValueError::WrongKind { expected }.at(span)
 }

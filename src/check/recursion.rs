@@ -1,7 +1,8 @@
 //! Circuits that contain themselves.
 
 use crate::check::circuit::Headers;
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::CircuitError;
+use crate::diag::Diagnostic;
 use crate::model::CircuitId;
 use crate::source::Span;
 
@@ -58,16 +59,7 @@ pub(crate) fn look(
 
 fn recursion(path: &[Open], callee: usize, span: Span, headers: &Headers) -> Diagnostic {
     let first = path.iter().position(|open| open.circuit == callee).unwrap_or_default();
-    let name = |circuit: usize| headers.circuits[circuit].name.as_str();
-    let through: Vec<_> = path[first..].iter().skip(1).map(|open| name(open.circuit)).take(4).collect();
-    let message = match through.is_empty() {
-        true => format!("the circuit `{}` contains itself", name(callee)),
-        false => format!(
-            "the circuit `{}` contains itself, through {}",
-            name(callee),
-            suggest::alternatives(&through, "and")
-        ),
-    };
-    Diagnostic::new(Code::Recursion, message, span, "used here, inside itself")
-        .with_help("a swarm has a fixed number of robots; repeat with `for i in 0..8 { … }`")
+    let name = |circuit: usize| headers.circuits[circuit].name.clone();
+    let through = path[first..].iter().skip(1).map(|open| name(open.circuit)).take(4).collect();
+    CircuitError::Recursion { circuit: name(callee), through }.at(span)
 }

@@ -1,8 +1,9 @@
 //! Schedules of stimuli, and rows of bits in general.
 
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, Names, duplicate};
 use crate::check::quantity;
-use crate::diag::{Code, Diagnostic, counted};
+use crate::check::wording::{CellError, RowError};
+use crate::diag::Diagnostic;
 use crate::model::{NamedSchedule, Pattern, Schedule, Spell};
 use crate::source::Span;
 use crate::syntax::tree;
@@ -20,7 +21,7 @@ pub(crate) fn schedule(
         match stimuli.resolve(name, home) {
             Ok(stimulus) if columns.contains(&stimulus) => {
                 let first = source.columns.iter().find(|first| first.text == name.text).expect("it was there before");
-                faults.push(crate::check::names::duplicate("stimulus", name, first.span));
+                faults.push(duplicate("stimulus", name, first.span));
             }
             Ok(stimulus) => columns.push(stimulus),
             Err(fault) => faults.push(fault),
@@ -35,11 +36,7 @@ pub(crate) fn schedule(
         }
     }
     if source.spells.is_empty() {
-        let message = format!("the schedule `{}` has no rows", source.name.text);
-        faults.push(
-            Diagnostic::new(Code::Empty, message, source.name.span, "this schedule")
-                .with_help("add a row: `0 1 for 10 cycles`"),
-        );
+        faults.push(RowError::EmptySchedule { schedule: source.name.text.clone() }.at(source.name.span));
     }
     let name = source.name.text.clone();
     (faults.len() == before).then_some(NamedSchedule { name, stimuli: columns, schedule })
@@ -55,7 +52,7 @@ fn pattern(stimuli: &[usize], bits: &[bool]) -> Pattern {
 
 fn row_of_bits(cells: &[tree::Name], columns: usize, span: Span, faults: &mut Vec<Diagnostic>) -> Option<Vec<bool>> {
     if cells.len() != columns {
-        faults.push(row_width(cells.len(), columns, span));
+        faults.push(RowError::Width { values: cells.len(), columns }.at(span));
         return None;
     }
     let mut bits = Vec::new();
@@ -63,19 +60,8 @@ fn row_of_bits(cells: &[tree::Name], columns: usize, span: Span, faults: &mut Ve
         match cell.text.as_str() {
             "0" => bits.push(false),
             "1" => bits.push(true),
-            word => faults.push(Diagnostic::new(
-                Code::Value,
-                format!("`{word}` is no stimulus value"),
-                cell.span,
-                "expected `0` or `1`",
-            )),
+            word => faults.push(CellError::NotAStimulus { word: word.to_owned() }.at(cell.span)),
         }
     }
     (bits.len() == columns).then_some(bits)
-}
-
-/// A row with too many or too few values.
-pub(crate) fn row_width(values: usize, columns: usize, span: Span) -> Diagnostic {
-    let message = format!("a row of {} for {}", counted(values, "value"), counted(columns, "column"));
-    Diagnostic::new(Code::RowWidth, message, span, format!("expected {}", counted(columns, "value")))
 }

@@ -3,8 +3,8 @@
 use crate::check::cell::{Cell, cell};
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::check::schedule::row_width;
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::{CellError, NameError, RowError};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Base, CYCLE_STEPS, Column, InputSpell, NamedSchedule};
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{Name, Spell, With};
@@ -55,7 +55,7 @@ fn named(
 ) -> Vec<InputSpell> {
     let bits: usize = inputs.iter().map(|column| column.width).sum();
     if bits != schedule.stimuli.len() {
-        faults.push(row_width(schedule.stimuli.len(), bits, span));
+        faults.push(RowError::Width { values: schedule.stimuli.len(), columns: bits }.at(span));
         return Vec::new();
     }
     let spell = |spell: &crate::model::Spell| {
@@ -65,8 +65,7 @@ fn named(
     };
     let spells: Option<Vec<_>> = schedule.schedule.spells.iter().map(spell).collect();
     spells.unwrap_or_else(|| {
-        let message = format!("the schedule `{}` has times that are no whole cycles", schedule.name);
-        faults.push(Diagnostic::new(Code::Unit, message, span, "a swarm's inputs change between cycles"));
+        faults.push(RowError::PartOfCycle { schedule: schedule.name.clone() }.at(span));
         Vec::new()
     })
 }
@@ -77,29 +76,16 @@ fn places(columns: &[Name], swarm: Span, inputs: &[Column], faults: &mut Vec<Dia
         match inputs.iter().position(|input| input.name == name.text) {
             Some(place) => places.push(place),
             None => {
-                let fault = Diagnostic::new(
-                    Code::Unknown,
-                    format!("no input is called `{}`", name.text),
-                    name.span,
-                    "no input of that name",
-                );
-                faults.push(match suggest::help(&name.text, inputs.iter().map(|input| input.name.as_str())) {
-                    Some(help) => fault.with_help(help),
-                    None => fault,
-                });
+                let meant = Suggestion::of(&name.text, inputs.iter().map(|input| input.name.as_str()));
+                faults.push(NameError::Unknown { kind: "input", name: name.text.clone(), meant }.at(name.span));
             }
         }
     }
     if let Some(missing) = (0..inputs.len()).find(|place| !places.contains(place))
         && places.len() == columns.len()
     {
-        let message = format!("the schedule gives no values for the input `{}`", inputs[missing].name);
-        faults.push(Diagnostic::new(
-            Code::MissingField,
-            message,
-            columns.last().map_or(swarm, |last| last.span),
-            format!("needs `{}` too", inputs[missing].name),
-        ));
+        let place = columns.last().map_or(swarm, |last| last.span);
+        faults.push(RowError::MissingInput { input: inputs[missing].name.clone() }.at(place));
     }
     places
 }
@@ -117,7 +103,7 @@ fn rows(
 ) -> Option<InputSpell> {
     let cycles = quantity::cycles(&spell.length).map_err(|fault| faults.push(fault)).ok();
     if spell.cells.len() != places.len() {
-        faults.push(row_width(spell.cells.len(), places.len(), spell.span));
+        faults.push(RowError::Width { values: spell.cells.len(), columns: places.len() }.at(spell.span));
         return None;
     }
     let mut bits: Vec<Vec<bool>> = inputs.iter().map(|input| vec![false; input.width]).collect();
@@ -128,12 +114,7 @@ fn rows(
                 bits[place] = values.into_iter().flatten().collect();
                 bases[place] = base;
             }
-            Ok(_) => faults.push(Diagnostic::new(
-                Code::Value,
-                format!("`{}` is no input", word.text),
-                word.span,
-                "expected `0` or `1`",
-            )),
+            Ok(_) => faults.push(CellError::NotAnInput { word: word.text.clone() }.at(word.span)),
             Err(fault) => faults.push(fault),
         }
     }

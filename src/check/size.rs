@@ -1,7 +1,8 @@
 //! Sizes of circuits: integers over parameters and loop variables.
 
 use crate::check::circuit::{Binding, CircuitChecker};
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::{NameError, ValueError};
+use crate::diag::Suggestion;
 use crate::model::{Size, SizeId, SizeKind};
 use crate::source::Span;
 use crate::syntax::tree;
@@ -39,36 +40,23 @@ impl CircuitChecker<'_> {
 
     fn literal(&mut self, digits: &str, span: Span) -> SizeKind {
         let value = digits.parse::<u32>().unwrap_or_else(|_| {
-            let fault =
-                Diagnostic::new(Code::OutOfRange, "the number is too large", span, "expected at most 4294967295");
-            self.diagnostics.push(fault);
+            self.diagnostics.push(ValueError::TooLarge.at(span));
             1
         });
         SizeKind::Literal(value.into())
     }
 
     fn number(&mut self, name: &str, span: Span) -> SizeKind {
-        let fault = match self.lookup(name) {
+        let name = name.to_owned();
+        let error = match self.lookup(&name) {
             Some(Binding::Variable(slot, _)) => return SizeKind::Variable(slot),
             Some(Binding::Net(slot)) => {
                 self.used[slot.0 as usize] = true;
-                let message = format!("`{name}` is a net, not a number");
-                Diagnostic::new(Code::Unknown, message, span, "expected a parameter or a loop variable")
-                    .with_help("to choose a bit by a net, use `select(a, n)`")
+                NameError::NetForNumber { name }
             }
-            None => {
-                let fault =
-                    Diagnostic::new(Code::Unknown, format!("no number is called `{name}`"), span, "not declared");
-                let known: Vec<_> = self.numbers_in_scope().collect();
-                match suggest::help(name, known) {
-                    Some(help) => fault.with_help(help),
-                    None => {
-                        fault.with_help("a circuit's parameters stand in brackets after its name: `circuit add[n](…)`")
-                    }
-                }
-            }
+            None => NameError::UnknownNumber { meant: Suggestion::of(&name, self.numbers_in_scope()), name },
         };
-        self.diagnostics.push(fault);
+        self.diagnostics.push(error.at(span));
         SizeKind::Literal(1)
     }
 

@@ -5,6 +5,7 @@ use crate::check::fields::{self, Fields};
 use crate::check::instance::instance;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
+use crate::check::wording::Expected;
 use crate::diag::Diagnostic;
 use crate::model::{Hold, Swarm};
 use crate::syntax::tree::{RecordDeclaration, Value, ValueKind};
@@ -24,14 +25,13 @@ pub(crate) fn swarm(
     libraries: &Names,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Swarm> {
-    let what = format!("the swarm `{}`", source.name.text);
-    let mut fields = Fields::new(what, source.name.span, &source.record);
+    let mut fields = Fields::new("swarm", source);
     let circuit = fields.need("circuit", "circuit: d_latch", |value| match &value.kind {
         ValueKind::Instance(source) => instance(source, home, circuits, headers),
-        _ => Err(quantity::wrong_kind("the name of a circuit", value.span)),
+        _ => Err(quantity::wrong_kind(Expected::Name("circuit"), value.span)),
     });
     let library = fields.read("library", DEFAULT_LIBRARY.to_owned(), |value| {
-        let name = fields::word(value, "the name of a library")?;
+        let name = fields::word(value, Expected::Name("library"))?;
         libraries.resolve(name, home).map(|_| name.text.clone())
     });
     let hold = fields.read("hold", Hold::Auto, hold);
@@ -39,7 +39,7 @@ pub(crate) fn swarm(
         ValueKind::Quantity(window) => {
             quantity::whole(f64::from(quantity::cycles(window)?), 1..=MAX_WINDOW, value.span, "cycles")
         }
-        _ => Err(quantity::wrong_kind("a time such as `3 cycles`", value.span)),
+        _ => Err(quantity::wrong_kind(Expected::Time("3 cycles"), value.span)),
     });
     faults.extend(fields.finish());
     Some(Swarm { name: source.name.text.clone(), span: source.name.span, circuit: circuit?, library, hold, window })
@@ -48,7 +48,8 @@ pub(crate) fn swarm(
 fn hold(value: &Value) -> Result<Hold, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(hold) => quantity::cycles(hold).map(Hold::Cycles),
-        _ => fields::choice(value, &[("auto", Hold::Auto)])
-            .map_err(|_| quantity::wrong_kind("`auto` or a time such as `12 cycles`", value.span)),
+        _ => {
+            fields::choice(value, &[("auto", Hold::Auto)]).map_err(|_| quantity::wrong_kind(Expected::Hold, value.span))
+        }
     }
 }

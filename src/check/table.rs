@@ -1,7 +1,8 @@
 //! Truth tables: exactly one row for every pattern.
 
 use crate::check::circuit::CircuitChecker;
-use crate::diag::{Code, Diagnostic};
+use crate::check::wording::TableError;
+use crate::diag::Diagnostic;
 use crate::model::{Table, TableOutput, TableRow};
 use crate::source::Span;
 use crate::syntax::tree;
@@ -33,8 +34,7 @@ impl CircuitChecker<'_> {
     fn otherwise(&mut self, table: &mut Table, output: TableOutput, span: Span) {
         match &table.otherwise {
             Some(first) => {
-                let fault = Diagnostic::new(Code::TableOverlap, "a table with two rows `else`", span, "this one");
-                self.diagnostics.push(fault.with_label(first.span, "and this one"));
+                self.diagnostics.push(TableError::TwoElse { first: first.span }.at(span));
             }
             None => table.otherwise = Some(output),
         }
@@ -50,9 +50,7 @@ impl CircuitChecker<'_> {
         };
         let bits: Option<Vec<_>> = word.text.chars().filter(|&c| c != '_').map(bit).collect();
         if bits.is_none() {
-            let message = format!("`{}` is no pattern", word.text);
-            let fault = Diagnostic::new(Code::Syntax, message, word.span, "expected `0`, `1` and `-`");
-            self.diagnostics.push(fault);
+            self.diagnostics.push(TableError::NotAPattern { word: word.text.clone() }.at(word.span));
         }
         bits
     }
@@ -60,11 +58,9 @@ impl CircuitChecker<'_> {
     fn table_faults(&mut self, table: &Table) {
         let outputs = table.rows.iter().map(|row| &row.output).chain(&table.otherwise);
         let found = if table.rows.len() > MAX_ROWS {
-            let message = format!("a table of {} rows", table.rows.len());
-            Some(Diagnostic::new(Code::TooLarge, message, table.span, format!("expected at most {MAX_ROWS}")))
+            Some(TableError::TooManyRows { rows: table.rows.len(), most: MAX_ROWS }.at(table.span))
         } else if let Some(row) = table.rows.iter().find(|row| row.pattern.len() > MAX_BITS) {
-            let message = format!("a pattern of {} bits", row.pattern.len());
-            Some(Diagnostic::new(Code::TooLarge, message, row.span, format!("expected at most {MAX_BITS}")))
+            Some(TableError::TooManyBits { bits: row.pattern.len(), most: MAX_BITS }.at(row.span))
         } else {
             let patterns = uneven(table.rows.iter().map(|row| (row.pattern.len(), row.span)), "patterns");
             patterns
@@ -77,12 +73,11 @@ impl CircuitChecker<'_> {
 }
 
 /// The first width that differs from the previous one.
-fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &str) -> Option<Diagnostic> {
+fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &'static str) -> Option<Diagnostic> {
     let widths: Vec<_> = widths.collect();
     let pair = widths.windows(2).find(|pair| pair[0].0 != pair[1].0)?;
-    let message = format!("a table with {what} of {} and of {} bits", pair[0].0, pair[1].0);
-    let label = |bits| format!("{bits} bits");
-    Some(Diagnostic::new(Code::RowWidth, message, pair[1].1, label(pair[1].0)).with_label(pair[0].1, label(pair[0].0)))
+    let [(before, first), (here, span)] = [pair[0], pair[1]];
+    Some(TableError::Uneven { what, bits: [before, here], first }.at(span))
 }
 
 fn overlap(table: &Table) -> Option<Diagnostic> {
@@ -91,9 +86,7 @@ fn overlap(table: &Table) -> Option<Diagnostic> {
     };
     table.rows.iter().enumerate().find_map(|(at, row)| {
         let first = table.rows[..at].iter().find(|first| both(first, row))?;
-        let message = "two rows of the table match the same pattern";
-        let fault = Diagnostic::new(Code::TableOverlap, message, row.span, "this row");
-        Some(fault.with_label(first.span, "and this one").with_help("say with `0` and `1` which of the two is meant"))
+        Some(TableError::Overlap { first: first.span }.at(row.span))
     })
 }
 
@@ -114,13 +107,8 @@ fn missing(table: &Table) -> Option<Diagnostic> {
     if !left.is_empty() {
         return None;
     }
-    let message = if example.is_empty() {
-        "a table without rows".to_owned()
-    } else {
-        format!("the table has no row for `{example}`")
-    };
-    let fault = Diagnostic::new(Code::TableIncomplete, message, table.span, "this table");
-    Some(fault.with_help("add the row, or `else: 0` for all that are left"))
+    let error = if example.is_empty() { TableError::Empty } else { TableError::MissingRow { pattern: example } };
+    Some(error.at(table.span))
 }
 
 /// Whether non-overlapping rows match every pattern with this value at `bit`, where the bits before it are fixed.

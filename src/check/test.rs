@@ -3,8 +3,8 @@
 use crate::check::cell::{Cell, cell};
 use crate::check::names::duplicate;
 use crate::check::quantity;
-use crate::check::schedule::row_width;
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::check::wording::{CellError, NameError, RowError};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Base, Column, TestRow};
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, Name, TestTable};
@@ -28,8 +28,7 @@ pub(crate) fn rows(
     let outputs = ports.places(&table.outputs, false, faults);
     missing_inputs(table, ports, faults);
     if table.rows.is_empty() {
-        let fault = Diagnostic::new(Code::Empty, "a test without rows", table.header, "no row follows");
-        faults.push(fault.with_help("add rows: a value for each column, with `|` between inputs and outputs"));
+        faults.push(RowError::EmptyTest.at(table.header));
     }
     if faults.len() > before {
         return Vec::new();
@@ -57,16 +56,14 @@ impl Ports<'_> {
 
     fn no_port(&self, name: &Name, inputs: bool) -> Diagnostic {
         let (own, others) = if inputs { (self.inputs, self.outputs) } else { (self.outputs, self.inputs) };
-        let (what, other) = if inputs { ("input", "output") } else { ("output", "input") };
-        let message = format!("`{}` has no {what} `{}`", self.circuit, name.text);
-        let fault = Diagnostic::new(Code::Unknown, message, name.span, format!("no {what} of that name"));
-        if others.iter().any(|column| column.name == name.text) {
-            return fault.with_help(format!("it is an {other}: inputs stand before `|`, outputs after it"));
-        }
-        match suggest::help(&name.text, own.iter().map(|column| column.name.as_str())) {
-            Some(help) => fault.with_help(help),
-            None => fault,
-        }
+        let (circuit, name, span) = (self.circuit.to_owned(), name.text.clone(), name.span);
+        let meant = Suggestion::of(&name, own.iter().map(|column| column.name.as_str()));
+        let is_other = others.iter().any(|column| column.name == name);
+        let error = match inputs {
+            true => NameError::UnknownInput { circuit, name, is_output: is_other, meant },
+            false => NameError::UnknownOutput { circuit, name, is_input: is_other, meant },
+        };
+        error.at(span)
     }
 }
 
@@ -74,16 +71,12 @@ fn missing_inputs(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnos
     let missing: Vec<_> = ports
         .inputs
         .iter()
-        .map(|column| column.name.as_str())
+        .map(|column| column.name.clone())
         .filter(|input| !table.inputs.iter().any(|name| name.text == *input))
         .collect();
     if !missing.is_empty() {
-        let names = suggest::alternatives(&missing, "and");
-        let message = format!("the test gives no values for {names} of `{}`", ports.circuit);
-        faults.push(
-            Diagnostic::new(Code::MissingField, message, table.header, format!("needs {names}"))
-                .with_help("every input needs a column"),
-        );
+        let error = RowError::MissingInputs { inputs: missing, circuit: ports.circuit.to_owned() };
+        faults.push(error.at(table.header));
     }
 }
 
@@ -128,25 +121,14 @@ impl Columns<'_> {
         let values = row.inputs.len() + row.outputs.len();
         let columns = self.inputs.len() + self.outputs.len();
         if row.bars.len() > 1 {
-            return Some(Diagnostic::new(Code::Syntax, "a row with more than one `|`", row.bars[1], "one too many"));
+            return Some(RowError::TwoBars.at(row.bars[1]));
         }
         if values != columns {
-            return Some(row_width(values, columns, row.span));
+            return Some(RowError::Width { values, columns }.at(row.span));
         }
-        if row.bars.is_empty() {
-            let fault =
-                Diagnostic::new(Code::Syntax, "a row without `|`", row.span, "expected `|` between inputs and outputs");
-            return Some(fault.with_help("write it where the header has it"));
-        }
-        (row.inputs.len() != self.inputs.len()).then(|| {
-            let fault = Diagnostic::new(
-                Code::RowWidth,
-                "the row's `|` is in another place than the header's",
-                row.bars[0],
-                "here",
-            );
-            fault.with_help(format!("{} before it", crate::diag::counted(self.inputs.len(), "value")))
-        })
+        let Some(&bar) = row.bars.first() else { return Some(RowError::NoBar.at(row.span)) };
+        let inputs = self.inputs.len();
+        (row.inputs.len() != inputs).then(|| RowError::BarElsewhere { inputs }.at(bar))
     }
 }
 
@@ -162,7 +144,7 @@ fn cells(words: &[Name], places: &[usize], ports: &[Column], faults: &mut Vec<Di
 
 fn output_bits(cells: &[Option<Cell>], words: &[Name], faults: &mut Vec<Diagnostic>) -> Vec<Option<bool>> {
     if let Some(word) = words.iter().find(|word| word.text == "^") {
-        faults.push(Diagnostic::new(Code::Value, "a pulse is no output", word.span, "expected `0`, `1` or `-`"));
+        faults.push(CellError::PulsedOutput.at(word.span));
     }
     let bits = |cell: &Option<Cell>| match cell {
         Some(Cell::Bits(bits, _)) => bits.clone(),
@@ -193,9 +175,7 @@ fn input_bits(
             Some(Cell::Bits(bits, _)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
                 Some(bits) => all.extend(bits),
                 None => {
-                    let message = format!("the input `{}` has no value", port.name);
-                    let fault =
-                        Diagnostic::new(Code::Value, message, row, "expected `0` or `1` for an input, found `-`");
+                    let fault = RowError::InputWithoutValue { input: port.name.clone() }.at(row);
                     if !faults.contains(&fault) {
                         faults.push(fault);
                     }

@@ -80,12 +80,13 @@ impl Diagnostic {
         self
     }
 
-    /// Adds the names that may have been meant by the one at `span`; a near one can be put in its place.
-    pub fn with_suggestion(self, span: Span, suggestion: &Suggestion) -> Self {
+    /// Adds the names that may have been meant by the one at a place; a near one can be written there.
+    pub fn with_suggestion(self, place: impl Into<Option<Span>>, suggestion: &Suggestion) -> Self {
         match suggestion {
             Suggestion::None => self,
             Suggestion::Near(name) => {
-                self.with_help(format!("did you mean `{name}`?")).with_fix(Fix::replace(span, name.as_str()))
+                let fix = place.into().map(|span| Fix::replace(span, name.as_str()));
+                self.with_help(format!("did you mean `{name}`?")).with_fix(fix)
             }
             Suggestion::Known(names) => self.with_help(format!("known here: {}", alternatives(names, "and"))),
         }

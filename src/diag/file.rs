@@ -9,13 +9,7 @@ use crate::source::FileError;
 impl Diagnostic {
     /// The error of reading the file at `path`, as the user wrote it.
     pub fn unreadable(path: &str, error: &FileError) -> Self {
-        let why = match error {
-            FileError::NotFound => "there is no such file".to_owned(),
-            FileError::NotRegular(kind) => format!("it is {kind}, expected a regular file"),
-            FileError::TooLarge { limit } => format!("it is larger than {}, the most that is read", size(*limit)),
-            FileError::NotText { offset } => format!("it is not UTF-8 text (byte {offset})"),
-            FileError::Io(words) => words.clone(),
-        };
+        let why = file_error(error);
         Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {why}"))
     }
 
@@ -25,15 +19,26 @@ impl Diagnostic {
     }
 }
 
+/// Why a file cannot be read, in plain words.
+pub fn file_error(error: &FileError) -> String {
+    match error {
+        FileError::NotFound => "there is no such file".to_owned(),
+        FileError::NotRegular(kind) => format!("expected a regular file, found {kind}"),
+        FileError::TooLarge { limit } => format!("file is larger than the limit of {}", size(*limit)),
+        FileError::NotText { offset } => format!("file is not valid UTF-8 (byte {offset})"),
+        FileError::Io(words) => words.clone(),
+    }
+}
+
 /// The operating system's message in plain words, without error numbers.
 pub fn io_words(error: &io::Error) -> String {
     use io::ErrorKind;
     let plain = match error.kind() {
         ErrorKind::NotFound => "there is no such file or folder",
         ErrorKind::PermissionDenied => "permission denied",
-        ErrorKind::AlreadyExists => "it exists already",
+        ErrorKind::AlreadyExists => "it already exists",
         ErrorKind::IsADirectory => "it is a folder",
-        ErrorKind::NotADirectory => "a part of the path is not a folder",
+        ErrorKind::NotADirectory => "part of the path is not a folder",
         ErrorKind::StorageFull => "the disk is full",
         ErrorKind::ReadOnlyFilesystem => "the file system is read-only",
         ErrorKind::InvalidFilename => "the name is too long or not allowed",

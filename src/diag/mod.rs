@@ -16,7 +16,7 @@ pub use code::Code;
 pub use counted::counted;
 pub use diagnostics::Diagnostics;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
-pub use file::io_words;
+pub use file::{file_error, io_words};
 pub use fix::{Edit, Fix};
 pub use json::json;
 pub use suggest::Suggestion;

@@ -1,0 +1,216 @@
+//! Circuits: their nets, operands and tables, and what tests and swarms make of them.
+
+use crate::diag::{Code, Diagnostic, counted, suggest};
+use crate::source::Span;
+
+/// A circuit, or a use of one, that makes no sense.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum CircuitError {
+    /// An input with a driver inside.
+    DrivenInput { net: String, declared: Span },
+    /// A net of which bits are driven and no width is declared.
+    UnknownWidth { net: String },
+    /// A constant of several bits without its width; it needs at least `bits`.
+    ConstantWithoutWidth { digits: String, bits: u32 },
+    /// A constant of more bits than are read.
+    ConstantTooLarge,
+    /// Digits that their base does not have.
+    WrongDigits { digits: String, radix: u32 },
+    /// A net or output that nothing drives.
+    Undriven { what: &'static str, net: String },
+    /// A net or input that nothing uses.
+    Unused { what: &'static str, net: String },
+    /// A library that no swarm uses.
+    UnusedLibrary { library: String },
+    /// One value for several nets.
+    OneValue { nets: Vec<String> },
+    /// An operator with too many or too few operands.
+    OperatorOperands { operator: &'static str, found: usize, expected: &'static str },
+    /// `xnor` of more than two operands.
+    WideXnor { found: usize },
+    /// A circuit with too many or too few operands.
+    CallOperands { circuit: String, expected: usize, found: usize, signature: String },
+    /// A circuit of which more or fewer outputs are taken than it has.
+    CallOutputs { circuit: String, expected: usize, found: usize, signature: String },
+    /// One parameter too many.
+    TooManyParameters { circuit: String, parameters: usize },
+    /// A parameter that is left out before one that is given.
+    MissingParameter { circuit: String, parameter: String },
+    /// A circuit that contains itself, through others.
+    Recursion { circuit: String, through: Vec<String> },
+    /// Circuits that ought to have equal ports; `first` is the other of them.
+    DifferentPorts { circuits: [String; 2], first: Span },
+    /// More input bits than all patterns are tried of.
+    TooManyInputs { bits: usize, most: usize },
+}
+
+impl CircuitError {
+    /// The error at the net, the expression or the name.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::DrivenInput { net, declared } => {
+                let message = format!("the input `{net}` is driven inside its circuit");
+                Diagnostic::new(Code::MultipleDrivers, message, span, "driven here")
+                    .with_label(declared, "an input is driven from outside")
+                    .with_help("drive a net with another name")
+            }
+            Self::UnknownWidth { net } => {
+                let message = format!("the width of `{net}` is unknown");
+                Diagnostic::new(Code::UnknownWidth, message, span, "only some of its bits are driven here")
+                    .with_help(format!("declare it first: `net {net}[8]`"))
+            }
+            Self::ConstantWithoutWidth { digits, bits } => {
+                let message = format!("the width of `{digits}` is unknown");
+                Diagnostic::new(Code::UnknownWidth, message, span, "expected a constant with its width")
+                    .with_help(format!("write `{bits}'d{digits}`"))
+            }
+            Self::ConstantTooLarge => {
+                Diagnostic::new(Code::OutOfRange, "constant is too large", span, "expected at most 128 bits")
+                    .with_help("join several constants: `{64'h…, 64'h…}`")
+            }
+            Self::WrongDigits { digits, radix } => {
+                let message = format!("`{digits}` is not a number in base {radix}");
+                Diagnostic::new(Code::Syntax, message, span, format!("expected digits of base {radix}"))
+                    .with_help("`4'b1010` is binary, `4'd10` decimal, `4'ha` hexadecimal")
+            }
+            Self::Undriven { what, net } => {
+                let message = format!("nothing drives the {what} `{net}`");
+                Diagnostic::new(Code::Undriven, message, span, "declared here")
+                    .with_help(format!("add a line `{net} = …`"))
+            }
+            Self::Unused { what, net } => {
+                let message = format!("the {what} `{net}` is never used");
+                Diagnostic::new(Code::Unused, message, span, "declared here")
+                    .with_help(format!("remove it, or rename it to `_{net}`"))
+            }
+            Self::UnusedLibrary { library } => {
+                let message = format!("no swarm uses the library `{library}`");
+                let help = format!("declare a swarm: `swarm my_swarm {{ circuit: my_circuit, library: {library} }}`");
+                Diagnostic::new(Code::Unused, message, span, "declared here").with_help(help)
+            }
+            Self::DifferentPorts { circuits: [tested, other], first } => {
+                let message = format!("`{tested}` and `{other}` have different ports");
+                let label = "expected as many ports, with the same widths,";
+                Diagnostic::new(Code::Operands, message, span, label).with_label(first, "as this circuit has")
+            }
+            Self::TooManyInputs { bits, most } => {
+                let message = format!("too many patterns to test: {bits} input bits");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most} bits"))
+                    .with_help("test a narrower instance, or list rows")
+            }
+            Self::Recursion { circuit, through } => {
+                let through = match through.is_empty() {
+                    true => String::new(),
+                    false => format!(" through {}", suggest::alternatives(&through, "and")),
+                };
+                let message = format!("the circuit `{circuit}` contains itself{through}");
+                Diagnostic::new(Code::Recursion, message, span, "used here, inside itself")
+                    .with_help("a swarm has a fixed number of robots; repeat parts with `for i in 0..8 { … }`")
+            }
+            counts => counts.count_at(span),
+        }
+    }
+
+    /// Errors of numbers of operands, outputs and parameters.
+    fn count_at(self, span: Span) -> Diagnostic {
+        let operands = |message: String, label: String| Diagnostic::new(Code::Operands, message, span, label);
+        match self {
+            Self::OneValue { nets } => {
+                let mut bits: Vec<String> =
+                    nets.iter().rev().enumerate().map(|(bit, net)| format!("`{net} = t[{bit}]`")).collect();
+                bits.reverse();
+                bits.retain(|line| !line.starts_with("`_ "));
+                bits.truncate(4);
+                operands(format!("one value for {} nets", nets.len()), "expected a call of a circuit".to_owned())
+                    .with_help(format!("name the value, `t = …`, and drive each net with a bit: {}", bits.join(", ")))
+            }
+            Self::OperatorOperands { operator, found, expected } => operands(
+                format!("wrong number of operands of `{operator}`"),
+                format!("expected {expected}, found {found}"),
+            ),
+            Self::WideXnor { found } => {
+                operands("wrong number of operands of `xnor`".to_owned(), format!("expected two, found {found}"))
+                    .with_help("to invert the parity of more than two, write `not xor(a, b, c)`")
+            }
+            Self::CallOperands { circuit, expected, found, signature } => {
+                operands(format!("`{circuit}` takes {}", counted(expected, "operand")), format!("found {found}"))
+                    .with_help(format!("it is declared as `{signature}`"))
+            }
+            Self::CallOutputs { circuit, expected, found, signature } => {
+                operands(format!("`{circuit}` has {}", counted(expected, "output")), format!("{found} taken here"))
+                    .with_help(format!("it is declared as `{signature}`"))
+            }
+            Self::TooManyParameters { circuit, parameters } => {
+                operands(format!("`{circuit}` has {}", counted(parameters, "parameter")), "one too many".to_owned())
+            }
+            Self::MissingParameter { circuit, parameter } => operands(
+                format!("missing parameter `{parameter}` of `{circuit}`"),
+                "expected every parameter before the last one given".to_owned(),
+            ),
+            _ => unreachable!("the others have their words already"),
+        }
+    }
+}
+
+/// A truth table that is not a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum TableError {
+    /// A pattern with anything but `0`, `1` and `-`.
+    NotAPattern { word: String },
+    /// More rows than are compared.
+    TooManyRows { rows: usize, most: usize },
+    /// A pattern of more bits than a table has.
+    TooManyBits { bits: usize, most: usize },
+    /// Patterns or outputs of different widths.
+    Uneven { what: &'static str, bits: [usize; 2], first: Span },
+    /// A second `else`.
+    TwoElse { first: Span },
+    /// Two rows for one pattern.
+    Overlap { first: Span },
+    /// No row for a pattern.
+    MissingRow { pattern: String },
+    /// No rows at all.
+    Empty,
+}
+
+impl TableError {
+    /// The error at the table, the row or the pattern.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::NotAPattern { word } => {
+                let message = format!("`{word}` is not a pattern");
+                Diagnostic::new(Code::Syntax, message, span, "expected `0`, `1` and `-`")
+            }
+            Self::TooManyRows { rows, most } => {
+                let message = format!("a table of {rows} rows is too large");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            }
+            Self::TooManyBits { bits, most } => {
+                let message = format!("a pattern of {bits} bits is too wide");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            }
+            Self::Uneven { what, bits: [before, here], first } => {
+                let message = format!("the {what} of a table differ in width");
+                Diagnostic::new(Code::RowWidth, message, span, counted(here, "bit"))
+                    .with_label(first, counted(before, "bit"))
+            }
+            Self::TwoElse { first } => {
+                Diagnostic::new(Code::TableOverlap, "the table has two `else` rows", span, "this row")
+                    .with_label(first, "and this row")
+            }
+            Self::Overlap { first } => {
+                let message = "two rows of the table match the same pattern";
+                Diagnostic::new(Code::TableOverlap, message, span, "this row")
+                    .with_label(first, "and this row")
+                    .with_help("remove one of them, or write `0` or `1` for `-`")
+            }
+            Self::MissingRow { pattern } => missing_row(format!("the table has no row for `{pattern}`"), span),
+            Self::Empty => missing_row("the table has no rows".to_owned(), span),
+        }
+    }
+}
+
+fn missing_row(message: String, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::TableIncomplete, message, span, "in this table")
+        .with_help("add the row, or `else: 0` for all remaining patterns")
+}

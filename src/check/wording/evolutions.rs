@@ -1,0 +1,58 @@
+//! Evolution runs and their setting.
+
+use crate::diag::{Code, Diagnostic, counted, suggest};
+use crate::source::Span;
+
+/// An evolution run that cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EvolutionError {
+    /// A run that takes its fields from itself, perhaps through others.
+    Circular { evolution: String },
+    /// A box without room for a body.
+    SmallBox { columns: usize, rows: usize, least: usize },
+    /// A palette of no or too many materials.
+    PaletteSize { materials: usize, most: usize },
+    /// A schedule that leaves out patterns of the two stimuli.
+    MissingPatterns { schedule: String, missing: Vec<String> },
+    /// A range of no or too many seeds.
+    SeedRange { most: u32 },
+    /// More stimuli than a pattern has.
+    TooManyStimuli { most: usize },
+}
+
+impl EvolutionError {
+    /// The error at the name or value.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::Circular { evolution } => {
+                let message = format!("the evolution `{evolution}` takes its fields from itself");
+                Diagnostic::new(Code::Recursion, message, span, "this closes the circle")
+                    .with_help("remove one `from`, or take the fields of another evolution")
+            }
+            Self::SmallBox { columns, rows, least } => {
+                let message = format!("a box of {columns} x {rows} voxels is too small for a body");
+                let label = format!("expected room for at least {}", counted(least, "actuator"));
+                Diagnostic::new(Code::OutOfRange, message, span, label)
+            }
+            Self::PaletteSize { materials, most } => {
+                let message = format!("palette has {}", counted(materials, "material"));
+                Diagnostic::new(Code::OutOfRange, message, span, format!("expected 1 to {most}"))
+            }
+            Self::MissingPatterns { schedule, missing } => {
+                let names = suggest::alternatives(&missing, "or");
+                let message = format!("the schedule `{schedule}` never gives {names}");
+                let label = "expected all four patterns, under which a behavior is measured";
+                let row: Vec<_> = missing[0].chars().map(String::from).collect();
+                Diagnostic::new(Code::Value, message, span, label)
+                    .with_help(format!("add a row, for example `{} for 10 cycles`", row.join(" ")))
+            }
+            Self::SeedRange { most } => {
+                let message = "the range of seeds is empty or too long";
+                Diagnostic::new(Code::OutOfRange, message, span, format!("expected 1 to {most} seeds"))
+            }
+            Self::TooManyStimuli { most } => {
+                Diagnostic::new(Code::OutOfRange, "too many stimuli", span, format!("expected at most {most} stimuli"))
+            }
+        }
+    }
+}

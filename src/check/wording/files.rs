@@ -1,0 +1,75 @@
+//! Files: those of the program, and folders of robots.
+
+use crate::diag::{Code, Diagnostic, file_error};
+use crate::source::{FileError, Span};
+
+/// A file or folder that a program cannot use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum LoadError {
+    /// A file without declarations.
+    Empty { file: String },
+    /// A file that cannot be read.
+    Unreadable { file: String, error: FileError },
+    /// A file whose name does not end as those of programs do.
+    NotAProgram { file: String, ending: &'static str },
+    /// Files that use each other.
+    Circular { circle: Vec<String> },
+    /// Files that use files that use files.
+    TooDeep { most: usize },
+    /// One file more than a program may have.
+    TooManyFiles { most: usize },
+    /// More text than a program may have.
+    TooLarge { megabytes: usize },
+    /// A folder that cannot be read.
+    UnreadableLibrary { folder: String, error: FileError },
+    /// A folder without robot files.
+    EmptyLibrary { folder: String },
+}
+
+impl LoadError {
+    /// The error at the path in the source.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::Empty { file } => {
+                Diagnostic::new(Code::Empty, format!("`{file}` declares nothing"), span, "expected a declaration")
+                    .with_help("declare a circuit: `circuit inverter(a) -> (q) { q = not a }`")
+            }
+            Self::Unreadable { file, error } => Diagnostic::unreadable(&file, &error)
+                .with_label(span, "used here")
+                .with_help("the path is relative to the file that uses it"),
+            Self::NotAProgram { file, ending } => {
+                let message = format!("cannot use `{file}`: it is not a program");
+                Diagnostic::new(Code::Unreadable, message, span, format!("expected a file name ending in `{ending}`"))
+                    .with_help(format!("a link must lead to a file name ending in `{ending}` too"))
+            }
+            Self::Circular { circle } => {
+                let circle: Vec<_> = circle.iter().map(|file| format!("`{file}`")).collect();
+                let message = format!("files use each other in a circle: {}", circle.join(" uses "));
+                Diagnostic::new(Code::CircularUse, message, span, "this closes the circle")
+                    .with_help("put what both need into a file of its own")
+            }
+            Self::TooDeep { most } => {
+                let message = format!("files use each other more than {most} levels deep");
+                Diagnostic::new(Code::Nesting, message, span, "the limit is reached here")
+            }
+            Self::TooManyFiles { most } => too_large(format!("program has more than {most} files"), span),
+            Self::TooLarge { megabytes } => too_large(format!("program is larger than {megabytes} MB"), span),
+            Self::UnreadableLibrary { folder, error } => match error {
+                FileError::NotFound => library(&folder, "there is no such folder", span),
+                FileError::Io(_) => library(&folder, &file_error(&error), span),
+                _ => library(&folder, "it is not a folder", span),
+            },
+            Self::EmptyLibrary { folder } => library(&folder, "it contains no robot files (.yaml)", span),
+        }
+    }
+}
+
+fn too_large(message: String, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
+}
+
+fn library(folder: &str, why: &str, span: Span) -> Diagnostic {
+    let message = format!("cannot read the library `{folder}`: {why}");
+    Diagnostic::new(Code::Unreadable, message, span, "expected a folder of robot files")
+        .with_help("the path is relative to the file that names it; `nbc library add` writes robot files")
+}

@@ -1,0 +1,15 @@
+//! What can be wrong with what a program says, as data, and how it is worded: a file for each subject.
+
+mod circuits;
+mod evolutions;
+mod files;
+mod names;
+mod rows;
+mod values;
+
+pub(crate) use circuits::{CircuitError, TableError};
+pub(crate) use evolutions::EvolutionError;
+pub(crate) use files::LoadError;
+pub(crate) use names::NameError;
+pub(crate) use rows::{CellError, RowError};
+pub(crate) use values::{Bounds, Expected, FieldError, Record, ValueError};
