@@ -163,7 +163,7 @@ fn missing_files_and_folders_are_reported() {
     let bench = Bench::new();
     let simulate = |robot: &str| bench.run(&["simulate", robot, "--schedule", "00*1"]);
     simulate("none.yaml").expect_fault(&["cannot read `none.yaml`", "no such file"]);
-    simulate(".").expect_fault(&["cannot read `.`", "it is a folder, expected a regular file"]);
+    simulate(".").expect_fault(&["cannot read `.`", "expected a regular file, found a folder"]);
     simulate("no_such_robot").expect_fault(&["unknown-robot", "`no_such_robot`", "nbc library list"]);
 }
 

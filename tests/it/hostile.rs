@@ -189,9 +189,9 @@ fn links_to_folders_do_not_multiply_files() {
 fn pipes_are_not_read_and_other_files_not_shown() {
     let bench = Bench::new();
     assert!(std::process::Command::new("mkfifo").arg(bench.path().join("pipe.nb")).status().unwrap().success());
-    bench.run(&["check", "pipe.nb"]).expect_fault(&["it is a pipe, expected a regular file"]);
+    bench.run(&["check", "pipe.nb"]).expect_fault(&["expected a regular file, found a pipe"]);
     bench.file("user.nb", "use \"pipe.nb\"");
-    bench.run(&["check", "user.nb"]).expect_fault(&["it is a pipe, expected a regular file", "user.nb:1:5"]);
+    bench.run(&["check", "user.nb"]).expect_fault(&["expected a regular file, found a pipe", "user.nb:1:5"]);
     bench.file("shadow", "root:secret:1::::");
     std::os::unix::fs::symlink("shadow", bench.path().join("link.nb")).unwrap();
     for path in ["shadow", "link.nb"] {

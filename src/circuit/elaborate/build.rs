@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::circuit::elaborate::frame::{Frame, Item};
 use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
+use crate::circuit::elaborate::wording::{ElaborateError, shown_at};
 use crate::circuit::elaborate::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, module_id, unknown};
-use crate::diag::{Code, Diagnostic, Label};
+use crate::diag::Diagnostic;
 use crate::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use crate::source::Span;
 
@@ -66,9 +67,7 @@ impl<'a> Builder<'a> {
     pub(super) fn show_at(&mut self, place: Span, known: usize) {
         for fault in &mut self.diagnostics[known..] {
             if fault.labels.first().is_some_and(|label| label.span.file != place.file) {
-                let inside =
-                    std::mem::replace(&mut fault.labels, vec![Label { span: place, text: "used here".to_owned() }]);
-                fault.related.splice(0..0, inside);
+                shown_at(fault, place);
             }
         }
     }
@@ -108,8 +107,7 @@ impl<'a> Builder<'a> {
             return *known;
         }
         if self.depth >= MAX_HIERARCHY {
-            let message = format!("circuits are built of circuits more than {MAX_HIERARCHY} deep");
-            self.fault(Diagnostic::new(Code::Nesting, message, self.circuit(circuit).span, "when it came to this one"));
+            self.fault(ElaborateError::TooDeep { most: MAX_HIERARCHY }.at(self.circuit(circuit).span));
             return None;
         }
         self.known.insert(key.clone(), None);
@@ -224,12 +222,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         let first = self.module.signals.len() as u32;
         if u64::from(first) + u64::from(width) > MAX_NETS {
             let span = self.module.nets[net].span;
-            self.fault(Diagnostic::new(
-                Code::TooLarge,
-                "the circuit has too many nets",
-                span,
-                "when it came to this one",
-            ));
+            self.fault(ElaborateError::TooManyNets.at(span));
             return;
         }
         self.module.nets[net].width = Some(width);
@@ -253,11 +246,9 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             let ModuleNet { first, width, name, span } = &self.module.nets[net];
             let bits = *first..first + width.unwrap_or(0);
             let missing: Vec<_> = bits.filter(|&bit| !self.is_driven(bit)).map(|bit| bit - first).collect();
-            if let Some(text) = undriven_bits(name, &missing, width.unwrap_or(0)) {
-                let help = format!("drive it: `{text} = …`");
-                let message = format!("nothing drives `{text}`");
-                let fault = Diagnostic::new(Code::Undriven, message, *span, "declared here").with_help(help);
-                self.fault(fault);
+            let span = *span;
+            if let Some(bits) = undriven_bits(name, &missing, width.unwrap_or(0)) {
+                self.fault(ElaborateError::Undriven { bits }.at(span));
             }
         }
     }
@@ -276,9 +267,8 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         (self.module.cells, self.module.size) = (cells, size);
         for (count, what, most) in [(cells, "cells", MAX_CELLS), (size, "nets", MAX_NETS)] {
             if count > most {
-                let message = format!("`{}` needs {count} {what}", self.circuit.name);
-                let label = format!("expected at most {most}");
-                self.fault(Diagnostic::new(Code::TooLarge, message, self.circuit.span, label));
+                let circuit = self.circuit.name.clone();
+                self.fault(ElaborateError::TooLarge { circuit, count, what, most }.at(self.circuit.span));
                 break;
             }
         }

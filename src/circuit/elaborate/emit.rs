@@ -1,10 +1,8 @@
 //! From expressions to gates, bit by bit; the lowest bit of a value comes first.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
-use crate::circuit::elaborate::fault::Operand;
 use crate::circuit::elaborate::module::{Bit, ModuleId, NONE, Signal, Site};
-use crate::circuit::elaborate::{fault, instance};
-use crate::diag::{Code, Diagnostic};
+use crate::circuit::elaborate::wording::{ElaborateError, Operand, Wide, WidthError};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
 use crate::source::Span;
 
@@ -58,8 +56,8 @@ impl ModuleBuilder<'_, '_> {
         };
         if value.len() as u32 != count {
             let found = Operand { span, ..self.operand(self.items[by as usize].value, value) };
-            let fault = fault::width(&format!("the value of `{name}`"), count, &found);
-            self.fault(fault.with_label(target.span, fault::bits(count.into())));
+            let what = Wide::Value { net: name, target: target.span };
+            self.fault(WidthError::Wrong { what, expected: count, found }.into());
             return;
         }
         let first = self.module.nets[net].first + low;
@@ -81,23 +79,15 @@ impl ModuleBuilder<'_, '_> {
         }
         let (first, net) = (*by, *net);
         let first = self.items[first as usize].targets.iter().map(|target| target.span).next().unwrap_or(span);
-        let message = format!("`{}` is driven more than once", self.module.nets[net as usize].name);
-        let fault = Diagnostic::new(Code::MultipleDrivers, message, span, "driven again here");
-        let fault = if first == span { fault } else { fault.with_label(first, "driven here") };
-        self.fault(fault.with_help("a net has one driver; choose between values with `if c then a else b`"));
+        let net = self.module.nets[net as usize].name.clone();
+        self.fault(ElaborateError::DrivenAgain { net, first: (first != span).then_some(first) }.at(span));
     }
 
     fn start(&mut self, start: SizeId, first: Bit, width: u32, frame: u32) {
         let Some(value) = self.size(start, frame) else { return };
         if value < 0 || (width < 63 && value >= 1 << width) {
             let span = self.circuit.sizes[start.0 as usize].span;
-            let message = format!("the start value {value} does not fit into {}", fault::bits(width.into()));
-            let label = if width < 63 {
-                format!("expected 0 to {}", (1i64 << width) - 1)
-            } else {
-                "expected no less than 0".to_owned()
-            };
-            self.fault(fault::range(message, span, label));
+            self.fault(ElaborateError::StartValue { value, width }.at(span));
             return;
         }
         let bit = |at: u32| at < 63 && value >> at & 1 == 1;
@@ -131,11 +121,7 @@ impl ModuleBuilder<'_, '_> {
             ExpressionKind::Computed { width, value } => {
                 let value = self.size(*value, frame)?;
                 let Ok(value) = u128::try_from(value) else {
-                    self.fault(fault::range(
-                        format!("the constant {value} is negative"),
-                        span,
-                        "expected 0 or more".to_owned(),
-                    ));
+                    self.fault(ElaborateError::NegativeConstant { value }.at(span));
                     return None;
                 };
                 self.number(*width, value, frame, span)?
@@ -182,13 +168,7 @@ impl ModuleBuilder<'_, '_> {
     fn number(&mut self, width: SizeId, value: u128, frame: u32, span: Span) -> Option<Vec<Bit>> {
         let width = self.width(width, frame)?;
         if width < 128 && value >> width != 0 {
-            let message = format!("the constant {value} does not fit into {}", fault::bits(width.into()));
-            let needed = u128::BITS - value.leading_zeros();
-            let label = format!("expected at most {}", (1u128 << width) - 1);
-            self.fault(
-                fault::range(message, span, label)
-                    .with_help(format!("it needs {}: `{needed}'d{value}`", fault::bits(needed.into()))),
-            );
+            self.fault(ElaborateError::ConstantWidth { value, width }.at(span));
             return None;
         }
         Some((0..width).map(|bit| self.constant(bit < 128 && value >> bit & 1 == 1)).collect())
@@ -209,8 +189,7 @@ impl ModuleBuilder<'_, '_> {
         let times = self.size(count, frame)?;
         if times < 0 || times.saturating_mul(value.len() as i64) > super::MAX_WIDTH {
             let span = self.circuit.sizes[count.0 as usize].span;
-            let label = format!("expected 0 or more, and no more than {} in all", fault::bits(super::MAX_WIDTH as u64));
-            self.fault(fault::range(format!("{times} repetitions"), span, label));
+            self.fault(ElaborateError::Repetitions { times, most: super::MAX_WIDTH }.at(span));
             return None;
         }
         Some(value.repeat(times as usize))
@@ -226,7 +205,7 @@ impl ModuleBuilder<'_, '_> {
         let width = values[0].len();
         if let Some(at) = values.iter().position(|value| value.len() != width) {
             let [first, second] = [0, at].map(|at| self.operand(operands[at], &values[at]));
-            self.fault(fault::operands(&format!("operands of `{operator}`"), &first, &second));
+            self.fault(WidthError::Operands { operator: operator.word(), first, second }.into());
             return None;
         }
         Some((0..width).map(|bit| self.operation_bit(operator, values.iter().map(|value| value[bit]), span)).collect())
@@ -257,16 +236,12 @@ impl ModuleBuilder<'_, '_> {
         let [condition, then, otherwise] = &values[..] else { unreachable!("a choice has three parts") };
         if condition.len() != 1 {
             let found = self.operand(parts[0], condition);
-            let fault = fault::width("the condition", 1, &found);
-            let net = found.net.as_deref().unwrap_or("…");
-            let width = found.width;
-            let help = format!("ask for all, any or a value: `all({net})`, `any({net})`, `{net} == {width}'d3`");
-            self.fault(fault.with_help(help));
+            self.fault(WidthError::Wrong { what: Wide::Condition, expected: 1, found }.into());
             return None;
         }
         if then.len() != otherwise.len() {
             let (first, second) = (self.operand(parts[1], then), self.operand(parts[2], otherwise));
-            self.fault(fault::operands("branches", &first, &second));
+            self.fault(WidthError::Branches { first, second }.into());
             return None;
         }
         Some(
@@ -329,7 +304,8 @@ impl ModuleBuilder<'_, '_> {
             if value.len() as u32 != expected {
                 let found = self.operand(call.operands[port], value);
                 let circuit = self.builder.circuit(call.callee);
-                self.fault(instance::operand_fault(circuit, port, expected, &found));
+                let what = Wide::Operand { port: circuit.nets[port].name.clone(), circuit: circuit.name.clone() };
+                self.fault(WidthError::Wrong { what, expected, found }.into());
                 return None;
             }
         }

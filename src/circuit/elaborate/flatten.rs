@@ -2,8 +2,9 @@
 
 use crate::circuit::elaborate::build::Builder;
 use crate::circuit::elaborate::module::{ModuleId, NONE, Signal};
+use crate::circuit::elaborate::wording::ElaborateError;
 use crate::circuit::{Cell, NetId, Netlist};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::source::Span;
 
 /// An instance of a module: the offset of its signals, and its name.
@@ -115,8 +116,7 @@ fn self_driven(builder: &Builder<'_>, places: &[Place], at: usize) -> Diagnostic
     let nets: Vec<_> = named(builder, place).collect();
     let (_, name, span) =
         nets.iter().find(|net| net.0 as usize == at).or(nets.first()).expect("only nets drive themselves");
-    Diagnostic::new(Code::Undriven, format!("`{name}` is driven by itself alone"), *span, "declared here")
-        .with_help("a loop needs a gate")
+    ElaborateError::DrivenByItself { net: name.clone() }.at(*span)
 }
 
 fn add_inputs(builder: &Builder<'_>, top: ModuleId, netlist: &mut Netlist, nets: &mut [Option<NetId>]) {

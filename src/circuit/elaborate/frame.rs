@@ -1,10 +1,10 @@
 //! Frames: a block of statements in one iteration of the loops around it, with its nets.
 
+use crate::circuit::elaborate::MAX_STATEMENTS;
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::module::{ModuleNet, NONE};
-use crate::circuit::elaborate::{MAX_STATEMENTS, fault};
-use crate::diag::{Code, Diagnostic};
-use crate::model::{Block, ExpressionId, NetSlot, SizeId, Statement, Target};
+use crate::circuit::elaborate::wording::ElaborateError;
+use crate::model::{Block, ExpressionId, NetSlot, SizeId, SizeKind, Statement, Target};
 use crate::source::Span;
 
 /// A block in one turn of the loops around it.
@@ -87,8 +87,7 @@ impl<'a> ModuleBuilder<'a, '_> {
         let turns = to.saturating_sub(from).max(0) as usize;
         let statements = turns.saturating_mul(body.statements.len().max(1));
         if statements.saturating_add(self.items.len()) > MAX_STATEMENTS || self.frames.len() + turns > MAX_STATEMENTS {
-            let message = format!("the loop makes {statements} statements");
-            self.fault(Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {MAX_STATEMENTS}")));
+            self.fault(ElaborateError::TooManyTurns { statements, most: MAX_STATEMENTS }.at(span));
             self.failed = true;
             return;
         }
@@ -134,30 +133,24 @@ impl<'a> ModuleBuilder<'a, '_> {
         if (1..=super::MAX_WIDTH).contains(&value) {
             return Some(value as u32);
         }
-        let label = format!("expected 1 to {}", super::MAX_WIDTH);
-        self.fault(fault::range(format!("a width of {value} bits"), self.circuit.sizes[size.0 as usize].span, label));
+        let error = ElaborateError::NetWidth { width: value, most: super::MAX_WIDTH };
+        self.fault(error.at(self.circuit.sizes[size.0 as usize].span));
         None
     }
 
     /// The lowest bit and the number of bits of a slice of a net that wide.
     pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<(u32, u32)> {
         let (high, low) = (self.size(bits.0, frame)?, self.size(bits.1, frame)?);
-        let span = self.circuit.sizes[bits.0.0 as usize].span.to(self.circuit.sizes[bits.1.0 as usize].span);
+        let ends = [bits.0, bits.1].map(|end| self.circuit.sizes[end.0 as usize]);
+        let (span, net) = (ends[0].span.to(ends[1].span), name.to_owned());
         if high < low {
-            let message = format!("the slice `{high}..{low}` runs upwards");
-            let help = format!("the highest bit comes first: `{name}[{low}..{high}]`");
-            self.fault(Diagnostic::new(Code::OutOfRange, message, span, "here").with_help(help));
+            let is_literal = ends.iter().all(|end| matches!(end.kind, SizeKind::Literal(_)));
+            self.fault(ElaborateError::AscendingSlice { net, ends: [high, low], is_literal }.at(span));
             return None;
         }
         if low < 0 || high >= i64::from(width) {
-            let outside = if low < 0 { low } else { high };
-            let label = format!("`{name}` is {} wide", fault::bits(width.into()));
-            let help = if width == 1 {
-                format!("its only bit is `{name}` itself")
-            } else {
-                format!("its bits are 0 to {}", width - 1)
-            };
-            self.fault(fault::range(format!("`{name}` has no bit {outside}"), span, label).with_help(help));
+            let bit = if low < 0 { low } else { high };
+            self.fault(ElaborateError::NoSuchBit { net, bit, width }.at(span));
             return None;
         }
         Some((low as u32, (high - low + 1) as u32))

@@ -1,8 +1,9 @@
 //! Parameters of a call: given, inferred from the widths of the operands, or by default.
 
 use crate::circuit::elaborate::build::Builder;
-use crate::circuit::elaborate::{fault, size};
-use crate::diag::{Code, Diagnostic};
+use crate::circuit::elaborate::size;
+use crate::circuit::elaborate::wording::ElaborateError;
+use crate::diag::Diagnostic;
 use crate::model::{Circuit, CircuitId, SizeKind};
 use crate::source::Span;
 
@@ -43,17 +44,14 @@ pub(super) fn arguments(
         let value = match (given, parameter.default) {
             (Some(value), _) => value,
             (None, Some(default)) => size::value(&circuit.sizes, default, &values)?,
-            (None, None) => return Err(untold(circuit, &parameter.name, span)),
+            (None, None) => {
+                let (circuit, parameter) = (circuit.name.clone(), parameter.name.clone());
+                return Err(ElaborateError::UnknownParameter { circuit, parameter }.at(span));
+            }
         };
         values.push(value);
     }
     Ok(values)
-}
-
-fn untold(circuit: &Circuit, parameter: &str, span: Span) -> Diagnostic {
-    let message = format!("the parameter `{parameter}` of `{}` cannot be told", circuit.name);
-    let help = format!("give it: `{}[{parameter} = 8]`", circuit.name);
-    Diagnostic::new(Code::UnknownWidth, message, span, "used here").with_help(help)
 }
 
 /// The widths of the output ports of a circuit with these parameters.
@@ -64,10 +62,4 @@ pub(super) fn output_widths(circuit: &Circuit, arguments: &[i64]) -> Option<Vec<
         None => Some(1),
     };
     ports.iter().map(width).collect()
-}
-
-/// An operand that is not as wide as its port.
-pub(super) fn operand_fault(circuit: &Circuit, port: usize, expected: u32, found: &fault::Operand) -> Diagnostic {
-    let name = &circuit.nets[port].name;
-    fault::width(&format!("the operand `{name}` of `{}`", circuit.name), expected, found)
 }

@@ -2,7 +2,8 @@
 
 use crate::circuit::elaborate::build::Builder;
 use crate::circuit::elaborate::module::{Module, ModuleId, NONE, Signal};
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::circuit::elaborate::wording::ElaborateError;
+use crate::diag::Diagnostic;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -127,8 +128,6 @@ fn warning(module: &Module, signals: &[usize]) -> Option<Diagnostic> {
         }
     }
     let first = &module.nets[*nets.first()? as usize];
-    let names: Vec<_> = nets.iter().map(|&net| &module.nets[net as usize].name).collect();
-    let message = format!("the loop through {} has no start value", suggest::alternatives(&names, "and"));
-    let help = format!("give one of its nets a start value: `{} init 0 = …`", first.name);
-    Some(Diagnostic::new(Code::LoopWithoutStart, message, first.span, "this net feeds back on itself").with_help(help))
+    let nets = nets.iter().map(|&net| module.nets[net as usize].name.clone()).collect();
+    Some(ElaborateError::NoStart { nets }.at(first.span))
 }

@@ -7,7 +7,6 @@
 mod build;
 mod dense;
 mod emit;
-mod fault;
 mod flatten;
 mod frame;
 mod instance;
@@ -16,9 +15,10 @@ mod module;
 mod size;
 mod table;
 mod width;
+mod wording;
 
 use crate::circuit::Netlist;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Circuit, CircuitId, Column, Instance, Program, Reference};
 use crate::source::Span;
 
@@ -134,11 +134,7 @@ impl<'a> Inspector<'a> {
 /// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
 fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
     let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
-    let fault = Diagnostic::without_place(Code::Unknown, format!("no circuit is called `{}`", instance.circuit));
-    match crate::diag::suggest::help(&instance.circuit, names) {
-        Some(help) => fault.with_help(help),
-        None => fault,
-    }
+    wording::unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
 }
 
 fn module_id(at: usize) -> ModuleId {

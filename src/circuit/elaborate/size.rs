@@ -1,6 +1,6 @@
 //! Integers that are known when a circuit is built.
 
-use crate::circuit::elaborate::fault;
+use crate::circuit::elaborate::wording::ElaborateError;
 use crate::diag::Diagnostic;
 use crate::model::{Size, SizeId, SizeKind, SizeOperator};
 
@@ -21,14 +21,7 @@ pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i64]) -> Result<i
             }
             kind => Some(leaf(kind, variables)),
         };
-        let outside = || {
-            fault::range(
-                "the number cannot be computed".to_owned(),
-                size.span,
-                "too large, or a division by zero".to_owned(),
-            )
-        };
-        done.push(value.ok_or_else(outside)?);
+        done.push(value.ok_or_else(|| ElaborateError::Overflow.at(size.span))?);
     }
     Ok(done.pop().expect("a size has a value"))
 }

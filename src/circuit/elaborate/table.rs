@@ -2,9 +2,8 @@
 
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::dense::{Dense, Shape};
-use crate::circuit::elaborate::fault;
 use crate::circuit::elaborate::module::{Bit, NONE};
-use crate::diag::{Code, Diagnostic};
+use crate::circuit::elaborate::wording::ElaborateError;
 use crate::model::{Function, Table, TableRow};
 use crate::source::Span;
 
@@ -15,13 +14,8 @@ impl ModuleBuilder<'_, '_> {
     /// The outputs of a table for these input bits, the lowest first.
     pub(super) fn table(&mut self, table: &Table, inputs: &[Bit]) -> Option<Vec<Bit>> {
         if let Some(row) = table.rows.iter().find(|row| row.pattern.len() != inputs.len()) {
-            let message = format!(
-                "a pattern of {} for inputs of {}",
-                fault::bits(row.pattern.len() as u64),
-                fault::bits(inputs.len() as u64)
-            );
-            let label = format!("expected {}", fault::bits(inputs.len() as u64));
-            self.fault(Diagnostic::new(Code::RowWidth, message, row.span, label));
+            let error = ElaborateError::PatternWidth { found: row.pattern.len(), expected: inputs.len() };
+            self.fault(error.at(row.span));
             return None;
         }
         let output = table.rows.first().map(|row| &row.output).or(table.otherwise.as_ref())?;

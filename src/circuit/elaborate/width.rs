@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 
 use crate::circuit::elaborate::build::ModuleBuilder;
-use crate::circuit::elaborate::{fault, instance};
+use crate::circuit::elaborate::instance;
+use crate::circuit::elaborate::wording::ElaborateError;
 use crate::model::{ExpressionId, ExpressionKind, NetSlot};
 
 /// The widths of an expression's values, if known, and the first net whose width is missing.
@@ -94,8 +95,8 @@ impl ModuleBuilder<'_, '_> {
         for &item in open {
             for net in self.driven_nets(item) {
                 if self.module.nets[net].width.is_none() {
-                    let fault = fault::unknown_width(&self.module.nets[net].name, self.module.nets[net].span);
-                    self.fault(fault);
+                    let (net, span) = (self.module.nets[net].name.clone(), self.module.nets[net].span);
+                    self.fault(ElaborateError::UnknownWidth { net }.at(span));
                 }
             }
         }
