@@ -24,43 +24,49 @@ fn errors_in_blif_have_their_place() {
     check("x\n", "2:1 `x`: `x` is not a directive; expected a directive such as `.names`, or a row after one");
     check(".foo\n", "2:1 `.foo`: unknown BLIF directive `.foo`; not supported");
     check(".exdc\n", "2:1 `.exdc`: `.exdc` is not supported; external don't-cares");
-    check(".names\n", "2:1 `.names`: `.names` without a net; expected the name of a net");
-    check(".latch a\n", "2:1 `.latch`: `.latch` is cut short; expected an input and an output");
-    check(".subckt\n", "2:1 `.subckt`: `.subckt` without a model; expected the name of a model");
+    check(".names\n", "2:1 `.names`: `.names` is incomplete; expected the name of a net");
+    check(".latch a\n", "2:1 `.latch`: `.latch` is incomplete; expected an input and an output");
+    check(".subckt\n", "2:1 `.subckt`: `.subckt` is incomplete; expected the name of a model");
     check(
         ".gate and2 a=b\n",
-        "2:1 `.gate`: `.gate` names a cell of a library that is not in the file; write its function with `.names`",
+        "2:1 `.gate`: `.gate` names a cell of a library that is not in the file; expected its function, written with `.names`",
     );
-    check(".names a y\n1 1 1\n", "3:1 `1 1 1`: malformed row; expected the inputs' digits and the output's");
-    check(".names a y\n11 1\n", "3:1 `11 1`: a row of the wrong width; expected 1 digits `0`, `1` or `-`, found `11`");
-    check(".names a y\n2 1\n", "3:1 `2 1`: a row of the wrong width; expected 1 digits `0`, `1` or `-`, found `2`");
-    check(".names a y\n1 x\n", "3:1 `1 x`: a row with a wrong output; expected `0` or `1`, found `x`");
-    check(".names a y\n1 1\n0 0\n", "4:1 `0 0`: rows of both outputs; all rows of one `.names` have the same output");
-    check(".names a y\n.attr init 2\n", "3:12 `2`: `2` is not a start value of a net; expected 0 or 1");
-    check(".outputs y\n", "2:10 `y`: `y` is used and not defined; used here");
-    check(".outputs y\n.names z y\n1 1\n", "3:8 `z y`: `z` is used and not defined; used here");
+    check(".names a y\n1 1 1\n", "3:1 `1 1 1`: malformed row; expected the digits of the inputs and of the output");
+    check(".names a y\n11 1\n", "3:1 `11 1`: row has the wrong width; expected 1 digits `0`, `1` or `-`, found `11`");
+    check(".names a y\n2 1\n", "3:1 `2 1`: row has the wrong width; expected 1 digits `0`, `1` or `-`, found `2`");
+    check(".names a y\n1 x\n", "3:1 `1 x`: row has an invalid output; expected `0` or `1`, found `x`");
+    check(
+        ".names a y\n1 1\n0 0\n",
+        "4:1 `0 0`: rows have different outputs; expected the same output in all rows of a `.names`",
+    );
+    check(".names a y\n.attr init 2\n", "3:12 `2`: invalid start value `2` of a net; expected 0 or 1");
+    check(".outputs y\n", "2:10 `y`: `y` is used but not defined; used here");
+    check(".outputs y\n.names z y\n1 1\n", "3:8 `z y`: `z` is used but not defined; used here");
     check(".outputs y\n.names y y\n1 1\n", "3:8 `y y`: `y` depends on itself; this closes the loop");
-    check(".inputs y\n.names y\n1\n", "2:9 `y`: `y` is driven twice; an input or a register, and something else too");
-    check(".names y\n1\n.names y\n", "4:8 `y`: `y` is defined twice; the second definition");
+    check(
+        ".inputs y\n.names y\n1\n",
+        "2:9 `y`: `y` is driven twice; an input or a register cannot have another driver",
+    );
+    check(".names y\n1\n.names y\n", "4:8 `y`: `y` is defined twice; defined again here");
     check(".latch a q re\n", "2:12 `re`: invalid start value `re` of a latch; expected 0, 1, 2 (any) or 3 (unknown)");
     check(".latch a q xe clk 0\n", "2:12 `xe`: invalid kind `xe` of a latch; expected re, fe, ah or al");
     check(
         ".latch a q re clk 7\n",
         "2:19 `7`: invalid start value `7` of a latch; expected 0, 1, 2 (any) or 3 (unknown)",
     );
-    check(".inputs a\n.latch a q 0\n", "3:1 `.latch`: latch `q` has no clock; without a clock");
-    check(".subckt gone\n", "2:9 `gone`: model `gone` is missing; no `.model` of this name in the file");
+    check(".inputs a\n.latch a q 0\n", "3:1 `.latch`: latch `q` has no clock; expected a clock");
+    check(".subckt gone\n", "2:9 `gone`: model `gone` is missing; expected its `.model` in the file");
     check(".subckt m\n", "2:9 `m`: model `m` contains itself; instantiated here");
     let inner = ".end\n.model n\n.inputs x\n.outputs y\n.names x y\n1 1\n";
     let nested = |line: &str, expected: &str| check(&format!(".inputs a\n{line}\n{inner}"), expected);
-    nested(".subckt n x", "3:11 `x`: `x` connects nothing; expected `port=net`");
+    nested(".subckt n x", "3:11 `x`: `x` is not a connection; expected `port=net`");
     nested(".subckt n z=a", "3:11 `z=a`: model `n` has no port `z`; connected here");
-    nested(".subckt n x=a x=a", "3:15 `x=a`: port `x` is connected twice; the second connection");
+    nested(".subckt n x=a x=a", "3:15 `x=a`: port `x` is connected twice; connected again here");
     nested(".subckt n y=a", "3:9 `n`: input `x` of model `n` is not connected; expected `x=net`");
     let gated = ".inputs a clk\n.outputs q\n.names a clk g\n11 1\n.latch a q re g 0\n";
-    check(gated, "6:1 `.latch`: the clock `g` of `q` is made by logic; expected an input or a register as clock");
+    check(gated, "6:1 `.latch`: the clock `g` of `q` is driven by logic; expected an input or a register as clock");
     let long = format!(".inputs {}\n", "n".repeat(1_001));
-    check(&long, "2:9 `nnnnnnnnnnnnnnnnnnnn`: a name of 1001 bytes; expected at most 1000");
+    check(&long, "2:9 `nnnnnnnnnnnnnnnnnnnn`: name of 1001 bytes is too long; expected at most 1000");
     let bare = first(".inputs a\n", |text, file| blif::read(text, file, None).map(drop));
     assert_eq!(bare, "1:1 `.inputs`: `.inputs` before `.model`; expected `.model` first");
 }
@@ -75,18 +81,18 @@ fn errors_in_bench_have_their_place() {
     check("", "1:1 ``: no `OUTPUT` in this .bench file; expected `OUTPUT(net)`");
     check("hello\n", &format!("1:1 `hello`: {statement}"));
     check("INPUT(a)\n  b = NAND(a, a\n", &format!("2:3 `b = NAND(a, a`: {statement}"));
-    check("b = MUX(a, c)\n", &format!("1:1 `b = MUX(a, c)`: `MUX` of 2 nets is not a gate of .bench; {gates}"));
-    check("b = NOT(a, c)\n", &format!("1:1 `b = NOT(a, c)`: `NOT` of 2 nets is not a gate of .bench; {gates}"));
-    check("b = MUX(a)\n", &format!("1:1 `b = MUX(a)`: `MUX` of 1 net is not a gate of .bench; {gates}"));
-    check("INPUT(a, b)\n", "1:1 `INPUT(a, b)`: a port of 2 nets; expected `INPUT(net)` for each");
-    check("AND(a, b)\n", "1:1 `AND(a, b)`: nothing takes the value of `AND`; expected `net = AND(…)`");
-    check("q = AND(a,)\n", "1:1 `q = AND(a,)`: a net without a name; expected a name between the commas");
-    check(" = AND(a, b)\n", "1:2 `= AND(a, b)`: a net without a name; expected a name between the commas");
-    check("q = AND(a b)\n", "1:1 `q = AND(a b)`: a name with a blank; expected a comma between names");
-    check("OUTPUT(q)\n", "1:1 `OUTPUT(q)`: `q` is used and not defined; used here");
+    check("b = MUX(a, c)\n", &format!("1:1 `b = MUX(a, c)`: .bench has no gate `MUX` of 2 nets; {gates}"));
+    check("b = NOT(a, c)\n", &format!("1:1 `b = NOT(a, c)`: .bench has no gate `NOT` of 2 nets; {gates}"));
+    check("b = MUX(a)\n", &format!("1:1 `b = MUX(a)`: .bench has no gate `MUX` of 1 net; {gates}"));
+    check("INPUT(a, b)\n", "1:1 `INPUT(a, b)`: `INPUT` names 2 nets; expected `INPUT(net)` for each net");
+    check("AND(a, b)\n", "1:1 `AND(a, b)`: the value of `AND` is not assigned to a net; expected `net = AND(…)`");
+    check("q = AND(a,)\n", "1:1 `q = AND(a,)`: net has no name; expected a name between the commas");
+    check(" = AND(a, b)\n", "1:2 `= AND(a, b)`: net has no name; expected a name between the commas");
+    check("q = AND(a b)\n", "1:1 `q = AND(a b)`: name contains a space; expected a comma between names");
+    check("OUTPUT(q)\n", "1:1 `OUTPUT(q)`: `q` is used but not defined; used here");
     check("OUTPUT(q)\nq = AND(q, q)\n", "2:1 `q = AND(q, q)`: `q` depends on itself; this closes the loop");
     check(
         "INPUT(a)\nOUTPUT(a)\na = NOT(a)\n",
-        "1:1 `INPUT(a)`: `a` is driven twice; an input or a register, and something else too",
+        "1:1 `INPUT(a)`: `a` is driven twice; an input or a register cannot have another driver",
     );
 }

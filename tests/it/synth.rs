@@ -252,15 +252,15 @@ fn refused(name: &str, text: &str, expected: &str) {
 #[test]
 fn damaged_files_are_rejected_with_a_reason() {
     refused("a.blif", "", "no `.model` in this BLIF file");
-    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names z y\n1 1\n", "`z` is used and not defined");
+    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names z y\n1 1\n", "`z` is used but not defined");
     refused("a.blif", ".model a\n.outputs y\n.names y y\n1 1\n", "`y` depends on itself");
-    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names x y\n11 1\n", "a row of the wrong width");
+    refused("a.blif", ".model a\n.inputs x\n.outputs y\n.names x y\n11 1\n", "row has the wrong width");
     refused("a.blif", ".model a\n.inputs x\n.outputs y\n.subckt gone a=x b=y\n", "model `gone` is missing");
     refused("a.blif", ".model a\n.inputs x\n.outputs y\n.latch x y 0\n", "latch `y` has no clock");
-    refused("a.bench", "OUTPUT(y)\ny = MUX(a, b)\n", "`MUX` of 2 nets is not a gate of .bench");
-    refused("a.aag", "aag 1 1 0 1", "the file ends too early");
+    refused("a.bench", "OUTPUT(y)\ny = MUX(a, b)\n", ".bench has no gate `MUX` of 2 nets");
+    refused("a.aag", "aag 1 1 0 1", "unexpected end of file");
     refused("a.aag", "aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "depends on itself");
-    refused("a.aig", "aig 9 1 0 1 8\n2\n", "the file ends too early");
+    refused("a.aig", "aig 9 1 0 1 8\n2\n", "unexpected end of file");
     refused("a.xyz", "", "unrecognized circuit format of `a.xyz`; expected .blif, .aig, .aag, .bench or .v");
 }
 
@@ -271,24 +271,20 @@ fn errors_in_an_aiger_file_have_their_line() {
     };
     told(
         "aag 1 1 0\n",
-        "expected five numbers in the header, found 3 (properties and constraints are not supported)",
+        "expected five numbers in the header, found 3; properties and constraints are not supported",
         1,
     );
     told("aag a 1 0 0 0\n", "expected a header such as `aag 3 2 0 1 1`, found `aag a 1 0 0 0`", 1);
     told("blif\n", "expected `aag` or `aig`, found `blif`", 1);
-    told(
-        "aag 1 2 0 0 0\n2\n4\n",
-        "2 inputs, 0 latches and 0 gates must not be more than the 1 variables of the header",
-        1,
-    );
+    told("aag 1 2 0 0 0\n2\n4\n", "2 inputs, 0 latches and 0 gates exceed the 1 variables of the header", 1);
     told("aag 2 1 0 1 1\n2 4\n4\n4 2 2\n", "expected one literal for an input, found 2", 2);
     told("aag 2 2 0 1 0\n2\n2\n4\n", "literal 2 cannot be an input or a latch", 3);
     told("aag 2 1 1 1 0\n2\n4 2 7\n4\n", "expected the start value 0, 1 or 4 (any) of a latch, found 7", 3);
     told("aag 3 1 0 1 1\n2\n6\n4 2 2\n", "nothing drives literal 6", 3);
     told("aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "literal 6 depends on itself", 5);
     told("aag 2 1 0 1 1\n2\n4\n4 2\n", "expected three literals of a gate, found 2", 4);
-    told("aag 2 1 0 1 1\n2\n4\n4 2 9\n", "literal 9 is more than the header allows", 4);
-    told("aag 2 1 0 1 1\n2\n4\n4 2 2\nx0 q\n", "`x0 q` names nothing", 5);
+    told("aag 2 1 0 1 1\n2\n4\n4 2 9\n", "literal 9 is larger than the header allows", 4);
+    told("aag 2 1 0 1 1\n2\n4\n4 2 2\nx0 q\n", "`x0 q` names no input, output or latch", 5);
 }
 
 #[test]

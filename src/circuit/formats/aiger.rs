@@ -1,12 +1,13 @@
 //! AIGER, and-inverter graphs: ascii (`aag`) and binary (`aig`).
 
-use std::fmt::{self, Write};
+use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::formats::names::Names;
+use crate::circuit::formats::wording::{AigerError, Place};
 use crate::circuit::network::{Gate, View};
 use crate::circuit::{NetId, Netlist};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::model::Function;
 
 /// The most variables that a file may have.
@@ -21,26 +22,6 @@ pub const MOST_PORTS: usize = 1_000_000;
 /// What is wrong with it, with the line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
     Reader { bytes, at: 0, lines: 0, place: Place::Line(1) }.read(clock)
-}
-
-/// A position in the file; gates of a binary file have no lines.
-#[derive(Clone, Copy)]
-enum Place {
-    Line(usize),
-    Byte(usize),
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(line) => write!(f, "line {line}"),
-            Self::Byte(byte) => write!(f, "byte {byte}"),
-        }
-    }
-}
-
-fn fault<T>(message: impl fmt::Display, place: Place) -> Result<T, Diagnostic> {
-    Err(Diagnostic::without_place(Code::CircuitFile, format!("{message}, {place} of the AIGER file")))
 }
 
 struct Reader<'b> {
@@ -90,8 +71,8 @@ struct Graph {
 }
 
 impl<'b> Reader<'b> {
-    fn fault<T>(&self, message: impl fmt::Display) -> Result<T, Diagnostic> {
-        fault(message, self.place)
+    fn fault<T>(&self, error: AigerError) -> Result<T, Diagnostic> {
+        Err(error.at(self.place))
     }
 
     fn line(&mut self) -> Result<&'b str, Diagnostic> {
@@ -99,10 +80,10 @@ impl<'b> Reader<'b> {
         self.lines += 1;
         self.place = Place::Line(self.lines);
         let Some(end) = rest.iter().position(|&byte| byte == b'\n') else {
-            return self.fault("the file ends too early");
+            return self.fault(AigerError::EndOfFile);
         };
         let Ok(line) = std::str::from_utf8(&rest[..end]) else {
-            return self.fault("expected text");
+            return self.fault(AigerError::NotText);
         };
         self.at += end + 1;
         Ok(line.trim_end_matches('\r'))
@@ -112,14 +93,14 @@ impl<'b> Reader<'b> {
         let line = self.line()?;
         match line.split(' ').map(str::parse).collect() {
             Ok(numbers) => Ok(numbers),
-            Err(_) => self.fault(format!("expected numbers, found `{}`", excerpt(line))),
+            Err(_) => self.fault(AigerError::NotNumbers { found: excerpt(line) }),
         }
     }
 
-    fn literal(&mut self, what: &str) -> Result<Placed, Diagnostic> {
+    fn literal(&mut self, what: &'static str) -> Result<Placed, Diagnostic> {
         match self.numbers()?[..] {
             [literal] => Ok((literal, self.place)),
-            ref numbers => self.fault(format!("expected one literal for {what}, found {}", numbers.len())),
+            ref numbers => self.fault(AigerError::PortLiterals { what, found: numbers.len() }),
         }
     }
 
@@ -129,34 +110,28 @@ impl<'b> Reader<'b> {
         let binary = match words.next() {
             Some("aig") => true,
             Some("aag") => false,
-            _ => return self.fault(format!("expected `aag` or `aig`, found `{}`", excerpt(line))),
+            _ => return self.fault(AigerError::NotAiger { found: excerpt(line) }),
         };
         let Ok(numbers) = words.map(str::parse).collect::<Result<Vec<usize>, _>>() else {
-            return self.fault(format!("expected a header such as `aag 3 2 0 1 1`, found `{}`", excerpt(line)));
+            return self.fault(AigerError::Header { found: excerpt(line) });
         };
         let [variables, inputs, latches, outputs, ands] = numbers[..] else {
-            return self.fault(format!(
-                "expected five numbers in the header, found {} (properties and constraints are not supported)",
-                numbers.len()
-            ));
+            return self.fault(AigerError::HeaderNumbers { found: numbers.len() });
         };
-        if let Some(number) = numbers.iter().find(|&&number| number > MOST_VARIABLES) {
-            return self.fault(format!("the header says {number}, and at most {MOST_VARIABLES} variables are read"));
+        if let Some(&number) = numbers.iter().find(|&&number| number > MOST_VARIABLES) {
+            return self.fault(AigerError::TooLarge { number, most: MOST_VARIABLES });
         }
         if inputs > MOST_PORTS || latches > MOST_PORTS {
-            return self.fault(format!("more than {MOST_PORTS} inputs or latches"));
+            return self.fault(AigerError::TooManyPorts { most: MOST_PORTS });
         }
         let used = inputs + latches + ands;
         if used > variables || binary && used != variables {
-            let relation = if binary { "must be" } else { "must not be more than" };
-            return self.fault(format!(
-                "{inputs} inputs, {latches} latches and {ands} gates {relation} the {variables} variables of the header"
-            ));
+            return self.fault(AigerError::Sum { inputs, latches, ands, variables, binary });
         }
         // Every output takes at least two bytes and every gate two, so the header cannot announce more than the file
         // contains.
         if outputs + ands > self.bytes.len() {
-            return self.fault(format!("the file is too short for {outputs} outputs and {ands} gates"));
+            return self.fault(AigerError::TooShort { outputs, ands });
         }
         Ok(Header { binary, variables, inputs, latches, outputs, ands })
     }
@@ -184,10 +159,8 @@ impl<'b> Reader<'b> {
             [latch, next] => (latch, next, Some(false)),
             [latch, next, start @ (0 | 1)] => (latch, next, Some(start == 1)),
             [latch, next, start] if start == latch => (latch, next, None),
-            [latch, _, start] => {
-                return self.fault(format!("expected the start value 0, 1 or {latch} (any) of a latch, found {start}"));
-            }
-            _ => return self.fault("expected a latch: its literal, the next one and maybe its start value"),
+            [latch, _, start] => return self.fault(AigerError::LatchStart { latch, start }),
+            _ => return self.fault(AigerError::Latch),
         };
         Ok(Latch { literal, next, start, place: self.place })
     }
@@ -196,7 +169,7 @@ impl<'b> Reader<'b> {
         if !header.binary {
             return match self.numbers()?[..] {
                 [out, a, b] => Ok(And { out, pins: [a, b], place: self.place }),
-                ref numbers => self.fault(format!("expected three literals of a gate, found {}", numbers.len())),
+                ref numbers => self.fault(AigerError::GateLiterals { found: numbers.len() }),
             };
         }
         let out = 2 * (header.inputs + header.latches + i + 1);
@@ -205,7 +178,7 @@ impl<'b> Reader<'b> {
         self.place = place;
         match out.checked_sub(first).and_then(|a| Some((a, a.checked_sub(second)?))) {
             Some((a, b)) if first > 0 => Ok(And { out, pins: [a, b], place }),
-            _ => self.fault(format!("gate {out} listens to itself or to a later literal")),
+            _ => self.fault(AigerError::GateOrder { gate: out }),
         }
     }
 
@@ -215,7 +188,7 @@ impl<'b> Reader<'b> {
         let mut value = 0;
         for shift in (0..35).step_by(7) {
             let Some(&byte) = self.bytes.get(self.at) else {
-                return self.fault("the file ends too early");
+                return self.fault(AigerError::EndOfFile);
             };
             self.at += 1;
             value |= usize::from(byte & 0x7f) << shift;
@@ -223,7 +196,7 @@ impl<'b> Reader<'b> {
                 return Ok(value);
             }
         }
-        self.fault("a number of more than 35 bits")
+        self.fault(AigerError::LongNumber)
     }
 
     /// Reads the names of ports and latches after the gates.
@@ -239,7 +212,7 @@ impl<'b> Reader<'b> {
                 Some((kind, number.parse::<usize>().ok()?, name))
             });
             let Some((kind, number, name)) = symbol.filter(|(_, _, name)| !name.is_empty()) else {
-                return self.fault(format!("expected a symbol such as `i0 name`, found `{}`", excerpt(line)));
+                return self.fault(AigerError::Symbol { found: excerpt(line) });
             };
             let known = match kind {
                 "i" if number < inputs => Some(design.logic.inputs()[number]),
@@ -251,7 +224,7 @@ impl<'b> Reader<'b> {
                 _ => None,
             };
             let Some(id) = known else {
-                return self.fault(format!("`{}` names nothing", excerpt(line)));
+                return self.fault(AigerError::UnknownSymbol { found: excerpt(line) });
             };
             design.logic.rename(id, name);
         }
@@ -274,7 +247,7 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
     for (name, (literal, place)) in ports.chain(states) {
         match nets.get_mut(literal / 2).filter(|net| literal > 1 && literal & 1 == 0 && net.is_none()) {
             Some(net) => *net = Some(logic.add_input(name)),
-            None => return fault(format!("literal {literal} cannot be an input or a latch"), place),
+            None => return Err(AigerError::NotAnInput { literal }.at(place)),
         }
     }
     let mut literals = Literals { inverted: vec![None; header.variables + 1], constants: [None; 2], nets };
@@ -288,7 +261,7 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
     for (name, (literal, place)) in drivers {
         match literals.net(&mut logic, literal) {
             Some(net) => driven.push((name, net)),
-            None => return fault(format!("nothing drives literal {literal}"), place),
+            None => return Err(AigerError::Undriven { literal }.at(place)),
         }
     }
     driven.into_iter().for_each(|(name, net)| {
@@ -327,12 +300,12 @@ fn sorted(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<And>, Diagnostic> 
                         ready = false;
                     }
                     Some(Some(pin)) if state[*pin] == 1 => {
-                        return fault(format!("literal {out} depends on itself"), place);
+                        return Err(AigerError::Loop { literal: out }.at(place));
                     }
                     Some(None) if literal > 1 && nets[literal / 2].is_none() => {
-                        return fault(format!("nothing drives literal {literal}"), place);
+                        return Err(AigerError::Undriven { literal }.at(place));
                     }
-                    None => return fault(format!("literal {literal} is more than the header allows"), place),
+                    None => return Err(AigerError::OverHeader { literal }.at(place)),
                     _ => {}
                 }
             }
@@ -341,7 +314,7 @@ fn sorted(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<And>, Diagnostic> 
                 order.push(ands[i]);
                 open.pop();
             } else if open.len() > ands.len() + 2 {
-                return fault(format!("literal {out} depends on itself"), place);
+                return Err(AigerError::Loop { literal: out }.at(place));
             }
         }
     }
@@ -353,10 +326,10 @@ fn gates_by_variable(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<Option<
     let mut gates: Vec<Option<usize>> = vec![None; nets.len()];
     for (i, &And { out, place, .. }) in ands.iter().enumerate() {
         let Some(gate) = gates.get_mut(out / 2).filter(|_| out > 1 && out & 1 == 0) else {
-            return fault(format!("literal {out} cannot be a gate"), place);
+            return Err(AigerError::NotAGate { literal: out }.at(place));
         };
         if nets[out / 2].is_some() || gate.replace(i).is_some() {
-            return fault(format!("literal {out} is defined twice"), place);
+            return Err(AigerError::DefinedTwice { literal: out }.at(place));
         }
     }
     Ok(gates)

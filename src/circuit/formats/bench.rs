@@ -2,7 +2,8 @@
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
-use crate::diag::{Diagnostic, counted};
+use crate::circuit::formats::wording::TextError;
+use crate::diag::Diagnostic;
 use crate::model::Function;
 use crate::source::{FileId, Span};
 
@@ -23,7 +24,7 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
         start += line.len();
     }
     if draft.outputs.is_empty() && draft.errors.is_empty() {
-        draft.fault("no `OUTPUT` in this .bench file", Span::new(file, 0, 0), "expected `OUTPUT(net)`");
+        draft.fault(TextError::NoOutput, Span::new(file, 0, 0));
     }
     draft.finish()
 }
@@ -34,21 +35,17 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
         None => (None, line),
     };
     let Some((word, arguments)) = call.strip_suffix(')').and_then(|call| call.split_once('(')) else {
-        return draft.fault("not a statement of .bench", span, "expected `INPUT(a)`, `OUTPUT(b)` or `b = NAND(a, c)`");
+        return draft.fault(TextError::NotAStatement, span);
     };
     if arguments.split(',').any(|pin| pin.trim().is_empty()) || target == Some("") {
-        return draft.fault("a net without a name", span, "expected a name between the commas");
+        return draft.fault(TextError::UnnamedNet, span);
     }
     if target.is_some_and(|target| target.contains(char::is_whitespace)) || pins_have_blanks(arguments) {
-        return draft.fault("a name with a blank", span, "expected a comma between names");
+        return draft.fault(TextError::SpaceInName, span);
     }
     if let Some(long) = target.into_iter().chain(arguments.split(',')).find(|name| name.len() > MOST_NAME_BYTES) {
         let start = Span { end: span.start + 20, ..span };
-        return draft.fault(
-            format!("a name of {} bytes", long.len()),
-            start,
-            format!("expected at most {MOST_NAME_BYTES}"),
-        );
+        return draft.fault(TextError::LongName { bytes: long.len(), most: MOST_NAME_BYTES }, start);
     }
     let pins: Vec<_> = arguments.split(',').map(|pin| draft.name(pin.trim())).collect();
     let word = word.trim().to_ascii_uppercase();
@@ -67,17 +64,13 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
                 draft.define(output, Definition::Gate(function, inverted, pins.to_vec()), span);
             }
             None => {
-                let message = format!("`{word}` of {} is not a gate of .bench", counted(pins.len(), "net"));
-                let label = "expected AND, NAND, OR, NOR, XOR or XNOR of any nets, NOT, BUFF or DFF of one";
-                draft.fault(message, span, label);
+                draft.fault(TextError::UnknownGate { gate: word.to_owned(), nets: pins.len() }, span);
             }
         },
         (None, "INPUT" | "OUTPUT", pins) => {
-            draft.fault(format!("a port of {} nets", pins.len()), span, format!("expected `{word}(net)` for each"));
+            draft.fault(TextError::PortNets { word, nets: pins.len() }, span);
         }
-        (None, ..) => {
-            draft.fault(format!("nothing takes the value of `{word}`"), span, format!("expected `net = {word}(…)`"))
-        }
+        (None, ..) => draft.fault(TextError::Unassigned { word }, span),
     }
 }
 

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
-use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
+use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES};
 use crate::circuit::formats::names::{ClockName, Names, cells_in_order, stand_ins, visible};
+use crate::circuit::formats::wording::TextError;
 use crate::circuit::{Logic, Loops, NetId, Netlist, Node};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
 
 /// Reads the first model of a file and expands the models it instantiates.
@@ -21,17 +22,11 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
         return Err(models.errors);
     }
     if models.all.is_empty() {
-        let span = Span::new(file, 0, 0);
-        return Err(vec![Diagnostic::new(
-            Code::CircuitFile,
-            "no `.model` in this BLIF file",
-            span,
-            "expected `.model`",
-        )]);
+        return Err(vec![TextError::NoModel.at(Span::new(file, 0, 0))]);
     }
     let mut extents = vec![None; models.all.len()];
-    if let Err((message, span)) = models.extent(0, 0, &mut extents) {
-        return Err(vec![Diagnostic::new(Code::CircuitFile, message, span, "when it came to this one")]);
+    if let Err((error, span)) = models.extent(0, 0, &mut extents) {
+        return Err(vec![error.at(span)]);
     }
     let mut draft = Draft::titled(models.all[0].name);
     let mut flat = Flat { models: &models, draft: &mut draft, clock, path: Vec::new() };
@@ -115,8 +110,8 @@ struct Extent {
 
 impl<'t> Models<'t> {
     /// Measures a model at `depth`, each model once, or returns the place at which the limit is exceeded.
-    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (String, Span)> {
-        // A model that contains itself is reported at the place of the instance.
+    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (TextError, Span)> {
+        // A model that contains itself is told of where it is instantiated.
         known[model] = Some(Extent::default());
         let mut extent = Extent::default();
         for (statement, span) in &self.all[model].statements {
@@ -135,19 +130,19 @@ impl<'t> Models<'t> {
             extent.statements = extent.statements.saturating_add(nested.statements);
             extent.bytes = extent.bytes.saturating_add(nested.bytes).saturating_add(names);
             if extent.depth > MOST_DEPTH {
-                return Err((format!("models nest more than {MOST_DEPTH} deep"), *span));
+                return Err((TextError::ModelDepth { most: MOST_DEPTH }, *span));
             }
             if extent.bytes > MOST_BYTES {
-                return Err(("the circuit is too large with its models in their places".to_owned(), *span));
+                return Err((TextError::ModelSize, *span));
             }
         }
         known[model] = Some(extent);
         Ok(extent)
     }
 
-    fn fault(&mut self, message: impl Into<String>, span: Span, label: impl Into<String>) {
-        if self.errors.len() < 20 {
-            self.errors.push(Diagnostic::new(Code::CircuitFile, message, span, label));
+    fn fault(&mut self, error: TextError, span: Span) {
+        if self.errors.len() < MOST_ERRORS {
+            self.errors.push(error.at(span));
         }
     }
 
@@ -157,16 +152,13 @@ impl<'t> Models<'t> {
             let row = !first.starts_with('.');
             if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && word.len() > MOST_NAME_BYTES) {
                 let start = Span { end: span.start + 20, ..span };
-                self.fault(
-                    format!("a name of {} bytes", span.end - span.start),
-                    start,
-                    format!("expected at most {MOST_NAME_BYTES}"),
-                );
+                let bytes = (span.end - span.start) as usize;
+                self.fault(TextError::LongName { bytes, most: MOST_NAME_BYTES }, start);
                 return;
             }
             if first.starts_with('.') {
                 if first == ".exdc" {
-                    self.fault("`.exdc` is not supported", span, "external don't-cares");
+                    self.fault(TextError::DontCares, span);
                     return;
                 }
                 self.directive(words);
@@ -182,7 +174,7 @@ impl<'t> Models<'t> {
         if first == ".model" {
             let name = rest.first().map_or("", |&(name, _)| name);
             if self.by_name.insert(name, self.all.len()).is_some() {
-                self.fault(format!("model `{name}` is defined twice"), span, "the second definition");
+                self.fault(TextError::ModelTwice { model: name.to_owned() }, span);
             }
             let model = Model { name, inputs: vec![], outputs: vec![], clocks: vec![], statements: vec![] };
             self.all.push(model);
@@ -192,32 +184,30 @@ impl<'t> Models<'t> {
             return;
         }
         let Some(model) = self.all.last_mut() else {
-            self.fault(format!("`{first}` before `.model`"), span, "expected `.model` first");
+            self.fault(TextError::BeforeModel { directive: first.to_owned() }, span);
             return;
         };
         match first {
             ".inputs" => model.inputs.extend(rest),
             ".outputs" => model.outputs.extend(rest),
             ".clock" => model.clocks.extend(rest),
-            ".names" if rest.is_empty() => self.fault("`.names` without a net", span, "expected the name of a net"),
+            ".names" if rest.is_empty() => self.incomplete(".names", "expected the name of a net", span),
             ".names" => {
                 let names = Statement::Names { signals: rest, cubes: Vec::new(), value: true, start: None };
                 model.statements.push((names, span));
             }
             ".attr" => self.attribute(&rest),
-            ".latch" if rest.len() < 2 => self.fault("`.latch` is cut short", span, "expected an input and an output"),
+            ".latch" if rest.len() < 2 => self.incomplete(".latch", "expected an input and an output", span),
             ".latch" => model.statements.push((Statement::Latch(rest), span)),
-            ".subckt" if rest.is_empty() => {
-                self.fault("`.subckt` without a model", span, "expected the name of a model")
-            }
+            ".subckt" if rest.is_empty() => self.incomplete(".subckt", "expected the name of a model", span),
             ".subckt" => model.statements.push((Statement::Subcircuit(rest), span)),
-            ".gate" | ".mlatch" => self.fault(
-                format!("`{first}` names a cell of a library that is not in the file"),
-                span,
-                "write its function with `.names`",
-            ),
-            _ => self.fault(format!("unknown BLIF directive `{first}`"), span, "not supported"),
+            ".gate" | ".mlatch" => self.fault(TextError::LibraryCell { directive: first.to_owned() }, span),
+            _ => self.fault(TextError::UnknownDirective { directive: first.to_owned() }, span),
         }
+    }
+
+    fn incomplete(&mut self, directive: &'static str, expected: &'static str, span: Span) {
+        self.fault(TextError::Incomplete { directive, expected }, span);
     }
 
     /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
@@ -228,7 +218,7 @@ impl<'t> Models<'t> {
         };
         match value {
             "0" | "1" => *start = Some(value == "1"),
-            _ => self.fault(format!("`{value}` is not a start value of a net"), span, "expected 0 or 1"),
+            _ => self.fault(TextError::NetStart { found: value.to_owned() }, span),
         }
     }
 
@@ -237,28 +227,24 @@ impl<'t> Models<'t> {
         let Some((Statement::Names { signals, cubes, value, .. }, _)) =
             self.all.last_mut().and_then(|model| model.statements.last_mut())
         else {
-            let message = format!("`{}` is not a directive", words[0].0);
-            return self.fault(message, span, "expected a directive such as `.names`, or a row after one");
+            return self.fault(TextError::NotADirective { found: words[0].0.to_owned() }, span);
         };
         let wanted = signals.len() - 1;
         let (inputs, output) = match words[..] {
             [(output, _)] if wanted == 0 => ("", output),
             [(inputs, _), (output, _)] => (inputs, output),
-            _ => return self.fault("malformed row", span, "expected the inputs' digits and the output's"),
+            _ => return self.fault(TextError::MalformedRow, span),
         };
         if inputs.len() != wanted || !inputs.bytes().all(|digit| b"01-".contains(&digit)) {
-            let label = format!("expected {wanted} digits `0`, `1` or `-`, found `{inputs}`");
-            return self.fault("a row of the wrong width", span, label);
+            return self.fault(TextError::RowWidth { expected: wanted, found: inputs.to_owned() }, span);
         }
         let is = match output {
             "1" => true,
             "0" => false,
-            _ => {
-                return self.fault("a row with a wrong output", span, format!("expected `0` or `1`, found `{output}`"));
-            }
+            _ => return self.fault(TextError::RowOutput { found: output.to_owned() }, span),
         };
         if !cubes.is_empty() && *value != is {
-            return self.fault("rows of both outputs", span, "all rows of one `.names` have the same output");
+            return self.fault(TextError::MixedRows, span);
         }
         *value = is;
         cubes.push(inputs.bytes().collect());
@@ -362,8 +348,7 @@ impl<'m, 't> Flat<'m, 't> {
             Some(("0", _)) => Some(false),
             Some(("1", _)) => Some(true),
             Some(&(word, span)) => {
-                let message = format!("invalid start value `{word}` of a latch");
-                return self.draft.fault(message, span, "expected 0, 1, 2 (any) or 3 (unknown)");
+                return self.draft.fault(TextError::LatchStart { found: word.to_owned() }, span);
             }
         };
         let (kind, clock) = match (words.get(2), words.get(3)) {
@@ -373,10 +358,7 @@ impl<'m, 't> Flat<'m, 't> {
                     "fe" => RegisterKind::Falling,
                     "ah" => RegisterKind::High,
                     "al" => RegisterKind::Low,
-                    _ => {
-                        let message = format!("invalid kind `{kind}` of a latch");
-                        return self.draft.fault(message, span, "expected re, fe, ah or al");
-                    }
+                    _ => return self.draft.fault(TextError::LatchKind { found: (*kind).to_owned() }, span),
                 };
                 let number = self.net(clock, prefix, ports);
                 (kind, (*clock != "NIL").then(|| self.draft.text(number).to_owned()))
@@ -389,11 +371,9 @@ impl<'m, 't> Flat<'m, 't> {
         };
         let clock = clock.or(one_clock).or_else(|| self.clock.map(str::to_owned));
         let name = self.draft.text(output).to_owned();
-        if clock.is_none() && self.draft.errors.len() < 20 {
-            let fault =
-                Diagnostic::new(Code::CircuitFile, format!("latch `{name}` has no clock"), span, "without a clock");
-            let help = format!("write `.latch {} {name} re clk 0`, or `.clock clk`, or pass `--clock clk`", words[0].0);
-            self.draft.errors.push(fault.with_help(help));
+        if clock.is_none() {
+            let (latch, input) = (name.clone(), words[0].0.to_owned());
+            self.draft.fault(TextError::NoClock { latch, input }, span);
         }
         let register = Register { name, kind, clock, start };
         self.draft.registers.push(DraftRegister { register, output, next, span });
@@ -402,31 +382,31 @@ impl<'m, 't> Flat<'m, 't> {
     fn subcircuit(&mut self, words: &Words<'t>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
         let (name, span) = words[0];
         let Some(&model) = self.models.by_name.get(name) else {
-            let message = format!("model `{name}` is missing");
-            return self.draft.fault(message, span, "no `.model` of this name in the file");
+            return self.draft.fault(TextError::MissingModel { model: name.to_owned() }, span);
         };
         if self.path.contains(&model) {
-            return self.draft.fault(format!("model `{name}` contains itself"), span, "instantiated here");
+            return self.draft.fault(TextError::RecursiveModel { model: name.to_owned() }, span);
         }
         let mut inner: BTreeMap<&str, String> = BTreeMap::new();
         for &(word, at) in &words[1..] {
             let Some((formal, actual)) = word.split_once('=') else {
-                return self.draft.fault(format!("`{word}` connects nothing"), at, "expected `port=net`");
+                return self.draft.fault(TextError::NotAConnection { found: word.to_owned() }, at);
             };
             let known = &self.models.all[model];
             let ports_of_model = known.inputs.iter().chain(&known.outputs).chain(&known.clocks);
             if !ports_of_model.map(|&(name, _)| name).any(|name| name == formal) {
-                return self.draft.fault(format!("model `{name}` has no port `{formal}`"), at, "connected here");
+                let (model, port) = (name.to_owned(), formal.to_owned());
+                return self.draft.fault(TextError::UnknownPort { model, port }, at);
             }
             let number = self.net(actual, prefix, ports);
             if inner.insert(formal, self.draft.text(number).to_owned()).is_some() {
-                return self.draft.fault(format!("port `{formal}` is connected twice"), at, "the second connection");
+                return self.draft.fault(TextError::ConnectedTwice { port: formal.to_owned() }, at);
             }
         }
         let open = self.models.all[model].inputs.iter().find(|(port, _)| !inner.contains_key(port));
         if let Some((port, _)) = open {
-            let message = format!("input `{port}` of model `{name}` is not connected");
-            return self.draft.fault(message, span, format!("expected `{port}=net`"));
+            let (model, port) = (name.to_owned(), (*port).to_owned());
+            return self.draft.fault(TextError::Unconnected { model, port }, span);
         }
         let instance = format!("{prefix}{name}@{}.", span.start);
         self.instantiate(model, &instance, &inner);

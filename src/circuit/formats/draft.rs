@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::circuit::formats::design::{Design, Register};
+use crate::circuit::formats::wording::TextError;
 use crate::circuit::{NetId, Netlist};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
@@ -78,7 +79,7 @@ pub const MOST_PINS: usize = 16_000_000;
 pub const MOST_NAME_BYTES: usize = 1_000;
 
 /// The most errors that are reported.
-const MOST_ERRORS: usize = 20;
+pub const MOST_ERRORS: usize = 20;
 
 impl Draft {
     /// An empty draft.
@@ -104,9 +105,9 @@ impl Draft {
     }
 
     /// Reports an error.
-    pub fn fault(&mut self, message: impl Into<String>, span: Span, label: impl Into<String>) {
+    pub fn fault(&mut self, error: TextError, span: Span) {
         if self.errors.len() < MOST_ERRORS {
-            self.errors.push(Diagnostic::new(Code::CircuitFile, message, span, label));
+            self.errors.push(error.at(span));
         }
     }
 
@@ -115,17 +116,12 @@ impl Draft {
         self.size += 1 + definition.size();
         if self.size > MOST_PINS {
             if self.errors.last().is_none_or(|fault| fault.code != Code::TooLarge) {
-                let message = format!("the circuit has more than {MOST_PINS} pins of gates");
-                self.errors.push(Diagnostic::new(Code::TooLarge, message, span, "when it came to this one"));
+                self.errors.push(TextError::TooLarge { most: MOST_PINS }.at(span));
             }
             return;
         }
         if let Some((_, first)) = self.definitions[name as usize] {
-            let message = format!("`{}` is defined twice", self.text(name));
-            if self.errors.len() < MOST_ERRORS {
-                let fault = Diagnostic::new(Code::CircuitFile, message, span, "the second definition");
-                self.errors.push(fault.with_related(first, "the first definition"));
-            }
+            self.fault(TextError::DefinedTwice { net: self.text(name).to_owned(), first }, span);
         } else {
             self.definitions[name as usize] = Some((definition, span));
         }
@@ -157,12 +153,8 @@ impl Draft {
             let Some(&number) = register.clock.as_ref().and_then(|clock| self.numbers.get(clock)) else { continue };
             let source = self.source(number);
             if self.definitions[source as usize].is_some() {
-                let (clock, name) = (self.text(number).to_owned(), register.name);
-                self.fault(
-                    format!("the clock `{clock}` of `{name}` is made by logic"),
-                    span,
-                    "expected an input or a register as clock",
-                );
+                let clock = self.text(number).to_owned();
+                self.fault(TextError::LogicClock { clock, register: register.name }, span);
             } else {
                 self.registers[at].register.clock = Some(self.text(source).to_owned());
             }
@@ -188,8 +180,7 @@ impl Draft {
             .collect();
         for (name, span) in sources {
             if nets[name as usize].is_some() || self.definitions[name as usize].is_some() {
-                let message = format!("`{}` is driven twice", self.text(name));
-                self.fault(message, span, "an input or a register, and something else too");
+                self.fault(TextError::DrivenTwice { net: self.text(name).to_owned() }, span);
                 continue;
             }
             nets[name as usize] = Some(logic.add_input(self.text(name)));
@@ -251,8 +242,7 @@ impl Draft {
                 continue;
             }
             let Some((definition, span)) = &self.definitions[name as usize] else {
-                let message = format!("`{}` is used and not defined", self.text(name));
-                self.fault(message, used, "used here");
+                self.fault(TextError::Undefined { net: self.text(name).to_owned() }, used);
                 nets[name as usize] = Some(logic.add_constant(false));
                 continue;
             };
@@ -261,12 +251,7 @@ impl Draft {
                 Some(next) if nets[next as usize].is_some() => {}
                 Some(next) if on_path.insert(next) => open.push((next, span, 0)),
                 Some(next) => {
-                    let message = format!("`{}` depends on itself", self.text(next));
-                    self.fault(message, span, "this closes the loop");
-                    if let Some(fault) = self.errors.last_mut() {
-                        fault.help =
-                            Some("feedback needs a start value: in BLIF `.attr init 0` after its `.names`".to_owned());
-                    }
+                    self.fault(TextError::Loop { net: self.text(next).to_owned() }, span);
                     nets[next as usize] = Some(logic.add_constant(false));
                 }
                 None => {

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::circuit::Loops;
+use crate::circuit::formats::wording::EncodeError;
 use crate::circuit::formats::{Design, RegisterKind, aiger, blif, dot, nb, verilog};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 
 /// A format that a design can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +43,7 @@ impl Format {
     /// # Errors
     /// What of the design the format cannot hold.
     pub fn encode(self, design: &Design) -> Result<Vec<u8>, Diagnostic> {
-        self.check(design)?;
+        self.check(design).map_err(Diagnostic::from)?;
         Ok(match self {
             Self::Blif => blif::write(design).into_bytes(),
             Self::AigerBinary => aiger::write(design, true),
@@ -53,7 +54,7 @@ impl Format {
         })
     }
 
-    fn check(self, design: &Design) -> Result<(), Diagnostic> {
+    fn check(self, design: &Design) -> Result<(), EncodeError> {
         match self {
             Self::AigerBinary | Self::AigerText => fits_aiger(design),
             Self::Nb => fits_nb(design),
@@ -62,43 +63,28 @@ impl Format {
     }
 }
 
-fn refused(message: impl Into<String>, help: &str) -> Result<(), Diagnostic> {
-    Err(Diagnostic::without_place(Code::BadValue, message).with_help(help))
-}
-
 /// AIGER has flip-flops of one clock without a name, and no loops.
-fn fits_aiger(design: &Design) -> Result<(), Diagnostic> {
-    const INSTEAD: &str = "write BLIF or Verilog, which keep every register";
+fn fits_aiger(design: &Design) -> Result<(), EncodeError> {
     if !Loops::of(&design.logic).cores().is_empty() {
-        return refused("AIGER has no feedback loops", "keep the registers with `--registers keep`, or write BLIF");
+        return Err(EncodeError::AigerLoop);
     }
-    let other = |kind| match kind {
-        RegisterKind::Rising => None,
-        RegisterKind::Falling => Some("a flip-flop of the falling edge"),
-        RegisterKind::High | RegisterKind::Low => Some("a latch that follows its data"),
-    };
-    let register = design.registers.iter().find_map(|register| Some((&register.name, other(register.kind)?)));
-    if let Some((name, kind)) = register {
-        let message = format!("AIGER has flip-flops of the rising edge only, and `{name}` is {kind}");
-        return refused(message, INSTEAD);
+    if let Some(register) = design.registers.iter().find(|register| register.kind != RegisterKind::Rising) {
+        return Err(EncodeError::AigerRegister { register: register.name.clone(), kind: register.kind });
     }
-    let clocks: BTreeSet<_> = design.registers.iter().filter_map(|register| register.clock.as_deref()).collect();
+    let clocks: BTreeSet<_> = design.registers.iter().filter_map(|register| register.clock.clone()).collect();
     if clocks.len() > 1 {
-        let names: Vec<_> = clocks.into_iter().map(|clock| format!("`{clock}`")).collect();
-        return refused(format!("AIGER has one clock, and the registers have {}", names.join(", ")), INSTEAD);
+        return Err(EncodeError::AigerClocks { clocks: clocks.into_iter().collect() });
     }
     Ok(())
 }
 
 /// A circuit of the language consists of cells only and has an output.
-fn fits_nb(design: &Design) -> Result<(), Diagnostic> {
+fn fits_nb(design: &Design) -> Result<(), EncodeError> {
     if !design.registers.is_empty() {
-        let message = "a .nb file is written with its registers made of cells";
-        return refused(message, "leave out `--registers keep`");
+        return Err(EncodeError::NbRegisters);
     }
     if design.logic.outputs().is_empty() {
-        let message = format!("`{}` has no outputs, and a circuit of a .nb file needs one", design.logic.name);
-        return refused(message, "give the model an output");
+        return Err(EncodeError::NbNoOutputs { circuit: design.logic.name.clone() });
     }
     Ok(())
 }
@@ -136,9 +122,9 @@ mod tests {
     fn aiger_rejects_unsupported_registers() {
         use RegisterKind::{Falling, High, Rising};
         check(&[(Rising, "clk"), (Rising, "clk")], None);
-        check(&[(Rising, "a"), (Rising, "b")], Some("AIGER has one clock, and the registers have `a`, `b`"));
-        let only = "AIGER has flip-flops of the rising edge only, and";
+        check(&[(Rising, "a"), (Rising, "b")], Some("AIGER has one clock, but the registers have `a`, `b`"));
+        let only = "AIGER only has flip-flops of the rising edge, but";
         check(&[(Rising, "clk"), (Falling, "clk")], Some(&format!("{only} `q1` is a flip-flop of the falling edge")));
-        check(&[(High, "en")], Some(&format!("{only} `q0` is a latch that follows its data")));
+        check(&[(High, "en")], Some(&format!("{only} `q0` is a level-sensitive latch")));
     }
 }

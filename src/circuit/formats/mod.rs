@@ -10,6 +10,7 @@ mod format;
 mod names;
 pub mod nb;
 pub mod verilog;
+mod wording;
 
 pub use design::{Design, Register, RegisterKind};
 pub use format::Format;
