@@ -111,7 +111,7 @@ struct Extent {
 impl<'t> Models<'t> {
     /// Measures a model at `depth`, each model once, or returns the place at which the limit is exceeded.
     fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (TextError, Span)> {
-        // A model that contains itself is told of where it is instantiated.
+        // A model that contains itself is reported at the place of the instance.
         known[model] = Some(Extent::default());
         let mut extent = Extent::default();
         for (statement, span) in &self.all[model].statements {
