@@ -15,9 +15,7 @@ use crate::report::{
     self, Document, PageSwarm, Recording, Room, RunResult, Schema, Scheme, Stage, Svg, SwarmOutcome, SwarmResult,
     SwarmTiming,
 };
-use crate::session::{
-    self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun,
-};
+use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
 use crate::store::{self, DiskWorld};
 use crate::swarm::Level;
 

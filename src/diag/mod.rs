@@ -14,8 +14,8 @@ mod visible;
 
 pub use code::Code;
 pub use counted::counted;
-pub use diagnostics::Diagnostics;
 pub use diagnostic::{Diagnostic, Label, Related, Severity};
+pub use diagnostics::Diagnostics;
 pub use file::{file_error, io_words};
 pub use fix::{Edit, Fix};
 pub use json::json;

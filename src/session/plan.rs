@@ -40,9 +40,7 @@ pub(super) fn plans(
             Ok(vec![of_swarm(supply, program, circuit, Some(swarm), options)?])
         }
         (None, []) => Ok(vec![of_swarm(supply, program, circuit, None, options)?]),
-        (None, swarms) => {
-            swarms.iter().map(|swarm| of_swarm(supply, program, circuit, Some(swarm), options)).collect()
-        }
+        (None, swarms) => swarms.iter().map(|swarm| of_swarm(supply, program, circuit, Some(swarm), options)).collect(),
     }
 }
 

@@ -10,13 +10,13 @@ use crate::session::plan::plans;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{self, RunEnd, SwarmRun};
 use crate::sim::Simulator;
-use crate::swarm::{self, Demand, Level, TestVerdict};
+use crate::swarm::{self, Demand, Level, START_CYCLES, Settling, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
 const MAX_EXHAUSTIVE_BITS: usize = 16;
 
 /// The cycles by which a row is held longer than its slowest path needs, so that outputs have been right over two.
-const STEADY_EXTRA: u32 = 1;
+const STEADY_EXTRA: usize = 1;
 
 /// Swarms of as many robots or more are tested at the level of logic unless physics is asked for.
 const LARGE: usize = 40;
@@ -58,7 +58,7 @@ pub struct TestCase<'a> {
 #[derive(Clone, Debug)]
 enum Subject {
     Gates(Netlist),
-    Robots(Box<Compiled>),
+    Robots(Box<Compiled>, Vec<Demand>),
 }
 
 /// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
@@ -84,7 +84,8 @@ pub(super) fn cases<'a>(
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
         }
-        cases.push(case(Subject::Robots(Box::new(compiled))));
+        let demands = demands(&rows, &compiled);
+        cases.push(case(Subject::Robots(Box::new(compiled), demands)));
     }
     Ok(cases)
 }
@@ -94,7 +95,15 @@ impl TestCase<'_> {
     pub fn work(&self) -> u64 {
         match &self.subject {
             Subject::Gates(_) => self.rows.len() as u64,
-            Subject::Robots(compiled) => demands(&self.rows, compiled).iter().map(|demand| demand.hold as u64).sum(),
+            Subject::Robots(..) => self.demands().iter().map(|demand| demand.hold as u64).sum(),
+        }
+    }
+
+    /// How long each row is held in physics; nothing at the level of logic.
+    pub fn demands(&self) -> &[Demand] {
+        match &self.subject {
+            Subject::Gates(_) => &[],
+            Subject::Robots(_, demands) => demands,
         }
     }
 
@@ -102,7 +111,7 @@ impl TestCase<'_> {
     pub fn swarm(&self) -> Option<&str> {
         match &self.subject {
             Subject::Gates(_) => None,
-            Subject::Robots(compiled) => compiled.plan.swarm.as_deref(),
+            Subject::Robots(compiled, _) => compiled.plan.swarm.as_deref(),
         }
     }
 
@@ -115,7 +124,9 @@ impl TestCase<'_> {
                 let verdict = verdict(self.test, Level::Logic, None, rows);
                 TestRun { verdict, end: RunEnd::Complete, swarm: None, warnings: Vec::new() }
             }
-            Subject::Robots(compiled) => in_physics(self.test, &self.rows, *compiled, simulator, observer),
+            Subject::Robots(compiled, ref demands) => {
+                in_physics(self.test, &self.rows, demands, *compiled, simulator, observer)
+            }
         }
     }
 }
@@ -123,17 +134,17 @@ impl TestCase<'_> {
 fn in_physics(
     test: &CircuitTest,
     rows: &[TestRow],
+    demands: &[Demand],
     compiled: Compiled,
     simulator: &Simulator,
     observer: &mut dyn Observer,
 ) -> TestRun {
-    let demands = demands(rows, &compiled);
     let mut warnings = compiled.warnings.clone();
-    warnings.extend(short_hold(test, rows, &demands, &compiled));
-    let held = rows.iter().zip(&demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+    warnings.extend(short_hold(test, rows, demands, &compiled));
+    let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
     let (trace, end) = swarm_run::run(simulator, &compiled, held.collect(), observer);
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
-    let judged = swarm::judge_swarm(test, rows, &demands, &trace, &clocks);
+    let judged = swarm::judge_swarm(test, rows, demands, &trace, &clocks);
     let mut verdict = verdict(test, Level::Physics, Some(&compiled), judged);
     verdict.passed &= end == RunEnd::Complete;
     TestRun { verdict, end, swarm: Some(SwarmRun { compiled, trace }), warnings }
@@ -184,27 +195,32 @@ fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagn
     Ok((0..1 << bits).map(row).collect())
 }
 
-/// How long each row is held. The first has the time on top in which robots find their feet.
+/// How long each row is held: until every robot has settled, whatever each does on the way, and never longer than static timing asks for.
+/// Rows that cannot be shown to settle are held for that long.
 fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
-    let usual = compiled.timing.hold + STEADY_EXTRA + (compiled.plan.window - 1);
+    let window = compiled.plan.window;
+    let bound = (compiled.timing.hold + window - 1) as usize;
+    let mut settling = Settling::new(&compiled.assembly, window as usize);
     let demand = |(i, row): (usize, &TestRow)| {
-        let needed = if i == 0 { usual + swarm::START_CYCLES as u32 } else { usual };
-        let hold = match compiled.plan.hold {
-            Hold::Auto => needed,
-            Hold::Cycles(cycles) => cycles,
+        let most = if i == 0 { bound + START_CYCLES } else { bound };
+        let needed = settling.cycles_to_settle(&row.inputs, most).unwrap_or(most) + STEADY_EXTRA;
+        let hold = match (row.hold, compiled.plan.hold) {
+            (Some(cycles), _) | (None, Hold::Cycles(cycles)) => cycles.max(1) as usize,
+            (None, Hold::Auto) => needed,
         };
-        let hold = row.hold.unwrap_or(hold).max(1) as usize;
-        Demand { hold, needed: needed as usize }
+        settling.hold(&row.inputs, hold);
+        Demand { hold, needed }
     };
     rows.iter().enumerate().map(demand).collect()
 }
 
-/// Warns where a row is held for fewer cycles than the slowest path needs; names the path.
+/// Warns where a row is held for fewer cycles than its robots need; names the slowest path.
 fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Option<Diagnostic> {
-    let Compiled { mapping, timing: Timing { hold, critical_path, .. }, .. } = compiled;
-    let needed = *hold as usize;
+    let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
     let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
-    let (row, demand) = rows.iter().zip(demands).find(|(_, demand)| demand.hold < needed)?;
+    let is_short = |(_, demand): &(&TestRow, &Demand)| demand.hold + STEADY_EXTRA < demand.needed;
+    let (row, demand) = rows.iter().zip(demands).find(is_short)?;
+    let needed = demand.needed - STEADY_EXTRA;
     let message = format!("a hold of {} is too short, expected {needed} at least", counted(demand.hold, "cycle"));
     let place = if row.hold.is_some() { row.span } else { test.span };
     let warning = Diagnostic::new(Code::HoldTooShort, message, place, "held here");

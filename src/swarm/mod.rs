@@ -10,6 +10,7 @@ mod holds;
 mod judge;
 mod measure;
 mod selection;
+mod settling;
 mod simulate;
 mod trace;
 mod verdict;
@@ -23,6 +24,7 @@ pub use evaluate::{Work, evaluate, evolve_generation, fixed_displacements, fixed
 pub use judge::{Demand, judge_logic, judge_swarm};
 pub use measure::{Measurement, measure};
 pub use selection::{Nominee, Selected, Selection};
+pub use settling::Settling;
 pub use simulate::{Exposure, START_CYCLES, setting, simulate};
 pub use trace::{CycleTrace, RobotTrace, SwarmTrace};
 pub use verdict::{Lapse, Level, RowVerdict, TestVerdict};

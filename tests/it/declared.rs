@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use nbc::Session;
 use nbc::evolve::Search;
 use nbc::model::{
     Axis, Count, Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Spell, Symmetry,
 };
-use nbc::Session;
 use nbc::source::MemoryWorld;
 use nbc::swarm::evolve_generation;
 

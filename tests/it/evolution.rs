@@ -5,9 +5,9 @@ use std::fs;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
+use nbc::Session;
 use nbc::evolve::{Search, recodings};
 use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
-use nbc::Session;
 use nbc::sim::Simulator;
 use nbc::sim::run_trials;
 use nbc::source::MemoryWorld;

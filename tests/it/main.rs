@@ -30,6 +30,7 @@ mod pictures;
 mod plots;
 mod runs;
 mod schemas;
+mod settling;
 mod speed;
 mod swarms;
 mod synth;

@@ -41,7 +41,7 @@ enum Kind {
 
 /// A memory element of a random circuit.
 #[derive(Clone, Copy, Debug)]
-struct Element {
+pub struct Element {
     kind: Kind,
     data: Data,
     start: bool,
@@ -70,7 +70,7 @@ impl Data {
     }
 }
 
-fn text(elements: &[Element]) -> String {
+pub fn text(elements: &[Element]) -> String {
     let outputs: Vec<_> = (0..elements.len()).map(|i| format!("q{i}")).collect();
     let mut text = format!("circuit memory({}) -> ({}) {{\n", INPUTS.join(", "), outputs.join(", "));
     for (i, Element { kind, data, start }) in elements.iter().enumerate() {
@@ -112,7 +112,7 @@ fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [boo
 
 /// One to five elements. A register takes any net, itself too; a latch takes inputs and the elements before it, so that
 /// none chases itself, and none that changes with the enable that closes it.
-fn elements() -> impl Strategy<Value = Vec<Element>> {
+pub fn elements() -> impl Strategy<Value = Vec<Element>> {
     let element = (0..9u8, 0..8u8, 0..100usize, 0..100usize, any::<bool>(), any::<bool>());
     proptest::collection::vec(element, 1..6).prop_map(|drawn| {
         let all = drawn.len() + 2;
@@ -146,7 +146,7 @@ fn program(text: &str) -> Program {
     checked.program
 }
 
-fn mapped(text: &str, cells: &CellLibrary) -> Netlist {
+pub fn mapped(text: &str, cells: &CellLibrary) -> Netlist {
     let source = elaborate(&program(text), &Instance::from("memory")).unwrap();
     let mapped = map(&source, cells).unwrap();
     prove(&source, &mapped).unwrap();

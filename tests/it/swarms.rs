@@ -5,8 +5,8 @@ use std::fs;
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
 use nbc::model::{CYCLE_STEPS, Function, Robot};
-use nbc::session::SwarmRun;
 use nbc::report::describe_test;
+use nbc::session::SwarmRun;
 use nbc::sim::Simulator;
 use nbc::store::shipped_library;
 use nbc::swarm::{Assembly, Exposure, Member, Signal, simulate};
@@ -65,7 +65,7 @@ fn a_short_hold_is_reported_with_a_sufficient_one() {
     let latch = fs::read_to_string("circuits/latch.nb").unwrap().replace("1 1 | 1", "1 1 | 1 for 2 cycles");
     let report = run(&latch, &CompileOptions::default());
     let told = describe_test(&report.tests[0].verdict);
-    let needed = swarm(&report).compiled.timing.hold + 1;
+    let needed = report.tests[0].verdict.rows[1].needed.unwrap();
     assert!(!report.passed());
     assert!(told.contains(&format!("nearest fix: hold the row for {needed} cycles")), "{told}");
 }

@@ -1,0 +1,120 @@
+//! How long a swarm takes to settle after its inputs switch, whatever each robot does on the way: ternary simulation with bounded delays.
+//!
+//! A robot is right once it has sensed the same for as many cycles as its clock. Until then it may do either, unless it does not
+//! glitch and was right before with the same answer. A net that robots may still make either is unknown, and what follows from it is
+//! too, as far as functions let it through. A row has settled when nothing is unknown and nothing changes (docs/compiler.md, "Time").
+//! Seger & Bryant, "Modeling of circuit delays in symbolic simulation" (1989).
+
+use crate::model::Function;
+use crate::swarm::{Assembly, Member, START_CYCLES, Signal};
+
+/// What is known of a bit; nothing where it may be either.
+type Known = Option<bool>;
+
+/// A swarm on its way through the rows of a test, as far as clocks alone tell what it does.
+#[derive(Clone, Debug)]
+pub struct Settling<'a> {
+    members: &'a [Member],
+    /// Cycles after which each robot is right, at the output's window.
+    clocks: Vec<usize>,
+    /// What each robot senses, and for how many cycles it has been the same and known.
+    sensed: Vec<([Known; 2], usize)>,
+    bits: Vec<Known>,
+    cycles: usize,
+}
+
+impl<'a> Settling<'a> {
+    /// A swarm before its first cycle, whose outputs are read over `window` cycles.
+    pub fn new(assembly: &'a Assembly, window: usize) -> Self {
+        let members = &assembly.members[..];
+        let clock = |member: &Member| member.robot.character.clock as usize + window - 1;
+        Self {
+            members,
+            clocks: members.iter().map(clock).collect(),
+            sensed: vec![([None; 2], 0); members.len()],
+            bits: vec![None; members.len()],
+            cycles: 0,
+        }
+    }
+
+    /// The cycles of these inputs after which every robot's output is right for as long as they last; none if that is not certain after
+    /// `most` cycles. The swarm stays where it is.
+    pub fn cycles_to_settle(&self, inputs: &[bool], most: usize) -> Option<usize> {
+        let mut ahead = self.clone();
+        let mut settled = 1;
+        let longest = self.clocks.iter().copied().max().unwrap_or(1).max(START_CYCLES);
+        for cycle in 1..=most + longest {
+            let before = ahead.bits.clone();
+            ahead.advance(inputs);
+            if ahead.bits != before {
+                settled = cycle;
+            } else if ahead.is_at_rest() {
+                return (settled <= most).then_some(settled);
+            }
+        }
+        None
+    }
+
+    /// Holds inputs for some cycles.
+    pub fn hold(&mut self, inputs: &[bool], cycles: usize) {
+        (0..cycles).for_each(|_| self.advance(inputs));
+    }
+
+    /// What is known of each robot's output at the end of the last cycle.
+    pub fn bits(&self) -> &[Option<bool>] {
+        &self.bits
+    }
+
+    /// One cycle. In their first ones robots hear the start values of the others.
+    fn advance(&mut self, inputs: &[bool]) {
+        let starting = self.cycles < START_CYCLES;
+        let heard: Vec<Known> = match starting {
+            true => self.members.iter().map(|member| Some(member.start)).collect(),
+            false => self.bits.clone(),
+        };
+        for (i, member) in self.members.iter().enumerate() {
+            let pattern = member.senses.map(|signal| read(signal, inputs, &heard));
+            let (before, held) = self.sensed[i];
+            let held = match pattern {
+                [Some(_), Some(_)] if pattern == before => held + 1,
+                [Some(_), Some(_)] => 1,
+                _ => 0,
+            };
+            self.sensed[i] = (pattern, held);
+            self.bits[i] = self.output(i, pattern, held);
+        }
+        self.cycles += 1;
+    }
+
+    /// What is known of a robot's output at the end of a cycle.
+    fn output(&self, robot: usize, pattern: [Known; 2], held: usize) -> Known {
+        let member = &self.members[robot];
+        let answer = answer(member.robot.function(), pattern);
+        let clock = self.clocks[robot];
+        let keeps = self.bits[robot] == answer && member.robot.character.glitch_rate == 0.0;
+        // In one cycle a robot answers to what it senses in that cycle, whatever it sensed before.
+        let is_right = held >= clock || clock == 1 || keeps;
+        if self.cycles + 1 < START_CYCLES || !is_right { None } else { answer }
+    }
+
+    /// Whether every robot has sensed the same for as long as it needs. If its outputs were the same in the cycle before, they stay.
+    fn is_at_rest(&self) -> bool {
+        self.cycles > START_CYCLES && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
+    }
+}
+
+fn read(signal: Signal, inputs: &[bool], heard: &[Known]) -> Known {
+    match signal {
+        Signal::Input(i) => Some(inputs[i]),
+        Signal::Robot(i) => heard[i],
+        Signal::Constant(value) => Some(value),
+    }
+}
+
+/// What a function makes of bits that may be unknown.
+fn answer(function: Function, [a, b]: [Known; 2]) -> Known {
+    let either = |bit: Known| bit.map_or([false, true], |bit| [bit; 2]);
+    let mut outputs = either(a).into_iter().flat_map(|a| either(b).map(|b| function.output(a, b)));
+    let first = outputs.next();
+    if outputs.all(|output| Some(output) == first) { first } else { None }
+}

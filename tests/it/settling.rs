@@ -1,0 +1,162 @@
+//! How long rows are held: no longer than needed, and long enough whatever robots do before they have settled.
+
+use nbc::circuit::CellLibrary;
+use nbc::model::{Function, Library};
+use nbc::session::{Session, TestOptions};
+use nbc::store::DiskWorld;
+use nbc::swarm::{Assembly, Level, START_CYCLES, Settling, Signal, assemble};
+use proptest::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::language::root;
+use crate::memory::{elements, mapped, text};
+use crate::page::robot;
+
+/// Robots of a swarm that do as they like until they have settled.
+struct Whims<'a> {
+    assembly: &'a Assembly,
+    sensed: Vec<([bool; 2], usize)>,
+    /// The output, and whether it is certain: right, and kept since.
+    bits: Vec<(bool, bool)>,
+    cycles: usize,
+}
+
+impl<'a> Whims<'a> {
+    fn new(assembly: &'a Assembly) -> Self {
+        let members = &assembly.members;
+        let bits = members.iter().map(|member| (member.start, false)).collect();
+        Self { assembly, sensed: vec![([false; 2], 0); members.len()], bits, cycles: 0 }
+    }
+
+    fn cycle(&mut self, inputs: &[bool], random: &mut ChaCha8Rng) {
+        let starting = self.cycles < START_CYCLES;
+        let before = self.bits.clone();
+        for (i, member) in self.assembly.members.iter().enumerate() {
+            let sensed = member.senses.map(|signal| match signal {
+                Signal::Input(input) => inputs[input],
+                Signal::Robot(other) if starting => self.assembly.members[other].start,
+                Signal::Robot(other) => before[other].0,
+                Signal::Constant(value) => value,
+            });
+            let held = if self.cycles > 0 && sensed == self.sensed[i].0 { self.sensed[i].1 + 1 } else { 1 };
+            self.sensed[i] = (sensed, held);
+            let right = member.robot.function().output(sensed[0], sensed[1]);
+            let character = &member.robot.character;
+            let keeps = before[i] == (right, true) && character.glitch_rate == 0.0;
+            let is_certain = (held >= character.clock as usize || keeps) && self.cycles + 1 >= START_CYCLES;
+            self.bits[i] = if is_certain { (right, true) } else { (random.random_range(0..2) == 1, false) };
+        }
+        self.cycles += 1;
+    }
+
+    fn values(&self) -> Vec<bool> {
+        self.bits.iter().map(|bit| bit.0).collect()
+    }
+}
+
+/// Robots of all functions with clocks of one to `most` cycles; every other one of the slow ones glitches.
+fn robots(most: u32, random: &mut ChaCha8Rng) -> Library {
+    let with_character = |function: Function| {
+        let mut robot = robot(function.name(), function);
+        robot.character.clock = random.random_range(1..=most);
+        robot.character.glitch_rate = if random.random_range(0..2) == 0 { 0.0 } else { 0.1 };
+        robot
+    };
+    Library { robots: Function::all().map(with_character).collect() }
+}
+
+/// Switches the inputs at random, holds each row until it has settled, and lets robots do as they like on the way.
+fn check(assembly: &Assembly, random: &mut ChaCha8Rng) -> usize {
+    let mut settling = Settling::new(assembly, 1);
+    let mut whims: Vec<Whims> = (0..4).map(|_| Whims::new(assembly)).collect();
+    let mut settled = 0;
+    for _ in 0..12 {
+        let inputs: Vec<bool> = assembly.inputs.iter().map(|_| random.random_range(0..2) == 1).collect();
+        let cycles = settling.cycles_to_settle(&inputs, 200);
+        settled += usize::from(cycles.is_some());
+        for _ in 0..cycles.unwrap_or_else(|| random.random_range(1..9)) {
+            settling.hold(&inputs, 1);
+            for whim in &mut whims {
+                whim.cycle(&inputs, random);
+                let agree = |(known, value): (&Option<bool>, bool)| known.is_none_or(|known| known == value);
+                assert!(settling.bits().iter().zip(whim.values()).all(agree), "what is known is so");
+            }
+        }
+        if cycles.is_some() {
+            assert!(settling.bits().iter().all(Option::is_some), "all is known once it has settled");
+            let end = settling.bits().to_vec();
+            settling.clone().hold(&inputs, 20);
+            assert_eq!(settling.bits(), end, "and stays");
+        }
+    }
+    settled
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_row_that_has_settled_has_settled_whatever_robots_did(elements in elements(), seed: u64, most in 1..4u32) {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let netlist = mapped(&text(&elements), &CellLibrary::uniform(Function::all().filter(|f| f.arity() == 2)));
+        let library = robots(most, &mut random);
+        check(&assemble(&netlist, &library).unwrap(), &mut random);
+    }
+}
+
+#[test]
+fn registers_of_quick_robots_settle_in_every_row() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let netlist = mapped(
+        "circuit memory(a, clk) -> (q, r) {\n    q = register[start = 0](a, clk)\n    r = register[start = 1](q xor a, clk)\n}\n",
+        &CellLibrary::uniform([Function::NAND, Function::NOT]),
+    );
+    let library = robots(1, &mut random);
+    assert_eq!(check(&assemble(&netlist, &library).unwrap(), &mut random), 12);
+}
+
+/// The mean and the longest hold of the rows of a circuit of the gallery.
+fn holds(file: &str) -> (f64, usize) {
+    let path = root().join("circuits").join(file);
+    let mut session = Session::new(DiskWorld);
+    let checked = session.checked(path.to_str().unwrap());
+    let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+    let of_test = |test| session.cases(&checked, test, &options).unwrap();
+    let holds: Vec<usize> = checked
+        .program
+        .tests
+        .iter()
+        .flat_map(of_test)
+        .flat_map(|case| case.demands().iter().map(|demand| demand.hold).collect::<Vec<_>>())
+        .collect();
+    (holds.iter().sum::<usize>() as f64 / holds.len() as f64, holds.into_iter().max().unwrap())
+}
+
+#[test]
+fn the_rows_of_the_gallery_are_short() {
+    let most = [
+        ("comparator", 8.0),
+        ("counter", 7.5),
+        ("d_flip_flop", 8.0),
+        ("decoder", 4.0),
+        ("full_adder", 5.0),
+        ("half_adder", 4.0),
+        ("latch", 5.0),
+        ("lfsr", 8.0),
+        ("majority", 4.5),
+        ("multiplexer", 6.0),
+        ("parity", 7.0),
+        ("ripple_adder", 10.0),
+        ("rule_110", 4.0),
+        ("sequence_detector", 9.0),
+        ("seven_segment", 13.0),
+        ("sr_latch", 5.0),
+        ("t_flip_flop", 8.0),
+    ];
+    for (circuit, most) in most {
+        let (mean, longest) = holds(&format!("{circuit}.nb"));
+        println!("{circuit}: {mean:.1} cycles a row on average, {longest} at most");
+        assert!(mean <= most, "{circuit}: {mean} cycles a row on average, expected {most} at most");
+    }
+}
