@@ -19,7 +19,7 @@ use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, Swar
 use crate::store::{self, DiskWorld};
 use crate::swarm::Level;
 
-/// Compile the circuits of a file to robots, then run its tests and simulations in physics
+/// Run the tests and simulations of a file in physics, with pictures and a report
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
