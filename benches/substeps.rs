@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use nbc::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
-use nbc::sim::{InstructionSet, Kernel, Simulator};
+use nbc::sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
 
 fn substeps(criterion: &mut Criterion) {
     let setting = Setting::default();
@@ -28,8 +28,8 @@ fn substeps(criterion: &mut Criterion) {
                 if kernel.lanes() == 1 && bodies != "one body" {
                     continue;
                 }
-                let simulator = Simulator { kernel, ..Simulator::default() };
-                let substeps = u64::from(CYCLE_STEPS * simulator.constants.substeps);
+                let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
+                let substeps = u64::from(CYCLE_STEPS * Constants::default().substeps);
                 group.throughput(Throughput::Elements(kernel.lanes() as u64 * substeps));
                 let name = format!("{} lanes, {}, {bodies}", kernel.lanes(), kernel.set().name());
                 group.bench_function(BenchmarkId::new(format!("{side}x{side}"), name), |bencher| {

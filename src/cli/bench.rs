@@ -1,16 +1,17 @@
 //! `nbc bench`: how fast this machine simulates.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::timings::{self, Stage};
+use crate::cli::timings::{meter, part_seconds};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::report::{Align, Schema, Table};
-use crate::sim::{Constants, Kernel, Probe, Simulator};
+use crate::sim::{Constants, Kernel, LaneBackend, Meter, Part, Simulator};
 
 /// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];
@@ -45,9 +46,6 @@ struct Case {
     #[serde(skip_serializing_if = "Option::is_none")]
     timings: Option<BTreeMap<&'static str, f64>>,
 }
-
-/// The stages of a substep, and the work between env steps.
-const STAGES: [Stage; 4] = [Stage::Springs, Stage::Contact, Stage::Limits, Stage::Bookkeeping];
 
 #[derive(Serialize)]
 struct Figures {
@@ -94,12 +92,11 @@ fn measure(side: usize, kernel: Kernel, timings: bool) -> Case {
 
 /// The share of time of each stage of a substep, with one body in all lanes.
 fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
-    let before = timings::seconds();
-    race(side, kernel, 0, Some(timings::watch));
-    let seconds = timings::seconds();
-    let spent = STAGES.map(|stage| seconds[stage as usize] - before[stage as usize]);
+    let meter = meter();
+    race(side, kernel, 0, Some(&meter));
+    let spent = part_seconds(&meter.times());
     let all: f64 = spent.iter().sum();
-    STAGES.iter().zip(spent).map(|(stage, spent)| (stage.name(), spent / all)).collect()
+    Part::ALL.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
 }
 
 /// Substeps of a cycle.
@@ -108,11 +105,12 @@ fn cycle_substeps() -> f64 {
 }
 
 /// Lane-substeps per second, with lanes whose bodies are `shift` apart.
-fn race(side: usize, kernel: Kernel, shift: usize, probe: Option<Probe>) -> f64 {
+fn race(side: usize, kernel: Kernel, shift: usize, meter: Option<&Arc<Meter>>) -> f64 {
     let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
     let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
-    let simulator = Simulator { kernel, probe, ..Simulator::default() };
+    let backend = LaneBackend { kernel, meter: meter.cloned(), ..LaneBackend::default() };
+    let simulator = Simulator::new(backend);
     let setting = Setting::default();
     // One thread takes all lanes as one batch.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
@@ -161,12 +159,12 @@ fn describe(figures: &Figures) -> String {
 
 /// The shares of time as a table; empty if they were not measured.
 fn describe_timings(figures: &Figures) -> String {
-    let columns = STAGES.map(|stage| (stage.name(), Align::Right));
+    let columns = Part::ALL.map(|part| (part.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();
     let mut table = Table::new(&columns);
     for case in &figures.cases {
         let Some(timings) = &case.timings else { return String::new() };
-        let shares = STAGES.iter().map(|stage| format!("{:.0} %", 100.0 * timings[stage.name()]));
+        let shares = Part::ALL.iter().map(|part| format!("{:.0} %", 100.0 * timings[part.name()]));
         table.push([case.bounds.clone()].into_iter().chain(shares).collect());
     }
     format!("\nshare of the time with one body in all lanes\n{table}")

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use clap::Args;
 
 use crate::cli::program::RunsArguments;
-use crate::cli::timings::{self, Timings};
+use crate::cli::timings::{Chore, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CYCLE_STEPS, CircuitTest, Robot, Simulation};
@@ -92,8 +91,8 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let started = Instant::now();
-        let mut session = Session::new(DiskWorld).with_simulator(self.timings.simulator());
+        let timer = self.timings.start();
+        let mut session = Session::new(DiskWorld).with_simulator(timer.simulator());
         let file = session.open(&self.file.to_string_lossy())?;
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
@@ -107,8 +106,8 @@ impl Arguments {
             runs.push(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?));
         }
         context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
-        let status = timings::time(timings::Stage::Output, || self.report(&runs, &folder, context))?;
-        self.timings.tell(started, context);
+        let status = timer.time(Chore::Output, || self.report(&runs, &folder, context))?;
+        timer.report(context);
         Ok(status)
     }
 

@@ -9,7 +9,7 @@ use crate::cli::{Context, Failure, Format, Status, library, schedule};
 use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Schema, Table};
-use crate::sim;
+use crate::sim::Simulator;
 use crate::source::{FileError, Sources};
 use crate::store;
 
@@ -60,7 +60,8 @@ impl Arguments {
         let setting = Setting { world_width: self.world_width, start_x: self.start_x };
         let body = read_body(&self.robot)?;
         check_place(&setting, &body).map_err(Failure::plain)?;
-        let trajectory = sim::run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
+        let trajectory =
+            Simulator::default().run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
         match context.format {

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use crate::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting};
 use crate::report::sprite::Pose;
-use crate::sim::Flock;
+use crate::sim::{Flock, Simulator};
 use crate::swarm::{self, Assembly, SwarmTrace};
 
 /// Robots on their way through their stimuli.
 pub struct Stage {
-    flock: Flock,
+    flock: Box<dyn Flock>,
     /// What the codes of each robot mean.
     palettes: Vec<Arc<Palette>>,
     /// Spells one after another: env steps, and each robot's stimuli.
@@ -64,8 +64,10 @@ impl Stage {
     fn new(setting: &Setting, bodies: &[Body], spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
         assert!(stride > 0, "frames are some steps apart");
         let left = spells.first().map_or(0, |spell| spell.0);
-        let (flock, palettes) =
-            (Flock::new(setting, bodies), bodies.iter().map(|body| Arc::clone(body.palette())).collect());
+        let (flock, palettes) = (
+            Simulator::default().flock(setting, bodies),
+            bodies.iter().map(|body| Arc::clone(body.palette())).collect(),
+        );
         Self { flock, palettes, spells, spell: 0, left, stride, step: 0, started: false }
     }
 
@@ -117,7 +119,7 @@ impl Stage {
         Moment {
             step: self.step,
             poses: robots.clone().map(|i| self.pose(i)).collect(),
-            centers: robots.clone().map(|i| self.flock.com(i)).collect(),
+            centers: robots.clone().map(|i| self.flock.center(i)).collect(),
             patterns: self.spells.get(self.spell).or(self.spells.last()).map_or(none, |spell| spell.1.clone()),
             faults: robots.map(|i| self.flock.fault(i).is_some()).collect(),
         }

@@ -1,33 +1,19 @@
-//! The physics of voxel robots: bodies, stimuli in; trajectories out (docs/physics.md).
+//! The physics of voxel robots: bodies and stimuli in, trajectories out (docs/physics.md).
 //!
 //! It knows nothing of languages, gates or evolution.
-#![allow(clippy::needless_range_loop, reason = "an axis or a corner indexes several arrays at once")]
 
-mod batch;
+mod backend;
 mod constants;
-mod contact;
-mod flock;
-mod kernel;
-mod lanes;
 mod lattice;
-mod limits;
-mod probe;
-mod proximity;
-mod real;
-mod response;
-mod roster;
-mod run;
+mod meter;
 mod signal;
 mod simulator;
 mod state;
-mod step;
-mod stiffness;
-mod trials;
 
+pub use backend::lanes::{InstructionSet, Kernel, LaneBackend};
+pub use backend::{Backend, Flock, Snapshot};
 pub use constants::Constants;
-pub use flock::Flock;
-pub use kernel::{InstructionSet, Kernel};
 pub use lattice::{DrivenEdge, Edge, Lattice, LatticePoint, Voxel};
-pub use probe::{Part, Probe};
+pub use meter::{Meter, Part, Times};
 pub use simulator::Simulator;
-pub use trials::run_trials;
+pub use state::State;

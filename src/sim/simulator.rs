@@ -1,25 +1,36 @@
-//! How to simulate: the numbers of the physics and the kernel.
+//! The simulator: the physics in the hands of a back end.
 
-use crate::model::{Body, Setting};
-use crate::sim::constants::Constants;
-use crate::sim::flock::Flock;
-use crate::sim::kernel::Kernel;
-use crate::sim::probe::Probe;
+use std::sync::Arc;
 
-/// How to simulate. The default is the physics on the fastest kernel of this processor; results do not depend on the kernel.
-#[derive(Clone, Debug, Default)]
+use crate::model::{Body, Setting, Trajectory, Trial};
+use crate::sim::backend::lanes::LaneBackend;
+use crate::sim::backend::{Backend, Flock};
+
+/// How to simulate. The default is the fastest kernel of this processor; results do not depend on the back end.
+#[derive(Clone, Debug)]
 pub struct Simulator {
-    /// The numbers of the physics.
-    pub constants: Constants,
-    /// The kernel.
-    pub kernel: Kernel,
-    /// Told where time goes, if anybody asks.
-    pub probe: Option<Probe>,
+    backend: Arc<dyn Backend>,
+}
+
+impl Default for Simulator {
+    fn default() -> Self {
+        Self::new(LaneBackend::default())
+    }
 }
 
 impl Simulator {
-    /// Robots that live on; see [`Flock::new`].
-    pub fn flock(&self, setting: &Setting, bodies: &[Body]) -> Flock {
-        Flock::with(self, setting, bodies)
+    /// Simulation by a back end.
+    pub fn new(backend: impl Backend + 'static) -> Self {
+        Self { backend: Arc::new(backend) }
+    }
+
+    /// Robots that are advanced step by step, one for each body; see [`Backend::flock`].
+    pub fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
+        self.backend.flock(setting, bodies)
+    }
+
+    /// Simulates each trial from a fresh start; see [`Backend::run_trials`].
+    pub fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
+        self.backend.run_trials(setting, trials)
     }
 }

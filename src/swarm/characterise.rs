@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::model::{Behavior, Body, Character, Direction, Fault, Pattern, Setting, Transition, Trial};
-use crate::sim::run_trials;
+use crate::sim::Simulator;
 use crate::swarm::holds::{Hold, HoldPlan, holds};
 
 /// Seed of the random sequences.
@@ -37,8 +37,8 @@ const TOPPLED: f64 = 0.7;
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
-pub fn characterise(body: &Body, behavior: Behavior) -> Result<Character, Fault> {
-    let probe = Probe::new(body, behavior);
+pub fn characterise(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
+    let probe = Probe::new(simulator, body, behavior);
     let tally = probe.best_clock()?;
     let (settle, toppled) = probe.settle()?;
     Ok(Character {
@@ -56,8 +56,8 @@ pub fn characterise(body: &Body, behavior: Behavior) -> Result<Character, Fault>
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
-pub fn screen(body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
-    let probe = Probe::new(body, behavior);
+pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
+    let probe = Probe::new(simulator, body, behavior);
     for clock in 1..=most {
         let tally = probe.random(clock, FIRST_SWITCHES)?;
         if tally.wrong == 0 {
@@ -69,6 +69,7 @@ pub fn screen(body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32,
 
 /// A body being asked.
 struct Probe<'a> {
+    simulator: &'a Simulator,
     setting: Setting,
     body: &'a Body,
     behavior: Behavior,
@@ -110,9 +111,9 @@ impl Tally {
 }
 
 impl<'a> Probe<'a> {
-    fn new(body: &'a Body, behavior: Behavior) -> Self {
+    fn new(simulator: &'a Simulator, body: &'a Body, behavior: Behavior) -> Self {
         let start_x = Some(WORLD / 2 - body.width() / 2);
-        Self { setting: Setting { world_width: WORLD, start_x }, body, behavior }
+        Self { simulator, setting: Setting { world_width: WORLD, start_x }, body, behavior }
     }
 
     /// Runs plans from each start.
@@ -122,7 +123,7 @@ impl<'a> Probe<'a> {
         let mut found = Vec::with_capacity(plans.len() * STARTS.len());
         for shift in STARTS {
             let setting = Setting { start_x: self.setting.start_x.map(|x| x + shift), ..self.setting };
-            for (plan, trajectory) in plans.iter().zip(run_trials(&setting, &trials)) {
+            for (plan, trajectory) in plans.iter().zip(self.simulator.run_trials(&setting, &trials)) {
                 match trajectory.fault {
                     Some(fault) => return Err(fault),
                     None => found.push(holds(plan, &trajectory)),
@@ -253,19 +254,21 @@ mod tests {
     #[test]
     fn all_twelve_switches_are_timed_and_a_wrong_end_shows() {
         let body = Body::parse(&["343", "563"], &crate::model::Palette::paper()).unwrap();
-        let setting = Setting::default();
-        let fixed =
-            run_trials(&setting, &[Trial { body: body.clone(), schedule: Schedule::constant(Pattern::PAIRS[0], 840) }]);
+        let (simulator, setting) = (Simulator::default(), Setting::default());
+        let fixed = simulator.run_trials(
+            &setting,
+            &[Trial { body: body.clone(), schedule: Schedule::constant(Pattern::PAIRS[0], 840) }],
+        );
         let walks_right = Direction::of(fixed[0].com_x[840] - fixed[0].com_x[0]) == Direction::Right;
         // Asked for the other direction always, it is never right.
         let contrary: Behavior = if walks_right { "LLLL" } else { "RRRR" }.parse().unwrap();
-        let (settle, _) = Probe::new(&body, contrary).settle().unwrap();
+        let (settle, _) = Probe::new(&simulator, &body, contrary).settle().unwrap();
         let pairs: std::collections::BTreeSet<_> =
             settle.iter().map(|transition| (transition.from.pair_index(), transition.to.pair_index())).collect();
         assert!(pairs.len() == 12 && pairs.iter().all(|(from, to)| from != to));
         let back: Vec<u32> = settle.iter().filter(|t| t.to == Pattern::PAIRS[0]).map(|t| t.cycles).collect();
         assert_eq!(back, [SETTLE_AFTER + 1; 3], "wrong to the end");
-        let probe = Probe::new(&body, contrary);
+        let probe = Probe::new(&simulator, &body, contrary);
         let settled = |cycles: &[f64]| probe.settled(&Hold { cycles: cycles.to_vec(), ..hold(1, 0, &[]) });
         let sign = if walks_right { -1.0 } else { 1.0 };
         assert_eq!([settled(&[sign; 4]), settled(&[-sign, sign, -sign, sign])], [1, 4]);

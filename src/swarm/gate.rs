@@ -71,12 +71,12 @@ fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], l
     let mut work = Work::default();
     for cycle in 0..cycles {
         work.env_steps += flock.len() as u64 * u64::from(CYCLE_STEPS);
-        let before: Vec<f64> = (0..flock.len()).map(|i| flock.com(i)[0]).collect();
+        let before: Vec<f64> = (0..flock.len()).map(|i| flock.center(i)[0]).collect();
         let patterns: Vec<Pattern> = open.iter().flat_map(|_| lanes.iter().map(|lane| lane[cycle])).collect();
         flock.advance(&patterns, CYCLE_STEPS);
         for (i, attempt) in open.iter_mut().enumerate() {
             for (lane, place) in (i * lanes.len()..).take(lanes.len()).enumerate() {
-                attempt.push(first + lane, patterns[place], flock.com(place)[0] - before[place]);
+                attempt.push(first + lane, patterns[place], flock.center(place)[0] - before[place]);
                 attempt.fail(flock.fault(place));
             }
             attempt.look(search);

@@ -1,7 +1,7 @@
 //! Everything that a robot file says of a body's motion, measured.
 
 use crate::model::{Behavior, Body, CYCLE_STEPS, Character, Fault, Setting};
-use crate::sim::run_trials;
+use crate::sim::Simulator;
 use crate::swarm::characterise::characterise;
 use crate::swarm::evaluate::{fixed_displacements, fixed_trials};
 
@@ -23,10 +23,10 @@ pub struct Measurement {
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
-pub fn measure(body: &Body) -> Result<Measurement, Fault> {
-    let trajectories = run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
+pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault> {
+    let trajectories = simulator.run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
     let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
     let displacement = fixed_displacements(four)?;
     let behavior = Behavior::of(&displacement);
-    Ok(Measurement { displacement, behavior, character: characterise(body, behavior)? })
+    Ok(Measurement { displacement, behavior, character: characterise(simulator, body, behavior)? })
 }

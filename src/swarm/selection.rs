@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use crate::evolve::Elite;
 use crate::model::{Behavior, Fault, Provenance, Robot};
+use crate::sim::Simulator;
 use crate::swarm::{Measurement, measure, screen};
 
 /// The longest clock that makes a gate worth a long measurement, in cycles.
@@ -65,9 +66,15 @@ impl Selection {
     }
 
     /// Screens the nominees, measures the best of them, and takes the best of those; tells `observe` how much work is done.
-    pub fn select(&self, behavior: Behavior, nominees: &[Nominee], observe: &dyn Fn(u64)) -> Selected {
+    pub fn select(
+        &self,
+        simulator: &Simulator,
+        behavior: Behavior,
+        nominees: &[Nominee],
+        observe: &dyn Fn(u64),
+    ) -> Selected {
         let rank = |nominee| {
-            let rank = Rank::of(behavior, nominee);
+            let rank = Rank::of(simulator, behavior, nominee);
             observe(1);
             (rank, nominee)
         };
@@ -75,15 +82,15 @@ impl Selection {
         ranked.sort_by(|(a, _), (b, _)| a.compare(b));
         let finalists = ranked.into_iter().take(self.finalists);
         let measured = finalists.map(|(_, nominee)| {
-            let found = self.judge(behavior, nominee);
+            let found = self.judge(simulator, behavior, nominee);
             observe(MEASUREMENT_COST);
             found
         });
         measured.min_by(Selected::compare).unwrap_or(Selected::Missing)
     }
 
-    fn judge(&self, behavior: Behavior, nominee: &Nominee) -> Selected {
-        let measurement = match measure(&nominee.elite.body) {
+    fn judge(&self, simulator: &Simulator, behavior: Behavior, nominee: &Nominee) -> Selected {
+        let measurement = match measure(simulator, &nominee.elite.body) {
             Ok(measurement) => measurement,
             Err(fault) => return Selected::Faulty(fault),
         };
@@ -119,8 +126,8 @@ struct Rank {
 }
 
 impl Rank {
-    fn of(behavior: Behavior, nominee: &Nominee) -> Self {
-        match screen(&nominee.elite.body, behavior, LONGEST_CLOCK) {
+    fn of(simulator: &Simulator, behavior: Behavior, nominee: &Nominee) -> Self {
+        match screen(simulator, &nominee.elite.body, behavior, LONGEST_CLOCK) {
             Ok(Some((clock, margin))) => Self { clock, margin },
             // A fault or errors at every clock: behind all others.
             Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&nominee.elite) },
@@ -191,19 +198,23 @@ mod tests {
         for behavior in ["RRRR", "LLLL"] {
             let done = Cell::new(0);
             let observe = |more| done.set(done.get() + more);
-            SELECTION.select(behavior.parse().unwrap(), &nominees, &observe);
+            SELECTION.select(&Simulator::default(), behavior.parse().unwrap(), &nominees, &observe);
             assert_eq!(done.get(), SELECTION.cost(nominees.len()));
         }
-        let found = SELECTION.select("RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
+        let found =
+            SELECTION.select(&Simulator::default(), "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
         assert_eq!((found, SELECTION.cost(0)), (Selected::Missing, 0));
     }
 
     #[test]
     fn a_robot_that_errs_is_left_out_unless_it_is_allowed_to() {
         let (behavior, body) = ("RRRR".parse().unwrap(), Body::parse(&["333", "343"], &Palette::paper()).unwrap());
-        let measured = measure(&body).unwrap();
+        let measured = measure(&Simulator::default(), &body).unwrap();
         let nominees = [nominee(&["333", "343"], 1.0)];
-        let select = |behavior, max_error| Selection { max_error, ..SELECTION }.select(behavior, &nominees, &|_| ());
+        let select = |behavior, max_error| {
+            let selection = Selection { max_error, ..SELECTION };
+            selection.select(&Simulator::default(), behavior, &nominees, &|_| ())
+        };
         let own = measured.behavior;
         assert!(matches!(select(own, measured.character.error_rate), Selected::Robot(_)));
         assert!(matches!(select(own, -1.0), Selected::Erring(robot) if robot.behavior == own));

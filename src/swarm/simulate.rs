@@ -52,13 +52,13 @@ pub fn simulate(
     let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
     let mut flock = simulator.flock(&setting(assembly, exposure.inputs.len()), &bodies);
     let bits_in: usize = assembly.inputs.iter().map(|port| port.width).sum();
-    let mut trace = begin(assembly, &flock);
+    let mut trace = begin(assembly, &*flock);
     let mut heard: Vec<bool> = assembly.members.iter().map(|member| member.start).collect();
     for inputs in &exposure.inputs {
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
         let sensed: Vec<[bool; 2]> =
             assembly.members.iter().map(|member| member.senses.map(|signal| read(signal, inputs, &heard))).collect();
-        advance_cycle(&mut flock, &sensed, exposure.cycle_steps, &mut trace.robots);
+        advance_cycle(&mut *flock, &sensed, exposure.cycle_steps, &mut trace.robots);
         let bits: Vec<bool> = trace.robots.iter().map(|robot| moved_right(robot, exposure.window)).collect();
         let outputs = assembly.shown.iter().map(|&signal| read(signal, inputs, &bits)).collect();
         if trace.cycles.len() + 1 >= START_CYCLES {
@@ -82,7 +82,7 @@ fn read(signal: Signal, inputs: &[bool], bits: &[bool]) -> bool {
 }
 
 /// The trace before the first cycle.
-fn begin(assembly: &Assembly, flock: &Flock) -> SwarmTrace {
+fn begin(assembly: &Assembly, flock: &dyn Flock) -> SwarmTrace {
     let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
     let net_name = |signal| match signal {
         Signal::Input(i) => inputs[i].clone(),
@@ -95,7 +95,7 @@ fn begin(assembly: &Assembly, flock: &Flock) -> SwarmTrace {
         robot: member.robot.name.clone(),
         senses: member.senses,
         sensed_nets: member.senses.map(net_name),
-        com_x: vec![flock.com(i)[0]],
+        com_x: vec![flock.center(i)[0]],
         fault: None,
     };
     SwarmTrace {
@@ -110,13 +110,13 @@ fn begin(assembly: &Assembly, flock: &Flock) -> SwarmTrace {
 }
 
 /// One cycle of all robots under what they sense, in as many parts as the trace keeps samples.
-fn advance_cycle(flock: &mut Flock, sensed: &[[bool; 2]], cycle_steps: u32, robots: &mut [RobotTrace]) {
+fn advance_cycle(flock: &mut dyn Flock, sensed: &[[bool; 2]], cycle_steps: u32, robots: &mut [RobotTrace]) {
     let patterns: Vec<Pattern> = sensed.iter().map(|bits| Pattern::new(bits)).collect();
     let steps_until = |sample: u32| cycle_steps * sample / SAMPLES_PER_CYCLE;
     for sample in 0..SAMPLES_PER_CYCLE {
         flock.advance(&patterns, steps_until(sample + 1) - steps_until(sample));
         for (i, robot) in robots.iter_mut().enumerate() {
-            robot.com_x.push(flock.com(i)[0]);
+            robot.com_x.push(flock.center(i)[0]);
         }
     }
 }

@@ -6,7 +6,7 @@ use nbc::model::{
     Body, Drive, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trajectory,
     Trial,
 };
-use nbc::sim::{Constants, InstructionSet, Kernel, Simulator};
+use nbc::sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Simulator};
 use proptest::prelude::*;
 
 /// Every kernel of this processor.
@@ -17,7 +17,7 @@ fn kernels() -> impl Iterator<Item = Kernel> {
 }
 
 fn simulate(kernel: Kernel, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
-    Simulator { kernel, ..Simulator::default() }.run_trials(setting, trials)
+    Simulator::new(LaneBackend { kernel, ..LaneBackend::default() }).run_trials(setting, trials)
 }
 
 /// A trajectory as bits, so that not even zeros of different sign are alike.
@@ -102,7 +102,9 @@ fn broken_palette() -> Arc<Palette> {
 fn a_faulting_lane_does_not_change_its_neighbors() {
     let (setting, palette) = (Setting::default(), broken_palette());
     let constants = Constants { greatest_target: f64::MAX, ..Constants::default() };
-    let simulate = |kernel, trials: &[Trial]| Simulator { constants, kernel, probe: None }.run_trials(&setting, trials);
+    let simulate = |kernel, trials: &[Trial]| {
+        Simulator::new(LaneBackend { constants, kernel, meter: None }).run_trials(&setting, trials)
+    };
     let sound = Body::parse(&["343", "363", "507"], &palette).unwrap();
     let broken = Body::parse(&["349", "363", "507"], &palette).unwrap();
     let trial = |body: &Body, pattern: usize| Trial {
@@ -184,7 +186,7 @@ fn robots_of_a_swarm_advance_as_they_do_alone() {
     let bodies: Vec<Body> = (0..9).map(|robot| Body::patchwork(5, robot / 6)).collect();
     let patterns = |turn: usize| (0..bodies.len()).map(|robot| Pattern::PAIRS[(robot + turn) % 4]).collect::<Vec<_>>();
     let mut swarm = Simulator::default().flock(&setting, &bodies);
-    let alone = Simulator { kernel: Kernel::SCALAR, ..Simulator::default() };
+    let alone = Simulator::new(LaneBackend { kernel: Kernel::SCALAR, ..LaneBackend::default() });
     let mut robots: Vec<_> = bodies.iter().map(|body| alone.flock(&setting, std::slice::from_ref(body))).collect();
     for turn in 0..3 {
         swarm.advance(&patterns(turn), 15);
@@ -193,7 +195,48 @@ fn robots_of_a_swarm_advance_as_they_do_alone() {
         }
     }
     for (i, robot) in robots.iter().enumerate() {
-        let bits = |points: Vec<[f64; 2]>| points.into_iter().map(|at| at.map(f64::to_bits)).collect::<Vec<_>>();
-        assert_eq!(bits(swarm.points(i)), bits(robot.points(0)), "robot {i}");
+        assert_eq!(point_bits(&*swarm, i), point_bits(&**robot, 0), "robot {i}");
     }
+}
+
+/// The bits of all points of a robot.
+fn point_bits(flock: &dyn Flock, robot: usize) -> Vec<[u64; 2]> {
+    flock.points(robot).into_iter().map(|at| at.map(f64::to_bits)).collect()
+}
+
+#[test]
+fn robots_that_are_left_walk_on_as_if_nothing_had_happened() {
+    let setting = Setting::default();
+    let bodies: Vec<Body> = (0..19).map(|robot| Body::patchwork(4 + robot % 2, robot / 4)).collect();
+    let patterns = |robots: &[usize]| robots.iter().map(|robot| Pattern::PAIRS[robot % 4]).collect::<Vec<_>>();
+    let mut left: Vec<usize> = (0..bodies.len()).collect();
+    let [mut whole, mut thinned] = [(); 2].map(|()| Simulator::default().flock(&setting, &bodies));
+    for divisor in [7, 5, 2] {
+        whole.advance(&patterns(&(0..bodies.len()).collect::<Vec<_>>()), 9);
+        thinned.advance(&patterns(&left), 9);
+        thinned.retain(&left.iter().map(|robot| robot % divisor != 0).collect::<Vec<_>>());
+        left.retain(|robot| robot % divisor != 0);
+    }
+    assert_eq!(thinned.len(), left.len());
+    for (place, &robot) in left.iter().enumerate() {
+        assert_eq!(point_bits(&*thinned, place), point_bits(&*whole, robot), "robot {robot}");
+    }
+}
+
+#[test]
+fn a_restored_robot_walks_the_same_way_again() {
+    let setting = Setting::default();
+    let bodies: Vec<Body> = (0..5).map(|robot| Body::patchwork(5, robot)).collect();
+    let mut flock = Simulator::default().flock(&setting, &bodies);
+    let all = |flock: &dyn Flock| (0..5).map(|robot| point_bits(flock, robot)).collect::<Vec<_>>();
+    flock.advance(&[Pattern::PAIRS[1]; 5], 20);
+    let snapshots: Vec<_> = (0..5).map(|robot| flock.snapshot(robot)).collect();
+    flock.advance(&[Pattern::PAIRS[2]; 5], 20);
+    let first = all(&*flock);
+    for (robot, snapshot) in snapshots.iter().enumerate() {
+        flock.restore(robot, snapshot);
+    }
+    assert_eq!(flock.snapshot(3), snapshots[3]);
+    flock.advance(&[Pattern::PAIRS[2]; 5], 20);
+    assert_eq!(all(&*flock), first);
 }

@@ -9,7 +9,6 @@ use nbc::Session;
 use nbc::evolve::{Search, recodings};
 use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
 use nbc::sim::Simulator;
-use nbc::sim::run_trials;
 use nbc::source::MemoryWorld;
 use nbc::swarm::evaluate;
 use proptest::prelude::*;
@@ -343,7 +342,7 @@ proptest! {
                 Trial { body: body.clone(), schedule: schedule(before) },
                 Trial { body: recoding.body(&body), schedule: schedule(after) },
             ];
-            let both = run_trials(&setting, &trials);
+            let both = Simulator::default().run_trials(&setting, &trials);
             prop_assert_eq!(&both[0], &both[1]);
         }
     }

@@ -1,7 +1,7 @@
 //! The built-in robots as gates.
 
 use nbc::model::{CYCLE_STEPS, Direction, Pattern, Robot, Schedule, Setting, Spell, Trial};
-use nbc::sim::run_trials;
+use nbc::sim::Simulator;
 use nbc::store::shipped_library;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -48,7 +48,8 @@ fn each_gate_is_correct_after_fifty_random_switches() {
         .zip(&plans)
         .map(|(robot, plan)| Trial { body: robot.body.clone(), schedule: Schedule { spells: spells(plan) } })
         .collect();
-    for ((robot, plan), trajectory) in robots.iter().zip(&plans).zip(run_trials(&setting, &trials)) {
+    for ((robot, plan), trajectory) in robots.iter().zip(&plans).zip(Simulator::default().run_trials(&setting, &trials))
+    {
         assert_eq!(trajectory.fault, None, "{}", robot.name);
         let wrong = wrong(robot, plan, &trajectory.com_x);
         // A robot with a known error rate may make some errors here too: three times its rate, plus one.

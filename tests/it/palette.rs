@@ -8,7 +8,7 @@ use nbc::model::{
     Body, CYCLE_STEPS, Column, Function, Material, MaterialKind, Palette, Pattern, Robot, Schedule, Spell, Trial,
 };
 use nbc::session;
-use nbc::sim::{Simulator, run_trials};
+use nbc::sim::Simulator;
 use nbc::store::{self, Checkpoint, DiskWorld};
 use nbc::swarm::{self, Assembly, Exposure, Member, Signal};
 
@@ -232,7 +232,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     let spells = [2, 0].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: CYCLE_STEPS }).to_vec();
     for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {
         let trial = Trial { body: body.clone(), schedule: Schedule { spells: spells.clone() } };
-        let alone = run_trials(&swarm::setting(&assembly, 2), &[trial]).remove(0);
+        let alone = Simulator::default().run_trials(&swarm::setting(&assembly, 2), &[trial]).remove(0);
         let every = CYCLE_STEPS as usize / trace.samples_per_cycle;
         assert_eq!(of_swarm.com_x, alone.com_x.into_iter().step_by(every).collect::<Vec<_>>());
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nbc::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
-use nbc::sim::{Constants, Flock, InstructionSet, Kernel, Simulator, run_trials};
+use nbc::sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
 use serde::Deserialize;
 
 /// Largest difference from a reference, in voxels (docs/physics.md 12).
@@ -97,7 +97,9 @@ fn greatest_difference(expected: &[f64], found: &[f64]) -> f64 {
 
 fn simulate(case: &Case, constants: &Constants) -> Trajectory {
     let trial = Trial { body: case.body(), schedule: case.schedule() };
-    Simulator { constants: *constants, ..Simulator::default() }.run_trials(&case.setting(), &[trial]).remove(0)
+    Simulator::new(LaneBackend { constants: *constants, ..LaneBackend::default() })
+        .run_trials(&case.setting(), &[trial])
+        .remove(0)
 }
 
 #[test]
@@ -118,7 +120,7 @@ fn reference_trajectories_in_the_lanes_of_every_kernel() {
     }
     let wide = InstructionSet::available().into_iter().flat_map(|set| [4, 8].map(|lanes| Kernel::new(set, lanes)));
     for kernel in wide.flatten() {
-        let simulator = Simulator { kernel, ..Simulator::default() };
+        let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
         for cases in groups.values() {
             let copies: Vec<&Case> = cases.iter().flat_map(|case| [case; 3]).collect();
             let trials: Vec<Trial> =
@@ -136,8 +138,10 @@ fn reference_trajectories_in_the_lanes_of_every_kernel() {
 fn reference_substeps() {
     let check = |rows: &[&str], start_x: usize, digits: &str, expected: &[(u32, usize, [f64; 2])]| {
         for &(substeps, point, at) in expected {
-            let simulator =
-                Simulator { constants: Constants { substeps, ..Constants::default() }, ..Simulator::default() };
+            let simulator = Simulator::new(LaneBackend {
+                constants: Constants { substeps, ..Constants::default() },
+                ..LaneBackend::default()
+            });
             let mut flock = simulator.flock(&setting(start_x, 60), &[Body::parse(rows, &Palette::paper()).unwrap()]);
             flock.advance(&[pattern(digits)], 1);
             let found = flock.points(0)[point];
@@ -172,7 +176,7 @@ fn reference_substeps() {
 #[test]
 fn reference_points() {
     for case in traces().iter().filter(|case| !case.points.is_empty()) {
-        let mut flock = Flock::new(&case.setting(), &[case.body()]);
+        let mut flock = Simulator::default().flock(&case.setting(), &[case.body()]);
         let patterns: Vec<_> = case.schedule().patterns().collect();
         for step in 0..case.strict() {
             if let Some(expected) = case.points.get(&step) {
@@ -194,7 +198,7 @@ fn reference_points() {
 fn ten_cycles_of_each_pattern() {
     for case in reference().iter().filter(|case| !case.fixed.is_empty()) {
         let trial = |pattern| Trial { body: case.body(), schedule: Schedule::constant(pattern, 10 * CYCLE) };
-        let found = run_trials(&case.setting(), &Pattern::PAIRS.map(trial));
+        let found = Simulator::default().run_trials(&case.setting(), &Pattern::PAIRS.map(trial));
         for (pattern, found) in Pattern::PAIRS.iter().zip(found) {
             assert_eq!(found.fault, None);
             let expected = &case.fixed[&pattern.to_string()];
@@ -227,7 +231,8 @@ fn published_robots_walk_as_published() {
     for robot in published.robots {
         let body = Body::parse(&robot.body, &Palette::paper()).unwrap();
         let trial = |pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, 10 * CYCLE) };
-        let found = run_trials(&setting(robot.start_x, robot.world_width), &Pattern::PAIRS.map(trial));
+        let found =
+            Simulator::default().run_trials(&setting(robot.start_x, robot.world_width), &Pattern::PAIRS.map(trial));
         let displacement = |i: usize| found[i].com_x.last().unwrap() - found[i].com_x[0];
         let displacements = [0, 1, 2, 3].map(displacement);
         assert_eq!(Behavior::of(&displacements).to_string(), robot.behavior, "{}", robot.name);
@@ -304,7 +309,7 @@ fn a_robot_beyond_the_ground_comes_to_rest_on_the_plane() {
     let body = Body::parse(&["333", "303"], &Palette::paper()).unwrap();
     let case = Trial { body, schedule: Schedule::constant(Pattern::PAIRS[0], 3 * CYCLE) };
     let fall = |constants: Constants| {
-        let simulator = Simulator { constants, ..Simulator::default() };
+        let simulator = Simulator::new(LaneBackend { constants, ..LaneBackend::default() });
         simulator.run_trials(&setting(20, 10), std::slice::from_ref(&case)).remove(0)
     };
     let usual = fall(Constants::default());

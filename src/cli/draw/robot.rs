@@ -7,7 +7,7 @@ use crate::cli::draw::kind::Kind;
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Body, CYCLE_STEPS, Robot, Schedule, Setting, Trial};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
-use crate::sim;
+use crate::sim::Simulator;
 
 /// A body with what is written above its pictures.
 pub(super) struct Subject {
@@ -62,6 +62,6 @@ impl Arguments {
 
 fn diagram(title: &str, body: &Body, schedule: Schedule) -> Svg {
     let trial = Trial { body: body.clone(), schedule };
-    let trajectory = sim::run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
+    let trajectory = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
     report::draw_robot(title, &trial.schedule, &trajectory)
 }

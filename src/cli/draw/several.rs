@@ -8,7 +8,7 @@ use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::model::{Behavior, Body, CYCLE_STEPS, Library, Schedule, Setting, Trial};
 use crate::report::{self, Champions, Film, Portrait, STRIDE, Stage, Svg};
-use crate::sim;
+use crate::sim::Simulator;
 
 /// Robots with what is written above their pictures.
 pub(super) struct Several {
@@ -71,7 +71,7 @@ impl Arguments {
 pub(super) fn champions(several: &Several, schedule: &Schedule) -> Svg {
     let trial = |one: &One| Trial { body: one.body.clone(), schedule: schedule.clone() };
     let trials: Vec<Trial> = several.robots.iter().map(trial).collect();
-    let trajectories = sim::run_trials(&Setting::default(), &trials);
+    let trajectories = Simulator::default().run_trials(&Setting::default(), &trials);
     let mut paths: BTreeMap<u8, Champions> = BTreeMap::new();
     for (one, trajectory) in several.robots.iter().zip(trajectories) {
         let bits = one.behavior.function().bits();

@@ -4,6 +4,7 @@ mod run;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
 use std::time::Instant;
 
 use clap::Args;
@@ -11,7 +12,7 @@ use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::run::{Ended, Run};
-use crate::cli::timings::Timings;
+use crate::cli::timings::{Timer, Timings};
 use crate::cli::{Context, Failure, Format, Interrupt, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};
@@ -93,18 +94,18 @@ impl Arguments {
     /// # Errors
     /// When the file has errors, a checkpoint is refused, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let (started, interrupt) = (Instant::now(), Interrupt::watch()?);
+        let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let declared = self.declared()?;
         self.tell_duration(&declared, context);
         let mut results = Results::default();
         for evolution in declared {
-            let finished = self.run_seeds(&evolution, &interrupt, &mut results, context)?;
+            let finished = self.run_seeds(&evolution, (&interrupt, &timer), &mut results, context)?;
             if !finished {
-                self.timings.tell(started, context);
+                timer.report(context);
                 return results.end(context, Status::Interrupted);
             }
         }
-        self.timings.tell(started, context);
+        timer.report(context);
         results.end(context, Status::Done)
     }
 
@@ -112,13 +113,13 @@ impl Arguments {
     fn run_seeds(
         &self,
         evolution: &Evolution,
-        interrupt: &Interrupt,
+        (interrupt, timer): (&Interrupt, &Timer),
         results: &mut Results,
         context: &mut Context,
     ) -> Result<bool, Failure> {
         let mut champions = BTreeMap::new();
         for &seed in &evolution.seeds {
-            let mut run = Run::open(self, evolution, seed, context)?;
+            let mut run = Run::open(self, evolution, seed, timer, context)?;
             let finished = run.make(interrupt)?;
             champions.insert(seed, run.archive_stats().champions);
             results.runs.push(run.ended(finished));

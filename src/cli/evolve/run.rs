@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::cli::evolve::Arguments;
-use crate::cli::timings::{self, Stage};
+use crate::cli::timings::{Chore, Timer};
 use crate::cli::{Context, Failure, Interrupt, Progress};
 use crate::diag::{Code, Diagnostic, Severity};
 use crate::evolve::{ArchiveStats, Search};
@@ -37,9 +37,10 @@ pub(super) struct Ended {
 }
 
 /// One declaration with one seed, in its folder.
-pub(super) struct Run {
+pub(super) struct Run<'a> {
     search: Search,
     simulator: Simulator,
+    timer: &'a Timer,
     work: Work,
     folder: PathBuf,
     checkpoint_every: Duration,
@@ -47,12 +48,12 @@ pub(super) struct Run {
     /// Evaluations and work made before this program took over.
     evaluations_before: u64,
     work_before: Work,
-    /// What [`searching`] said then.
+    /// What [`searching`] gave then.
     searching_before: f64,
     _lock: FolderLock,
 }
 
-impl Run {
+impl<'a> Run<'a> {
     /// A run that has done nothing yet, or goes on from its checkpoint.
     ///
     /// # Errors
@@ -61,6 +62,7 @@ impl Run {
         arguments: &Arguments,
         evolution: &Evolution,
         seed: u64,
+        timer: &'a Timer,
         context: &Context,
     ) -> Result<Self, Failure> {
         let folder = arguments.out.join(&evolution.name).join(format!("seed-{seed}"));
@@ -79,14 +81,15 @@ impl Run {
         let evaluations_before = search.counts().evaluations;
         let run = Self {
             search,
-            simulator: arguments.timings.simulator(),
+            simulator: timer.simulator(),
+            timer,
             work,
             folder,
             checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
             started: Instant::now(),
             evaluations_before,
             work_before: work,
-            searching_before: searching(),
+            searching_before: searching(timer),
             _lock,
         };
         run.trim_progress(context)?;
@@ -101,22 +104,22 @@ impl Run {
         while !self.search.is_done() && !interrupt.is_raised() {
             self.advance();
             let line = EvolutionLine::of(&self.search, self.work);
-            timings::time(Stage::Output, || self.append(&line))?;
+            self.timer.time(Chore::Output, || self.append(&line))?;
             bar.set_with_note(u64::from(line.generation), self.message(&line));
             if saved.elapsed() >= self.checkpoint_every {
-                timings::time(Stage::Output, || self.save())?;
+                self.timer.time(Chore::Output, || self.save())?;
                 saved = Instant::now();
             }
         }
-        timings::time(Stage::Output, || self.save())?;
+        self.timer.time(Chore::Output, || self.save())?;
         Ok(self.search.is_done())
     }
 
     /// One generation, with a clock on what is not simulation.
     fn advance(&mut self) {
-        let candidates = timings::time(Stage::Development, || self.search.ask());
+        let candidates = self.timer.time(Chore::Development, || self.search.ask());
         let (outcomes, work) = swarm::evaluate(&self.simulator, &self.search, &candidates);
-        timings::time(Stage::Archive, || self.search.tell(&candidates, &outcomes));
+        self.timer.time(Chore::Archive, || self.search.tell(&candidates, &outcomes));
         self.work = self.work.plus(work);
     }
 
@@ -195,17 +198,16 @@ impl Run {
             return String::new();
         }
         let in_full = rate * simulated / (simulated + left_out);
-        let search = 100.0 * (searching() - self.searching_before) / seconds;
+        let search = 100.0 * (searching(self.timer) - self.searching_before) / seconds;
         format!(
             "{seconds:.1} s, {rate:.1} evaluations/s, what was simulated making {in_full:.1} full ones/s; {search:.2} % of the time for archive, development and mutation\n"
         )
     }
 }
 
-/// Seconds that this program has spent so far on asking and telling: parents, mutation, development, the archive.
-fn searching() -> f64 {
-    let seconds = timings::seconds();
-    seconds[Stage::Development as usize] + seconds[Stage::Archive as usize]
+/// Seconds spent so far on asking and telling: parents, mutation, development, the archive.
+fn searching(timer: &Timer) -> f64 {
+    timer.seconds(Chore::Development) + timer.seconds(Chore::Archive)
 }
 
 /// The checkpoint at a path, if there is one.

@@ -12,6 +12,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Provenance, Robot};
 use crate::report::{Answer, Schema};
+use crate::sim::Simulator;
 use crate::store::{self, Checkpoint};
 use crate::swarm::{Nominee, Selected, Selection};
 
@@ -62,7 +63,7 @@ impl Arguments {
         let asked = self.asked(&selection)?;
         let bar = Progress::new("measuring", asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum());
         let select = |(behavior, nominees): &(Behavior, Vec<Nominee>)| {
-            (*behavior, selection.select(*behavior, nominees, &|more| bar.add(more)))
+            (*behavior, selection.select(&Simulator::default(), *behavior, nominees, &|more| bar.add(more)))
         };
         let mut answers = Vec::new();
         let mut tell = |(behavior, selected): (Behavior, Selected)| {

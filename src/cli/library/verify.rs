@@ -7,6 +7,7 @@ use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::counted;
 use crate::model::{Library, Robot};
 use crate::report::Schema;
+use crate::sim::Simulator;
 use crate::swarm::{self, Measurement};
 
 /// The result for one robot.
@@ -56,7 +57,8 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
 
 /// The differences between a new measurement and the file.
 fn differences(robot: &Robot) -> Vec<&'static str> {
-    let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&robot.body) else {
+    let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&Simulator::default(), &robot.body)
+    else {
         return vec!["the simulation has a fault"];
     };
     let same = [

@@ -4,9 +4,9 @@
 
 use nalgebra::Vector2;
 
+use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::constants::Constants;
 use crate::sim::lattice::CORNERS;
-use crate::sim::real::{Mask, Real};
 
 /// A point further than this outside the box around a voxel, in metres, is outside the voxel whatever is rounded, ...
 const CLEAR: f64 = 1e-5;

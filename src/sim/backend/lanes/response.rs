@@ -1,19 +1,19 @@
-//! Contact forces: who meets whom in a substep, and how they push each other (docs/physics.md 7).
+//! Contact forces: which voxels touch in a substep, and the forces between them (docs/physics.md 7).
 
 use nalgebra::Vector2;
 
-use crate::sim::batch::Batch;
-use crate::sim::contact::{Hit, Quad};
+use crate::sim::backend::lanes::batch::Batch;
+use crate::sim::backend::lanes::contact::{Hit, Quad};
+use crate::sim::backend::lanes::proximity::{Inside, Survey};
+use crate::sim::backend::lanes::real::Real;
+use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::lattice::CORNERS;
-use crate::sim::proximity::{Inside, Survey};
-use crate::sim::real::Real;
-use crate::sim::stiffness::Stiffness;
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Contact forces and the instability test, both from the positions at the start of the substep.
     #[inline(always)]
-    pub fn meet(&mut self) {
-        self.unburden();
+    pub fn apply_contacts(&mut self) {
+        self.clear_contacts();
         let mut low = std::mem::take(&mut self.low);
         let mut inside = std::mem::take(&mut self.inside);
         let Survey { is_stale, lowest } = self.proximity.survey(&self.masses, self.constants.cell, &mut low);
@@ -23,19 +23,19 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.proximity.insides(&self.masses, &mut inside);
         self.unstable |= self.proximity.unstable(&self.masses, &self.countable);
         if lowest != 0 {
-            self.meet_ground(&low);
+            self.collide_with_ground(&low);
         }
         if !inside.is_empty() {
-            self.meet_itself(&inside);
+            self.collide_with_itself(&inside);
         }
         inside.clear();
         self.low = low;
         self.inside = inside;
     }
 
-    /// Takes last substep's contact forces off.
+    /// Removes the contact forces of the last substep.
     #[inline(always)]
-    fn unburden(&mut self) {
+    fn clear_contacts(&mut self) {
         for (mass, weight) in self.loaded.drain(..) {
             self.load[mass] = weight;
             self.masses[mass].force = self.loads[weight as usize];
@@ -45,7 +45,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
 
     /// Contact between each robot's low voxels and the ground, each way once. `low` has the lanes in which each surface mass is low.
     #[inline(never)]
-    fn meet_ground(&mut self, low: &[u32]) {
+    fn collide_with_ground(&mut self, low: &[u32]) {
         for lane in 0..self.occupants.len() {
             let mut voxels = std::mem::take(&mut self.voxels);
             for (&mass, _) in self.proximity.points.iter().zip(low).filter(|(_, lanes)| *lanes >> lane & 1 == 1) {
@@ -54,14 +54,14 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             voxels.sort_unstable();
             voxels.dedup();
             for &voxel in &voxels {
-                self.meet_ground_voxels(lane, voxel);
+                self.collide_voxel_with_ground(lane, voxel);
             }
             voxels.clear();
             self.voxels = voxels;
         }
     }
 
-    fn meet_ground_voxels(&mut self, lane: usize, voxel: usize) {
+    fn collide_voxel_with_ground(&mut self, lane: usize, voxel: usize) {
         let (quad, masses) = self.quad(lane, voxel);
         let cell = self.constants.cell;
         let [least, greatest] = quad.bounds;
@@ -91,17 +91,17 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Contact of robots with themselves. Both orders of a pair are met, and each time both ways are evaluated, so each way counts twice.
+    /// Contact of robots with themselves. Each pair is evaluated in both orders, and each time both ways, so each way counts twice.
     #[inline(never)]
-    fn meet_itself(&mut self, insides: &[Inside]) {
+    fn collide_with_itself(&mut self, insides: &[Inside]) {
         for inside in insides {
             for lane in (0..self.occupants.len()).filter(|lane| inside.lanes >> lane & 1 == 1) {
-                self.meet_itself_in(lane, inside);
+                self.collide_point_with_itself(lane, inside);
             }
         }
     }
 
-    fn meet_itself_in(&mut self, lane: usize, inside: &Inside) {
+    fn collide_point_with_itself(&mut self, lane: usize, inside: &Inside) {
         let reference = self.occupants[lane].surface.iter().position(|voxel| voxel.corners == inside.corners);
         let (reference, masses) = self.quad(lane, reference.expect("a tile in a lane is a surface voxel of its robot"));
         let [least, greatest] = reference.bounds;
@@ -109,8 +109,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             let (voxel, corner) = self.occupants[lane].at_mass[inside.point][n];
             let (main, _) = self.quad(lane, voxel);
             let [from, to] = main.bounds;
-            let meet = from.x <= greatest.x && least.x <= to.x && from.y <= greatest.y && least.y <= to.y;
-            if let Some(hit) = meet.then(|| reference.hit_by(&main, corner, &self.constants)).flatten() {
+            let overlap = from.x <= greatest.x && least.x <= to.x && from.y <= greatest.y && least.y <= to.y;
+            if let Some(hit) = overlap.then(|| reference.hit_by(&main, corner, &self.constants)).flatten() {
                 let ends = reference.ends(hit.side).map(|corner| masses[corner]);
                 self.push(lane, &hit, Some(inside.point), Some(ends), 2.0);
             }
@@ -131,16 +131,16 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             let range = constants.friction_range * strength;
             friction = -constants.friction * range * libm::tanh(along.dot(&speed) / range) * along;
             let damping = constants.point_damping * normal.dot(&speed) * normal;
-            self.burden(lane, point, (force - damping + friction) * times);
+            self.add_load(lane, point, (force - damping + friction) * times);
         }
         for end in ends.into_iter().flatten() {
             let damping = constants.edge_damping * normal.dot(&self.true_velocity(lane, end)) * normal;
-            self.burden(lane, end, (force / 2.0 + damping + friction / 2.0) * -times);
+            self.add_load(lane, end, (force / 2.0 + damping + friction / 2.0) * -times);
         }
     }
 
     /// Adds a force in newtons to a lane's mass for this substep.
-    fn burden(&mut self, lane: usize, mass: usize, force: Vector2<f64>) {
+    fn add_load(&mut self, lane: usize, mass: usize, force: Vector2<f64>) {
         let scale = self.constants.per_substep_squared();
         let weight = self.load[mass];
         if (weight as usize) < self.weights {

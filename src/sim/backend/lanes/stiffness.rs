@@ -1,6 +1,6 @@
 //! How a batch keeps its springs' stiffness: one number where all lanes have the same body, else one a lane.
 
-use crate::sim::real::{Mask, Real};
+use crate::sim::backend::lanes::real::{Mask, Real};
 
 /// A spring's stiffness in every lane, in kilograms per substep squared; zero in lanes without the spring.
 pub trait Stiffness<R: Real>: Copy + Send + Sync + std::fmt::Debug + 'static {

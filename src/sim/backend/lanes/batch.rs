@@ -7,40 +7,21 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::sim::backend::lanes::mass::{Mass, Vector};
+use crate::sim::backend::lanes::proximity::{Inside, Proximity, Tile};
+use crate::sim::backend::lanes::real::{Mask, Real};
+use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::constants::Constants;
 use crate::sim::lattice::{CORNERS, DrivenEdge, Edge, Lattice, LatticePoint, Voxel};
-use crate::sim::probe::Probe;
-use crate::sim::proximity::{Inside, Proximity};
-use crate::sim::real::{Mask, Real};
+use crate::sim::meter::{Part, Stopwatch};
 use crate::sim::state::State;
-use crate::sim::stiffness::Stiffness;
 
-/// Where a lane keeps the points it has not: so many metres up, at rest.
+/// Where a lane keeps the points it has not: in meters above the ground, at rest.
 const AWAY: f64 = 1000.0;
 
 /// The aims of springs that nothing drives: of main edges, of diagonals.
 pub const MAIN: usize = 0;
 pub const DIAGONAL: usize = 1;
-
-/// A point's coordinates in every lane.
-pub type Place<R> = [R; 2];
-
-/// A point mass. Time is counted in substeps: velocities are metres a substep, forces metres a substep squared.
-#[derive(Clone, Copy, Debug)]
-pub struct Mass<R> {
-    /// Position at the start of the substep.
-    pub at: Place<R>,
-    /// Velocity of the integrator.
-    pub velocity: Place<R>,
-    /// Position in the current Runge-Kutta stage; after the last, the correction by the length limits so far.
-    pub stage: Place<R>,
-    /// Velocity in the current Runge-Kutta stage.
-    pub pace: Place<R>,
-    /// Sum of stage velocities so far.
-    pub sum: Place<R>,
-    /// Force so far in the current stage.
-    pub force: Place<R>,
-}
 
 /// The four springs that a voxel does not leave to others: top, left, falling diagonal, rising diagonal.
 #[derive(Clone, Copy, Debug)]
@@ -74,17 +55,6 @@ pub struct Rim {
 /// The springs' places in a frame: between which corners each runs, the earlier mass first.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
-/// A voxel of any lane.
-#[derive(Clone, Debug)]
-pub struct Tile {
-    /// Row and column.
-    pub cell: [usize; 2],
-    /// Its masses: top left, top right, bottom right, bottom left.
-    pub corners: [usize; CORNERS],
-    /// Lanes that have it on their surface, as bits.
-    pub surface: u32,
-}
-
 /// Rigid voxels whose limits are looked after together: in each lane one at most, the next in reading order.
 #[derive(Clone, Debug)]
 pub struct Round<R: Real> {
@@ -114,7 +84,7 @@ pub struct Occupant {
 pub struct Driven {
     /// Its place in [`Batch::aims`].
     pub aim: usize,
-    /// Built length in metres.
+    /// Built length in meters.
     pub rest: f64,
     /// The material code of its first active owner.
     pub first: u8,
@@ -132,23 +102,23 @@ pub struct SurfaceVoxel {
 }
 
 /// Robots side by side, one a lane.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Batch<R: Real, K: Stiffness<R>> {
     /// The physics' numbers.
     pub constants: Constants,
     /// Ground voxels.
     pub world_width: usize,
-    /// Told where time goes.
-    pub probe: Option<Probe>,
+    /// Counts where time goes, where that is wanted.
+    pub stopwatch: Option<Stopwatch>,
     /// The masses, in order of their places row by row.
     pub masses: Vec<Mass<R>>,
     /// Where each mass was a substep ago.
-    pub before: Vec<Place<R>>,
+    pub before: Vec<Vector<R>>,
     /// What acts on each mass in all four stages: a place in `loads`.
     pub load: Vec<u32>,
     /// Gravity in the lanes that have a mass, for each set of lanes that occurs; then, in this substep, gravity and contact of each mass
     /// in contact.
-    pub loads: Vec<Place<R>>,
+    pub loads: Vec<Vector<R>>,
     /// How many of `loads` are gravity alone.
     pub weights: usize,
     /// Masses in contact, with their load before.
@@ -186,7 +156,7 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     /// Scratch: voxels of one lane.
     pub voxels: Vec<usize>,
     /// Positions at the end of the last env step that went well.
-    saved: Vec<Place<R>>,
+    saved: Vec<Vector<R>>,
 }
 
 /// One row of the lattice.
@@ -233,7 +203,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let mut batch = Self {
             constants: *constants,
             world_width,
-            probe: None,
+            stopwatch: None,
             masses: places.iter().map(|&place| far_away(place, constants)).collect(),
             before: vec![[R::splat(0.0); 2]; places.len()],
             load: vec![0; places.len()],
@@ -258,18 +228,26 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             voxels: Vec::new(),
             saved: Vec::new(),
         };
-        let driven = batch.lay_springs(robots, &maps, &places);
+        let driven = batch.add_springs(robots, &maps, &places);
         for (((body, state), masses), driven) in robots.iter().zip(maps).zip(driven) {
-            batch.board(Occupant::new(body, masses, places.len(), driven), state);
+            batch.add_robot(Occupant::new(body, masses, places.len(), driven), state);
         }
-        batch.lay_tiles(robots);
-        batch.hang_weights();
+        batch.add_tiles(robots);
+        batch.assign_weights();
         batch.save();
         batch
     }
 
+    /// Counts the time since the last part as `part`, where time is counted.
+    #[inline(always)]
+    pub fn lap(&mut self, part: Part) {
+        if let Some(stopwatch) = &mut self.stopwatch {
+            stopwatch.lap(part, self.occupants.len());
+        }
+    }
+
     /// Puts a robot into the next lane.
-    fn board(&mut self, occupant: Occupant, state: &State) {
+    fn add_robot(&mut self, occupant: Occupant, state: &State) {
         let lane = self.occupants.len();
         for (point, &mass) in occupant.masses.iter().enumerate() {
             for axis in 0..2 {
@@ -283,7 +261,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     /// Gives each mass its weight in the lanes that have it.
-    fn hang_weights(&mut self) {
+    fn assign_weights(&mut self) {
         let mut lanes = vec![0u32; self.masses.len()];
         for (lane, occupant) in self.occupants.iter().enumerate() {
             for &mass in &occupant.masses {
@@ -305,7 +283,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     /// Lays the union of the robots' springs. Gives each lane's driven springs.
-    fn lay_springs(&mut self, robots: &[(&Lattice, &State)], maps: &[Vec<usize>], places: &[Key]) -> Vec<Vec<Driven>> {
+    fn add_springs(&mut self, robots: &[(&Lattice, &State)], maps: &[Vec<usize>], places: &[Key]) -> Vec<Vec<Driven>> {
         let lanes: Vec<Vec<Spring>> =
             robots.iter().zip(maps).map(|((body, _), masses)| springs(body, masses)).collect();
         let mut frames: BTreeMap<TileKey, [K; 4]> = BTreeMap::new();
@@ -348,18 +326,18 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             };
             driven.push(body.driven().iter().map(drive).collect());
         }
-        self.rule_rows(places);
+        self.index_rows(places);
         driven
     }
 
-    /// Built length of a kind of spring in metres.
+    /// Built length of a kind of spring in meters.
     pub fn rest(&self, kind: usize) -> f64 {
         let cell = self.constants.cell;
         if kind == MAIN { cell } else { (cell * cell + cell * cell).sqrt() }
     }
 
     /// Says where each row's masses and frames are.
-    fn rule_rows(&mut self, places: &[Key]) {
+    fn index_rows(&mut self, places: &[Key]) {
         let (mut mass, mut frame) = (0, 0);
         while mass < places.len() {
             let row = places[mass].0;
@@ -416,7 +394,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    fn lay_tiles(&mut self, robots: &[(&Lattice, &State)]) {
+    fn add_tiles(&mut self, robots: &[(&Lattice, &State)]) {
         let mut surface: BTreeMap<TileKey, u32> = BTreeMap::new();
         let mut rigid: Vec<BTreeMap<TileKey, u32>> = Vec::new();
         for (lane, (body, _)) in robots.iter().enumerate() {
@@ -484,5 +462,5 @@ impl Occupant {
 fn far_away<R: Real>((row, column, _): Key, constants: &Constants) -> Mass<R> {
     let zero = [R::splat(0.0); 2];
     let at = [R::splat(column as f64 * constants.cell), R::splat(AWAY - row as f64 * constants.cell)];
-    Mass { at, velocity: zero, stage: zero, pace: zero, sum: zero, force: zero }
+    Mass { at, velocity: zero, stage: zero, stage_velocity: zero, sum: zero, force: zero }
 }

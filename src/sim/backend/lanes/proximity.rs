@@ -4,16 +4,27 @@
 //! moved by half the margin since; what was nearer is looked at in every substep. So nothing is ever missed, and when lists are renewed
 //! has no influence on any result.
 
-use crate::sim::batch::{Mass, Place, Tile};
-use crate::sim::contact::is_inside;
+use crate::sim::backend::lanes::contact::is_inside;
+use crate::sim::backend::lanes::mass::{Mass, Vector};
+use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::lattice::CORNERS;
-use crate::sim::real::{Mask, Real};
 
-/// Boxes nearer than this, in metres, are looked at in every substep.
+/// Boxes nearer than this, in meters, are looked at in every substep.
 const MARGIN: f64 = 0.03;
 
-/// Slack for rounding, in metres.
+/// Slack for rounding, in meters.
 const SLACK: f64 = 1e-9;
+
+/// A voxel of any lane.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    /// Row and column.
+    pub cell: [usize; 2],
+    /// Its masses: top left, top right, bottom right, bottom left.
+    pub corners: [usize; CORNERS],
+    /// Lanes that have it on their surface, as bits.
+    pub surface: u32,
+}
 
 /// The lists of what is near.
 #[derive(Clone, Debug)]
@@ -23,10 +34,10 @@ pub struct Proximity<R: Real> {
     /// Their masses.
     pub points: Vec<usize>,
     /// Where those were when the lists were made; infinitely far before the first time.
-    reference: Vec<Place<R>>,
+    reference: Vec<Vector<R>>,
     /// Points near a tile that is not theirs.
     near_points: Vec<NearPoint>,
-    /// Pairs of tiles near each other but not neighbours.
+    /// Pairs of tiles near each other but not neighbors.
     near_tiles: Vec<NearTiles>,
     /// Lanes with so many near pairs that they might be unstable, as bits.
     suspects: u32,
@@ -105,7 +116,7 @@ impl<R: Real> Proximity<R> {
         self.near_points.clear();
         self.near_tiles.clear();
         let margin = R::splat(MARGIN);
-        let boxes: Vec<[Place<R>; 2]> = self.tiles.iter().map(|tile| bounds(masses, tile)).collect();
+        let boxes: Vec<[Vector<R>; 2]> = self.tiles.iter().map(|tile| bounds(masses, tile)).collect();
         for (n, tile) in self.tiles.iter().enumerate() {
             for &point in &self.points {
                 let at = masses[point].at;
@@ -152,7 +163,7 @@ impl<R: Real> Proximity<R> {
     }
 
     /// The instability test of docs/physics.md 9 on current positions: lanes in which more ordered pairs of surface voxels that are no
-    /// neighbours have overlapping boxes than there are surface voxels.
+    /// neighbors have overlapping boxes than there are surface voxels.
     #[inline(always)]
     pub fn unstable(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
         if self.suspects == 0 { 0 } else { self.count_overlaps(masses, surface) }
@@ -194,7 +205,7 @@ fn are_apart(a: &Tile, b: &Tile) -> bool {
 
 /// Least and greatest coordinates of a tile.
 #[inline(always)]
-fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Place<R>; 2] {
+fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
     let [a, b, c, d] = [0, 1, 2, 3].map(|corner| masses[tile.corners[corner]].at);
     let least = |axis: usize| a[axis].min(b[axis]).min(c[axis].min(d[axis]));
     let greatest = |axis: usize| a[axis].max(b[axis]).max(c[axis].max(d[axis]));
@@ -203,14 +214,14 @@ fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Place<R>; 2] {
 
 /// How far two boxes are apart along the axis where they are furthest apart; negative where they overlap.
 #[inline(always)]
-fn gap<R: Real>(a: &[Place<R>; 2], b: &[Place<R>; 2]) -> R {
+fn gap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R {
     let along = |axis: usize| (a[0][axis] - b[1][axis]).max(b[0][axis] - a[1][axis]);
     along(0).max(along(1))
 }
 
 /// Whether two boxes overlap or touch.
 #[inline(always)]
-fn overlap<R: Real>(a: &[Place<R>; 2], b: &[Place<R>; 2]) -> R::Mask {
+fn overlap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R::Mask {
     let along = |axis: usize| a[0][axis].at_most(b[1][axis]).and(b[0][axis].at_most(a[1][axis]));
     along(0).and(along(1))
 }

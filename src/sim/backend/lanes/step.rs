@@ -1,52 +1,45 @@
 //! One substep, written once for one robot and for many side by side (docs/physics.md 5 and 6).
 //!
 //! Each voxel's frame of four springs is computed together. The rims come first; when the frames of a row are done all force on its masses is known,
-//! they can go on to the next Runge-Kutta stage at once, and nobody asks for their old places any more. Frames are measured one ahead of
-//! where their forces are wanted, so that the long chain of root and quotient is behind the processor by then.
+//! they can be advanced to the next Runge-Kutta stage at once, and their old positions are not needed any more. Frames are measured one
+//! ahead of where their forces are needed, so that the long chain of root and quotient has been computed by then.
 
 use std::ops::Range;
 
-use crate::sim::batch::{Batch, DIAGONAL, Frame, MAIN, Mass, Place, Row};
+use crate::sim::backend::lanes::batch::{Batch, DIAGONAL, Frame, MAIN, Row};
+use crate::sim::backend::lanes::mass::{Mass, Vector, between, square};
+use crate::sim::backend::lanes::real::{Mask, Real};
+use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::constants::Constants;
-use crate::sim::probe::Part;
-use crate::sim::real::{Mask, Real};
-use crate::sim::stiffness::Stiffness;
+use crate::sim::meter::Part;
 
 /// One env step: substeps with the targets as they are (docs/physics.md 4).
 #[inline(always)]
 pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
-    batch.tell(Part::Bookkeeping);
+    batch.lap(Part::Bookkeeping);
     for _ in 0..batch.constants.substeps {
-        batch.meet();
-        batch.tell(Part::Contact);
+        batch.apply_contacts();
+        batch.lap(Part::Contact);
         batch.sweep::<1>();
         batch.sweep::<2>();
         batch.sweep::<3>();
         batch.sweep::<4>();
-        batch.tell(Part::Springs);
+        batch.lap(Part::Springs);
         batch.limit_lengths();
         batch.limit_rigid();
-        batch.tell(Part::Limits);
+        batch.lap(Part::Limits);
     }
 }
 
 /// A spring's vector from its later to its earlier end, its length squared, and a first estimate of one over its length.
 #[derive(Clone, Copy)]
 struct Measure<R> {
-    r: Place<R>,
+    r: Vector<R>,
     square: R,
     seed: R,
 }
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
-    /// Tells whoever asks where time goes that a part has ended.
-    #[inline(always)]
-    pub fn tell(&self, part: Part) {
-        if let Some(probe) = self.probe {
-            probe(part, self.occupants.len());
-        }
-    }
-
     /// One Runge-Kutta stage: spring forces at the stage's positions, then each mass on to the next stage, row by row.
     #[inline(always)]
     fn sweep<const STAGE: u8>(&mut self) {
@@ -55,7 +48,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         for row in 0..self.rows.len() {
             let Row { masses, frames } = self.rows[row].clone();
             self.pull_frames::<STAGE>(frames, &mut next);
-            self.go_on::<STAGE>(masses);
+            self.finish_stage::<STAGE>(masses);
         }
     }
 
@@ -101,16 +94,16 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// The rest of a stage for some masses: drag and the plane, then on to the next stage.
+    /// Finishes a Runge-Kutta stage: adds drag and the plane's force, then advances the masses.
     #[inline(always)]
-    fn go_on<const STAGE: u8>(&mut self, masses: Range<usize>) {
+    fn finish_stage<const STAGE: u8>(&mut self, masses: Range<usize>) {
         let drag = R::splat(self.constants.drag * self.constants.substep);
         let kept = self.load[masses.clone()].iter().zip(&mut self.before[masses.clone()]);
         for (mass, (&load, before)) in self.masses[masses].iter_mut().zip(kept) {
-            if mass.place::<STAGE>()[1].below(R::splat(0.0)).any() {
+            if mass.stage_position::<STAGE>()[1].below(R::splat(0.0)).any() {
                 plane::<R, STAGE>(&self.constants, mass);
             }
-            let pace = mass.pace::<STAGE>();
+            let pace = mass.stage_velocity::<STAGE>();
             let acceleration = [mass.force[0] - drag * pace[0], mass.force[1] - drag * pace[1]];
             mass.force = self.loads[load as usize];
             mass.advance::<STAGE>(acceleration, before);
@@ -136,7 +129,7 @@ impl<R: Real> Law<R> {
     /// It is r f with f = (d - l) k / d and the frozen rest length l (docs/physics.md 6). In the first stage d is also the length from
     /// which l = d + 0.006 (goal - d) comes, so there f is k (0.006 - 0.006 goal / d), and k l is kept for the other stages.
     #[inline(always)]
-    fn pull<const STAGE: u8>(self, measure: Measure<R>, stiffness: R, aim: R, frozen: &mut R) -> Place<R> {
+    fn pull<const STAGE: u8>(self, measure: Measure<R>, stiffness: R, aim: R, frozen: &mut R) -> Vector<R> {
         let Measure { r, square, seed } = measure;
         let inverse = square.recip_sqrt_from(seed);
         let factor = if STAGE == 1 {
@@ -153,8 +146,8 @@ impl<R: Real> Law<R> {
 #[inline(always)]
 fn measure_frame<R: Real, const STAGE: u8>(frame: &Frame, masses: &[Mass<R>]) -> [Measure<R>; 4] {
     let [a, b, c, d] = frame.indices();
-    let (top_left, top_right) = (masses[a].place::<STAGE>(), masses[b].place::<STAGE>());
-    let (bottom_right, bottom_left) = (masses[c].place::<STAGE>(), masses[d].place::<STAGE>());
+    let (top_left, top_right) = (masses[a].stage_position::<STAGE>(), masses[b].stage_position::<STAGE>());
+    let (bottom_right, bottom_left) = (masses[c].stage_position::<STAGE>(), masses[d].stage_position::<STAGE>());
     [
         Measure::between(top_left, top_right),
         Measure::between(top_left, bottom_left),
@@ -166,33 +159,27 @@ fn measure_frame<R: Real, const STAGE: u8>(frame: &Frame, masses: &[Mass<R>]) ->
 /// Measures a spring at a stage's positions.
 #[inline(always)]
 fn measure<R: Real, const STAGE: u8>(masses: &[Mass<R>], from: u32, to: u32) -> Measure<R> {
-    Measure::between(masses[from as usize].place::<STAGE>(), masses[to as usize].place::<STAGE>())
+    Measure::between(masses[from as usize].stage_position::<STAGE>(), masses[to as usize].stage_position::<STAGE>())
 }
 
 impl<R: Real> Measure<R> {
     #[inline(always)]
-    fn between(here: Place<R>, there: Place<R>) -> Self {
-        let r = [here[0] - there[0], here[1] - there[1]];
+    fn between(here: Vector<R>, there: Vector<R>) -> Self {
+        let r = between(here, there);
         let square = square(r);
         Self { r, square, seed: square.recip_sqrt_seed() }
     }
 }
 
-/// The square of a vector's length.
-#[inline(always)]
-pub fn square<R: Real>(r: Place<R>) -> R {
-    r[0] * r[0] + r[1] * r[1]
-}
-
 impl<R: Real> Mass<R> {
     #[inline(always)]
-    fn place<const STAGE: u8>(&self) -> Place<R> {
+    fn stage_position<const STAGE: u8>(&self) -> Vector<R> {
         if STAGE == 1 { self.at } else { self.stage }
     }
 
     #[inline(always)]
-    fn pace<const STAGE: u8>(&self) -> Place<R> {
-        if STAGE == 1 { self.velocity } else { self.pace }
+    fn stage_velocity<const STAGE: u8>(&self) -> Vector<R> {
+        if STAGE == 1 { self.velocity } else { self.stage_velocity }
     }
 
     /// Goes on to the next stage, the acceleration in this one being known.
@@ -201,27 +188,27 @@ impl<R: Real> Mass<R> {
     /// x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2, u_4 = u + a_3, and ends with
     /// x + (u + 2 u_2 + 2 u_3 + u_4)/6 and u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 + a_3) + a_4)/6.
     #[inline(always)]
-    fn advance<const STAGE: u8>(&mut self, acceleration: Place<R>, before: &mut Place<R>) {
+    fn advance<const STAGE: u8>(&mut self, acceleration: Vector<R>, before: &mut Vector<R>) {
         let (half, two, sixth) = (R::splat(0.5), R::splat(2.0), R::splat(1.0 / 6.0));
         for axis in 0..2 {
             let a = acceleration[axis];
             let u = self.velocity[axis];
-            let pace = self.pace[axis];
+            let pace = self.stage_velocity[axis];
             let at = self.at[axis];
             match STAGE {
                 1 => {
                     self.stage[axis] = at + half * u;
-                    self.pace[axis] = u + half * a;
+                    self.stage_velocity[axis] = u + half * a;
                 }
                 2 => {
                     self.stage[axis] = at + half * pace;
-                    self.pace[axis] = u + half * a;
-                    self.sum[axis] = pace + self.pace[axis];
+                    self.stage_velocity[axis] = u + half * a;
+                    self.sum[axis] = pace + self.stage_velocity[axis];
                 }
                 3 => {
                     let last = u + a;
                     self.stage[axis] = at + pace;
-                    self.pace[axis] = last;
+                    self.stage_velocity[axis] = last;
                     before[axis] = at;
                     self.at[axis] = at + sixth * ((u + last) + two * self.sum[axis]);
                     self.sum[axis] = (self.sum[axis] + pace) + a;
@@ -239,7 +226,7 @@ impl<R: Real> Mass<R> {
 #[cold]
 #[inline(never)]
 fn plane<R: Real, const STAGE: u8>(constants: &Constants, mass: &mut Mass<R>) {
-    let (at, pace) = (mass.place::<STAGE>(), mass.pace::<STAGE>());
+    let (at, pace) = (mass.stage_position::<STAGE>(), mass.stage_velocity::<STAGE>());
     for lane in 0..R::LANES {
         let depth = -at[1].lane(lane);
         if depth > 0.0 {

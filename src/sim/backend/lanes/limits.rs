@@ -1,11 +1,11 @@
 //! Length limits: after the integrator, edges that are too long or too short are moved back a part of the way (docs/physics.md 8).
 
-use crate::sim::batch::{Batch, DIAGONAL, FRAME, MAIN, Mass, Place, Round, Row};
+use crate::sim::backend::lanes::batch::{Batch, DIAGONAL, FRAME, MAIN, Round, Row};
+use crate::sim::backend::lanes::mass::{Mass, Vector, between, square};
+use crate::sim::backend::lanes::real::{Mask, Real};
+use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::constants::Constants;
 use crate::sim::lattice::CORNERS;
-use crate::sim::real::{Mask, Real};
-use crate::sim::step::square;
-use crate::sim::stiffness::Stiffness;
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// First pass, all edges at once: an edge of length d beyond its bound moves its ends by 0.8 r excess / (2 d). A row's masses move
@@ -77,7 +77,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
 
 /// The corners of one voxel in each lane.
 #[inline(always)]
-fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -> [Place<R>; CORNERS] {
+fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -> [Vector<R>; CORNERS] {
     let mut at = [[R::splat(0.0); 2]; CORNERS];
     for &(corners, lanes) in voxels {
         for corner in 0..CORNERS {
@@ -92,7 +92,7 @@ fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -
 
 /// Puts the corners of one voxel in each lane back.
 #[inline(always)]
-fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask)], at: &[Place<R>; CORNERS]) {
+fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask)], at: &[Vector<R>; CORNERS]) {
     for &(corners, lanes) in voxels {
         for corner in 0..CORNERS {
             let place = &mut masses[corners[corner]].at;
@@ -119,7 +119,7 @@ impl<R: Real> Rigid<R> {
 
     /// Moves the ends of a side back where it is at a bound or beyond. Whether it was anywhere.
     #[inline(always)]
-    fn pull_back<const FROM: usize, const TO: usize>(self, at: &mut [Place<R>; CORNERS], lanes: R::Mask) -> bool {
+    fn pull_back<const FROM: usize, const TO: usize>(self, at: &mut [Vector<R>; CORNERS], lanes: R::Mask) -> bool {
         let r = between(at[FROM], at[TO]);
         let square = square(r);
         let too_long = self.bounds.most_squared.at_most(square);
@@ -162,11 +162,6 @@ impl<R: Real> Bounds<R> {
     fn broken(&self, square: R) -> R::Mask {
         self.most_squared.below(square).or(square.below(self.least_squared))
     }
-}
-
-#[inline(always)]
-fn between<R: Real>(here: Place<R>, there: Place<R>) -> Place<R> {
-    [here[0] - there[0], here[1] - there[1]]
 }
 
 /// Notes how far a spring's ends are to be moved where its length is beyond its bounds.

@@ -3,7 +3,7 @@
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
-use crate::sim::real::{Mask, Real};
+use crate::sim::backend::lanes::real::{Mask, Real};
 
 /// `N` numbers side by side.
 #[derive(Clone, Copy, Debug)]

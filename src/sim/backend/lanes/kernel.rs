@@ -1,13 +1,21 @@
 //! The kernels: one step, compiled for each instruction set and number of lanes, chosen when the program runs.
 //!
 //! This is the one file with `unsafe`: vector types of an instruction set, and calls into functions compiled for it. A vector type is
-//! made only inside [`Kernel::carry`], after the processor has been asked whether it has the instructions.
+//! made only inside [`Kernel::batch`], after the processor has been asked whether it has the instructions.
 #![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
 
-use crate::sim::lanes::Lanes;
-use crate::sim::run::{Run, World, carry};
-use crate::sim::step::env_step;
-use crate::sim::stiffness::{Common, Own};
+use std::sync::Arc;
+
+use crate::sim::backend::lanes::batch::Batch;
+use crate::sim::backend::lanes::lane_batch::{LaneBatch, Stepped};
+use crate::sim::backend::lanes::real::Real;
+use crate::sim::backend::lanes::step::env_step;
+use crate::sim::backend::lanes::stiffness::{Common, Own, Stiffness};
+use crate::sim::backend::lanes::vector::Lanes;
+use crate::sim::constants::Constants;
+use crate::sim::lattice::Lattice;
+use crate::sim::meter::{Meter, Part, Stopwatch};
+use crate::sim::state::State;
 
 /// A set of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -102,30 +110,53 @@ impl Kernel {
         self.set
     }
 
-    /// Carries at most [`Kernel::lanes`] runs of one box forward until the first of them is done, in no more lanes than they need.
-    pub(crate) fn carry(self, runs: &mut [&mut Run], world: &World) {
-        assert!(runs.len() <= self.lanes, "a run for each lane at most");
-        let alike = runs.iter().all(|run| run.body == runs[0].body);
-        match (self.set, runs.len(), alike) {
-            (_, 1, _) => carry::<f64, Common>(runs, world, env_step),
+    /// Lays out at most [`Kernel::lanes`] robots of one box, in no more lanes than they need. `alike` says that all have the same body.
+    pub(crate) fn batch(self, robots: &[(&Lattice, &State)], alike: bool, ground: Ground<'_>) -> Box<dyn LaneBatch> {
+        assert!(robots.len() <= self.lanes, "a robot for each lane at most");
+        match (self.set, robots.len(), alike) {
+            (_, 1, _) => layout::<f64, Common>(robots, ground, env_step),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, true) => x86::avx2_4::<Common>(runs, world),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, true) => x86::avx2_4::<Common>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, false) => x86::avx2_4::<Own<_>>(runs, world),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, false) => x86::avx2_4::<Own<_>>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx2, _, true) => x86::avx2_8::<Common>(runs, world),
+            (InstructionSet::Avx2, _, true) => x86::avx2_8::<Common>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx2, _, false) => x86::avx2_8::<Own<_>>(runs, world),
+            (InstructionSet::Avx2, _, false) => x86::avx2_8::<Own<_>>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512, _, true) => x86::avx512_8::<Common>(runs, world),
+            (InstructionSet::Avx512, _, true) => x86::avx512_8::<Common>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512, _, false) => x86::avx512_8::<Own<_>>(runs, world),
-            (_, ..=4, true) => carry::<Lanes<4>, Common>(runs, world, env_step),
-            (_, ..=4, false) => carry::<Lanes<4>, Own<_>>(runs, world, env_step),
-            (_, _, true) => carry::<Lanes<8>, Common>(runs, world, env_step),
-            (_, _, false) => carry::<Lanes<8>, Own<_>>(runs, world, env_step),
+            (InstructionSet::Avx512, _, false) => x86::avx512_8::<Own<_>>(robots, ground),
+            (_, ..=4, true) => layout::<Lanes<4>, Common>(robots, ground, env_step),
+            (_, ..=4, false) => layout::<Lanes<4>, Own<_>>(robots, ground, env_step),
+            (_, _, true) => layout::<Lanes<8>, Common>(robots, ground, env_step),
+            (_, _, false) => layout::<Lanes<8>, Own<_>>(robots, ground, env_step),
         }
     }
+}
+
+/// What a batch needs to know besides its robots.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    /// The numbers of the physics.
+    pub constants: &'a Constants,
+    /// Ground voxels in a row.
+    pub width: usize,
+    /// Counts where time goes, where that is wanted.
+    pub meter: Option<&'a Arc<Meter>>,
+}
+
+/// A batch of numbers `R` with the env step compiled for them.
+fn layout<R: Real, K: Stiffness<R>>(
+    robots: &[(&Lattice, &State)],
+    ground: Ground<'_>,
+    step: fn(&mut Batch<R, K>),
+) -> Box<dyn LaneBatch> {
+    let stopwatch = ground.meter.map(Stopwatch::new);
+    let mut batch = Batch::<R, K>::new(robots, ground.width, ground.constants);
+    batch.stopwatch = stopwatch;
+    batch.lap(Part::Bookkeeping);
+    Box::new(Stepped { batch, step })
 }
 
 /// Vectors of x86-64's instruction sets.
@@ -134,11 +165,14 @@ mod x86 {
     use std::arch::x86_64::*;
     use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
-    use crate::sim::batch::Batch;
-    use crate::sim::real::{Mask, Real};
-    use crate::sim::run::{Run, World, carry};
-    use crate::sim::step::env_step;
-    use crate::sim::stiffness::Stiffness;
+    use super::{Ground, layout};
+    use crate::sim::backend::lanes::batch::Batch;
+    use crate::sim::backend::lanes::lane_batch::LaneBatch;
+    use crate::sim::backend::lanes::real::{Mask, Real};
+    use crate::sim::backend::lanes::step::env_step;
+    use crate::sim::backend::lanes::stiffness::Stiffness;
+    use crate::sim::lattice::Lattice;
+    use crate::sim::state::State;
 
     /// Eight lanes of AVX-512.
     #[derive(Clone, Copy, Debug)]
@@ -159,33 +193,33 @@ mod x86 {
     pub struct Pair<T>(T, T);
 
     /// Eight lanes with the instructions of AVX-512, which must be there.
-    pub fn avx512_8<K: Stiffness<Avx512>>(runs: &mut [&mut Run], world: &World) {
+    pub fn avx512_8<K: Stiffness<Avx512>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
         fn step<K: Stiffness<Avx512>>(batch: &mut Batch<Avx512, K>) {
             env_step(batch);
         }
         // SAFETY: a kernel of this set is made only where the processor has it.
-        carry::<Avx512, K>(runs, world, |batch| unsafe { step(batch) });
+        layout::<Avx512, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
     /// Four lanes with the instructions of AVX2, which must be there.
-    pub fn avx2_4<K: Stiffness<Avx2>>(runs: &mut [&mut Run], world: &World) {
+    pub fn avx2_4<K: Stiffness<Avx2>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx2")]
         fn step<K: Stiffness<Avx2>>(batch: &mut Batch<Avx2, K>) {
             env_step(batch);
         }
         // SAFETY: a kernel of this set is made only where the processor has it.
-        carry::<Avx2, K>(runs, world, |batch| unsafe { step(batch) });
+        layout::<Avx2, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
     /// Eight lanes with the instructions of AVX2, which must be there.
-    pub fn avx2_8<K: Stiffness<Pair<Avx2>>>(runs: &mut [&mut Run], world: &World) {
+    pub fn avx2_8<K: Stiffness<Pair<Avx2>>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx2")]
         fn step<K: Stiffness<Pair<Avx2>>>(batch: &mut Batch<Pair<Avx2>, K>) {
             env_step(batch);
         }
         // SAFETY: a kernel of this set is made only where the processor has it.
-        carry::<Pair<Avx2>, K>(runs, world, |batch| unsafe { step(batch) });
+        layout::<Pair<Avx2>, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
     macro_rules! arithmetic {

@@ -1,0 +1,88 @@
+//! A batch in the hands of a kernel, whatever its numbers are.
+
+use std::fmt::Debug;
+
+use crate::sim::backend::lanes::batch::Batch;
+use crate::sim::backend::lanes::real::Real;
+use crate::sim::backend::lanes::stiffness::Stiffness;
+use crate::sim::meter::Part;
+use crate::sim::state::State;
+
+/// A batch that can be stepped.
+pub trait LaneBatch: Debug + Send {
+    /// Simulates one env step with the targets as they are.
+    fn env_step(&mut self);
+
+    /// Sets the target widths of a lane's materials; see [`Batch::set_targets`].
+    fn set_targets(&mut self, lane: usize, targets: &[f64]);
+
+    /// The center of mass of a lane's robot, in voxels.
+    fn center(&self, lane: usize) -> [f64; 2];
+
+    /// Lanes that became unstable, as bits.
+    fn unstable(&self) -> u32;
+
+    /// Saves all positions, in case the next env step has to be abandoned.
+    fn save(&mut self);
+
+    /// Reads a lane's points.
+    fn unload(&self, lane: usize, state: &mut State);
+
+    /// Reads where a lane's points were at the last [`LaneBatch::save`].
+    fn unload_saved(&self, lane: usize, state: &mut State);
+
+    /// Leaves out the time since the last call, where time is counted.
+    fn resume(&mut self);
+
+    /// Counts the time since the last call, where time is counted.
+    fn lap(&mut self, part: Part);
+}
+
+/// A batch with the step of its kernel.
+#[derive(Debug)]
+pub struct Stepped<R: Real, K: Stiffness<R>> {
+    /// The robots.
+    pub batch: Batch<R, K>,
+    /// One env step, compiled for the numbers of the batch.
+    pub step: fn(&mut Batch<R, K>),
+}
+
+impl<R: Real, K: Stiffness<R>> LaneBatch for Stepped<R, K> {
+    fn env_step(&mut self) {
+        (self.step)(&mut self.batch);
+    }
+
+    fn set_targets(&mut self, lane: usize, targets: &[f64]) {
+        self.batch.set_targets(lane, targets);
+    }
+
+    fn center(&self, lane: usize) -> [f64; 2] {
+        self.batch.center(lane)
+    }
+
+    fn unstable(&self) -> u32 {
+        self.batch.unstable
+    }
+
+    fn save(&mut self) {
+        self.batch.save();
+    }
+
+    fn unload(&self, lane: usize, state: &mut State) {
+        self.batch.unload(lane, state);
+    }
+
+    fn unload_saved(&self, lane: usize, state: &mut State) {
+        self.batch.unload_saved(lane, state);
+    }
+
+    fn resume(&mut self) {
+        if let Some(watch) = &mut self.batch.stopwatch {
+            watch.resume();
+        }
+    }
+
+    fn lap(&mut self, part: Part) {
+        self.batch.lap(part);
+    }
+}

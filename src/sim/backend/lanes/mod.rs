@@ -1,0 +1,61 @@
+//! This processor's back end: several robots side by side in the lanes of its vector instructions, on all its threads.
+#![allow(clippy::needless_range_loop, reason = "an axis or a corner indexes several arrays at once")]
+
+mod batch;
+mod contact;
+mod flock;
+mod kernel;
+mod lane_batch;
+mod limits;
+mod mass;
+mod proximity;
+mod real;
+mod response;
+mod run;
+mod squad;
+mod step;
+mod stiffness;
+mod threads;
+mod trials;
+mod vector;
+mod world;
+
+use std::sync::Arc;
+
+use crate::model::{Body, Setting, Trajectory, Trial};
+use crate::sim::backend::{Backend, Flock};
+use crate::sim::constants::Constants;
+use crate::sim::meter::Meter;
+
+pub use kernel::{InstructionSet, Kernel};
+
+use flock::LaneFlock;
+use world::World;
+
+/// The lanes of this processor.
+#[derive(Clone, Debug, Default)]
+pub struct LaneBackend {
+    /// The numbers of the physics.
+    pub constants: Constants,
+    /// The kernel: an instruction set and a number of lanes.
+    pub kernel: Kernel,
+    /// Counts where time goes, at the cost of some per cent of speed.
+    pub meter: Option<Arc<Meter>>,
+}
+
+impl LaneBackend {
+    fn world(&self, setting: &Setting) -> World {
+        let Self { constants, kernel, meter } = self.clone();
+        World { constants, kernel, width: setting.world_width, meter }
+    }
+}
+
+impl Backend for LaneBackend {
+    fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
+        Box::new(LaneFlock::new(self.world(setting), setting, bodies))
+    }
+
+    fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
+        trials::run_trials(&self.world(setting), setting, trials)
+    }
+}

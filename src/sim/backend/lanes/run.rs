@@ -1,0 +1,117 @@
+//! One simulation: a robot, its clock, and the schedule ahead of it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::model::{Body, Fault, FaultKind, Palette, Pattern, Schedule, Setting};
+use crate::sim::backend::Snapshot;
+use crate::sim::constants::Constants;
+use crate::sim::lattice::Lattice;
+use crate::sim::signal::Signals;
+use crate::sim::state::State;
+
+/// One simulation.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The body's points and springs.
+    pub lattice: Arc<Lattice>,
+    /// The body's number: runs of one number share a body.
+    pub body: usize,
+    /// The target widths of its materials.
+    pub signals: Arc<Signals>,
+    /// Its points. While the run is in a lane, the batch has them, and these are those of the last time it was not.
+    pub state: State,
+    /// Its center of mass at the end of the last whole env step, in voxels.
+    pub center: [f64; 2],
+    /// Env steps done.
+    pub clock: u32,
+    /// What ended it, if anything did.
+    pub fault: Option<Fault>,
+    /// Spells ahead, the next one last.
+    spells: Vec<(Pattern, u32)>,
+}
+
+/// What runs of equal bodies share.
+#[derive(Clone)]
+struct Build {
+    body: usize,
+    lattice: Arc<Lattice>,
+    signals: Arc<Signals>,
+}
+
+impl Run {
+    /// A body at its start, with nothing to do.
+    fn new(build: &Build, start: usize, constants: &Constants) -> Self {
+        let Build { body, lattice, signals } = build.clone();
+        let state = State::start(&lattice, start, constants);
+        let center = state.center(constants);
+        Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
+    }
+
+    /// Gives it a schedule.
+    pub fn assign(&mut self, schedule: &Schedule) {
+        let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
+        self.spells.clear();
+        self.spells.extend(spells.map(|spell| (spell.pattern, spell.steps)));
+    }
+
+    /// Whether there is nothing left to do.
+    pub fn is_done(&self) -> bool {
+        self.fault.is_some() || self.spells.is_empty()
+    }
+
+    /// The stimuli of the env step ahead.
+    ///
+    /// # Panics
+    /// When there is nothing left to do.
+    pub fn pattern(&self) -> Pattern {
+        self.spells.last().expect("a run that is not done has a spell").0
+    }
+
+    /// Records an env step: its center of mass, or its fault.
+    pub fn finish_env_step(&mut self, center: [f64; 2], is_unstable: bool) {
+        let fault = |kind| Some(Fault { env_step: self.clock + 1, kind });
+        if is_unstable {
+            self.fault = fault(FaultKind::Unstable);
+        } else if !center.iter().all(|axis| axis.is_finite()) {
+            self.fault = fault(FaultKind::NonFinite);
+        } else {
+            self.center = center;
+            self.count_down();
+        }
+    }
+
+    fn count_down(&mut self) {
+        self.clock += 1;
+        let spell = self.spells.last_mut().expect("a run that is not done has a spell");
+        spell.1 -= 1;
+        if spell.1 == 0 {
+            self.spells.pop();
+        }
+    }
+
+    /// Goes back to a snapshot, with nothing to do.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        assert_eq!(snapshot.state.position.len(), self.lattice.points().len(), "a snapshot is of the same body");
+        let Snapshot { state, center, clock, fault } = snapshot.clone();
+        self.spells.clear();
+        (self.state, self.center, self.clock, self.fault) = (state, center, clock, fault);
+    }
+}
+
+/// A run for each body, at its start, with nothing to do; equal bodies share their lattice, equal palettes their signals.
+pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
+    let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
+    let mut builds: BTreeMap<&Body, Build> = BTreeMap::new();
+    let run = |body: &'a Body| {
+        let number = builds.len();
+        let build = builds.entry(body).or_insert_with(|| {
+            let signals =
+                palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
+            let lattice = Arc::new(Lattice::with_constants(body, constants));
+            Build { body: number, lattice, signals: Arc::clone(signals) }
+        });
+        Run::new(build, setting.start_column(body.width()), constants)
+    };
+    bodies.into_iter().map(run).collect()
+}

@@ -1,0 +1,21 @@
+//! Work shared out over the threads of the machine.
+
+use rayon::prelude::*;
+
+/// Fewer runs than this side by side leave a kernel's lanes idle; threads do not split them further.
+const LEAST_LANES: usize = 4;
+
+/// How many threads work side by side.
+pub fn count() -> usize {
+    rayon::current_num_threads()
+}
+
+/// Does the work for each item, in any order.
+pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
+    items.par_iter_mut().for_each(work);
+}
+
+/// How many of `runs` runs of one box share a batch: all threads get some, but not so few that lanes are idle.
+pub fn lanes_for(runs: usize, lanes: usize) -> usize {
+    runs.div_ceil(count()).max(LEAST_LANES).min(lanes)
+}

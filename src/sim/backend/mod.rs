@@ -1,0 +1,77 @@
+//! Back ends: ways to carry out the physics. All give the same bits; `lanes` is this processor's.
+
+pub mod lanes;
+
+use std::fmt::Debug;
+
+use crate::model::{Body, Fault, Pattern, Setting, Trajectory, Trial};
+use crate::sim::lattice::Lattice;
+use crate::sim::state::State;
+
+/// A way to carry out the physics.
+pub trait Backend: Debug + Send + Sync {
+    /// Opens a world with a robot for each body, at rest at the setting's start column, its clock at zero.
+    fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock>;
+
+    /// Simulates each trial from a fresh start; result `i` belongs to trial `i`. The results do not depend on threads or on what is
+    /// simulated together.
+    fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory>;
+}
+
+/// Robots side by side, each alone in its own simulation with its own stimuli.
+pub trait Flock: Debug + Send {
+    /// How many robots.
+    fn len(&self) -> usize;
+
+    /// Whether there are none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Simulates `env_steps` more env steps, robot `i` under `patterns[i]`. The actuation clock runs on from call to call. A robot with a
+    /// fault stays where it was at the end of its last whole env step.
+    ///
+    /// # Panics
+    /// When there is not one pattern for each robot.
+    fn advance(&mut self, patterns: &[Pattern], env_steps: u32);
+
+    /// Keeps robot `i` where `keep[i]` is true, in their order, and drops the others.
+    ///
+    /// # Panics
+    /// When there is not one entry for each robot.
+    fn retain(&mut self, keep: &[bool]);
+
+    /// The center of mass of robot `i`, in voxels: x and y.
+    fn center(&self, i: usize) -> [f64; 2];
+
+    /// The fault that ended the simulation of robot `i`, if there was one.
+    fn fault(&self, i: usize) -> Option<Fault>;
+
+    /// Env steps that robot `i` has done.
+    fn clock(&self, i: usize) -> u32;
+
+    /// The lattice of robot `i`.
+    fn lattice(&self, i: usize) -> &Lattice;
+
+    /// The positions of the points of robot `i`, in voxels, in the order of [`Lattice::points`].
+    fn points(&self, i: usize) -> Vec<[f64; 2]>;
+
+    /// All that the simulation of robot `i` depends on from now on; [`Flock::restore`] takes it back.
+    fn snapshot(&self, i: usize) -> Snapshot;
+
+    /// Sets robot `i` to an earlier snapshot of a robot with the same body.
+    fn restore(&mut self, i: usize, snapshot: &Snapshot);
+}
+
+/// A robot's simulation at the end of an env step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Its points.
+    pub state: State,
+    /// Its center of mass, in voxels.
+    pub center: [f64; 2],
+    /// Env steps done.
+    pub clock: u32,
+    /// What ended it, if anything did.
+    pub fault: Option<Fault>,
+}

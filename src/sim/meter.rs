@@ -1,0 +1,109 @@
+//! Where a simulation's time goes. The physics reads no clock of its own: a caller who wants to know hands in a [`Meter`] with one.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A part of the work of a simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// Springs and the integrator: four stages.
+    Springs,
+    /// Contact with the ground and with the robot itself, and the instability test.
+    Contact,
+    /// Length limits.
+    Limits,
+    /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
+    Bookkeeping,
+}
+
+impl Part {
+    /// All parts, in the order of [`Times::nanoseconds`].
+    pub const ALL: [Self; 4] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping];
+
+    /// Its name in tables and in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Springs => "springs",
+            Self::Contact => "contact",
+            Self::Limits => "limits",
+            Self::Bookkeeping => "bookkeeping",
+        }
+    }
+}
+
+/// The time that simulations took so far, of all threads together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Times {
+    /// Nanoseconds of each part, in order of [`Part::ALL`].
+    pub nanoseconds: [u64; Part::ALL.len()],
+    /// Substeps, counted for each robot.
+    pub lane_substeps: u64,
+}
+
+/// Adds up the time of simulations on all threads.
+pub struct Meter {
+    clock: Box<dyn Fn() -> u64 + Send + Sync>,
+    nanoseconds: [AtomicU64; Part::ALL.len()],
+    lane_substeps: AtomicU64,
+}
+
+impl Meter {
+    /// A meter at zero. The clock counts nanoseconds from any beginning and never goes back.
+    pub fn new(clock: impl Fn() -> u64 + Send + Sync + 'static) -> Self {
+        Self { clock: Box::new(clock), nanoseconds: Default::default(), lane_substeps: AtomicU64::new(0) }
+    }
+
+    /// The times so far.
+    pub fn times(&self) -> Times {
+        let nanoseconds = Part::ALL.map(|part| self.nanoseconds[part as usize].load(Ordering::Relaxed));
+        Times { nanoseconds, lane_substeps: self.lane_substeps.load(Ordering::Relaxed) }
+    }
+}
+
+impl fmt::Debug for Meter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Meter").field("times", &self.times()).finish_non_exhaustive()
+    }
+}
+
+/// The watch of one batch: splits its time into parts and adds them to a meter.
+#[derive(Debug)]
+pub struct Stopwatch {
+    meter: Arc<Meter>,
+    last: u64,
+    times: Times,
+}
+
+impl Stopwatch {
+    /// A watch that has counted nothing.
+    pub fn new(meter: &Arc<Meter>) -> Self {
+        Self { meter: Arc::clone(meter), last: (meter.clock)(), times: Times::default() }
+    }
+
+    /// Leaves out the time since the last call.
+    pub fn resume(&mut self) {
+        self.last = (self.meter.clock)();
+    }
+
+    /// Counts the time since the last call as `part`. The end of the length limits is the end of a substep of `lanes` robots.
+    pub fn lap(&mut self, part: Part, lanes: usize) {
+        let now = (self.meter.clock)();
+        self.times.nanoseconds[part as usize] += now.saturating_sub(self.last);
+        self.last = now;
+        match part {
+            Part::Limits => self.times.lane_substeps += lanes as u64,
+            Part::Bookkeeping => self.report(),
+            Part::Springs | Part::Contact => {}
+        }
+    }
+
+    /// Adds what was counted to the meter.
+    fn report(&mut self) {
+        let Times { nanoseconds, lane_substeps } = std::mem::take(&mut self.times);
+        for (total, time) in self.meter.nanoseconds.iter().zip(nanoseconds) {
+            total.fetch_add(time, Ordering::Relaxed);
+        }
+        self.meter.lane_substeps.fetch_add(lane_substeps, Ordering::Relaxed);
+    }
+}
