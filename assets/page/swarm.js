@@ -10,7 +10,7 @@ class Player {
     this.wave = section.querySelector(".wave");
     this.panel = section.querySelector(".robot");
     this.cells = [...section.querySelectorAll('[data-id^="cell-"]')];
-    this.clock = new Clock(section, swarm.cycles.length, () => this.draw());
+    this.clock = new Clock(section, swarm.cycles, () => this.draw());
     this.cells.forEach(cell => this.bindCell(cell));
     this.stage.onclick = event => this.choose(this.chosen < 0 ? Math.floor(event.offsetY / this.laneHeight()) : this.chosen);
     this.wave.onclick = event => {
@@ -24,7 +24,7 @@ class Player {
   }
 
   bindCell(cell) {
-    const k = Number(cell.dataset.id.slice(5));
+    const number = Number(cell.dataset.id.slice(5)), k = this.swarm.robots.findIndex(robot => robot.cell === number);
     cell.tabIndex = 0;
     cell.setAttribute("role", "button");
     cell.setAttribute("aria-label", cell.querySelector("title").textContent);
@@ -47,8 +47,9 @@ class Player {
     if (!this.swarm.robots[k]) return;
     this.chosen = this.chosen === k ? -1 : k;
     this.cameras = [];
+    const followed = this.swarm.robots[this.chosen];
     for (const cell of this.cells) {
-      const chosen = cell.dataset.id === "cell-" + this.chosen;
+      const chosen = followed !== undefined && cell.dataset.id === "cell-" + followed.cell;
       cell.classList.toggle("chosen", chosen);
       cell.setAttribute("aria-pressed", String(chosen));
     }
@@ -85,8 +86,8 @@ class Player {
     pen.fillStyle = themed("ink");
     pen.font = "13px system-ui, sans-serif";
     pen.fillText(robot.net + " = " + robot.function, 4, view.ground - 34, label - 8);
-    const cycle = this.swarm.cycles[this.clock.cycle()];
-    if (cycle) drawStimuli(pen, cycle.sensed[k], 6, view.ground - 24);
+    const cycle = this.clock.cycle();
+    if (cycle < this.swarm.cycles) drawStimuli(pen, robot.sensed.map(bits => Number(bits[cycle])), 6, view.ground - 24);
     if (robot.fault !== null && frame >= robot.fault) {
       pen.fillStyle = themed("bad");
       pen.fillText("unstable", 4, view.ground + 4);
@@ -129,12 +130,12 @@ class Player {
     pen.strokeStyle = themed(row.color);
     pen.lineWidth = 1.6;
     pen.beginPath();
-    if (row.values.some(value => value !== "0" && value !== "1")) return this.drawBus(pen, row, high, low, x);
-    row.values.forEach((value, cycle) => {
-      const y = value === "1" ? high : low;
+    if (typeof row.values !== "string") return this.drawBus(pen, row, high, low, x);
+    for (let cycle = 0; cycle < row.values.length; cycle++) {
+      const y = row.values[cycle] === "1" ? high : low;
       pen.lineTo(x(cycle + row.shift), y);
       pen.lineTo(x(cycle + 1 + row.shift), y);
-    });
+    }
     pen.stroke();
   }
 

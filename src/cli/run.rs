@@ -9,14 +9,13 @@ use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
 use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{CYCLE_STEPS, CircuitTest, Robot, Simulation};
+use crate::model::{CircuitTest, Robot, Simulation};
 use crate::report::{
-    self, Document, PageSwarm, Recording, Room, RunResult, Schema, Scheme, Stage, Svg, SwarmOutcome, SwarmResult,
-    SwarmTiming,
+    self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
 use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
 use crate::store::{self, DiskWorld};
-use crate::swarm::Level;
+use crate::swarm::{Level, Room};
 
 /// Run the tests and simulations of a file in physics, with pictures and a report
 #[derive(Args)]
@@ -93,6 +92,9 @@ impl Arguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let timer = self.timings.start();
         let mut session = Session::new(DiskWorld).with_simulator(timer.simulator());
+        if !self.no_report {
+            session = session.with_poses(Room::SWARM);
+        }
         let file = session.open(&self.file.to_string_lossy())?;
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
@@ -286,19 +288,9 @@ fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {
         outcome: drawn.ran.outcome(),
         trace: &swarm.trace,
         assembly: &swarm.compiled.assembly,
-        recording: record(swarm),
         schematic: &drawn.schematic,
         spacetime: &drawn.spacetime,
     }
-}
-
-/// The film of a swarm, as far as a page has room for it.
-fn record(swarm: &SwarmRun) -> Recording {
-    let (assembly, trace) = (&swarm.compiled.assembly, &swarm.trace);
-    let probe = Stage::of_swarm(assembly, trace, CYCLE_STEPS);
-    let points: Vec<usize> = (0..probe.robots()).map(|i| probe.points(i).len()).collect();
-    let (stride, robots) = Room::SWARM.fit(&points, trace.cycles.len());
-    Recording::of(Stage::of_swarm(assembly, trace, stride), robots)
 }
 
 fn describe(drawn: &Drawn<'_>) -> String {

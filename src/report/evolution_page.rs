@@ -14,10 +14,10 @@ use crate::report::heatmap::{heat, share};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
 use crate::report::page_bodies::{look_data, materials, voxel_data};
-use crate::report::recording::{Recorded, Recording, Room};
 use crate::report::sprite::Scheme;
 use crate::report::stage::Stage;
 use crate::report::svg::Svg;
+use crate::swarm::{Recorded, Room};
 
 const SCRIPT: &str = include_str!("../../assets/page/archive.js");
 /// Cycles of a gait under each pattern.
@@ -93,9 +93,9 @@ fn record(entries: &[Entry<'_>]) -> (u32, Vec<Recorded>) {
     let bodies: Vec<Body> = entries.iter().map(|entry| entry.elite.body.clone()).collect();
     let setting = Setting::default();
     let probe = Stage::of_trials(&setting, &bodies, &schedule, CYCLE_STEPS);
-    let points: Vec<usize> = (0..bodies.len()).map(|i| probe.points(i).len()).collect();
+    let points: Vec<usize> = (0..bodies.len()).map(|i| probe.points(i)).collect();
     let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES * Pattern::PAIRS.len());
-    let recording = Recording::of(Stage::of_trials(&setting, &bodies[..count], &schedule, stride), count);
+    let recording = Stage::of_trials(&setting, &bodies[..count], &schedule, stride).record(count);
     (recording.frames_per_cycle, recording.robots)
 }
 

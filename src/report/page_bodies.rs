@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::model::Body;
 use crate::report::looks::{Look, Looks, material_words};
-use crate::report::recording::Recorded;
+use crate::swarm::Recorded;
 
 /// How voxels look, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {

@@ -10,12 +10,15 @@ use crate::report::Svg;
 
 /// The most pixels along one side of a picture.
 const MAX_SIDE: f64 = 16_000.0;
+/// The most pixels of a picture; four bytes each are in memory at once.
+const MAX_PIXELS: f64 = 16e6;
 
 /// The drawing as pixels, `scale` of them for each of its own; less for a drawing that would be too large.
 pub fn rasterize(svg: &Svg, scale: f64) -> Pixmap {
     let options = Options { fontdb: Arc::new(fonts()), font_family: "DejaVu Sans".to_owned(), ..Options::default() };
     let tree = Tree::from_str(&svg.finish(), &options).expect("drawings are well-formed SVG");
-    let scale = scale.min(MAX_SIDE / svg.width().max(svg.height()));
+    let scale =
+        scale.min(MAX_SIDE / svg.width().max(svg.height())).min((MAX_PIXELS / (svg.width() * svg.height())).sqrt());
     let side = |length: f64| ((length * scale).ceil() as u32).max(1);
     let mut pixmap = Pixmap::new(side(svg.width()), side(svg.height())).expect("a picture has pixels");
     resvg::render(&tree, Transform::from_scale(scale as f32, scale as f32), &mut pixmap.as_mut());

@@ -7,10 +7,9 @@ use crate::model::{CYCLE_STEPS, Column, Value};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
 use crate::report::page_bodies::{look_data, materials, voxel_data};
-use crate::report::recording::Recording;
 use crate::report::sprite::Scheme;
 use crate::report::svg::Svg;
-use crate::swarm::{Assembly, RobotTrace, RowActivity, RowVerdict, Signal, SimulationResult, SwarmTrace, TestVerdict};
+use crate::swarm::{Assembly, Recorded, RowActivity, RowVerdict, Signal, SimulationResult, SwarmTrace, TestVerdict};
 
 const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
 
@@ -27,12 +26,10 @@ pub enum SwarmOutcome<'a> {
 pub struct PageSwarm<'a> {
     /// What it came to.
     pub outcome: SwarmOutcome<'a>,
-    /// What the swarm did.
+    /// What the swarm did, with the recording that is played.
     pub trace: &'a SwarmTrace,
     /// The swarm's robots.
     pub assembly: &'a Assembly,
-    /// The robots' film.
-    pub recording: Recording,
     /// The circuit.
     pub schematic: &'a Svg,
     /// The swarm in space and time.
@@ -104,10 +101,12 @@ impl SwarmOutcome<'_> {
 }
 
 fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
-    let shown = swarm.recording.robots.len();
+    let shown = swarm.trace.recording.robots.len();
     let left_out = match swarm.trace.robots.len() - shown {
         0 => String::new(),
-        _ => format!("<p class=\"dim\">The player has room for the first {shown} robots.</p>\n"),
+        _ => format!(
+            "<p class=\"dim\">The player has room for {shown} robots: those of outputs and of named nets come first.</p>\n"
+        ),
     };
     let player = if shown == 0 { String::new() } else { player() };
     format!(
@@ -194,24 +193,25 @@ fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
     let trace = swarm.trace;
     let pairs = trace.cycles.windows(2).enumerate();
     let marks: Vec<usize> = pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect();
-    let robots: Vec<Json> = (0..swarm.recording.robots.len()).map(|k| robot_data(swarm, k, looks)).collect();
-    let cycles: Vec<Json> = trace.cycles.iter().map(|cycle| json!({ "sensed": bits(&cycle.sensed) })).collect();
+    let robots: Vec<Json> = trace.recording.robots.iter().map(|recorded| robot_data(swarm, recorded, looks)).collect();
     json!({
-        "pace": swarm.recording.frames_per_cycle,
+        "pace": trace.recording.frames_per_cycle,
         "robots": robots,
-        "cycles": cycles,
+        "cycles": trace.cycles.len(),
         "marks": marks,
         "waves": waves(trace),
     })
 }
 
-fn bits(sensed: &[[bool; 2]]) -> Vec<[u8; 2]> {
-    sensed.iter().map(|pair| pair.map(u8::from)).collect()
+/// A bit in each cycle, as digits.
+fn digits(bits: impl Iterator<Item = bool>) -> String {
+    bits.map(|bit| if bit { '1' } else { '0' }).collect()
 }
 
-fn robot_data(swarm: &PageSwarm<'_>, k: usize, looks: &Looks) -> Json {
-    let (recorded, robot, member) = (&swarm.recording.robots[k], &swarm.trace.robots[k], &swarm.assembly.members[k]);
-    let pace = f64::from(CYCLE_STEPS) / f64::from(swarm.recording.frames_per_cycle.max(1));
+fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json {
+    let (trace, k) = (swarm.trace, recorded.robot);
+    let (robot, member) = (&trace.robots[k], &swarm.assembly.members[k]);
+    let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
     let body = &member.robot.body;
     let character = &member.robot.character;
@@ -219,10 +219,13 @@ fn robot_data(swarm: &PageSwarm<'_>, k: usize, looks: &Looks) -> Json {
         Signal::Constant(value) => format!("nothing (always {})", u8::from(value)),
         Signal::Input(_) | Signal::Robot(_) => robot.sensed_nets[i].clone(),
     };
+    let sensed = [0, 1].map(|i| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k][i])));
     json!({
+        "cell": k,
         "net": robot.net,
         "function": robot.function.name(),
         "fault": fault,
+        "sensed": sensed,
         "size": [body.width(), body.height()],
         "voxels": voxel_data(recorded, body, looks),
         "corners": recorded.points,
@@ -240,20 +243,25 @@ fn robot_data(swarm: &PageSwarm<'_>, k: usize, looks: &Looks) -> Json {
     })
 }
 
-/// The rows of the waveform: inputs, robots, outputs; what a cycle puts out holds from its end. A bus is one row of values.
+/// The rows of the waveform: inputs, the recorded robots, outputs; what a cycle puts out holds from its end. A row of a bit is a text of
+/// digits, that of a bus a list of values.
 fn waves(trace: &SwarmTrace) -> Vec<Json> {
     let cycles = 0..trace.cycles.len();
-    let row = |name: &str, color: &str, shift: usize, words: Vec<String>| json!({ "name": name, "color": color, "shift": shift, "values": words });
-    let words = |value: &dyn Fn(usize) -> Value| cycles.clone().map(|cycle| value(cycle).to_string()).collect();
+    let row = |name: &str, color: &str, shift: usize, values: Json| json!({ "name": name, "color": color, "shift": shift, "values": values });
+    let words = |port: &Column, value: &dyn Fn(usize) -> Value| {
+        let words: Vec<String> = cycles.clone().map(|cycle| value(cycle).to_string()).collect();
+        if port.width == 1 { json!(words.concat()) } else { json!(words) }
+    };
     let input =
-        |(i, port): (usize, &Column)| row(&port.name, "s1", 0, words(&|c| trace.input_values(c).swap_remove(i)));
-    let robot = |(k, robot): (usize, &RobotTrace)| {
-        row(&robot.net, "dim", 1, trace.cycles.iter().map(|cycle| u8::from(cycle.bits[k]).to_string()).collect())
+        |(i, port): (usize, &Column)| row(&port.name, "s1", 0, words(port, &|c| trace.input_values(c).swap_remove(i)));
+    let robot = |recorded: &Recorded| {
+        let k = recorded.robot;
+        row(&trace.robots[k].net, "dim", 1, json!(digits(trace.cycles.iter().map(|cycle| cycle.bits[k]))))
     };
     let output = |(o, port): (usize, &Column)| {
-        row(&format!("output {}", port.name), "out", 1, words(&|c| trace.output_values(c).swap_remove(o)))
+        row(&format!("output {}", port.name), "out", 1, words(port, &|c| trace.output_values(c).swap_remove(o)))
     };
     let inputs = trace.inputs.iter().enumerate().map(input);
-    let robots = trace.robots.iter().enumerate().map(robot);
+    let robots = trace.recording.robots.iter().map(robot);
     inputs.chain(robots).chain(trace.outputs.iter().enumerate().map(output)).collect()
 }

@@ -16,10 +16,10 @@ const MARGIN: f64 = 56.0;
 const HEADING: f64 = 74.0;
 const FOOT: f64 = 46.0;
 const MAX_COLUMNS: usize = 6;
-/// The most panels of one drawing; more would be too small to read.
-const MAX_PANELS: usize = 96;
-/// The most points of one path: more than its panel has pixels.
-const MAX_POINTS: usize = 2_000;
+/// The most robots, and the most outputs, of a swarm's diagram where nobody chooses.
+const MAX_PANELS: usize = 36;
+/// The most points of one path: more than its panel has pixels from top to bottom.
+const MAX_POINTS: usize = 800;
 
 /// A path over time with the bits beside it: what one panel shows.
 #[derive(Clone, Debug)]
@@ -124,15 +124,19 @@ fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
     told.join(", ")
 }
 
-/// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs (paper, figure 6).
+/// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs (paper, figure 6). Of a
+/// large swarm it shows the robots of outputs and of named nets.
 pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     let changes = input_changes(trace);
-    let shown = trace.robots.len().min(MAX_PANELS);
-    let robots: Vec<Track> = (0..shown).map(|k| robot_track(trace, k)).collect();
+    let chosen: BTreeSet<usize> = trace.by_interest().into_iter().take(MAX_PANELS).collect();
+    let robots: Vec<Track> = chosen.iter().map(|&k| robot_track(trace, k)).collect();
     let outputs: Vec<Track> = (0..trace.shown.len().min(MAX_PANELS)).filter_map(|o| output_track(trace, o)).collect();
-    let heading = match trace.robots.len() - shown {
+    let heading = match trace.robots.len() - chosen.len() {
         0 => "each robot with its own stimuli".to_owned(),
-        more => format!("the first {shown} robots with their own stimuli; {more} more are not shown"),
+        more => format!(
+            "{} robots with their own stimuli, those of outputs and of named nets first; {more} more are not shown",
+            chosen.len()
+        ),
     };
     let mut rows = vec![];
     for (i, tracks) in robots.chunks(MAX_COLUMNS).enumerate() {
@@ -163,7 +167,7 @@ pub fn draw_chosen(trace: &SwarmTrace, robots: &[usize]) -> Svg {
             ..bare_track(trace, robot)
         }
     };
-    let tracks: Vec<Track> = robots.iter().take(MAX_PANELS).map(track).collect();
+    let tracks: Vec<Track> = robots.iter().map(track).collect();
     let rows: Vec<Row<'_>> = tracks
         .chunks(MAX_COLUMNS)
         .enumerate()
@@ -368,18 +372,13 @@ fn draw_bits(svg: &mut Svg, color: Color, spells: &[(f64, bool)], panel: &Panel,
     let x = |bit: bool| if bit { left + STRIP_WIDTH - 1.0 } else { left + 1.0 };
     let mut from = panel.y.at(0.0);
     let mut steps: Vec<Point> = Vec::new();
-    for (i, &(end, bit)) in spells.iter().enumerate() {
+    for run in spells.chunk_by(|one, next| one.1 == next.1) {
+        let (end, bit) = run[run.len() - 1];
         let to = panel.y.at(end);
         if bit {
             svg.rect((left, from), STRIP_WIDTH, to - from, Paint::fill(color).with_opacity(0.35));
         }
-        let before = i.checked_sub(1).map(|before| spells[before].1);
-        if before != Some(bit) {
-            steps.push((x(bit), from));
-        } else {
-            steps.pop();
-        }
-        steps.push((x(bit), to));
+        steps.extend([(x(bit), from), (x(bit), to)]);
         from = to;
     }
     svg.polyline(&steps, Paint::stroke(color, 1.6));

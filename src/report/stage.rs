@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting};
 use crate::report::sprite::Pose;
 use crate::sim::{Flock, Simulator};
-use crate::swarm::{self, Assembly, SwarmTrace};
+use crate::swarm::{self, Assembly, Recording, SwarmTrace};
 
 /// Robots on their way through their stimuli.
 pub struct Stage {
@@ -86,28 +86,27 @@ impl Stage {
         (self.steps() / self.stride) as usize + 1
     }
 
-    /// Env steps from moment to moment.
-    pub fn stride(&self) -> u32 {
-        self.stride
-    }
-
     /// What the codes of each robot mean.
     pub fn palettes(&self) -> &[Arc<Palette>] {
         &self.palettes
     }
 
-    /// Each voxel's points, by their numbers in robot `i`, and its material code.
-    pub fn voxels(&self, i: usize) -> Vec<([usize; 4], u8)> {
-        self.flock.lattice(i).voxels().iter().map(|voxel| (voxel.corners, voxel.code)).collect()
+    /// How many points robot `i` has.
+    pub fn points(&self, i: usize) -> usize {
+        self.flock.lattice(i).points().len()
     }
 
-    /// Where the points of robot `i` are now, in voxels.
-    pub fn points(&self, i: usize) -> Vec<[f64; 2]> {
-        self.flock.points(i)
+    /// Runs to the end and records the first robots.
+    pub fn record(mut self, robots: usize) -> Recording {
+        let mut recording = Recording::new(&*self.flock, 0..robots.min(self.robots()), self.stride);
+        while self.turn() {
+            recording.record(&*self.flock);
+        }
+        recording
     }
 
     /// Goes on to the next moment, the first time to the start; false at the end.
-    pub fn turn(&mut self) -> bool {
+    fn turn(&mut self) -> bool {
         let first = !self.started;
         self.started = true;
         first || self.advance()
@@ -126,9 +125,10 @@ impl Stage {
     }
 
     fn pose(&self, i: usize) -> Pose {
-        let points = self.points(i);
+        let points = self.flock.points(i);
         let corner = |point: usize| (points[point][0], points[point][1]);
-        let voxels = self.voxels(i).into_iter().map(|(corners, code)| (corners.map(corner), code)).collect();
+        let voxels =
+            self.flock.lattice(i).voxels().iter().map(|voxel| (voxel.corners.map(corner), voxel.code)).collect();
         Pose { voxels, palette: Arc::clone(&self.palettes[i]) }
     }
 

@@ -29,7 +29,7 @@ struct Scope {
 }
 
 /// A trace as a value change dump. Inputs and stimuli hold from a cycle's start, outputs from the end of the cycle that made them; the
-/// places of the robots are in voxels.
+/// places of the robots are those at the start and at the end of each cycle, in voxels to the hundredth.
 pub fn vcd(trace: &SwarmTrace) -> String {
     let scopes = scopes(trace);
     let mut text = String::from("$version nbc $end\n$timescale 1 us $end\n");
@@ -72,8 +72,8 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
     ];
     for (k, robot) in trace.robots.iter().enumerate() {
         let wave = |name: &str, values| Wave { name: name.to_owned(), values };
-        let pace = trace.samples_per_cycle.max(1) as u64;
-        let places = robot.com_x.iter().enumerate().map(|(i, &x)| (i as u64 * CYCLE / pace, x));
+        let ends = robot.com_x.iter().step_by(trace.samples_per_cycle.max(1)).enumerate();
+        let places = ends.map(|(cycle, &x)| (cycle as u64 * CYCLE, (x * 100.0).round() / 100.0));
         let waves = vec![
             wave("bit", values(1, 1, &|c| digit(trace.cycles[c].bits[k]))),
             wave("stimulus_1", values(1, 0, &|c| digit(trace.cycles[c].sensed[k][0]))),

@@ -32,14 +32,15 @@ use crate::diag::Diagnostics;
 use crate::model::{CircuitTest, Instance, Library, Simulation};
 use crate::sim::Simulator;
 use crate::source::SourceWorld;
-use crate::swarm::{self, Level};
+use crate::swarm::{self, Level, Room};
 use documents::Documents;
 use robots::Supply;
+use swarm_run::Physics;
 
 /// From sources in a [`SourceWorld`] to checked programs, compiled circuits, tests and running swarms.
 pub struct Session {
     documents: Documents,
-    simulator: Simulator,
+    physics: Physics,
     /// The robots in the program, once they have been asked for.
     shipped: OnceLock<Library>,
 }
@@ -47,12 +48,19 @@ pub struct Session {
 impl Session {
     /// A session over the sources of a world.
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
-        Self { documents: Documents::new(Box::new(world)), simulator: Simulator::default(), shipped: OnceLock::new() }
+        Self { documents: Documents::new(Box::new(world)), physics: Physics::default(), shipped: OnceLock::new() }
     }
 
     /// The same session, with its robots simulated by `simulator`.
-    pub fn with_simulator(self, simulator: Simulator) -> Self {
-        Self { simulator, ..self }
+    pub fn with_simulator(mut self, simulator: Simulator) -> Self {
+        self.physics.simulator = simulator;
+        self
+    }
+
+    /// The same session, with a recording of the poses of its swarms, as far as there is room.
+    pub fn with_poses(mut self, room: Room) -> Self {
+        self.physics.poses = Some(room);
+        self
     }
 
     /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than the last is
@@ -147,7 +155,7 @@ impl Session {
 
     /// Runs one case of a test.
     pub fn run_case(&self, case: TestCase<'_>, observer: &mut dyn Observer) -> TestRun {
-        case.run(&self.simulator, observer)
+        case.run(&self.physics, observer)
     }
 
     /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
@@ -178,7 +186,7 @@ impl Session {
     ) -> Result<SimulationRun, Diagnostics> {
         let compiled = simulation::compiled(self.supply(), &checked.program, simulation, options);
         let compiled = compiled.map_err(|faults| checked.fail(faults))?;
-        Ok(simulation::run(&self.simulator, simulation, compiled, observer))
+        Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }
 
     /// Runs every test and every simulation of a source in physics.

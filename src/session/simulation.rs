@@ -7,8 +7,7 @@ use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
 use crate::session::plan;
 use crate::session::robots::Supply;
-use crate::session::swarm_run::{self, RunEnd, SwarmRun};
-use crate::sim::Simulator;
+use crate::session::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::swarm::{self, SimulationResult};
 
 /// A simulation with what came of it.
@@ -44,13 +43,13 @@ pub(super) fn compiled(
 
 /// Runs a simulation in full physics.
 pub(super) fn run(
-    simulator: &Simulator,
+    physics: &Physics,
     simulation: &Simulation,
     compiled: Compiled,
     observer: &mut dyn Observer,
 ) -> SimulationRun {
     let held = simulation.spells.iter().flat_map(|spell| std::iter::repeat_n(&spell.inputs, spell.cycles as usize));
-    let (trace, end) = swarm_run::run(simulator, &compiled, held.cloned().collect(), observer);
+    let (trace, end) = swarm_run::run(physics, &compiled, held.cloned().collect(), observer);
     let result = SimulationResult {
         file: simulation.file.clone(),
         line: simulation.line,

@@ -8,8 +8,7 @@ use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
 use crate::session::plan::plans;
 use crate::session::robots::Supply;
-use crate::session::swarm_run::{self, RunEnd, SwarmRun};
-use crate::sim::Simulator;
+use crate::session::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::swarm::{self, Demand, Level, START_CYCLES, Settling, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
@@ -116,7 +115,7 @@ impl TestCase<'_> {
     }
 
     /// Runs the test.
-    pub(super) fn run(self, simulator: &Simulator, observer: &mut dyn Observer) -> TestRun {
+    pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
         match self.subject {
             Subject::Gates(ref netlist) => {
                 let rows = swarm::judge_logic(self.test, &self.rows, netlist);
@@ -125,7 +124,7 @@ impl TestCase<'_> {
                 TestRun { verdict, end: RunEnd::Complete, swarm: None, warnings: Vec::new() }
             }
             Subject::Robots(compiled, ref demands) => {
-                in_physics(self.test, &self.rows, demands, *compiled, simulator, observer)
+                in_physics(self.test, &self.rows, demands, *compiled, physics, observer)
             }
         }
     }
@@ -136,13 +135,13 @@ fn in_physics(
     rows: &[TestRow],
     demands: &[Demand],
     compiled: Compiled,
-    simulator: &Simulator,
+    physics: &Physics,
     observer: &mut dyn Observer,
 ) -> TestRun {
     let mut warnings = compiled.warnings.clone();
     warnings.extend(short_hold(test, rows, demands, &compiled));
     let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
-    let (trace, end) = swarm_run::run(simulator, &compiled, held.collect(), observer);
+    let (trace, end) = swarm_run::run(physics, &compiled, held.collect(), observer);
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
     let judged = swarm::judge_swarm(test, rows, demands, &trace, &clocks);
     let mut verdict = verdict(test, Level::Physics, Some(&compiled), judged);

@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::model::{Base, Column, Function, Stimulation};
     use crate::source::{FileId, Span};
-    use crate::swarm::{CycleTrace, RobotTrace, Signal};
+    use crate::swarm::{CycleTrace, Recording, RobotTrace, Signal};
 
     fn port(name: &str) -> Column {
         Column { name: name.to_owned(), width: 1 }
@@ -155,6 +155,7 @@ mod tests {
                     outputs: vec![y],
                 })
                 .collect(),
+            recording: Recording::default(),
         }
     }
 

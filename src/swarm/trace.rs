@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::model::{Column, Fault, Function, Value};
-use crate::swarm::Signal;
+use crate::swarm::{Recording, Signal};
 
 /// A swarm's run from its start to the end of its stimulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,6 +22,9 @@ pub struct SwarmTrace {
     pub robots: Vec<RobotTrace>,
     /// The cycles, first to last.
     pub cycles: Vec<CycleTrace>,
+    /// Poses of its robots, as far as they were asked for.
+    #[serde(skip)]
+    pub recording: Recording,
 }
 
 /// One robot's part.
@@ -69,10 +72,28 @@ impl SwarmTrace {
         path[(cycle + 1) * self.samples_per_cycle] - path[cycle * self.samples_per_cycle]
     }
 
+    /// All robots, the most interesting first: those that outputs show, those of named nets, the outer before the inner ones of what a
+    /// circuit uses, then the others.
+    pub fn by_interest(&self) -> Vec<usize> {
+        let rank = |robot: usize| {
+            let net = &self.robots[robot].net;
+            let is_shown = self.shown.contains(&Signal::Robot(robot));
+            (!is_shown, is_unnamed(net), net.matches('/').count())
+        };
+        let mut robots: Vec<usize> = (0..self.robots.len()).collect();
+        robots.sort_by_key(|&robot| rank(robot));
+        robots
+    }
+
     /// The values of the output ports at the end of a cycle.
     pub fn output_values(&self, cycle: usize) -> Vec<Value> {
         Value::of_ports(&self.outputs, self.cycles[cycle].outputs.iter().copied().map(Some), &[])
     }
+}
+
+/// Whether a net has the name that a compiler gives to what has none: `n` and a number.
+fn is_unnamed(net: &str) -> bool {
+    net.strip_prefix('n').is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 fn as_text<S: serde::Serializer>(value: &impl std::fmt::Display, serializer: S) -> Result<S::Ok, S::Error> {

@@ -120,6 +120,7 @@ fn robots_of_a_swarm_are_chosen_by_their_nets() {
     let chosen = svg(&bench, "not.nb --as spacetime --robots q");
     assert_eq!(ids(&chosen, "track-q = not"), 1);
     assert!(texts(&chosen).contains(&"robots against the inputs of the swarm".to_owned()));
+    assert_eq!(svg(&bench, "not.nb --as spacetime --robots *"), chosen);
     draw(&bench, "not.nb --as spacetime --robots p -o b.svg").expect_fault(&["no robot drives `p`", "`q`"]);
     draw(&bench, "not.nb --as dot -o a.dot");
     let dot = fs::read_to_string(bench.path().join("a.dot")).unwrap();

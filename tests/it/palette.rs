@@ -227,7 +227,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         outputs: Vec::new(),
         shown: Vec::new(),
     };
-    let exposure = Exposure { inputs: vec![vec![true], vec![false]], cycle_steps: CYCLE_STEPS, window: 1 };
+    let exposure = Exposure { inputs: vec![vec![true], vec![false]], window: 1, poses: None };
     let trace = swarm::simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
     let spells = [2, 0].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: CYCLE_STEPS }).to_vec();
     for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {

@@ -3,7 +3,7 @@
 use nbc::circuit::{Cell, Netlist};
 use nbc::model::{Body, Column, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
 use nbc::report::{self, Scheme};
-use nbc::swarm::{CycleTrace, RobotTrace, Signal, SwarmTrace};
+use nbc::swarm::{CycleTrace, Recording, RobotTrace, Signal, SwarmTrace};
 
 /// A port of one bit.
 pub fn port(name: &str) -> Column {
@@ -60,6 +60,7 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
         samples_per_cycle: 4,
         robots: robots.collect(),
         cycles,
+        recording: Recording::default(),
     }
 }
 
@@ -118,6 +119,34 @@ fn paths_follow_the_bits() {
     assert_eq!(points.len(), 8 * 4 + 1);
     assert!(points.windows(2).all(|pair| pair[1].1 > pair[0].1), "time runs downwards");
     assert!(points.last().unwrap().0 > points[0].0, "a robot whose bit is 1 goes right");
+}
+
+/// A made-up swarm of 200 robots over 1,000 cycles; all nets but the latch's are unnamed.
+pub fn large() -> SwarmTrace {
+    let mut trace = latch(&[(true, true), (false, true)], 500);
+    for k in 5..200 {
+        let robot = RobotTrace { net: format!("n{}", 1000 + k), ..trace.robots[k % 5].clone() };
+        trace.robots.push(robot);
+        for cycle in &mut trace.cycles {
+            cycle.sensed.push(cycle.sensed[k % 5]);
+            cycle.bits.push(cycle.bits[k % 5]);
+        }
+    }
+    trace
+}
+
+#[test]
+fn a_large_swarm_has_small_files_that_show_outputs_and_named_nets_first() {
+    let trace = large();
+    assert_eq!(trace.by_interest()[..6], [1, 4, 3, 0, 2, 5], "outputs, named nets, the others");
+    let svg = report::draw_swarm(&trace).finish();
+    assert!(svg.len() < 600_000, "{} bytes", svg.len());
+    assert_eq!(svg.matches("id=\"track-").count(), 36 + 2);
+    assert!(texts(&svg).iter().any(|text| text.contains("164 more are not shown")));
+    let all: Vec<usize> = (0..200).collect();
+    assert_eq!(report::draw_chosen(&trace, &all).finish().matches("id=\"track-").count(), 200);
+    let waves = report::vcd(&trace);
+    assert!(waves.len() < 4_000_000, "{} bytes", waves.len());
 }
 
 #[test]

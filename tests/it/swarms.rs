@@ -4,12 +4,12 @@ use std::fs;
 
 use nbc::circuit::formats::nb;
 use nbc::circuit::{Delays, Netlist, Timing};
-use nbc::model::{CYCLE_STEPS, Function, Robot};
-use nbc::report::describe_test;
+use nbc::model::{Function, Robot};
+use nbc::report::{Stage, describe_test};
 use nbc::session::SwarmRun;
 use nbc::sim::Simulator;
 use nbc::store::shipped_library;
-use nbc::swarm::{Assembly, Exposure, Member, Signal, simulate};
+use nbc::swarm::{Assembly, Exposure, Member, Recording, Room, Signal, SwarmTrace, simulate};
 use nbc::{CompileOptions, RunReport};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -91,7 +91,7 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let member = Member { net: "y".to_owned(), robot, senses: [Signal::Constant(false); 2], start: true };
     let (outputs, shown) = (vec![crate::pictures::port("y")], vec![Signal::Robot(0)]);
     let assembly = Assembly { circuit: "one".to_owned(), inputs: Vec::new(), members: vec![member], outputs, shown };
-    let exposure = Exposure { inputs: vec![Vec::new(); 80], cycle_steps: CYCLE_STEPS, window: 1 };
+    let exposure = Exposure { inputs: vec![Vec::new(); 80], window: 1, poses: None };
     let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
     let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
     assert!(walked > 250.0, "{walked}: not as far as the paper's ground reaches");
@@ -99,6 +99,31 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let room = |cycles| nbc::swarm::setting(&assembly, cycles).world_width / 2;
     assert_eq!(room(80), room(1000), "tests of a circuit have the same world");
     assert!(room(20_000) as f64 > 20_000.0 * 2.0 * walked / 80.0);
+}
+
+#[test]
+fn poses_are_recorded_while_a_swarm_is_simulated() {
+    let member = |robot: &Robot| Member {
+        net: robot.name.clone(),
+        robot: robot.clone(),
+        senses: [Signal::Constant(true), Signal::Robot(0)],
+        start: false,
+    };
+    let assembly = Assembly {
+        circuit: "three".to_owned(),
+        inputs: Vec::new(),
+        members: shipped_library().robots[..3].iter().map(member).collect(),
+        outputs: vec![crate::pictures::port("y")],
+        shown: vec![Signal::Robot(1)],
+    };
+    let run = |poses| {
+        let exposure = Exposure { inputs: vec![Vec::new(); 3], window: 1, poses };
+        simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {})
+    };
+    let (plain, recorded) = (run(None), run(Some(Room::SWARM)));
+    assert!(plain.recording.robots.is_empty());
+    assert_eq!(recorded.recording, Stage::of_swarm(&assembly, &plain, 7).record(3));
+    assert_eq!(SwarmTrace { recording: Recording::default(), ..recorded }, plain, "reading poses changes nothing");
 }
 
 /// Run with `cargo test --release --test it fifty_random -- --ignored --nocapture`.

@@ -36,8 +36,8 @@ fn a_dump_reads_back_with_the_traces_values() {
     }
     assert_eq!(changes(&mut waves, "d_latch.robot_q.bit"), told(&expected));
     let places = changes(&mut waves, "d_latch.robot_q.x");
-    assert_eq!(places.len(), trace.robots[1].com_x.len());
-    assert_eq!(places[1], (cycle / 4, trace.robots[1].com_x[1].to_string()));
+    assert_eq!(places.len(), trace.cycles.len() + 1, "a place at the start and at the end of each cycle");
+    assert_eq!(places[1], (cycle, trace.robots[1].com_x[4].to_string()));
 }
 
 #[test]

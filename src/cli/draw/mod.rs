@@ -64,7 +64,8 @@ pub struct Arguments {
     /// The two axes of a heat map: `voxels`, `active`, `sensory`, `behavior` [default: the first two]
     #[arg(long, value_name = "X,Y", value_delimiter = ',')]
     axes: Vec<String>,
-    /// Show only these robots of a swarm, by the nets they drive, with the inputs of the swarm
+    /// Show only these robots of a swarm, by the nets they drive, with the inputs of the swarm; `count*` selects every
+    /// net that begins with `count`
     #[arg(long, value_name = "NET,…", value_delimiter = ',')]
     robots: Vec<String>,
     #[command(flatten)]

@@ -13,7 +13,7 @@ use crate::model::{CircuitTest, Instance, Robot, Swarm};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
 use crate::session::{self, Checked, CompileOptions, Compiled, Session, SwarmRun};
 use crate::store::DiskWorld;
-use crate::swarm::{Assembly, SwarmTrace};
+use crate::swarm::{Assembly, Room, SwarmTrace};
 
 impl Arguments {
     pub(super) fn draw_program(&self, canvas: &Canvas) -> Result<(), Failure> {
@@ -63,8 +63,8 @@ impl Arguments {
         if self.robots.is_empty() {
             return Ok(report::draw_swarm(trace));
         }
-        let chosen = self.robots.iter().map(|net| robot_of(trace, net)).collect::<Result<Vec<usize>, _>>()?;
-        Ok(report::draw_chosen(trace, &chosen))
+        let chosen = self.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
+        Ok(report::draw_chosen(trace, &chosen.concat()))
     }
 
     /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
@@ -83,6 +83,9 @@ impl Arguments {
     /// The chosen test, run in full physics: the first one, or the first simulation where the file has no test.
     fn ran(&self) -> Result<Ran, Failure> {
         let mut session = Session::new(DiskWorld);
+        if self.kind == Kind::Report {
+            session = session.with_poses(Room::SWARM);
+        }
         let file = session.open(&self.what)?;
         let choice = self.circuit.choice();
         let is_choice = choice.circuit.is_some() || choice.swarm.is_some();
@@ -135,14 +138,20 @@ fn test_called<'f>(file: &'f Checked, name: &str) -> Result<&'f CircuitTest, Fai
     })
 }
 
-/// The place of the robot that drives a net.
-fn robot_of(trace: &SwarmTrace, net: &str) -> Result<usize, Failure> {
+/// The places of the robots that drive a net, or all nets that begin with what stands before a final `*`.
+fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
     let robots = &trace.robots;
-    robots.iter().position(|robot| robot.net == net).ok_or_else(|| {
+    let is_meant = |driven: &str| match net.strip_suffix('*') {
+        Some(beginning) => driven.starts_with(beginning),
+        None => driven == net,
+    };
+    let meant: Vec<usize> = (0..robots.len()).filter(|&k| is_meant(&robots[k].net)).collect();
+    if meant.is_empty() {
         let known: Vec<String> = robots.iter().map(|robot| format!("`{}`", robot.net)).collect();
         let fault = Diagnostic::without_place(Code::Unknown, format!("no robot drives `{net}`"));
-        Failure::plain(fault.with_help(format!("the robots drive {}", known.join(", "))))
-    })
+        return Err(Failure::plain(fault.with_help(format!("the robots drive {}", known.join(", ")))));
+    }
+    Ok(meant)
 }
 
 /// The robots of a swarm, each once.

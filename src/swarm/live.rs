@@ -1,0 +1,180 @@
+//! A swarm in full physics that is simulated a cycle at a time: every robot in its own simulation, hearing in each cycle what the others
+//! did in the cycle before.
+
+use std::collections::BTreeSet;
+
+use crate::model::{Body, CYCLE_STEPS, Column, Pattern, Setting};
+use crate::sim::{Flock, Simulator};
+use crate::swarm::{Assembly, CycleTrace, Member, Recording, RobotTrace, Room, Signal, SwarmTrace};
+
+/// Samples of a robot's path that a trace keeps of each cycle.
+const SAMPLES_PER_CYCLE: u32 = 12;
+/// Env steps from sample to sample.
+const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SAMPLES_PER_CYCLE;
+/// Ground voxels of a swarm's world where no more are needed.
+const LEAST_WORLD: usize = 1 << 15;
+
+/// The world of a swarm's robots for so many cycles: the paper's, with more ground.
+///
+/// In the paper's 500 voxels a robot that holds its output comes to the end of the ground within some hundred cycles and falls off it. No
+/// robot walks its own width in a cycle, so there is ground for that much both ways, by powers of two so that most tests of a circuit
+/// have the same world.
+pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
+    let widest = assembly.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
+    let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_WORLD);
+    Setting { world_width, ..Setting::default() }
+}
+
+/// Cycles in which robots find their feet after their fresh start. Their motion means nothing before the last of them is over, so that
+/// the others hear their start values until then: a latch would else forget what it begins with (docs/physics.md 14).
+pub const START_CYCLES: usize = 2;
+
+/// A swarm on its way.
+#[derive(Debug)]
+pub struct LiveSwarm {
+    flock: Box<dyn Flock>,
+    /// Cycles over which a displacement is taken; its sign is the output.
+    window: usize,
+    /// Each robot's output as the others hear it.
+    heard: Vec<bool>,
+    /// Env steps of a cycle at whose end something is read, in order.
+    stops: BTreeSet<u32>,
+    /// Env steps from frame to frame of the recording.
+    stride: u32,
+    trace: SwarmTrace,
+}
+
+impl LiveSwarm {
+    /// A swarm at its start, in a world that is wide enough for so many `cycles`. An output is the sign of the displacement over the last
+    /// `window` cycles. Poses are recorded if there is room for them.
+    ///
+    /// # Panics
+    /// When the window is empty.
+    pub fn new(simulator: &Simulator, assembly: &Assembly, cycles: usize, window: usize, poses: Option<Room>) -> Self {
+        assert!(window > 0, "an output is read over one cycle at least");
+        let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
+        let flock = simulator.flock(&setting(assembly, cycles), &bodies);
+        let mut trace = begin(assembly, &*flock);
+        let stride = match poses {
+            Some(room) => begin_recording(&mut trace, room, &*flock, cycles),
+            None => CYCLE_STEPS,
+        };
+        let steps = |stride: u32| (1..=CYCLE_STEPS / stride).map(move |stop| stop * stride);
+        Self {
+            flock,
+            window,
+            heard: assembly.members.iter().map(|member| member.start).collect(),
+            stops: steps(SAMPLE_STRIDE).chain(steps(stride)).collect(),
+            stride,
+            trace,
+        }
+    }
+
+    /// Simulates a cycle with these bits on the input ports.
+    ///
+    /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0; that bit is the stimulus of
+    /// the robots it feeds during the next cycle (paper, section 4), from the end of [`START_CYCLES`] on.
+    ///
+    /// # Panics
+    /// When there are not as many bits as the input ports have.
+    pub fn step(&mut self, inputs: &[bool]) -> &CycleTrace {
+        let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
+        assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
+        let senses = |robot: &RobotTrace| robot.senses.map(|signal| read(signal, inputs, &self.heard));
+        let sensed: Vec<[bool; 2]> = self.trace.robots.iter().map(senses).collect();
+        self.advance(&sensed);
+        let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
+        let outputs = self.trace.shown.iter().map(|&signal| read(signal, inputs, &bits)).collect();
+        if self.trace.cycles.len() + 1 >= START_CYCLES {
+            self.heard.clone_from(&bits);
+        }
+        for (i, robot) in self.trace.robots.iter_mut().enumerate() {
+            robot.fault = self.flock.fault(i);
+        }
+        self.trace.cycles.push(CycleTrace { inputs: inputs.to_vec(), sensed, bits, outputs });
+        &self.trace.cycles[self.trace.cycles.len() - 1]
+    }
+
+    /// What it did so far.
+    pub fn trace(&self) -> &SwarmTrace {
+        &self.trace
+    }
+
+    /// What it did.
+    pub fn into_trace(self) -> SwarmTrace {
+        self.trace
+    }
+
+    /// Simulates a cycle under what the robots sense, from stop to stop.
+    fn advance(&mut self, sensed: &[[bool; 2]]) {
+        let patterns: Vec<Pattern> = sensed.iter().map(|bits| Pattern::new(bits)).collect();
+        let mut done = 0;
+        for &stop in &self.stops {
+            self.flock.advance(&patterns, stop - done);
+            done = stop;
+            if stop % SAMPLE_STRIDE == 0 {
+                for (i, robot) in self.trace.robots.iter_mut().enumerate() {
+                    robot.com_x.push(self.flock.center(i)[0]);
+                }
+            }
+            if stop % self.stride == 0 {
+                self.trace.recording.record(&*self.flock);
+            }
+        }
+    }
+}
+
+fn read(signal: Signal, inputs: &[bool], bits: &[bool]) -> bool {
+    match signal {
+        Signal::Input(i) => inputs[i],
+        Signal::Robot(i) => bits[i],
+        Signal::Constant(value) => value,
+    }
+}
+
+/// The trace before the first cycle.
+fn begin(assembly: &Assembly, flock: &dyn Flock) -> SwarmTrace {
+    let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
+    let net_name = |signal| match signal {
+        Signal::Input(i) => inputs[i].clone(),
+        Signal::Robot(i) => assembly.members[i].net.clone(),
+        Signal::Constant(value) => u8::from(value).to_string(),
+    };
+    let robot = |(i, member): (usize, &Member)| RobotTrace {
+        net: member.net.clone(),
+        function: member.robot.function(),
+        robot: member.robot.name.clone(),
+        senses: member.senses,
+        sensed_nets: member.senses.map(net_name),
+        com_x: vec![flock.center(i)[0]],
+        fault: None,
+    };
+    SwarmTrace {
+        circuit: assembly.circuit.clone(),
+        inputs: assembly.inputs.clone(),
+        outputs: assembly.outputs.clone(),
+        shown: assembly.shown.clone(),
+        samples_per_cycle: SAMPLES_PER_CYCLE as usize,
+        robots: assembly.members.iter().enumerate().map(robot).collect(),
+        cycles: Vec::new(),
+        recording: Recording::default(),
+    }
+}
+
+/// Begins the recording of the robots for which there is room, the most interesting first. Gives its stride.
+fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles: usize) -> u32 {
+    let order = trace.by_interest();
+    let points: Vec<usize> = order.iter().map(|&robot| flock.lattice(robot).points().len()).collect();
+    let (stride, count) = room.fit(&points, cycles);
+    let robots: BTreeSet<usize> = order.into_iter().take(count).collect();
+    trace.recording = Recording::new(flock, robots, stride);
+    trace.recording.record(flock);
+    stride
+}
+
+/// Whether a robot moved in +x over its last `window` cycles, or over all of them while there are fewer.
+fn moved_right(robot: &RobotTrace, window: usize) -> bool {
+    let last = robot.com_x.len() - 1;
+    let before = last.saturating_sub(window * SAMPLES_PER_CYCLE as usize);
+    robot.com_x[last] > robot.com_x[before]
+}
