@@ -56,7 +56,7 @@ impl Function {
     ///
     /// # Panics
     /// When `bits` is 16 or more.
-    pub fn new(bits: u8) -> Self {
+    pub const fn new(bits: u8) -> Self {
         assert!(bits < 16, "a two-input function has four outputs");
         Self(bits)
     }

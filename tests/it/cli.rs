@@ -375,12 +375,17 @@ fn impossible_drawings_are_rejected_and_leave_no_file() {
 
 #[test]
 fn bench_prints_the_speed_as_json() {
-    let ran = Bench::new().run(&["bench", "--format", "json"]);
+    let ran = Bench::new().run(&["bench", "--swarm", "--format", "json"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let figures = crate::schemas::validate("bench", &ran.out);
     assert!(figures["machine"].is_string() && [4, 8].contains(&figures["width"].as_u64().unwrap()));
     let boxes: Vec<_> = figures["cases"].as_array().unwrap().iter().map(|case| case["box"].as_str().unwrap()).collect();
     assert_eq!(boxes, ["5x5", "7x7", "10x10"]);
+    let swarm = &figures["swarm"];
+    assert!(
+        swarm["robots"] == 29
+            && ["one_core", "different", "all_threads"].iter().all(|at| swarm[at].as_f64() > Some(0.0))
+    );
     let evaluation = 80.0 * f64::from(CYCLE_STEPS * Constants::default().substeps);
     for case in figures["cases"].as_array().unwrap() {
         let speed = |name: &str| case[name].as_f64().unwrap();

@@ -180,22 +180,34 @@ fn golden_hash_on_every_kernel_and_number_of_threads() {
     }
 }
 
+/// Bodies of several boxes, some of them more than once.
+fn swarm_of_bodies() -> Vec<Body> {
+    let flat = Body::parse(&["34343", "33333"], &Palette::paper()).unwrap();
+    let body = |robot: usize| match robot % 7 {
+        3 => Body::patchwork(7, robot / 14),
+        5 => flat.clone(),
+        _ => Body::patchwork(5, robot / 10),
+    };
+    (0..21).map(body).collect()
+}
+
 #[test]
 fn robots_of_a_swarm_advance_as_they_do_alone() {
-    let setting = Setting::default();
-    let bodies: Vec<Body> = (0..9).map(|robot| Body::patchwork(5, robot / 6)).collect();
+    let (setting, bodies) = (Setting::default(), swarm_of_bodies());
     let patterns = |turn: usize| (0..bodies.len()).map(|robot| Pattern::PAIRS[(robot + turn) % 4]).collect::<Vec<_>>();
-    let mut swarm = Simulator::default().flock(&setting, &bodies);
     let alone = Simulator::new(LaneBackend { kernel: Kernel::SCALAR, ..LaneBackend::default() });
     let mut robots: Vec<_> = bodies.iter().map(|body| alone.flock(&setting, std::slice::from_ref(body))).collect();
     for turn in 0..3 {
-        swarm.advance(&patterns(turn), 15);
         for (robot, pattern) in robots.iter_mut().zip(patterns(turn)) {
             robot.advance(&[pattern], 15);
         }
     }
-    for (i, robot) in robots.iter().enumerate() {
-        assert_eq!(point_bits(&*swarm, i), point_bits(&**robot, 0), "robot {i}");
+    for kernel in kernels() {
+        let mut swarm = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() }).flock(&setting, &bodies);
+        (0..3).for_each(|turn| swarm.advance(&patterns(turn), 15));
+        for (i, robot) in robots.iter().enumerate() {
+            assert_eq!(point_bits(&*swarm, i), point_bits(&**robot, 0), "robot {i} on {kernel:?}");
+        }
     }
 }
 

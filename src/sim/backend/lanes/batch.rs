@@ -1,4 +1,4 @@
-//! The kernel's workspace: several robots of one box side by side, laid out for the sweep of `step`.
+//! The kernel's workspace: several robots side by side, laid out for the sweep of `step`.
 //!
 //! The robots may differ. The batch holds the union of their points and of their springs, keyed by places in the box; a spring that a
 //! lane has not is one of stiffness zero, and a point that a lane has not lies far away, weightless. Both add exact zeros, so a lane
@@ -189,7 +189,7 @@ fn key(point: LatticePoint) -> Key {
 }
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
-    /// Lays out robots of one box, one a lane.
+    /// Lays out robots, one a lane, over the union of their boxes.
     ///
     /// # Panics
     /// When there are more robots than lanes, or none.

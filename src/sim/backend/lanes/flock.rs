@@ -1,8 +1,7 @@
 //! Robots that are advanced step by step. They keep their lanes from advance to advance.
 
-use std::cmp::Reverse;
-
 use crate::model::{Body, Fault, Pattern, Schedule, Setting};
+use crate::sim::backend::lanes::formation::{Candidate, Formation};
 use crate::sim::backend::lanes::run::{Run, runs};
 use crate::sim::backend::lanes::squad::Squad;
 use crate::sim::backend::lanes::threads;
@@ -17,33 +16,39 @@ pub struct LaneFlock {
     squads: Vec<Squad>,
     /// The squad of each robot, and its place there.
     places: Vec<(usize, usize)>,
+    /// What a substep of all squads costs, in the unit of [`Formation::cost`].
+    cost: u64,
 }
 
 impl LaneFlock {
     /// A robot for each body, at its start.
     pub fn new(world: World, setting: &Setting, bodies: &[Body]) -> Self {
         let runs = runs(&world.constants, setting, bodies);
-        let mut flock = Self { world, squads: Vec::new(), places: Vec::new() };
-        flock.form(runs);
+        let mut flock = Self { world, squads: Vec::new(), places: Vec::new(), cost: 0 };
+        let formation = flock.formation(runs.iter());
+        flock.form(runs, formation);
         flock
     }
 
-    /// Forms squads of these runs, in this order: runs of one box together, of one body side by side, as many in each squad.
-    fn form(&mut self, runs: Vec<Run>) {
-        let mut waiting: Vec<(usize, Run)> = runs.into_iter().enumerate().collect();
-        waiting.sort_by_key(|(robot, run)| (Reverse(run.lattice.size()), run.body, *robot));
-        self.places = vec![(0, 0); waiting.len()];
-        self.squads.clear();
-        for same_box in waiting.chunk_by_mut(|(_, a), (_, b)| a.lattice.size() == b.lattice.size()) {
-            let squads = same_box.len().div_ceil(threads::lanes_for(same_box.len(), self.world.kernel.lanes()));
-            for n in 0..squads {
-                let share = same_box.len() * n / squads..same_box.len() * (n + 1) / squads;
-                for (place, (robot, _)) in same_box[share.clone()].iter().enumerate() {
-                    self.places[*robot] = (self.squads.len(), place);
-                }
-                self.squads.push(Squad::new(same_box[share].iter().map(|(_, run)| run.clone()).collect()));
+    /// The best formation of these runs.
+    fn formation<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> Formation {
+        let candidates: Vec<Candidate> =
+            runs.map(|run| Candidate { size: run.lattice.size(), body: run.body }).collect();
+        let kernel = self.world.kernel;
+        Formation::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
+    }
+
+    /// Forms squads of these runs.
+    fn form(&mut self, runs: Vec<Run>, formation: Formation) {
+        self.places = vec![(0, 0); runs.len()];
+        for (squad, robots) in formation.squads.iter().enumerate() {
+            for (place, &robot) in robots.iter().enumerate() {
+                self.places[robot] = (squad, place);
             }
         }
+        let squad = |robots: &Vec<usize>| Squad::new(robots.iter().map(|&robot| runs[robot].clone()).collect());
+        self.squads = formation.squads.iter().map(squad).collect();
+        self.cost = formation.cost;
     }
 
     fn run(&self, i: usize) -> &Run {
@@ -64,14 +69,6 @@ impl LaneFlock {
             |&(squad, place): &(usize, usize)| runs[squad][place].take().expect("a robot has a place of its own");
         self.places.iter().map(take).collect()
     }
-
-    /// The lanes that would be computed in each env step for robots of the given boxes.
-    fn lanes_for(&self, boxes: impl Iterator<Item = (usize, usize)>) -> usize {
-        let mut boxes: Vec<_> = boxes.collect();
-        boxes.sort_unstable();
-        let lanes = self.world.kernel.lanes();
-        boxes.chunk_by(|a, b| a == b).map(|same| same.len().div_ceil(lanes) * lanes).sum()
-    }
 }
 
 impl Flock for LaneFlock {
@@ -90,14 +87,13 @@ impl Flock for LaneFlock {
 
     fn retain(&mut self, keep: &[bool]) {
         assert_eq!(keep.len(), self.len(), "each robot is kept or not");
-        let sizes: Vec<_> = (0..self.len()).map(|i| self.lattice(i).size()).collect();
-        let kept = sizes.iter().zip(keep).filter(|(_, keep)| **keep).map(|(size, _)| *size);
-        let (now, then) = (self.lanes_for(sizes.iter().copied()), self.lanes_for(kept));
+        let kept = (0..self.len()).filter(|&i| keep[i]).map(|i| self.run(i));
+        let formation = self.formation(kept);
         let mut keep = keep.iter();
-        if then < now {
+        if formation.cost < self.cost {
             let mut runs = self.dissolve();
             runs.retain(|_| keep.next().is_some_and(|&keep| keep));
-            self.form(runs);
+            self.form(runs, formation);
         } else {
             self.places.retain(|_| keep.next().is_some_and(|&keep| keep));
         }

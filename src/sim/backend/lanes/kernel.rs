@@ -100,6 +100,26 @@ impl Kernel {
         Self { set, lanes: 8 }
     }
 
+    /// A kernel whether the processor has its instructions or not, to reason about.
+    #[cfg(test)]
+    pub(crate) fn of(set: InstructionSet, lanes: usize) -> Self {
+        Self { set, lanes }
+    }
+
+    /// What a substep of so many robots side by side costs for each voxel of their box: 100 for eight different bodies with AVX-512
+    /// (docs/performance.md). `alike` says that all have the same body.
+    pub(crate) fn cost(self, robots: usize, alike: bool) -> u64 {
+        let (different, same) = match (self.set, robots) {
+            (_, 1) => (51, 51),
+            (InstructionSet::Avx512, 5..) => (100, 86),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4) => (83, 72),
+            (InstructionSet::Avx2, _) => (166, 144),
+            (InstructionSet::Baseline, ..=4) => (152, 126),
+            (InstructionSet::Baseline, _) => (304, 252),
+        };
+        if alike { same } else { different }
+    }
+
     /// Simulations side by side at most.
     pub fn lanes(self) -> usize {
         self.lanes
@@ -110,7 +130,7 @@ impl Kernel {
         self.set
     }
 
-    /// Lays out at most [`Kernel::lanes`] robots of one box, in no more lanes than they need. `alike` says that all have the same body.
+    /// Lays out at most [`Kernel::lanes`] robots, in no more lanes than they need. `alike` says that all have the same body.
     pub(crate) fn batch(self, robots: &[(&Lattice, &State)], alike: bool, ground: Ground<'_>) -> Box<dyn LaneBatch> {
         assert!(robots.len() <= self.lanes, "a robot for each lane at most");
         match (self.set, robots.len(), alike) {

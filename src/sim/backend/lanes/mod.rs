@@ -4,6 +4,7 @@
 mod batch;
 mod contact;
 mod flock;
+mod formation;
 mod kernel;
 mod lane_batch;
 mod limits;

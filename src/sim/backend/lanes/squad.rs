@@ -1,4 +1,4 @@
-//! Runs of one box side by side in the lanes of one batch. The batch is kept from call to call, because laying it out costs as much as some
+//! Runs side by side in the lanes of one batch. The batch is kept from call to call, because laying it out costs as much as some
 //! env steps.
 
 use crate::sim::backend::lanes::kernel::Ground;
@@ -8,7 +8,7 @@ use crate::sim::backend::lanes::world::World;
 use crate::sim::meter::Part;
 use crate::sim::state::State;
 
-/// Runs of one box side by side, no more than the kernel has lanes.
+/// Runs side by side, no more than the kernel has lanes.
 #[derive(Debug, Default)]
 pub struct Squad {
     runs: Vec<Run>,

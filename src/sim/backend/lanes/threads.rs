@@ -12,10 +12,10 @@ pub fn count() -> usize {
 
 /// Does the work for each item, in any order.
 pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
-    items.par_iter_mut().for_each(work);
+    items.par_iter_mut().with_max_len(1).for_each(work);
 }
 
-/// How many of `runs` runs of one box share a batch: all threads get some, but not so few that lanes are idle.
+/// How many of `runs` runs share a batch at most: all threads get some, but not so few that lanes are idle.
 pub fn lanes_for(runs: usize, lanes: usize) -> usize {
     runs.div_ceil(count()).max(LEAST_LANES).min(lanes)
 }

@@ -1,5 +1,7 @@
 //! `nbc bench`: how fast this machine simulates.
 
+mod swarm;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,6 +14,8 @@ use crate::cli::{Context, Failure, Format, Progress, Status};
 use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::report::{Align, Schema, Table};
 use crate::sim::{Constants, Kernel, LaneBackend, Meter, Part, Simulator};
+
+use swarm::SwarmFigures;
 
 /// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];
@@ -27,6 +31,9 @@ pub struct Arguments {
     /// Also show the share of time of each stage of a substep, with one body in all lanes
     #[arg(long)]
     timings: bool,
+    /// Also measure a swarm of 29 robots, on one core and on all threads
+    #[arg(long)]
+    swarm: bool,
 }
 
 /// The figures of one box.
@@ -52,6 +59,9 @@ struct Figures {
     machine: String,
     width: usize,
     cases: Vec<Case>,
+    /// With `--swarm`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    swarm: Option<SwarmFigures>,
 }
 
 impl Arguments {
@@ -69,7 +79,8 @@ impl Arguments {
         };
         let cases = SIDES.iter().map(case).collect();
         drop(bar);
-        let figures = Figures { machine: machine(kernel), width: kernel.lanes(), cases };
+        let swarm = self.swarm.then(|| SwarmFigures::measure(kernel));
+        let figures = Figures { machine: machine(kernel), width: kernel.lanes(), cases, swarm };
         match context.format {
             Format::Json => context.print_json(Schema::Bench, &figures)?,
             Format::Text => context.print(describe(&figures))?,
@@ -151,7 +162,7 @@ fn describe(figures: &Figures) -> String {
         table.push(vec![case.bounds.clone(), scalar, lanes, different, format!("{:.2}", case.evaluations)]);
     }
     let Figures { machine, width, .. } = figures;
-    let parts = describe_timings(figures);
+    let parts = describe_timings(figures) + &figures.swarm.as_ref().map_or(String::new(), SwarmFigures::describe);
     format!(
         "{machine}, {width} lanes, one core; substeps a second, and the paper's evaluations a second\n{table}{parts}"
     )
