@@ -10,7 +10,8 @@ use crate::circuit::network::{Network, Signal, View};
 use crate::circuit::passes::{self, DissolveWires, Pass, Sweep};
 use crate::circuit::proof::core_names;
 use crate::circuit::recipes::{Operand, Recipe, Recipes};
-use crate::circuit::synth::{Effort, reduce};
+use crate::circuit::options::{MapOptions, Objective};
+use crate::circuit::synth::reduce;
 use crate::circuit::{NetId, Netlist, NetlistError, Node};
 use crate::model::Function;
 
@@ -59,27 +60,6 @@ fn list(functions: &[Function], none: &str, joint: &str) -> String {
         Some((last, [])) => last.clone(),
         Some((last, rest)) => format!("{}{joint}{last}", rest.join(", ")),
     }
-}
-
-/// What to minimize.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Objective {
-    /// Robots.
-    #[default]
-    Area,
-    /// Cycles along the slowest path, then robots.
-    Delay,
-    /// The risk of a wrong output: maximizes the smallest noise margin of the robots, then minimizes their number.
-    Margin,
-}
-
-/// How to map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct MapOptions {
-    /// What to minimize.
-    pub objective: Objective,
-    /// The amount of search.
-    pub effort: Effort,
 }
 
 /// Maps a netlist onto a library for few robots, at normal effort.

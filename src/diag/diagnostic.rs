@@ -1,20 +1,8 @@
 //! The diagnostic type that every stage reports.
 
-use serde::Serialize;
-
 use super::suggest::{Suggestion, alternatives};
-use super::{Code, Fix};
+use super::{Code, Fix, Severity};
 use crate::source::Span;
-
-/// The severity of a diagnostic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Severity {
-    /// Legal, but probably a mistake.
-    Warning,
-    /// The program is invalid.
-    Error,
-}
 
 /// A place with a word about it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

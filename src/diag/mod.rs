@@ -9,15 +9,17 @@ mod file;
 mod fix;
 mod json;
 pub mod render;
+mod severity;
 pub mod suggest;
 mod visible;
 
 pub use code::Code;
 pub use counted::counted;
-pub use diagnostic::{Diagnostic, Label, Related, Severity};
+pub use diagnostic::{Diagnostic, Label, Related};
 pub use diagnostics::Diagnostics;
 pub use file::{file_error, io_words};
 pub use fix::{Edit, Fix};
 pub use json::json;
+pub use severity::Severity;
 pub use suggest::Suggestion;
 pub use visible::{is_hidden, visible};

@@ -4,6 +4,7 @@
 mod behavior;
 mod body;
 mod circuit;
+mod column;
 mod evolution;
 mod function;
 mod genotype;
@@ -23,6 +24,7 @@ pub use circuit::{
     Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, Parameter,
     Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
 };
+pub use column::Column;
 pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Objective, Rules, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
@@ -32,7 +34,7 @@ pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Progra
 pub use robot::{Character, Library, Provenance, Robot, Transition};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::{Pattern, PatternError};
-pub use test::{CircuitTest, Column, Reference, Stimulation, TestRow};
+pub use test::{CircuitTest, Reference, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 

@@ -14,7 +14,7 @@ use crate::report::heatmap::{heat, share};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
 use crate::report::page_bodies::{look_data, materials, voxel_data};
-use crate::report::sprite::Scheme;
+use crate::report::scheme::Scheme;
 use crate::report::stage::Stage;
 use crate::report::svg::Svg;
 use crate::swarm::{Recorded, Room};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::model::{Body, Drive, Material, MaterialKind, Palette, Response};
 use crate::report::Color;
-use crate::report::sprite::Scheme;
+use crate::report::scheme::Scheme;
 use crate::report::svg::{Paint, Point, Svg};
 
 /// How one material looks.

@@ -3,7 +3,8 @@
 use crate::model::Body;
 use crate::report::Color;
 use crate::report::looks::{Looks, draw_swatch};
-use crate::report::sprite::{LETTER, Scheme, draw_body};
+use crate::report::scheme::Scheme;
+use crate::report::sprite::{LETTER, draw_body};
 use crate::report::svg::{Anchor, Svg, Type};
 
 /// Pixels of the largest body's longer side, and of its slot.

@@ -3,7 +3,8 @@
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};
 use crate::report::Color;
 use crate::report::looks::Looks;
-use crate::report::sprite::{Pose, Scheme, draw_legend, legend_size};
+use crate::report::scheme::Scheme;
+use crate::report::sprite::{Pose, draw_legend, legend_size};
 use crate::report::stage::{Moment, Stage};
 use crate::report::svg::{Paint, Point, Svg, Type};
 

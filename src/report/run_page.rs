@@ -7,7 +7,7 @@ use crate::model::{CYCLE_STEPS, Column, Value};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
 use crate::report::page_bodies::{look_data, materials, voxel_data};
-use crate::report::sprite::Scheme;
+use crate::report::scheme::Scheme;
 use crate::report::svg::Svg;
 use crate::swarm::{Assembly, Recorded, RowActivity, RowVerdict, Signal, SimulationResult, SwarmTrace, TestVerdict};
 

@@ -8,7 +8,8 @@ use crate::report::Color;
 use crate::report::heights;
 use crate::report::layers::{Layers, Slot};
 use crate::report::looks::Looks;
-use crate::report::sprite::{Scheme, draw_body};
+use crate::report::scheme::Scheme;
+use crate::report::sprite::draw_body;
 use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
 
 const CELL: (f64, f64) = (108.0, 92.0);

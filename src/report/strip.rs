@@ -4,7 +4,7 @@
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};
 use crate::report::Color;
 use crate::report::looks::Looks;
-use crate::report::sprite::Scheme;
+use crate::report::scheme::Scheme;
 use crate::report::stage::{Moment, Stage};
 use crate::report::svg::{Paint, Point, Svg, Type};
 

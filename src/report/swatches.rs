@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::report::Color;
 use crate::report::looks::{Look, Looks};
-use crate::report::sprite::Scheme;
+use crate::report::scheme::Scheme;
 
 /// The index that is not a color: the pixel is the same as in the previous frame.
 pub const UNCHANGED: u8 = 255;

@@ -1,13 +1,12 @@
 //! Checkpoints of evolution runs: a line with format and checksum, then the declaration and the state as JSON.
 
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Search, SearchState};
-use crate::model::{Axis, Evolution, Objective, Palette};
-use crate::store::first_checkpoint;
+use crate::model::Evolution;
+use crate::store::declared::Declared;
+use crate::store::first_checkpoint::FirstRecord;
 use crate::store::search_state::Record as StateRecord;
 
 /// The checkpoint version that this program writes; it also reads earlier ones.
@@ -30,29 +29,6 @@ pub struct Checkpoint {
     pub left_out: u64,
 }
 
-/// The declaration in a checkpoint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Declared {
-    /// The declaration's name.
-    pub name: String,
-    /// The archive's axes; `None` in the oldest checkpoints, which do not have them.
-    pub axes: Vec<Axis>,
-    /// The objective.
-    pub objective: Objective,
-    /// The meaning of the codes in its bodies.
-    pub palette: Arc<Palette>,
-    pub(super) whole: Whole,
-}
-
-/// A declaration in full.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Whole {
-    /// As data.
-    Data(Box<Evolution>),
-    /// As the text by which checkpoints of format 1 are compared.
-    Text(String),
-}
-
 /// The part of a checkpoint after its header.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,30 +38,6 @@ struct Record {
     state: StateRecord,
     env_steps: u64,
     left_out: u64,
-}
-
-impl Declared {
-    fn of(evolution: Evolution) -> Self {
-        Self {
-            name: evolution.name.clone(),
-            axes: evolution.descriptors.clone(),
-            objective: evolution.objective,
-            palette: Arc::clone(&evolution.palette),
-            whole: Whole::Data(Box::new(evolution)),
-        }
-    }
-
-    /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be
-    /// others.
-    fn fits(&self, evolution: &Evolution) -> bool {
-        match &self.whole {
-            Whole::Data(own) => {
-                let Evolution { name, generations, seeds, .. } = evolution.clone();
-                Evolution { name, generations, seeds, ..Evolution::clone(own) } == *evolution
-            }
-            Whole::Text(own) => *own == first_checkpoint::declaration(evolution),
-        }
-    }
 }
 
 impl Checkpoint {
@@ -114,7 +66,7 @@ impl Checkpoint {
         let words: Vec<&str> = header.split(' ').collect();
         let [MAGIC, format, checksum, length] = words[..] else { return Err(none()) };
         let read = match format {
-            "1" => first_checkpoint::read,
+            "1" => read_first,
             FORMAT => read_record,
             _ => {
                 let text = format!("is a checkpoint of format {format}, expected format {FORMAT}");
@@ -155,6 +107,15 @@ impl Checkpoint {
 /// The longest header in bytes, so that a large file that is not a checkpoint is rejected at once.
 const MAX_HEADER: usize = 100;
 
+/// Reads the part after the header of format 1.
+fn read_first(text: &[u8]) -> Result<Checkpoint, String> {
+    let record: FirstRecord = serde_json::from_slice(text).map_err(|error| error.to_string())?;
+    let declared = record.declared().ok_or("its declaration has no materials")?;
+    let FirstRecord { version, state, env_steps, left_out, .. } = record;
+    let state = state.into_state(&declared)?;
+    Ok(Checkpoint { version, declared, state, env_steps, left_out })
+}
+
 /// Reads the part after the header of format 2.
 fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
     let Record { version, evolution, state, env_steps, left_out } =
@@ -168,7 +129,9 @@ fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
 mod tests {
     use super::*;
     use crate::evolve::{Outcome, Scores};
-    use crate::model::{Behavior, Count, MutationWeights, Niche, Rules, Schedule, Symmetry};
+    use crate::model::{
+        Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Symmetry,
+    };
 
     fn evolution() -> Evolution {
         Evolution {

@@ -4,49 +4,37 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::model::{Axis, Drive, Evolution, Material, MaterialKind, Objective, Palette, Response};
-use crate::store::checkpoint::{Checkpoint, Declared, Whole};
+use crate::model::{Axis, Drive, Material, MaterialKind, Objective, Palette, Response};
+use crate::store::declared::{Declared, Whole};
 use crate::store::search_state::Record as StateRecord;
 
 /// The part of such a checkpoint after its header.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Record {
-    version: String,
+pub(super) struct FirstRecord {
+    pub(super) version: String,
     evolution: String,
     declaration: String,
     #[serde(default)]
     descriptors: Vec<Axis>,
     #[serde(default)]
     objective: Objective,
-    state: StateRecord,
-    env_steps: u64,
-    left_out: u64,
+    pub(super) state: StateRecord,
+    pub(super) env_steps: u64,
+    pub(super) left_out: u64,
 }
 
-/// Reads the part after the header.
-///
-/// # Errors
-/// Says what is wrong with it.
-pub(super) fn read(text: &[u8]) -> Result<Checkpoint, String> {
-    let Record { version, evolution, declaration, descriptors, objective, state, env_steps, left_out } =
-        serde_json::from_slice(text).map_err(|error| error.to_string())?;
-    let palette = palette(&declaration).ok_or("its declaration has no materials")?;
-    let whole = Whole::Text(declaration);
-    let declared = Declared { name: evolution, axes: descriptors, objective, palette: Arc::new(palette), whole };
-    let state = state.into_state(&declared)?;
-    Ok(Checkpoint { version, declared, state, env_steps, left_out })
-}
-
-/// Everything in a declaration that its archive depends on, as format 1 wrote it.
-pub(super) fn declaration(evolution: &Evolution) -> String {
-    let spells = &evolution.variable.spells;
-    let Evolution { width, height, palette, mutation, fixed_steps, descriptors, batch, newcomers, .. } = evolution;
-    let Evolution { rules, objective, symmetry, niche, .. } = evolution;
-    format!(
-        "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + {newcomers}; {rules:?}; \
-         {objective:?}; {symmetry:?}; {niche:?}"
-    )
+impl FirstRecord {
+    /// The declaration; `None` if its text has no materials.
+    pub(super) fn declared(&self) -> Option<Declared> {
+        Some(Declared {
+            name: self.evolution.clone(),
+            axes: self.descriptors.clone(),
+            objective: self.objective,
+            palette: Arc::new(palette(&self.declaration)?),
+            whole: Whole::Text(self.declaration.clone()),
+        })
+    }
 }
 
 /// The materials in the text of a declaration: `Palette { materials: [Material { name: "bone", kind: Rigid }, …] }`.

@@ -4,6 +4,7 @@
 mod atomic;
 mod checkpoint;
 mod circuit_file;
+mod declared;
 mod disk;
 mod draft;
 mod first_checkpoint;
@@ -17,8 +18,9 @@ mod yaml;
 mod yosys;
 
 pub use atomic::{create_folder, write, write_with};
-pub use checkpoint::{Checkpoint, Declared};
+pub use checkpoint::Checkpoint;
 pub use circuit_file::{encode_circuit, read_circuit};
+pub use declared::Declared;
 pub use disk::{
     DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
 };

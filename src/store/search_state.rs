@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::evolve::{Counts, Elite, NicheKey, SearchState};
 use crate::model::{Axis, Behavior, Body, Genotype, Palette};
-use crate::store::checkpoint::Declared;
+use crate::store::declared::Declared;
 
 /// The most bins of an axis that can be declared.
 const MAX_BINS: usize = 1000;

@@ -1,28 +1,10 @@
 //! Evaluation of candidates by the paper's protocol, and the loop of asking, evaluating and telling (paper, Methods;
 //! docs/physics.md 10).
 
-use serde::Serialize;
-
 use crate::evolve::{Candidate, Outcome, Scores, Search};
 use crate::model::{Behavior, Direction, Objective, Pattern, Schedule, Setting, Trajectory, Trial};
 use crate::sim::Simulator;
-use crate::swarm::gate;
-
-/// How much was simulated, and how much a full evaluation of everything would have taken on top.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Work {
-    /// Env steps simulated.
-    pub env_steps: u64,
-    /// Env steps left out because their result could not have mattered.
-    pub left_out: u64,
-}
-
-impl Work {
-    /// Both together.
-    pub fn plus(self, other: Self) -> Self {
-        Self { env_steps: self.env_steps + other.env_steps, left_out: self.left_out + other.left_out }
-    }
-}
+use crate::swarm::{Work, gate};
 
 /// Brings a search one generation further: asks, evaluates in parallel, tells.
 pub fn evolve_generation(search: &mut Search) -> Work {

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::evolve::{Candidate, Outcome, Scores, Search};
 use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern, Setting};
 use crate::sim::Simulator;
-use crate::swarm::evaluate::Work;
+use crate::swarm::Work;
 use crate::swarm::holds::{Hold, HoldPlan};
 
 /// Cycles of each hold of the walks.

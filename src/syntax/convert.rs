@@ -7,6 +7,7 @@ use pest::iterators::{Pair, Pairs};
 
 use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
+use crate::syntax::arena::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
     Circuit, Declaration, DeclarationKind, Name, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
@@ -64,7 +65,7 @@ impl Converter<'_> {
     }
 
     fn circuit(&mut self, pair: Pair<Rule>) -> Circuit {
-        let mut arena = crate::syntax::convert_circuit::Arena::default();
+        let mut arena = Arena::default();
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
         let parameters = match parts.peek().map(Pair::as_rule) {

@@ -4,6 +4,7 @@ use pest::iterators::Pair;
 
 use crate::model::SizeOperator;
 use crate::source::Span;
+use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
@@ -11,33 +12,6 @@ use crate::syntax::tree::{
     Statement, StatementKind, Target,
 };
 use crate::syntax::wording::Slip;
-
-/// The expressions and sizes of a body that is being made.
-#[derive(Default)]
-pub(crate) struct Arena {
-    pub(crate) expressions: Vec<Expression>,
-    pub(crate) sizes: Vec<Size>,
-}
-
-impl Arena {
-    pub(crate) fn expression(&mut self, kind: ExpressionKind, span: Span) -> ExpressionId {
-        self.expressions.push(Expression { kind, span });
-        ExpressionId(self.expressions.len() as u32 - 1)
-    }
-
-    pub(crate) fn size(&mut self, kind: SizeKind, span: Span) -> SizeId {
-        self.sizes.push(Size { kind, span });
-        SizeId(self.sizes.len() as u32 - 1)
-    }
-
-    pub(crate) fn span(&self, id: ExpressionId) -> Span {
-        self.expressions[id.0 as usize].span
-    }
-
-    pub(crate) fn body(self, statements: Vec<Statement>) -> Body {
-        Body { statements, expressions: self.expressions, sizes: self.sizes }
-    }
-}
 
 impl Converter<'_> {
     pub(crate) fn parameters(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Parameter> {

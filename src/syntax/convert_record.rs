@@ -3,7 +3,7 @@
 use pest::iterators::Pair;
 
 use crate::syntax::convert::{Converter, parts};
-use crate::syntax::convert_circuit::Arena;
+use crate::syntax::arena::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{Field, Instance, Record, Value, ValueKind};
 use crate::syntax::wording::Slip;

@@ -1,5 +1,6 @@
 //! From nb text to the tree and back: the grammar, the parser, the formatter. Names are not resolved here.
 
+mod arena;
 mod convert;
 mod convert_circuit;
 mod convert_expression;

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::circuit::elaborate::frame::{Frame, Item};
 use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
 use crate::circuit::elaborate::wording::{ElaborateError, shown_at};
-use crate::circuit::elaborate::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, module_id, unknown};
+use crate::circuit::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
+use crate::circuit::elaborate::wording;
 use crate::diag::Diagnostic;
 use crate::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use crate::source::Span;
@@ -117,7 +118,7 @@ impl<'a> Builder<'a> {
         let id = module.map(|module| {
             self.modules.push(module);
             self.inspected.push(false);
-            module_id(self.modules.len() - 1)
+            ModuleId::new(self.modules.len() - 1)
         });
         self.known.insert(key, id);
         id
@@ -289,6 +290,12 @@ fn undriven_bits(name: &str, missing: &[u32], width: u32) -> Option<String> {
         (bit, 0) => format!("{name}[{bit}]"),
         (low, run) => format!("{name}[{}..{low}]", low + run),
     })
+}
+
+/// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
+fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
+    let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
+    wording::unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
 }
 
 #[cfg(test)]

@@ -10,36 +10,24 @@ mod emit;
 mod flatten;
 mod frame;
 mod instance;
+mod limits;
 mod loops;
 mod module;
 mod size;
 mod table;
+mod unroll;
 mod width;
 mod wording;
 
+pub use limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, MAX_STATEMENTS, MAX_WIDTH};
+
 use crate::circuit::Netlist;
-use crate::diag::{Diagnostic, Suggestion};
+use crate::diag::Diagnostic;
 use crate::model::{Circuit, CircuitId, Column, Instance, Program, Reference};
 use crate::source::Span;
 
 use build::Builder;
 use module::ModuleId;
-
-/// The most cells of a circuit, written in the language or read from a file; docs/compiler.md has figures for this size
-/// ("Measured").
-pub const MAX_CELLS: u64 = 1_000_000;
-
-/// The most bits of nets and gates of a circuit, including the circuits it contains.
-pub const MAX_NETS: u64 = 8 * MAX_CELLS;
-
-/// The most statements of a circuit, counting each iteration of a `for`.
-pub const MAX_STATEMENTS: usize = 500_000;
-
-/// The most bits of a net.
-pub const MAX_WIDTH: i64 = 1 << 20;
-
-/// How deep circuits may be built of circuits.
-pub const MAX_HIERARCHY: usize = 200;
 
 /// The netlist of a circuit.
 ///
@@ -129,14 +117,4 @@ impl<'a> Inspector<'a> {
     pub fn into_diagnostics(self) -> Vec<Diagnostic> {
         self.0.diagnostics
     }
-}
-
-/// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
-fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
-    let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
-    wording::unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
-}
-
-fn module_id(at: usize) -> ModuleId {
-    ModuleId(u32::try_from(at).expect("fewer than 2^32 modules"))
 }

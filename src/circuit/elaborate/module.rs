@@ -7,6 +7,13 @@ use crate::source::Span;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct ModuleId(pub(super) u32);
 
+impl ModuleId {
+    /// The identity of the module at this index.
+    pub(super) fn new(at: usize) -> Self {
+        Self(u32::try_from(at).expect("fewer than 2^32 modules"))
+    }
+}
+
 /// One bit inside a module: the place of its signal.
 pub(super) type Bit = u32;
 

@@ -1,7 +1,7 @@
 //! Comparison of two networks over every pattern of their inputs.
 
 use crate::circuit::network::{Network, counting_word};
-use crate::circuit::proof::Method;
+use crate::circuit::proof::method::Method;
 
 /// Simulates all patterns; fails with the first output and pattern that differ.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {

@@ -5,10 +5,13 @@
 //! is compared cell by cell.
 
 mod exhaustive;
+mod method;
 mod sat;
 mod structural;
 
 use std::collections::{BTreeMap, BTreeSet};
+
+pub use method::Method;
 
 use crate::circuit::loops::Loops;
 use crate::circuit::network::{Network, View};
@@ -16,23 +19,6 @@ use crate::circuit::{NetId, Netlist, NetlistError, Node, passes};
 
 /// The most inputs, cuts included, for which every pattern is simulated.
 pub const EXHAUSTIVE_INPUTS: usize = 16;
-
-/// How a netlist was proved equal to its source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Every pattern of the inputs and cuts was simulated.
-    Exhaustive {
-        /// The number of patterns.
-        patterns: u64,
-    },
-    /// The two netlists are equal gate by gate, whatever cells each gate is made of.
-    Structural,
-    /// A SAT solver found no pattern in which they differ.
-    Sat {
-        /// The number of calls of the solver.
-        calls: usize,
-    },
-}
 
 /// A netlist proved equal to its source.
 #[derive(Clone, Debug, PartialEq, Eq)]

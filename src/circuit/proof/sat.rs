@@ -10,7 +10,7 @@ use rustsat::types::{Lit, TernaryVal};
 use rustsat_batsat::BasicSolver;
 
 use crate::circuit::network::{Gate, Network, Signal, word};
-use crate::circuit::proof::Method;
+use crate::circuit::proof::method::Method;
 use crate::model::Function;
 
 /// Words of 64 random patterns to start with.

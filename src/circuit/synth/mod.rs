@@ -8,4 +8,4 @@ mod roam;
 pub mod walk;
 pub mod window;
 
-pub use reduce::{Effort, reduce};
+pub use reduce::reduce;

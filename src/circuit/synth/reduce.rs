@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::circuit::cells::CellLibrary;
-use crate::circuit::map::{MapOptions, Objective};
+use crate::circuit::options::{Effort, MapOptions, Objective};
 use crate::circuit::network::{Network, Signal};
 use crate::circuit::synth::exact::{self, Answer};
 use crate::circuit::synth::graph::Graph;
@@ -13,18 +13,6 @@ use crate::circuit::synth::roam::roam;
 use crate::circuit::synth::walk::{self, Pace, Plan};
 use crate::circuit::synth::window::{self, Panes};
 use crate::model::Function;
-
-/// The amount of search.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Effort {
-    /// Little: for quick looks.
-    Fast,
-    /// Well under a second for most circuits.
-    #[default]
-    Normal,
-    /// As good as it gets in minutes.
-    High,
-}
 
 /// The most inputs of a network that is searched as a whole.
 const WHOLE_INPUTS: usize = 11;

@@ -1,0 +1,34 @@
+//! Options of mapping: what is minimized, and the amount of search.
+
+/// What to minimize.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Objective {
+    /// Robots.
+    #[default]
+    Area,
+    /// Cycles along the slowest path, then robots.
+    Delay,
+    /// The risk of a wrong output: maximizes the smallest noise margin of the robots, then minimizes their number.
+    Margin,
+}
+
+/// The amount of search.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Effort {
+    /// Little: for quick looks.
+    Fast,
+    /// Well under a second for most circuits.
+    #[default]
+    Normal,
+    /// As good as it gets in minutes.
+    High,
+}
+
+/// How to map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MapOptions {
+    /// What to minimize.
+    pub objective: Objective,
+    /// The amount of search.
+    pub effort: Effort,
+}

@@ -1,0 +1,13 @@
+//! How bad an error is.
+
+use serde::Serialize;
+
+/// The severity of a diagnostic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Legal, but probably a mistake.
+    Warning,
+    /// The program is invalid.
+    Error,
+}
