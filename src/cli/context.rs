@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::ser::Formatter;
 
-use crate::cli::Failure;
+use crate::cli::Status;
+use crate::cli::failure::{Failure, unprintable};
 use crate::cli::output::Output;
 use crate::diag::{Diagnostic, is_hidden, render, visible};
 use crate::report::{Document, Schema};
@@ -114,6 +115,22 @@ impl Context {
             told.extend(is_new.then(|| warning.clone()));
         }
         self.tell(&told, &source.sources);
+    }
+
+    /// Reports a failure, and returns the exit status.
+    pub(super) fn report(&mut self, failure: Failure) -> Status {
+        match failure {
+            Failure::Input(found) => {
+                if self.format == Format::Json {
+                    let value = serde_json::json!({ "diagnostics": found.json() });
+                    // The failure itself is what matters if this cannot be written either.
+                    let _ = self.print_json(Schema::Diagnostics, &value).and_then(|()| self.flush());
+                }
+                self.tell(&found.list, &found.sources);
+            }
+            Failure::Output(error) => self.tell(&[unprintable(&error)], &Sources::default()),
+        }
+        Status::BadInput
     }
 
     /// Writes diagnostics to standard error, with excerpts of the sources.

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
-use crate::cli::{Context, Failure, Format, Status, library};
+use crate::cli::{Context, Failure, Format, Status, robots};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Library;
 use crate::report::{Document, Elites, Schema, robots_csv};
@@ -89,7 +89,7 @@ impl Arguments {
 
     fn library(&self) -> Result<Library, Failure> {
         let found =
-            if self.what == "shipped" { store::shipped_library() } else { library::robots(Path::new(&self.what))? };
+            if self.what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(&self.what))? };
         if found.robots.is_empty() {
             let message = format!("`{}` has neither a run nor robots", self.what);
             let help = "name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`";

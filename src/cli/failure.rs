@@ -3,9 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use crate::cli::{Context, Format, Status};
 use crate::diag::{Code, Diagnostic, Diagnostics, io_words};
-use crate::report::Schema;
 use crate::source::Sources;
 
 /// Why a command could not be carried out.
@@ -28,29 +26,15 @@ impl Failure {
         Self::Input(diagnostic.into())
     }
 
+    /// A file or folder that cannot be read.
+    pub fn unreadable(path: &Path, error: &io::Error) -> Self {
+        let message = format!("cannot read `{}`: {}", path.display(), error.to_string().to_lowercase());
+        Self::plain(Diagnostic::without_place(Code::Unreadable, message))
+    }
+
     /// A file or folder that cannot be written.
     pub fn unwritable(path: &Path, error: &io::Error) -> Self {
         Self::plain(Diagnostic::unwritable(path, error))
-    }
-
-    /// Tells the user, and says how the program ends.
-    pub fn report(self, context: &mut Context) -> Status {
-        match self {
-            Self::Input(found) => {
-                if context.format == Format::Json {
-                    // The failure itself is what matters if this cannot be written either.
-                    let _ = context
-                        .print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": found.json() }))
-                        .and_then(|()| context.flush());
-                }
-                context.tell(&found.list, &found.sources);
-                Status::BadInput
-            }
-            Self::Output(error) => {
-                context.tell(&[unprintable(&error)], &Sources::default());
-                Status::BadInput
-            }
-        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::circuit::{CellLibrary, Effort, MapOptions, Objective};
-use crate::cli::{Failure, library};
+use crate::cli::{Failure, robots};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
 use crate::{store, swarm};
@@ -36,7 +36,7 @@ impl MappingArguments {
     /// The library that the user chose.
     pub(super) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
         Ok(Some(match (&self.library, &self.cells[..]) {
-            (Some(path), _) => swarm::cells(&library::robots(path)?),
+            (Some(path), _) => swarm::cells(&robots::robots(path)?),
             (None, []) => return Ok(None),
             (None, [all]) if all == "all" => CellLibrary::uniform(
                 Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),

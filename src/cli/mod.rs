@@ -19,7 +19,9 @@ mod mapping;
 mod output;
 mod program;
 mod progress;
+mod robots;
 mod run;
+mod run_folder;
 mod schedule;
 mod simulate;
 mod status;
@@ -111,7 +113,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let outcome = threads::start(&context)
         .and_then(|()| cli.command.run(&mut context))
         .and_then(|status| context.flush().map(|()| status));
-    outcome.unwrap_or_else(|failure| failure.report(&mut context)).into()
+    outcome.unwrap_or_else(|failure| context.report(failure)).into()
 }
 
 /// Prints the message of clap: help, the version, or a usage error.

@@ -1,17 +1,15 @@
 //! `nbc simulate`: one body under a schedule of stimuli.
 
-use std::path::Path;
-
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::{Context, Failure, Format, Status, library, schedule};
+use crate::cli::robots::read_body;
+use crate::cli::{Context, Failure, Format, Status, schedule};
 use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Schema, Table};
 use crate::sim::Simulator;
-use crate::source::{FileError, Sources};
-use crate::store;
+use crate::source::Sources;
 
 /// The most ground voxels in a row.
 const MAX_WORLD_WIDTH: usize = 1_000_000;
@@ -76,21 +74,6 @@ fn read_schedule(text: &str) -> Result<Schedule, Failure> {
     let mut sources = Sources::default();
     let id = sources.add("--schedule", text);
     schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
-}
-
-/// The body in a file; failing a file, that of a robot of the library.
-pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
-    let mut sources = Sources::default();
-    match store::read_text(Path::new(robot), store::MAX_ROBOT_BYTES) {
-        Ok(text) => {
-            let id = sources.add(robot, text);
-            store::read_body(sources.file(id)).map_err(|fault| Failure::input(vec![fault], sources))
-        }
-        Err(FileError::NotFound) if !robot.contains(['/', '.']) => {
-            library::find(&store::shipped_library(), robot).map(|robot| robot.body.clone())
-        }
-        Err(error) => Err(Failure::plain(Diagnostic::unreadable(robot, &error))),
-    }
 }
 
 /// Whether the body stands on the ground of the world.

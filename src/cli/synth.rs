@@ -142,11 +142,6 @@ impl Report {
     }
 }
 
-pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
-    let message = format!("cannot read `{}`: {}", path.display(), error.to_string().to_lowercase());
-    Failure::plain(Diagnostic::without_place(Code::Unreadable, message))
-}
-
 /// The format for a file's extension.
 fn format(path: &Path) -> Result<circuit::formats::Format, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::model::{Body, Palette, Robot};
 use crate::report::Color;
-use crate::report::scheme::Scheme;
 use crate::report::looks::{Look, Looks, draw_mark, draw_swatch};
+use crate::report::scheme::Scheme;
 use crate::report::svg::{Paint, Point, Svg, Type};
 
 /// The mean width of a letter of a legend.

@@ -129,9 +129,7 @@ fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
 mod tests {
     use super::*;
     use crate::evolve::{Outcome, Scores};
-    use crate::model::{
-        Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Symmetry,
-    };
+    use crate::model::{Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Symmetry};
 
     fn evolution() -> Evolution {
         Evolution {

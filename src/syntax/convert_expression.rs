@@ -4,8 +4,8 @@ use pest::iterators::Pair;
 
 use crate::model::Operator;
 use crate::source::Span;
-use crate::syntax::convert::{Converter, parts};
 use crate::syntax::arena::Arena;
+use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{ExpressionId, ExpressionKind, Index, Infix, SizeId, SizeKind, TableRow};
 use crate::syntax::wording::{Slip, SyntaxError};

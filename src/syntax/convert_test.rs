@@ -2,8 +2,8 @@
 
 use pest::iterators::Pair;
 
-use crate::syntax::convert::{Converter, parts};
 use crate::syntax::arena::Arena;
+use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{Name, Schedule, Simulate, Spell, Test, TestKind, TestRow, TestTable, With};
 

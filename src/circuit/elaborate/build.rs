@@ -3,11 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::circuit::elaborate::frame::{Frame, Item};
-use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
-use crate::circuit::elaborate::wording::{ElaborateError, shown_at};
 use crate::circuit::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
-use crate::circuit::elaborate::wording;
-use crate::diag::Diagnostic;
+use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
+use crate::circuit::elaborate::wording::{ElaborateError, shown_at, unknown_circuit};
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use crate::source::Span;
 
@@ -295,7 +294,7 @@ fn undriven_bits(name: &str, missing: &[u32], width: u32) -> Option<String> {
 /// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
 fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
     let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
-    wording::unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
+    unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::circuit::cells::CellLibrary;
-use crate::circuit::options::{Effort, MapOptions, Objective};
 use crate::circuit::network::{Network, Signal};
+use crate::circuit::options::{Effort, MapOptions, Objective};
 use crate::circuit::synth::exact::{self, Answer};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::prices::Prices;

@@ -1,6 +1,6 @@
 //! Options of `nbc draw` that cannot apply to what is drawn: they are refused, not ignored.
 
-use crate::cli::draw::Arguments;
+use crate::cli::draw::arguments::Arguments;
 use crate::cli::draw::kind::Kind;
 use crate::diag::{Code, Diagnostic};
 

@@ -1,7 +1,7 @@
 //! Pictures of one robot.
 
 use crate::cli::Failure;
-use crate::cli::draw::Arguments;
+use crate::cli::draw::arguments::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::diag::{Code, Diagnostic};

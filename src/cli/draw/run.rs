@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::draw::Arguments;
+use crate::cli::draw::arguments::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::robot::Subject;
 use crate::cli::draw::several::{One, Several, champions};
-use crate::cli::evolve::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
+use crate::cli::run_folder::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
 use crate::cli::{Context, Failure};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::NicheKey;

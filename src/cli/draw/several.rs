@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::cli::Failure;
-use crate::cli::draw::Arguments;
+use crate::cli::draw::arguments::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::model::{Behavior, Body, CYCLE_STEPS, Library, Schedule, Setting, Trial};

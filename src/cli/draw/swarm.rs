@@ -3,7 +3,7 @@
 use crate::circuit::formats::dot;
 use crate::circuit::is_same_instance;
 use crate::cli::Failure;
-use crate::cli::draw::Arguments;
+use crate::cli::draw::arguments::Arguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::several::{One, Several};

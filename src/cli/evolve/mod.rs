@@ -1,13 +1,12 @@
 //! `nbc evolve`: evolution runs, resumable.
 
+mod arguments;
 mod run;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use std::time::Instant;
 
-use clap::Args;
 use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
@@ -23,7 +22,7 @@ use crate::sim::Simulator;
 use crate::store::{self, DiskWorld};
 use crate::swarm;
 
-pub(super) use run::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
+pub(super) use arguments::Arguments;
 
 /// The size of a run with `--quick`.
 const QUICK_SEEDS: usize = 3;
@@ -31,46 +30,6 @@ const QUICK_GENERATIONS: u32 = 200;
 /// The number of evaluations above which the duration is estimated, and the number that is timed for the estimate.
 const LONG: u64 = 20_000;
 const SAMPLE: usize = 8;
-
-/// Evolve robots by the evolution declarations of a file
-#[derive(Args)]
-#[command(after_help = "\
-Examples:
-  nbc evolve                                the evolution `gates` of the prelude, into out/gates
-  nbc evolve library/evolve.nb --run gates5 one run of a file
-  nbc evolve library/evolve.nb --resume     continue after an interruption
-
-Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
-pub struct Arguments {
-    /// The file with the declarations; without it, `gates` of the prelude
-    file: Option<PathBuf>,
-    /// Run only the declaration with this name
-    #[arg(long, value_name = "NAME")]
-    run: Option<String>,
-    /// Use this seed instead of the declared ones
-    #[arg(long)]
-    seed: Option<u64>,
-    /// Use this number of generations instead of the declared one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    generations: Option<u32>,
-    /// The folder for results
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Continue from the checkpoints in the folder; start runs without one
-    #[arg(long)]
-    resume: bool,
-    /// Run a small version of the first declaration: three seeds, 200 generations
-    #[arg(long, conflicts_with_all = ["seed", "generations"])]
-    quick: bool,
-    /// Seconds between checkpoints; 0 writes one each generation
-    #[arg(long, value_name = "SECONDS", default_value_t = 10)]
-    checkpoint_every: u64,
-    /// Write a page with plots, on which the archive's elites walk
-    #[arg(long)]
-    report: bool,
-    #[command(flatten)]
-    timings: Timings,
-}
 
 /// The output for programs.
 #[derive(Default, Serialize)]

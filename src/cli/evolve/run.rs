@@ -7,22 +7,18 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::cli::evolve::Arguments;
+use crate::cli::evolve::arguments::Arguments;
+use crate::cli::run_folder::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
 use crate::cli::timings::{Chore, Timer};
 use crate::cli::{Context, Failure, Interrupt, Progress};
-use crate::diag::{Code, Diagnostic, Severity};
+use crate::diag::{Code, Diagnostic};
 use crate::evolve::{ArchiveStats, Search};
 use crate::model::Evolution;
 use crate::report::{EvolutionLine, History, evolution_table};
 use crate::sim::Simulator;
-use crate::source::{FileError, Sources};
-use crate::store::{self, Checkpoint, FolderLock, LockFault, MAX_CHECKPOINT_BYTES, MAX_PROGRESS_BYTES};
+use crate::source::Sources;
+use crate::store::{self, Checkpoint, FolderLock, LockFault};
 use crate::swarm::{self, Work};
-
-/// The file in a run's folder that it is resumed from.
-pub(in crate::cli) const CHECKPOINT: &str = "checkpoint.nbc";
-/// The file in a run's folder with a line for each generation.
-pub(in crate::cli) const PROGRESS: &str = "progress.jsonl";
 
 /// How one run ended.
 #[derive(Serialize)]
@@ -208,31 +204,6 @@ impl<'a> Run<'a> {
 /// Seconds spent so far on asking and telling: parents, mutation, development, the archive.
 fn searching(timer: &Timer) -> f64 {
     timer.seconds(Chore::Development) + timer.seconds(Chore::Archive)
-}
-
-/// The checkpoint at a path, if there is one.
-pub(in crate::cli) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {
-    let name = path.display().to_string();
-    match store::read(path, MAX_CHECKPOINT_BYTES) {
-        Ok(bytes) => Checkpoint::read(&name, &bytes).map(Some).map_err(Failure::plain),
-        Err(FileError::NotFound) => Ok(None),
-        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&name, &error))),
-    }
-}
-
-/// The bytes of a file of progress, none where there is no file.
-pub(in crate::cli) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
-    match store::read(path, MAX_PROGRESS_BYTES) {
-        Ok(bytes) => Ok(bytes),
-        Err(FileError::NotFound) => Ok(Vec::new()),
-        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&path.display().to_string(), &error))),
-    }
-}
-
-/// A warning of a file of progress that lacks what the checkpoint beside it has done.
-pub(in crate::cli) fn damaged(path: &Path, damage: &str, help: &str) -> Diagnostic {
-    let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{}` {damage}", path.display()));
-    Diagnostic { severity: Severity::Warning, ..fault.with_help(help) }
 }
 
 fn not_ours(folder: &Path, fault: LockFault) -> Failure {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::evolve::read_checkpoint;
+use crate::cli::run_folder::{CHECKPOINT, read_checkpoint};
 use crate::cli::{Context, Failure, Format, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
@@ -107,7 +107,7 @@ impl Arguments {
         let mut nominees: BTreeMap<Behavior, Vec<Nominee>> =
             Behavior::all().filter(is_asked).map(|behavior| (behavior, Vec::new())).collect();
         for folder in &self.runs {
-            let path = folder.join(crate::cli::evolve::CHECKPOINT);
+            let path = folder.join(CHECKPOINT);
             let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
             for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
                 if let Some(found) = nominees.get_mut(&elite.behavior) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::library::robot_paths;
+use crate::cli::robots::robot_paths;
 use crate::cli::{Context, Failure, Format, Status};
 use crate::diag::Diagnostic;
 use crate::report::Schema;

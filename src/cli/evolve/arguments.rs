@@ -1,0 +1,47 @@
+//! The arguments of `nbc evolve`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::timings::Timings;
+
+/// Evolve robots by the evolution declarations of a file
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  nbc evolve                                the evolution `gates` of the prelude, into out/gates
+  nbc evolve library/evolve.nb --run gates5 one run of a file
+  nbc evolve library/evolve.nb --resume     continue after an interruption
+
+Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
+pub struct Arguments {
+    /// The file with the declarations; without it, `gates` of the prelude
+    pub(super) file: Option<PathBuf>,
+    /// Run only the declaration with this name
+    #[arg(long, value_name = "NAME")]
+    pub(super) run: Option<String>,
+    /// Use this seed instead of the declared ones
+    #[arg(long)]
+    pub(super) seed: Option<u64>,
+    /// Use this number of generations instead of the declared one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) generations: Option<u32>,
+    /// The folder for results
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub(super) out: PathBuf,
+    /// Continue from the checkpoints in the folder; start runs without one
+    #[arg(long)]
+    pub(super) resume: bool,
+    /// Run a small version of the first declaration: three seeds, 200 generations
+    #[arg(long, conflicts_with_all = ["seed", "generations"])]
+    pub(super) quick: bool,
+    /// Seconds between checkpoints; 0 writes one each generation
+    #[arg(long, value_name = "SECONDS", default_value_t = 10)]
+    pub(super) checkpoint_every: u64,
+    /// Write a page with plots, on which the archive's elites walk
+    #[arg(long)]
+    pub(super) report: bool,
+    #[command(flatten)]
+    pub(super) timings: Timings,
+}

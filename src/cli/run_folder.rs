@@ -1,0 +1,38 @@
+//! The folder of an evolution run: its checkpoint and its progress.
+
+use std::path::Path;
+
+use crate::cli::Failure;
+use crate::diag::{Code, Diagnostic, Severity};
+use crate::source::FileError;
+use crate::store::{self, Checkpoint, MAX_CHECKPOINT_BYTES, MAX_PROGRESS_BYTES};
+
+/// The file in a run's folder that it is resumed from.
+pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
+/// The file in a run's folder with a line for each generation.
+pub(super) const PROGRESS: &str = "progress.jsonl";
+
+/// The checkpoint at a path, if there is one.
+pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {
+    let name = path.display().to_string();
+    match store::read(path, MAX_CHECKPOINT_BYTES) {
+        Ok(bytes) => Checkpoint::read(&name, &bytes).map(Some).map_err(Failure::plain),
+        Err(FileError::NotFound) => Ok(None),
+        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&name, &error))),
+    }
+}
+
+/// The bytes of a file of progress, none where there is no file.
+pub(super) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
+    match store::read(path, MAX_PROGRESS_BYTES) {
+        Ok(bytes) => Ok(bytes),
+        Err(FileError::NotFound) => Ok(Vec::new()),
+        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&path.display().to_string(), &error))),
+    }
+}
+
+/// A warning of a file of progress that lacks what the checkpoint beside it has done.
+pub(super) fn damaged(path: &Path, damage: &str, help: &str) -> Diagnostic {
+    let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{}` {damage}", path.display()));
+    Diagnostic { severity: Severity::Warning, ..fault.with_help(help) }
+}
