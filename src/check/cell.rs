@@ -6,11 +6,11 @@ use crate::check::constant;
 use crate::check::wording::CellError;
 use crate::diag::{Diagnostic, counted};
 use crate::model::{Base, Column};
-use crate::syntax::tree::Name;
+use crate::syntax::tree::NameSyntax;
 
 /// A value of a row, as bits with the most significant first.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Cell {
+pub(crate) enum RowCell {
     /// The bits, or `None` for `-`, and the text as written.
     Bits(Vec<Option<bool>>, Base),
     /// A rising edge: 0, then 1.
@@ -18,10 +18,10 @@ pub(crate) enum Cell {
 }
 
 /// Reads a value for a column.
-pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
+pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
     match word.text.as_str() {
-        "-" => return Ok(Cell::Bits(vec![None; column.width], Base::of_width(column.width))),
-        "^" if column.width == 1 => return Ok(Cell::Pulse),
+        "-" => return Ok(RowCell::Bits(vec![None; column.width], Base::of_width(column.width))),
+        "^" if column.width == 1 => return Ok(RowCell::Pulse),
         "^" => {
             let error = CellError::WidePulse { column: column.name.clone(), width: column.width };
             return Err(error.at(word.span));
@@ -34,17 +34,17 @@ pub(crate) fn cell(word: &Name, column: &Column) -> Result<Cell, Diagnostic> {
     };
     let letter = word.text.split_once('\'').and_then(|(_, constant)| constant.chars().next());
     if bits.len() == column.width {
-        Ok(Cell::Bits(bits, letter.and_then(Base::of_letter).unwrap_or_default()))
+        Ok(RowCell::Bits(bits, letter.and_then(Base::of_letter).unwrap_or_default()))
     } else {
         Err(wrong_width(word, &counted(bits.len(), "bit"), column))
     }
 }
 
-fn wrong_width(word: &Name, found: &str, column: &Column) -> Diagnostic {
+fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
     CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width }.at(word.span)
 }
 
-fn plain(word: &Name) -> Result<Vec<Option<bool>>, Diagnostic> {
+fn plain(word: &NameSyntax) -> Result<Vec<Option<bool>>, Diagnostic> {
     let bit = |c| match c {
         '0' => Some(Some(false)),
         '1' => Some(Some(true)),
@@ -55,7 +55,7 @@ fn plain(word: &Name) -> Result<Vec<Option<bool>>, Diagnostic> {
 }
 
 /// A number with the given width in bits.
-fn sized(word: &Name, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
+fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
     let mut digits = constant.chars();
     let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word))?;
     if width.is_empty() || !width.bytes().all(|byte| byte.is_ascii_digit()) {
@@ -76,6 +76,6 @@ fn sized(word: &Name, width: &str, constant: &str, column: &Column) -> Result<Ve
     Ok((0..width).rev().map(|bit| Some(bit < 128 && value >> bit & 1 == 1)).collect())
 }
 
-fn no_value(word: &Name) -> Diagnostic {
+fn no_value(word: &NameSyntax) -> Diagnostic {
     CellError::NotAValue { word: word.text.clone() }.at(word.span)
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::check::names::{Home, Names, duplicate};
+use crate::check::names::{Home, NameTable, duplicate};
 use crate::check::wording::{CircuitError, NameError};
 use crate::diag::{Code, Diagnostic, Suggestion, suggest};
 use crate::model::{
@@ -29,7 +29,7 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    pub(crate) fn of(circuit: &tree::Circuit) -> Self {
+    pub(crate) fn of(circuit: &tree::CircuitSyntax) -> Self {
         let names = |ports: &[tree::Port]| ports.iter().map(|port| port.name.text.clone()).collect();
         Self {
             name: circuit.name.text.clone(),
@@ -54,8 +54,8 @@ pub(crate) enum Binding {
 
 /// A circuit that is being checked.
 pub(crate) struct CircuitChecker<'a> {
-    pub(crate) body: &'a tree::Body,
-    pub(crate) names: &'a Names,
+    pub(crate) body: &'a tree::BodySyntax,
+    pub(crate) names: &'a NameTable,
     pub(crate) headers: &'a Headers,
     pub(crate) home: Home,
     pub(crate) circuit: Circuit,
@@ -76,7 +76,12 @@ pub(crate) struct CheckedCircuit {
 }
 
 /// Checks one circuit.
-pub(crate) fn circuit(source: &tree::Circuit, home: Home, names: &Names, headers: &Headers) -> CheckedCircuit {
+pub(crate) fn circuit(
+    source: &tree::CircuitSyntax,
+    home: Home,
+    names: &NameTable,
+    headers: &Headers,
+) -> CheckedCircuit {
     let circuit = Circuit {
         name: source.name.text.clone(),
         span: source.name.span,
@@ -110,7 +115,7 @@ pub(crate) fn circuit(source: &tree::Circuit, home: Home, names: &Names, headers
 }
 
 impl<'a> CircuitChecker<'a> {
-    fn parameters(&mut self, parameters: &'a [tree::Parameter]) {
+    fn parameters(&mut self, parameters: &'a [tree::ParameterSyntax]) {
         for parameter in parameters {
             let default = parameter.default.map(|size| self.size(size));
             let slot = self.variable(&parameter.name);
@@ -120,7 +125,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn ports(&mut self, source: &'a tree::Circuit) {
+    fn ports(&mut self, source: &'a tree::CircuitSyntax) {
         for port in source.inputs.iter().chain(&source.outputs) {
             let width = port.width.map(|size| self.size(size));
             self.declare(&port.name, width);
@@ -133,14 +138,14 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn variable(&mut self, name: &'a tree::Name) -> u32 {
+    fn variable(&mut self, name: &'a tree::NameSyntax) -> u32 {
         let slot = self.circuit.variables as u32;
         self.circuit.variables += 1;
         self.bind(name, Binding::Variable(slot, name.span));
         slot
     }
 
-    fn declare(&mut self, name: &'a tree::Name, width: Option<SizeId>) -> NetSlot {
+    fn declare(&mut self, name: &'a tree::NameSyntax, width: Option<SizeId>) -> NetSlot {
         let slot = NetSlot(self.circuit.nets.len() as u32);
         self.circuit.nets.push(Net { name: name.text.clone(), span: name.span, width });
         self.used.push(name.text.starts_with('_'));
@@ -149,7 +154,7 @@ impl<'a> CircuitChecker<'a> {
         slot
     }
 
-    fn bind(&mut self, name: &'a tree::Name, binding: Binding) {
+    fn bind(&mut self, name: &'a tree::NameSyntax, binding: Binding) {
         let scope = self.scopes.last_mut().expect("a circuit has a scope");
         if let Some(first) = scope.insert(&name.text, binding) {
             // A second message for the other one of the two nets would be redundant.
@@ -171,7 +176,7 @@ impl<'a> CircuitChecker<'a> {
         self.scopes.iter().rev().find_map(|scope| scope.get(name)).copied()
     }
 
-    fn block(&mut self, statements: &'a [tree::Statement]) -> Block {
+    fn block(&mut self, statements: &'a [tree::StatementSyntax]) -> Block {
         let first = if self.scopes.len() == 1 { 0 } else { self.circuit.nets.len() as u32 };
         self.declare_nets(statements);
         let last = self.circuit.nets.len() as u32;
@@ -180,7 +185,7 @@ impl<'a> CircuitChecker<'a> {
     }
 
     /// Nets may be used before they are driven, so the nets of a block are declared before its statements are read.
-    fn declare_nets(&mut self, statements: &'a [tree::Statement]) {
+    fn declare_nets(&mut self, statements: &'a [tree::StatementSyntax]) {
         for statement in statements {
             if let tree::StatementKind::Nets(nets) = &statement.kind {
                 for port in nets {
@@ -204,7 +209,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn statement(&mut self, statement: &'a tree::Statement) -> Option<Statement> {
+    fn statement(&mut self, statement: &'a tree::StatementSyntax) -> Option<Statement> {
         match &statement.kind {
             tree::StatementKind::Nets(_) => None,
             tree::StatementKind::Drive { targets, value, .. } => self.drive(targets, *value),
@@ -220,7 +225,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn drive(&mut self, targets: &'a [tree::Target], value: tree::ExpressionId) -> Option<Statement> {
+    fn drive(&mut self, targets: &'a [tree::TargetSyntax], value: tree::ExpressionSyntaxId) -> Option<Statement> {
         let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
         let span = self.body.expressions[value.0 as usize].span;
         let value = self.expression(value, targets.len());
@@ -230,7 +235,7 @@ impl<'a> CircuitChecker<'a> {
         Some(Statement::Drive { targets: lowered.into_iter().collect::<Option<_>>()?, value })
     }
 
-    fn target(&mut self, target: &'a tree::Target) -> Option<Target> {
+    fn target(&mut self, target: &'a tree::TargetSyntax) -> Option<Target> {
         let start = target.start.map(|size| self.size(size));
         if target.name.text == "_" {
             return Some(Target { net: None, bits: None, start, span: target.span });
@@ -251,7 +256,7 @@ impl<'a> CircuitChecker<'a> {
         Some(Target { net: Some(slot), bits, start, span: target.span })
     }
 
-    fn target_faults(&self, target: &tree::Target, slot: NetSlot) -> Option<Diagnostic> {
+    fn target_faults(&self, target: &tree::TargetSyntax, slot: NetSlot) -> Option<Diagnostic> {
         let net = &self.circuit.nets[slot.0 as usize];
         let slot = slot.0 as usize;
         if slot < self.circuit.inputs {
@@ -285,7 +290,7 @@ impl<'a> CircuitChecker<'a> {
     }
 
     /// The net for a name in an expression.
-    pub(crate) fn net(&mut self, name: &tree::Name) -> Option<NetSlot> {
+    pub(crate) fn net(&mut self, name: &tree::NameSyntax) -> Option<NetSlot> {
         match self.lookup(&name.text) {
             Some(Binding::Net(slot)) => {
                 self.used[slot.0 as usize] = true;
@@ -302,7 +307,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn unknown_net(&self, name: &tree::Name) -> Diagnostic {
+    fn unknown_net(&self, name: &tree::NameSyntax) -> Diagnostic {
         let circuit = self.names.find(&name.text, self.home);
         let circuit = circuit.map(|circuit| self.headers.circuits[circuit].signature());
         let meant = if circuit.is_some() || self.diagnostics.len() >= suggest::MOST {

@@ -4,17 +4,17 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::check::fields::{self, Fields};
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::{EvolutionError, Expected, NameError};
 use crate::diag::Diagnostic;
 use crate::evolve::LEAST_ACTUATORS;
 use crate::model::{
-    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Objective, Palette, Pattern, Program,
-    Rules, Schedule, Symmetry,
+    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Palette, Pattern, Program, Rules,
+    Schedule, SearchObjective, Symmetry,
 };
 use crate::source::Span;
-use crate::syntax::tree::{Name, Number, Quantity, RecordDeclaration, Value, ValueKind};
+use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
 
 /// The largest width and height of a body's box, in voxels.
 const MAX_BOX: u32 = 64;
@@ -25,16 +25,16 @@ const MAX_SEEDS: u32 = 10_000;
 /// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
     pub(crate) program: &'a Program,
-    pub(crate) materials: &'a Names,
-    pub(crate) schedules: &'a Names,
-    pub(crate) evolutions: &'a Names,
+    pub(crate) materials: &'a NameTable,
+    pub(crate) schedules: &'a NameTable,
+    pub(crate) evolutions: &'a NameTable,
     /// The evolutions by the position of their names, as far as they are checked.
-    pub(crate) checked: &'a [State],
+    pub(crate) checked: &'a [CheckState],
 }
 
 /// The state of checking an evolution.
 #[derive(Clone, Debug)]
-pub(crate) enum State {
+pub(crate) enum CheckState {
     /// Not yet checked. If another evolution takes its fields from it at this time, the two form a circle.
     Open,
     /// Invalid; its errors are already reported.
@@ -44,7 +44,7 @@ pub(crate) enum State {
 }
 
 /// The positions of evolutions, each after the one named by its `from`, as far as such an order exists.
-pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &Names) -> Vec<usize> {
+pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &NameTable) -> Vec<usize> {
     let mut taken = vec![false; sources.len()];
     let mut order = Vec::new();
     for start in 0..sources.len() {
@@ -69,11 +69,11 @@ pub(crate) fn evolution(
     home: Home,
     known: &Known<'_>,
     faults: &mut Vec<Diagnostic>,
-) -> State {
+) -> CheckState {
     let mut fields = Fields::new("evolution", source);
     let base = fields.read("from", &known.checked[0], |value| base(value, home, known));
     let (base, whole) = match base {
-        State::Sound(base) => (Evolution::clone(base), true),
+        CheckState::Sound(base) => (Evolution::clone(base), true),
         // The first evolution of the prelude has the default values of the others.
         _ => (paper(), fields.value("from").is_none()),
     };
@@ -106,7 +106,7 @@ pub(crate) fn evolution(
     let found = fields.finish();
     let sound = found.is_empty() && whole;
     faults.extend(found);
-    if sound { State::Sound(Box::new(evolution)) } else { State::Faulty }
+    if sound { CheckState::Sound(Box::new(evolution)) } else { CheckState::Faulty }
 }
 
 /// The paper's evolution without its materials and stimuli, which the prelude declares.
@@ -125,22 +125,22 @@ fn paper() -> Evolution {
         generations: 3000,
         seeds: vec![1],
         rules: Rules::default(),
-        objective: Objective::default(),
+        objective: SearchObjective::default(),
         symmetry: Symmetry::default(),
         niche: Niche::default(),
     }
 }
 
-fn base<'a>(value: &Value, home: Home, known: &Known<'a>) -> Result<&'a State, Diagnostic> {
+fn base<'a>(value: &ValueSyntax, home: Home, known: &Known<'a>) -> Result<&'a CheckState, Diagnostic> {
     let name = fields::word(value, Expected::Name("evolution"))?;
     let found = &known.checked[known.evolutions.resolve(name, home)?];
-    if matches!(found, State::Open) {
+    if matches!(found, CheckState::Open) {
         return Err(EvolutionError::Circular { evolution: name.text.clone() }.at(name.span));
     }
     Ok(found)
 }
 
-fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
+fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {
     let ValueKind::Product(width, height) = &value.kind else {
         return Err(quantity::wrong_kind(Expected::Box, value.span));
     };
@@ -155,7 +155,7 @@ fn area(value: &Value) -> Result<(usize, usize), Diagnostic> {
     Ok((columns, rows))
 }
 
-fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>, Diagnostic> {
+fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Palette>, Diagnostic> {
     let mut materials: Vec<Material> = Vec::new();
     let values = fields::list(value);
     if values.is_empty() || values.len() > Palette::MAX_MATERIALS {
@@ -174,7 +174,7 @@ fn palette(value: &Value, home: Home, known: &Known<'_>) -> Result<Arc<Palette>,
     Ok(Arc::new(Palette::new(materials)))
 }
 
-fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {
+fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {
     let name = fields::word(value, Expected::Name("schedule"))?;
     let found: Option<&NamedSchedule> = known.program.schedules.get(known.schedules.resolve(name, home)?);
     if let Some(fault) = found.and_then(|found| missing_patterns(found, name)) {
@@ -184,7 +184,7 @@ fn schedule(value: &Value, home: Home, known: &Known<'_>) -> Result<Schedule, Di
 }
 
 /// A behavior is the response of a body to each of the four patterns of two stimuli.
-fn missing_patterns(schedule: &NamedSchedule, name: &Name) -> Option<Diagnostic> {
+fn missing_patterns(schedule: &NamedSchedule, name: &NameSyntax) -> Option<Diagnostic> {
     let shown = |pattern: &Pattern| {
         schedule.schedule.spells.iter().any(|spell| spell.pattern.pair_index() == pattern.pair_index())
     };
@@ -196,14 +196,14 @@ fn missing_patterns(schedule: &NamedSchedule, name: &Name) -> Option<Diagnostic>
     Some(EvolutionError::MissingPatterns { schedule: name.text.clone(), missing }.at(name.span))
 }
 
-fn steps(value: &Value) -> Result<u32, Diagnostic> {
+fn steps(value: &ValueSyntax) -> Result<u32, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => quantity::steps(quantity),
         _ => Err(quantity::wrong_kind(Expected::Time("10 cycles"), value.span)),
     }
 }
 
-fn axis(value: &Value) -> Result<Axis, Diagnostic> {
+fn axis(value: &ValueSyntax) -> Result<Axis, Diagnostic> {
     let ValueKind::Bins(name, bins) = &value.kind else {
         return match fields::word(value, Expected::Axis) {
             Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
@@ -222,7 +222,7 @@ fn axis(value: &Value) -> Result<Axis, Diagnostic> {
 
 /// A number, a list of numbers, or a range that includes both ends.
 fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
-    if let Some(Value { kind: ValueKind::Range(first, last), span }) = fields.value("seed") {
+    if let Some(ValueSyntax { kind: ValueKind::Range(first, last), span }) = fields.value("seed") {
         return fields.read("seed", None, |_| range_of_seeds(first, last, *span).map(Some));
     }
     let mut known = BTreeMap::new();
@@ -244,11 +244,11 @@ fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u
     Ok((first..=last).map(u64::from).collect())
 }
 
-fn objective(value: &Value) -> Result<Objective, Diagnostic> {
-    fields::choice(value, &[("distance", Objective::Distance), ("gate", Objective::Gate)])
+fn objective(value: &ValueSyntax) -> Result<SearchObjective, Diagnostic> {
+    fields::choice(value, &[("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate)])
 }
 
-fn niche(value: &Value) -> Result<Niche, Diagnostic> {
+fn niche(value: &ValueSyntax) -> Result<Niche, Diagnostic> {
     match &value.kind {
         ValueKind::Applied(name, size) if name.text == "pareto" && size.len() == 1 => {
             Ok(Niche::Pareto(quantity::count(&size[0], 1..=1000)? as usize))
@@ -258,7 +258,7 @@ fn niche(value: &Value) -> Result<Niche, Diagnostic> {
     }
 }
 
-fn mutation(value: &Value) -> Result<MutationWeights, Diagnostic> {
+fn mutation(value: &ValueSyntax) -> Result<MutationWeights, Diagnostic> {
     let ValueKind::Record(record) = &value.kind else {
         return Err(quantity::wrong_kind(Expected::Weights, value.span));
     };
@@ -277,7 +277,7 @@ fn mutation(value: &Value) -> Result<MutationWeights, Diagnostic> {
     }
 }
 
-fn weight(value: &Value) -> Result<f64, Diagnostic> {
+fn weight(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => quantity::within(quantity::bare(quantity)?, 0.0..=1e6, value.span),
         _ => Err(quantity::wrong_kind(Expected::Weight, value.span)),

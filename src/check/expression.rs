@@ -29,13 +29,13 @@ fn circuit_of(infix: Infix) -> &'static str {
 
 impl<'a> CircuitChecker<'a> {
     /// Resolves an expression from its leaves to its root without recursion. The root has `outputs` values.
-    pub(crate) fn expression(&mut self, root: tree::ExpressionId, outputs: usize) -> ExpressionId {
+    pub(crate) fn expression(&mut self, root: tree::ExpressionSyntaxId, outputs: usize) -> ExpressionId {
         let body = self.body;
         let mut done: Vec<ExpressionId> = Vec::new();
         for at in first_leaf(&body.expressions, root) as usize..=root.0 as usize {
             let expression = &body.expressions[at];
             let wanted = if at == root.0 as usize { outputs } else { 1 };
-            if let tree::ExpressionKind::Group(_) = expression.kind {
+            if let tree::ExpressionSyntaxKind::Group(_) = expression.kind {
                 continue;
             }
             let kind = self.kind(expression, wanted, &mut done);
@@ -46,7 +46,12 @@ impl<'a> CircuitChecker<'a> {
     }
 
     /// Several targets need a call of a circuit with the same number of outputs.
-    pub(crate) fn value_count(&self, id: ExpressionId, targets: &[tree::Target], span: Span) -> Option<Diagnostic> {
+    pub(crate) fn value_count(
+        &self,
+        id: ExpressionId,
+        targets: &[tree::TargetSyntax],
+        span: Span,
+    ) -> Option<Diagnostic> {
         let is_call = matches!(self.circuit.expressions[id.0 as usize].kind, ExpressionKind::Call { .. });
         if targets.len() == 1 || is_call {
             return None;
@@ -57,39 +62,39 @@ impl<'a> CircuitChecker<'a> {
 
     fn kind(
         &mut self,
-        expression: &'a tree::Expression,
+        expression: &'a tree::ExpressionSyntax,
         outputs: usize,
         done: &mut Vec<ExpressionId>,
     ) -> ExpressionKind {
         let span = expression.span;
         match &expression.kind {
-            tree::ExpressionKind::Digits(digits) => self.digits(digits, span),
-            tree::ExpressionKind::Constant { width, base, digits } => self.constant(*width, *base, digits, span),
-            tree::ExpressionKind::Computed { width, value } => {
+            tree::ExpressionSyntaxKind::Digits(digits) => self.digits(digits, span),
+            tree::ExpressionSyntaxKind::Constant { width, base, digits } => self.constant(*width, *base, digits, span),
+            tree::ExpressionSyntaxKind::Computed { width, value } => {
                 ExpressionKind::Computed { width: self.size(*width), value: self.size(*value) }
             }
-            tree::ExpressionKind::Net { name, index } => self.reference(name, index.as_ref()),
-            tree::ExpressionKind::Group(_) => unreachable!("groups are passed over"),
-            tree::ExpressionKind::Concatenation(parts) => ExpressionKind::Concatenation(take(done, parts.len())),
-            tree::ExpressionKind::Repetition { count, values } => {
+            tree::ExpressionSyntaxKind::Net { name, index } => self.reference(name, index.as_ref()),
+            tree::ExpressionSyntaxKind::Group(_) => unreachable!("groups are passed over"),
+            tree::ExpressionSyntaxKind::Concatenation(parts) => ExpressionKind::Concatenation(take(done, parts.len())),
+            tree::ExpressionSyntaxKind::Repetition { count, values } => {
                 self.repetition(*count, take(done, values.len()), span)
             }
-            tree::ExpressionKind::Not(_) => operation(Operator::Not, take(done, 1)),
-            tree::ExpressionKind::Infix { operator, place, .. } => self.infix(*operator, *place, take(done, 2)),
-            tree::ExpressionKind::Operation { operator, operands } => {
+            tree::ExpressionSyntaxKind::Not(_) => operation(Operator::Not, take(done, 1)),
+            tree::ExpressionSyntaxKind::Infix { operator, place, .. } => self.infix(*operator, *place, take(done, 2)),
+            tree::ExpressionSyntaxKind::Operation { operator, operands } => {
                 let operands = take(done, operands.len());
                 self.operand_count(*operator, operands.len(), span);
                 operation(*operator, operands)
             }
-            tree::ExpressionKind::Choice { .. } => {
+            tree::ExpressionSyntaxKind::Choice { .. } => {
                 let [condition, then, otherwise] = take(done, 3)[..] else { unreachable!("three were taken") };
                 ExpressionKind::Choice { condition, then, otherwise }
             }
-            tree::ExpressionKind::Call { name, arguments, operands } => {
+            tree::ExpressionSyntaxKind::Call { name, arguments, operands } => {
                 let operands = take(done, operands.len());
                 self.call(name, arguments, operands, outputs, span)
             }
-            tree::ExpressionKind::Table { inputs, rows } => {
+            tree::ExpressionSyntaxKind::Table { inputs, rows } => {
                 let inputs = take(done, inputs.len());
                 let table = self.table(rows, span);
                 self.circuit.tables.push(table);
@@ -107,7 +112,7 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Bits(vec![digits == "1"])
     }
 
-    fn constant(&mut self, width: tree::SizeId, base: char, digits: &str, span: Span) -> ExpressionKind {
+    fn constant(&mut self, width: tree::SizeSyntaxId, base: char, digits: &str, span: Span) -> ExpressionKind {
         let width = self.size(width);
         let radix = constant::radix(base).expect("the grammar lets the three bases through only");
         let value = constant::value(digits, radix).unwrap_or_else(|error| {
@@ -121,7 +126,7 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Number { width, value }
     }
 
-    fn reference(&mut self, name: &tree::Name, index: Option<&tree::Index>) -> ExpressionKind {
+    fn reference(&mut self, name: &tree::NameSyntax, index: Option<&tree::Index>) -> ExpressionKind {
         let bits = index.map(|index| self.index(index));
         match (self.net(name), bits) {
             (None, _) => ExpressionKind::Bits(vec![false]),
@@ -130,7 +135,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn repetition(&mut self, count: tree::SizeId, values: Vec<ExpressionId>, span: Span) -> ExpressionKind {
+    fn repetition(&mut self, count: tree::SizeSyntaxId, values: Vec<ExpressionId>, span: Span) -> ExpressionKind {
         let count = self.size(count);
         let value = match values[..] {
             [value] => value,
@@ -168,7 +173,7 @@ impl<'a> CircuitChecker<'a> {
 
     fn call(
         &mut self,
-        name: &tree::Name,
+        name: &tree::NameSyntax,
         arguments: &[tree::Argument],
         operands: Vec<ExpressionId>,
         outputs: usize,
@@ -193,7 +198,7 @@ impl<'a> CircuitChecker<'a> {
     }
 
     /// Counts the operands and outputs of a call.
-    fn call_counts(&mut self, name: &tree::Name, header: &Header, [operands, outputs]: [usize; 2], span: Span) {
+    fn call_counts(&mut self, name: &tree::NameSyntax, header: &Header, [operands, outputs]: [usize; 2], span: Span) {
         let (circuit, signature) = (name.text.clone(), header.signature());
         let error = if operands != header.inputs.len() {
             CircuitError::CallOperands { circuit, expected: header.inputs.len(), found: operands, signature }
@@ -206,7 +211,12 @@ impl<'a> CircuitChecker<'a> {
     }
 
     /// Parameters given by position or by name, in the order of the circuit's parameters.
-    fn arguments(&mut self, name: &tree::Name, parameters: &[String], given: &[tree::Argument]) -> Vec<Option<SizeId>> {
+    fn arguments(
+        &mut self,
+        name: &tree::NameSyntax,
+        parameters: &[String],
+        given: &[tree::Argument],
+    ) -> Vec<Option<SizeId>> {
         let mut values = vec![None; parameters.len()];
         for (place, argument) in given.iter().enumerate() {
             let value = self.size(argument.value);
@@ -221,7 +231,7 @@ impl<'a> CircuitChecker<'a> {
 
 /// The parameter of an argument.
 pub(crate) fn parameter_place(
-    circuit: &tree::Name,
+    circuit: &tree::NameSyntax,
     parameters: &[String],
     place: usize,
     argument: &tree::Argument,
@@ -249,10 +259,10 @@ fn take(done: &mut Vec<ExpressionId>, count: usize) -> Vec<ExpressionId> {
 }
 
 /// The first expression of the contiguous range that ends with `root`.
-fn first_leaf(expressions: &[tree::Expression], root: tree::ExpressionId) -> u32 {
+fn first_leaf(expressions: &[tree::ExpressionSyntax], root: tree::ExpressionSyntaxId) -> u32 {
     let mut at = root;
     loop {
-        use tree::ExpressionKind as Kind;
+        use tree::ExpressionSyntaxKind as Kind;
         let first = match &expressions[at.0 as usize].kind {
             Kind::Digits(_) | Kind::Constant { .. } | Kind::Computed { .. } | Kind::Net { .. } => None,
             Kind::Group(inner) | Kind::Not(inner) => Some(*inner),

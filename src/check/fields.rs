@@ -5,14 +5,14 @@ use crate::check::quantity::wrong_kind;
 use crate::check::wording::{self, Expected, FieldError, ValueError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::source::Span;
-use crate::syntax::tree::{Name, Record, RecordDeclaration, Value, ValueKind};
+use crate::syntax::tree::{NameSyntax, RecordDeclaration, RecordSyntax, ValueKind, ValueSyntax};
 
 /// A record while it is read.
 pub(crate) struct Fields<'a> {
     /// The owner of the fields, for messages.
     what: wording::Record,
     place: Span,
-    record: &'a Record,
+    record: &'a RecordSyntax,
     known: Vec<&'static str>,
     pub(crate) faults: Vec<Diagnostic>,
 }
@@ -25,13 +25,13 @@ impl<'a> Fields<'a> {
     }
 
     /// The fields of a record of that kind inside another.
-    pub(crate) fn inner(kind: &'static str, place: Span, record: &'a Record) -> Self {
+    pub(crate) fn inner(kind: &'static str, place: Span, record: &'a RecordSyntax) -> Self {
         let what = wording::Record { kind, name: None };
         Self { what, place, record, known: Vec::new(), faults: Vec::new() }
     }
 
     /// The value of a field.
-    pub(crate) fn value(&mut self, field: &'static str) -> Option<&'a Value> {
+    pub(crate) fn value(&mut self, field: &'static str) -> Option<&'a ValueSyntax> {
         self.known.push(field);
         self.record.fields.iter().find(|given| given.name.text == field).map(|given| &given.value)
     }
@@ -41,7 +41,7 @@ impl<'a> Fields<'a> {
         &mut self,
         field: &'static str,
         default: T,
-        read: impl FnOnce(&'a Value) -> Result<T, Diagnostic>,
+        read: impl FnOnce(&'a ValueSyntax) -> Result<T, Diagnostic>,
     ) -> T {
         match self.value(field).map(read) {
             Some(Ok(value)) => value,
@@ -57,7 +57,7 @@ impl<'a> Fields<'a> {
     pub(crate) fn read_list<T>(
         &mut self,
         field: &'static str,
-        read: impl FnMut(&'a Value) -> Result<T, Diagnostic>,
+        read: impl FnMut(&'a ValueSyntax) -> Result<T, Diagnostic>,
     ) -> Option<Vec<T>> {
         let value = self.value(field)?;
         let (entries, faults): (Vec<_>, Vec<_>) = list(value).iter().map(read).partition(Result::is_ok);
@@ -73,7 +73,7 @@ impl<'a> Fields<'a> {
         &mut self,
         field: &'static str,
         example: &'static str,
-        read: impl FnOnce(&'a Value) -> Result<T, Diagnostic>,
+        read: impl FnOnce(&'a ValueSyntax) -> Result<T, Diagnostic>,
     ) -> Option<T> {
         if let Some(value) = self.value(field) {
             return read(value).map_err(|fault| self.faults.push(fault)).ok();
@@ -99,7 +99,7 @@ impl<'a> Fields<'a> {
 }
 
 /// A single word.
-pub(crate) fn word(value: &Value, expected: Expected) -> Result<&Name, Diagnostic> {
+pub(crate) fn word(value: &ValueSyntax, expected: Expected) -> Result<&NameSyntax, Diagnostic> {
     match &value.kind {
         ValueKind::Instance(instance) if instance.arguments.is_empty() => Ok(&instance.name),
         _ => Err(wrong_kind(expected, value.span)),
@@ -107,7 +107,7 @@ pub(crate) fn word(value: &Value, expected: Expected) -> Result<&Name, Diagnosti
 }
 
 /// One word of a set.
-pub(crate) fn choice<T: Copy>(value: &Value, choices: &[(&'static str, T)]) -> Result<T, Diagnostic> {
+pub(crate) fn choice<T: Copy>(value: &ValueSyntax, choices: &[(&'static str, T)]) -> Result<T, Diagnostic> {
     let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
     let expected = Expected::OneOf(words.clone());
     let name = word(value, expected.clone())?;
@@ -118,7 +118,7 @@ pub(crate) fn choice<T: Copy>(value: &Value, choices: &[(&'static str, T)]) -> R
 }
 
 /// The values of a list; a single value is a list of one.
-pub(crate) fn list(value: &Value) -> &[Value] {
+pub(crate) fn list(value: &ValueSyntax) -> &[ValueSyntax] {
     match &value.kind {
         ValueKind::List(values) => values,
         _ => std::slice::from_ref(value),

@@ -2,19 +2,19 @@
 
 use crate::check::circuit::Headers;
 use crate::check::expression::parameter_place;
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, NameTable};
 use crate::check::wording::{CircuitError, NameError, ValueError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Instance, Program};
 use crate::source::{FileId, Sources};
 use crate::syntax::parse_instance;
-use crate::syntax::tree::{self, SizeKind};
+use crate::syntax::tree::{self, SizeSyntaxKind};
 
 /// A circuit with numbers for its parameters.
 pub(crate) fn instance(
-    source: &tree::Instance,
+    source: &tree::InstanceSyntax,
     home: Home,
-    names: &Names,
+    names: &NameTable,
     headers: &Headers,
 ) -> Result<Instance, Diagnostic> {
     let header = &headers.circuits[names.resolve(&source.name, home)?];
@@ -37,7 +37,7 @@ pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Insta
 }
 
 /// A circuit whose parameters have these names, with the given numbers for them.
-fn with_numbers(source: &tree::Instance, circuit: &str, parameters: &[String]) -> Result<Instance, Diagnostic> {
+fn with_numbers(source: &tree::InstanceSyntax, circuit: &str, parameters: &[String]) -> Result<Instance, Diagnostic> {
     let mut values = vec![None; parameters.len()];
     for (place, argument) in source.arguments.iter().enumerate() {
         let place = parameter_place(&source.name, parameters, place, argument)?;
@@ -56,9 +56,9 @@ fn with_numbers(source: &tree::Instance, circuit: &str, parameters: &[String]) -
     }
 }
 
-fn literal(size: &tree::Size) -> Result<u64, Diagnostic> {
+fn literal(size: &tree::SizeSyntax) -> Result<u64, Diagnostic> {
     match &size.kind {
-        SizeKind::Literal(digits) => {
+        SizeSyntaxKind::Literal(digits) => {
             digits.parse::<u32>().map(u64::from).map_err(|_| ValueError::TooLarge.at(size.span))
         }
         _ => Err(ValueError::NotANumber.at(size.span)),

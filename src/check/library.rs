@@ -2,18 +2,20 @@
 
 use crate::check::fields::{self, Fields};
 use crate::check::load::beside;
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, NameTable};
 use crate::check::wording::{Expected, LoadError, NameError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Behavior, Function, LibrarySource, Origin};
 use crate::source::{SourceWorld, Sources};
-use crate::syntax::tree::{DeclarationKind, Record, RecordDeclaration, RecordKeyword, Tree, Value, ValueKind};
+use crate::syntax::tree::{
+    DeclarationKind, RecordDeclaration, RecordKeyword, RecordSyntax, Tree, ValueKind, ValueSyntax,
+};
 
 /// Checks a library.
 pub(crate) fn library(
     source: &RecordDeclaration,
     home: Home,
-    evolutions: &Names,
+    evolutions: &NameTable,
     sources: &Sources,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<LibrarySource> {
@@ -31,12 +33,13 @@ pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home
         DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => Some(&record.record),
         _ => None,
     });
-    let from =
-        |record: &Record| record.fields.iter().find(|field| field.name.text == "from").map(|field| field.value.clone());
+    let from = |record: &RecordSyntax| {
+        record.fields.iter().find(|field| field.name.text == "from").map(|field| field.value.clone())
+    };
     records.filter_map(from).filter_map(|value| folder_fault(world, sources, &value)).collect()
 }
 
-fn folder_fault(world: &dyn SourceWorld, sources: &Sources, value: &Value) -> Option<Diagnostic> {
+fn folder_fault(world: &dyn SourceWorld, sources: &Sources, value: &ValueSyntax) -> Option<Diagnostic> {
     let ValueKind::Text(path) = &value.kind else { return None };
     let folder = beside(&sources.file(value.span.file).name, path);
     let error = match world.list(&folder) {
@@ -47,7 +50,7 @@ fn folder_fault(world: &dyn SourceWorld, sources: &Sources, value: &Value) -> Op
     Some(error.at(value.span))
 }
 
-fn origin(value: &Value, home: Home, evolutions: &Names, sources: &Sources) -> Result<Origin, Diagnostic> {
+fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sources) -> Result<Origin, Diagnostic> {
     if let ValueKind::Text(folder) = &value.kind {
         return Ok(Origin::Folder(beside(&sources.file(value.span.file).name, folder)));
     }
@@ -59,7 +62,7 @@ fn origin(value: &Value, home: Home, evolutions: &Names, sources: &Sources) -> R
 }
 
 /// A function by its name, or a behavior by its four letters.
-fn behavior(value: &Value) -> Result<Behavior, Diagnostic> {
+fn behavior(value: &ValueSyntax) -> Result<Behavior, Diagnostic> {
     let name = fields::word(value, Expected::Behavior)?;
     if let Some(function) = Function::parse(&name.text) {
         return Ok(function.into());

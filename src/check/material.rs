@@ -1,13 +1,13 @@
 //! Materials of voxels.
 
 use crate::check::fields::{self, Fields};
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, NameTable};
 use crate::check::quantity::{self, Measure};
 use crate::check::wording::{Expected, ValueError};
 use crate::diag::Diagnostic;
 use crate::model::{Drive, Material, MaterialKind, Response};
 use crate::source::Span;
-use crate::syntax::tree::{Quantity, RecordDeclaration, Value, ValueKind};
+use crate::syntax::tree::{Quantity, RecordDeclaration, ValueKind, ValueSyntax};
 
 /// The smallest and the largest width of a voxel, as a fraction of its rest width (docs/physics.md 3).
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.6..=1.6;
@@ -24,7 +24,7 @@ enum Kind {
 pub(crate) fn material(
     source: &RecordDeclaration,
     home: Home,
-    stimuli: &Names,
+    stimuli: &NameTable,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Material> {
     let mut fields = Fields::new("material", source);
@@ -56,7 +56,7 @@ fn drive(fields: &mut Fields<'_>) -> Option<Drive> {
     Some(Drive { period, phase, low, high })
 }
 
-fn response(fields: &mut Fields<'_>, home: Home, stimuli: &Names) -> Option<Response> {
+fn response(fields: &mut Fields<'_>, home: Home, stimuli: &NameTable) -> Option<Response> {
     let stimulus = fields.need("stimulus", "stimulus: s1", |value| {
         stimuli.resolve(fields::word(value, Expected::Name("stimulus"))?, home)
     });
@@ -65,14 +65,14 @@ fn response(fields: &mut Fields<'_>, home: Home, stimuli: &Names) -> Option<Resp
     Some(Response { stimulus: stimulus?, absent: absent?, present: present? })
 }
 
-fn quantity_of(value: &Value) -> Result<&Quantity, Diagnostic> {
+fn quantity_of(value: &ValueSyntax) -> Result<&Quantity, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => Ok(quantity),
         _ => Err(quantity::wrong_kind(Expected::Quantity, value.span)),
     }
 }
 
-fn width(value: &Value) -> Result<f64, Diagnostic> {
+fn width(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     width_of(quantity_of(value)?, value.span)
 }
 
@@ -82,7 +82,7 @@ fn width_of(quantity: &Quantity, span: Span) -> Result<f64, Diagnostic> {
     if WIDTHS.contains(&found) { Ok(found) } else { Err(ValueError::WidthOutOfRange { found, least, most }.at(span)) }
 }
 
-fn range(value: &Value) -> Result<(f64, f64), Diagnostic> {
+fn range(value: &ValueSyntax) -> Result<(f64, f64), Diagnostic> {
     let ValueKind::Range(low, high) = &value.kind else {
         return Err(quantity::wrong_kind(Expected::Range, value.span));
     };

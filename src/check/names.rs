@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use crate::check::wording::NameError;
 use crate::diag::{Diagnostic, Suggestion, suggest};
 use crate::source::Span;
-use crate::syntax::tree::Name;
+use crate::syntax::tree::NameSyntax;
 
 /// The origin of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,7 +20,7 @@ pub(crate) enum Home {
 }
 
 /// The names of one kind of declaration, with their positions in the program.
-pub(crate) struct Names {
+pub(crate) struct NameTable {
     /// The kind of declaration, for messages.
     kind: &'static str,
     prelude: BTreeMap<String, Entry>,
@@ -35,13 +35,13 @@ struct Entry {
     span: Span,
 }
 
-impl Names {
+impl NameTable {
     pub(crate) fn new(kind: &'static str) -> Self {
         Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0) }
     }
 
     /// Adds a name, unless it is taken.
-    pub(crate) fn declare(&mut self, name: &Name, index: usize, home: Home) -> Result<(), Diagnostic> {
+    pub(crate) fn declare(&mut self, name: &NameSyntax, index: usize, home: Home) -> Result<(), Diagnostic> {
         let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };
         match table.get(&name.text) {
             Some(first) => Err(duplicate(self.kind, name, first.span)),
@@ -59,7 +59,7 @@ impl Names {
     }
 
     /// The meaning of a name, or an error if it is unknown.
-    pub(crate) fn resolve(&self, name: &Name, home: Home) -> Result<usize, Diagnostic> {
+    pub(crate) fn resolve(&self, name: &NameSyntax, home: Home) -> Result<usize, Diagnostic> {
         self.find(&name.text, home).ok_or_else(|| {
             let meant = self.suggestion(&name.text);
             NameError::Unknown { kind: self.kind, name: name.text.clone(), meant }.at(name.span)
@@ -84,6 +84,6 @@ impl Names {
 }
 
 /// A name that is declared twice.
-pub(crate) fn duplicate(kind: &'static str, name: &Name, first: Span) -> Diagnostic {
+pub(crate) fn duplicate(kind: &'static str, name: &NameSyntax, first: Span) -> Diagnostic {
     NameError::Duplicate { kind, name: name.text.clone(), first }.at(name.span)
 }

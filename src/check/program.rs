@@ -7,7 +7,7 @@ use crate::check::evolution::{self, evolution};
 use crate::check::instance::instance;
 use crate::check::library::library;
 use crate::check::material::material;
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, NameTable};
 use crate::check::recursion;
 use crate::check::schedule::schedule;
 use crate::check::simulate::{Schedules, spells};
@@ -18,7 +18,7 @@ use crate::circuit::Inspector;
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Reference, Simulation, Stimulation};
 use crate::source::{Sources, Span};
-use crate::syntax::tree::{self, DeclarationKind, Name, RecordDeclaration, RecordKeyword, Tree};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
 
 /// The program of the trees, and its diagnostics.
 pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Vec<Diagnostic>) {
@@ -42,13 +42,13 @@ struct Assembly<'a> {
     sources: &'a Sources,
     program: Program,
     faults: Vec<Diagnostic>,
-    stimuli: Names,
-    materials: Names,
-    schedules: Names,
-    evolutions: Names,
-    libraries: Names,
-    circuits: Names,
-    swarms: Names,
+    stimuli: NameTable,
+    materials: NameTable,
+    schedules: NameTable,
+    evolutions: NameTable,
+    libraries: NameTable,
+    circuits: NameTable,
+    swarms: NameTable,
     headers: Headers,
     /// The position of each circuit in the program, by name.
     places: BTreeMap<String, CircuitId>,
@@ -65,13 +65,13 @@ impl<'a> Assembly<'a> {
             sources,
             program: Program::default(),
             faults: Vec::new(),
-            stimuli: Names::new("stimulus"),
-            materials: Names::new("material"),
-            schedules: Names::new("schedule"),
-            evolutions: Names::new("evolution"),
-            libraries: Names::new("library"),
-            circuits: Names::new("circuit"),
-            swarms: Names::new("swarm"),
+            stimuli: NameTable::new("stimulus"),
+            materials: NameTable::new("material"),
+            schedules: NameTable::new("schedule"),
+            evolutions: NameTable::new("evolution"),
+            libraries: NameTable::new("library"),
+            circuits: NameTable::new("circuit"),
+            swarms: NameTable::new("swarm"),
             headers: Headers::default(),
             places: BTreeMap::new(),
             sound: Vec::new(),
@@ -107,7 +107,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    fn stimulus(&mut self, name: &Name, home: Home) {
+    fn stimulus(&mut self, name: &NameSyntax, home: Home) {
         // A redeclared stimulus of the prelude is the same signal.
         let known = self.stimuli.find(&name.text, home);
         let index = known.unwrap_or(self.program.stimuli.len());
@@ -152,7 +152,7 @@ impl<'a> Assembly<'a> {
             let declared = self.evolutions.declare(&source.name, place, *home);
             self.note(declared);
         }
-        let mut checked = vec![evolution::State::Open; sources.len()];
+        let mut checked = vec![evolution::CheckState::Open; sources.len()];
         for place in evolution::order(&sources, &self.evolutions) {
             let (home, source) = sources[place];
             let known = evolution::Known {
@@ -165,7 +165,7 @@ impl<'a> Assembly<'a> {
             checked[place] = evolution(source, home, &known, &mut self.faults);
         }
         self.program.evolutions.extend(checked.into_iter().filter_map(|state| match state {
-            evolution::State::Sound(evolution) => Some(*evolution),
+            evolution::CheckState::Sound(evolution) => Some(*evolution),
             _ => None,
         }));
     }
@@ -364,15 +364,15 @@ impl<'a> Assembly<'a> {
     }
 
     /// The circuit of a test.
-    fn instance(&mut self, source: &tree::Instance) -> Option<Instance> {
+    fn instance(&mut self, source: &tree::InstanceSyntax) -> Option<Instance> {
         let named = instance(source, Home::Own, &self.circuits, &self.headers);
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
     fn against(
         &mut self,
-        tested: &tree::Instance,
-        other: &tree::Instance,
+        tested: &tree::InstanceSyntax,
+        other: &tree::InstanceSyntax,
         inspector: &mut Inspector<'_>,
         ports: (&[Column], &[Column]),
     ) -> Option<Stimulation> {
@@ -392,20 +392,20 @@ impl<'a> Assembly<'a> {
     fn reference(
         &mut self,
         name: &str,
-        tested: &Name,
-        body: &tree::Body,
+        tested: &NameSyntax,
+        body: &tree::BodySyntax,
         ports: (&[Column], &[Column]),
     ) -> Option<crate::model::Circuit> {
         let mut body = body.clone();
         let mut port = |column: &Column| {
-            let kind = tree::SizeKind::Literal(column.width.to_string());
-            body.sizes.push(tree::Size { kind, span: tested.span });
-            let name = Name { text: column.name.clone(), span: tested.span };
-            tree::Port { name, width: Some(tree::SizeId(body.sizes.len() as u32 - 1)) }
+            let kind = tree::SizeSyntaxKind::Literal(column.width.to_string());
+            body.sizes.push(tree::SizeSyntax { kind, span: tested.span });
+            let name = NameSyntax { text: column.name.clone(), span: tested.span };
+            tree::Port { name, width: Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)) }
         };
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
-        let name = Name { text: name.to_owned(), span: tested.span };
-        let source = tree::Circuit { name, parameters: Vec::new(), inputs, outputs, body };
+        let name = NameSyntax { text: name.to_owned(), span: tested.span };
+        let source = tree::CircuitSyntax { name, parameters: Vec::new(), inputs, outputs, body };
         let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
         let sound = !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);

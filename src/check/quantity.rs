@@ -6,7 +6,7 @@ use crate::check::wording::{Bounds, Expected, ValueError};
 use crate::diag::Diagnostic;
 use crate::model::CYCLE_STEPS;
 use crate::source::Span;
-use crate::syntax::tree::{Number, Quantity, Value, ValueKind};
+use crate::syntax::tree::{Number, Quantity, ValueKind, ValueSyntax};
 
 /// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,7 +74,7 @@ pub(crate) fn cycles(quantity: &Quantity) -> Result<u32, Diagnostic> {
 }
 
 /// An integer without a unit.
-pub(crate) fn count(value: &Value, range: RangeInclusive<u32>) -> Result<u32, Diagnostic> {
+pub(crate) fn count(value: &ValueSyntax, range: RangeInclusive<u32>) -> Result<u32, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => whole(bare(quantity)?, range, quantity.span(), ""),
         _ => Err(wrong_kind(Expected::Number, value.span)),

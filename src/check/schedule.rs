@@ -1,6 +1,6 @@
 //! Schedules of stimuli, and rows of bits in general.
 
-use crate::check::names::{Home, Names, duplicate};
+use crate::check::names::{Home, NameTable, duplicate};
 use crate::check::quantity;
 use crate::check::wording::{CellError, RowError};
 use crate::diag::Diagnostic;
@@ -10,9 +10,9 @@ use crate::syntax::tree;
 
 /// Checks a schedule.
 pub(crate) fn schedule(
-    source: &tree::Schedule,
+    source: &tree::ScheduleSyntax,
     home: Home,
-    stimuli: &Names,
+    stimuli: &NameTable,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<NamedSchedule> {
     let before = faults.len();
@@ -50,7 +50,12 @@ fn pattern(stimuli: &[usize], bits: &[bool]) -> Pattern {
     Pattern::new(&present)
 }
 
-fn row_of_bits(cells: &[tree::Name], columns: usize, span: Span, faults: &mut Vec<Diagnostic>) -> Option<Vec<bool>> {
+fn row_of_bits(
+    cells: &[tree::NameSyntax],
+    columns: usize,
+    span: Span,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<Vec<bool>> {
     if cells.len() != columns {
         faults.push(RowError::Width { values: cells.len(), columns }.at(span));
         return None;

@@ -1,19 +1,19 @@
 //! Simulations: the inputs of a swarm over time.
 
-use crate::check::cell::{Cell, cell};
-use crate::check::names::{Home, Names};
+use crate::check::cell::{RowCell, cell};
+use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Base, CYCLE_STEPS, Column, InputSpell, NamedSchedule};
 use crate::source::{Sources, Span};
-use crate::syntax::tree::{Name, Spell, With};
+use crate::syntax::tree::{NameSyntax, SpellSyntax, With};
 
 /// The schedules of a program.
 #[derive(Clone, Copy)]
 pub(crate) struct Schedules<'a> {
     /// The position of each name in `declared`.
-    pub(crate) names: &'a Names,
+    pub(crate) names: &'a NameTable,
     pub(crate) declared: &'a [NamedSchedule],
 }
 
@@ -70,7 +70,7 @@ fn named(
     })
 }
 
-fn places(columns: &[Name], swarm: Span, inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<usize> {
+fn places(columns: &[NameSyntax], swarm: Span, inputs: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<usize> {
     let mut places = Vec::new();
     for name in columns {
         match inputs.iter().position(|input| input.name == name.text) {
@@ -95,7 +95,7 @@ fn line(sources: &Sources, span: Span) -> usize {
 }
 
 fn rows(
-    spell: &Spell,
+    spell: &SpellSyntax,
     places: &[usize],
     inputs: &[Column],
     sources: &Sources,
@@ -110,7 +110,7 @@ fn rows(
     let mut bases: Vec<Base> = inputs.iter().map(|input| Base::of_width(input.width)).collect();
     for (word, &place) in spell.cells.iter().zip(places) {
         match cell(word, &inputs[place]) {
-            Ok(Cell::Bits(values, base)) if values.iter().all(Option::is_some) => {
+            Ok(RowCell::Bits(values, base)) if values.iter().all(Option::is_some) => {
                 bits[place] = values.into_iter().flatten().collect();
                 bases[place] = base;
             }

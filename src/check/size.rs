@@ -9,17 +9,17 @@ use crate::syntax::tree;
 
 impl CircuitChecker<'_> {
     /// Resolves an integer expression from its leaves to its root without recursion.
-    pub(crate) fn size(&mut self, root: tree::SizeId) -> SizeId {
+    pub(crate) fn size(&mut self, root: tree::SizeSyntaxId) -> SizeId {
         let body = self.body;
         let mut done: Vec<SizeId> = Vec::new();
         for at in first_leaf(&body.sizes, root) as usize..=root.0 as usize {
             let size = &body.sizes[at];
             let kind = match &size.kind {
-                tree::SizeKind::Group(_) => continue,
-                tree::SizeKind::Literal(digits) => self.literal(digits, size.span),
-                tree::SizeKind::Name(name) => self.number(name, size.span),
-                tree::SizeKind::Log2(_) => SizeKind::Log2(done.pop().expect("an operand")),
-                tree::SizeKind::Binary(operator, ..) => {
+                tree::SizeSyntaxKind::Group(_) => continue,
+                tree::SizeSyntaxKind::Literal(digits) => self.literal(digits, size.span),
+                tree::SizeSyntaxKind::Name(name) => self.number(name, size.span),
+                tree::SizeSyntaxKind::Log2(_) => SizeKind::Log2(done.pop().expect("an operand")),
+                tree::SizeSyntaxKind::Binary(operator, ..) => {
                     let right = done.pop().expect("a right operand");
                     SizeKind::Binary(*operator, done.pop().expect("a left operand"), right)
                 }
@@ -70,12 +70,14 @@ impl CircuitChecker<'_> {
 }
 
 /// The first size of the contiguous range that ends with `root`.
-fn first_leaf(sizes: &[tree::Size], root: tree::SizeId) -> u32 {
+fn first_leaf(sizes: &[tree::SizeSyntax], root: tree::SizeSyntaxId) -> u32 {
     let mut at = root;
     loop {
         at = match sizes[at.0 as usize].kind {
-            tree::SizeKind::Literal(_) | tree::SizeKind::Name(_) => return at.0,
-            tree::SizeKind::Log2(inner) | tree::SizeKind::Group(inner) | tree::SizeKind::Binary(_, inner, _) => inner,
+            tree::SizeSyntaxKind::Literal(_) | tree::SizeSyntaxKind::Name(_) => return at.0,
+            tree::SizeSyntaxKind::Log2(inner)
+            | tree::SizeSyntaxKind::Group(inner)
+            | tree::SizeSyntaxKind::Binary(_, inner, _) => inner,
         };
     }
 }

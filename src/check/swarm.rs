@@ -3,12 +3,12 @@
 use crate::check::circuit::Headers;
 use crate::check::fields::{self, Fields};
 use crate::check::instance::instance;
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::Expected;
 use crate::diag::Diagnostic;
 use crate::model::{Hold, Swarm};
-use crate::syntax::tree::{RecordDeclaration, Value, ValueKind};
+use crate::syntax::tree::{RecordDeclaration, ValueKind, ValueSyntax};
 
 /// The default library of a swarm; the prelude declares it.
 pub const DEFAULT_LIBRARY: &str = "shipped";
@@ -20,9 +20,9 @@ const MAX_WINDOW: u32 = 1000;
 pub(crate) fn swarm(
     source: &RecordDeclaration,
     home: Home,
-    circuits: &Names,
+    circuits: &NameTable,
     headers: &Headers,
-    libraries: &Names,
+    libraries: &NameTable,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Swarm> {
     let mut fields = Fields::new("swarm", source);
@@ -45,7 +45,7 @@ pub(crate) fn swarm(
     Some(Swarm { name: source.name.text.clone(), span: source.name.span, circuit: circuit?, library, hold, window })
 }
 
-fn hold(value: &Value) -> Result<Hold, Diagnostic> {
+fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(hold) => quantity::cycles(hold).map(Hold::Cycles),
         _ => {

@@ -14,7 +14,7 @@ const MAX_ROWS: usize = 4096;
 const MAX_BITS: usize = 64;
 
 impl CircuitChecker<'_> {
-    pub(crate) fn table(&mut self, rows: &[tree::TableRow], span: Span) -> Table {
+    pub(crate) fn table(&mut self, rows: &[tree::TableRowSyntax], span: Span) -> Table {
         let mut table = Table { rows: Vec::new(), otherwise: None, span };
         for row in rows {
             let Some(bits) = self.bits(&row.output) else { continue };
@@ -41,7 +41,7 @@ impl CircuitChecker<'_> {
     }
 
     /// All of `1`, `0` and `-`; underscores separate.
-    fn bits(&mut self, word: &tree::Name) -> Option<Vec<Option<bool>>> {
+    fn bits(&mut self, word: &tree::NameSyntax) -> Option<Vec<Option<bool>>> {
         let bit = |c| match c {
             '0' => Some(Some(false)),
             '1' => Some(Some(true)),

@@ -1,13 +1,13 @@
 //! Tests: columns are ports, rows are bits.
 
-use crate::check::cell::{Cell, cell};
+use crate::check::cell::{RowCell, cell};
 use crate::check::names::duplicate;
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Base, Column, TestRow};
 use crate::source::{Sources, Span};
-use crate::syntax::tree::{self, Name, TestTable};
+use crate::syntax::tree::{self, NameSyntax, TestTable};
 
 /// The ports of the circuit under test.
 pub(crate) struct Ports<'a> {
@@ -39,7 +39,7 @@ pub(crate) fn rows(
 
 impl Ports<'_> {
     /// The port of each named column.
-    fn places(&self, names: &[Name], inputs: bool, faults: &mut Vec<Diagnostic>) -> Vec<usize> {
+    fn places(&self, names: &[NameSyntax], inputs: bool, faults: &mut Vec<Diagnostic>) -> Vec<usize> {
         let own = if inputs { self.inputs } else { self.outputs };
         let mut places = Vec::new();
         for (at, name) in names.iter().enumerate() {
@@ -54,7 +54,7 @@ impl Ports<'_> {
         places
     }
 
-    fn no_port(&self, name: &Name, inputs: bool) -> Diagnostic {
+    fn no_port(&self, name: &NameSyntax, inputs: bool) -> Diagnostic {
         let (own, others) = if inputs { (self.inputs, self.outputs) } else { (self.outputs, self.inputs) };
         let (circuit, name, span) = (self.circuit.to_owned(), name.text.clone(), name.span);
         let meant = Suggestion::of(&name, own.iter().map(|column| column.name.as_str()));
@@ -90,7 +90,7 @@ struct Columns<'a> {
 
 impl Columns<'_> {
     /// A row as bits; two rows for a rising edge of a clock.
-    fn row(&self, number: usize, row: &tree::TestRow, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
+    fn row(&self, number: usize, row: &tree::TestRowSyntax, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
         if let Some(fault) = self.shape_fault(row) {
             faults.push(fault);
             return Vec::new();
@@ -102,7 +102,7 @@ impl Columns<'_> {
         let expected = output_bits(&outputs, &row.outputs, &mut found);
         let bases: Vec<Base> = inputs.iter().chain(&outputs).map(base).collect();
         let line = self.sources.file(row.span.file).line_column(row.span.start as usize).line;
-        let turns = if inputs.contains(&Some(Cell::Pulse)) { 2 } else { 1 };
+        let turns = if inputs.contains(&Some(RowCell::Pulse)) { 2 } else { 1 };
         let mut rows = Vec::new();
         for turn in (0..turns).rev() {
             let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, &mut found);
@@ -117,7 +117,7 @@ impl Columns<'_> {
         rows
     }
 
-    fn shape_fault(&self, row: &tree::TestRow) -> Option<Diagnostic> {
+    fn shape_fault(&self, row: &tree::TestRowSyntax) -> Option<Diagnostic> {
         let values = row.inputs.len() + row.outputs.len();
         let columns = self.inputs.len() + self.outputs.len();
         if row.bars.len() > 1 {
@@ -133,36 +133,41 @@ impl Columns<'_> {
 }
 
 /// The values of a row in order of the ports.
-fn cells(words: &[Name], places: &[usize], ports: &[Column], faults: &mut Vec<Diagnostic>) -> Vec<Option<Cell>> {
+fn cells(
+    words: &[NameSyntax],
+    places: &[usize],
+    ports: &[Column],
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<Option<RowCell>> {
     let mut cells: Vec<_> =
-        ports.iter().map(|port| Some(Cell::Bits(vec![None; port.width], Base::of_width(port.width)))).collect();
+        ports.iter().map(|port| Some(RowCell::Bits(vec![None; port.width], Base::of_width(port.width)))).collect();
     for (word, &place) in words.iter().zip(places) {
         cells[place] = cell(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
     }
     cells
 }
 
-fn output_bits(cells: &[Option<Cell>], words: &[Name], faults: &mut Vec<Diagnostic>) -> Vec<Option<bool>> {
+fn output_bits(cells: &[Option<RowCell>], words: &[NameSyntax], faults: &mut Vec<Diagnostic>) -> Vec<Option<bool>> {
     if let Some(word) = words.iter().find(|word| word.text == "^") {
         faults.push(CellError::PulsedOutput.at(word.span));
     }
-    let bits = |cell: &Option<Cell>| match cell {
-        Some(Cell::Bits(bits, _)) => bits.clone(),
+    let bits = |cell: &Option<RowCell>| match cell {
+        Some(RowCell::Bits(bits, _)) => bits.clone(),
         _ => Vec::new(),
     };
     cells.iter().flat_map(bits).collect()
 }
 
 /// The notation of a value.
-fn base(cell: &Option<Cell>) -> Base {
+fn base(cell: &Option<RowCell>) -> Base {
     match cell {
-        Some(Cell::Bits(_, base)) => *base,
+        Some(RowCell::Bits(_, base)) => *base,
         _ => Base::Bits,
     }
 }
 
 fn input_bits(
-    cells: &[Option<Cell>],
+    cells: &[Option<RowCell>],
     ports: &[Column],
     high: bool,
     row: Span,
@@ -171,8 +176,8 @@ fn input_bits(
     let mut all = Vec::new();
     for (cell, port) in cells.iter().zip(ports) {
         match cell {
-            Some(Cell::Pulse) => all.push(high),
-            Some(Cell::Bits(bits, _)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
+            Some(RowCell::Pulse) => all.push(high),
+            Some(RowCell::Bits(bits, _)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
                 Some(bits) => all.extend(bits),
                 None => {
                     let fault = RowError::InputWithoutValue { input: port.name.clone() }.at(row);

@@ -24,7 +24,7 @@ struct Gate {
 /// Inputs for which the outputs keep changing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the circuit does not come to rest")]
-pub struct Restless;
+pub struct Oscillation;
 
 impl Logic {
     /// A netlist before its first cycle. Cells with a start value have it. The others have the values that follow from
@@ -100,13 +100,13 @@ impl Logic {
     ///
     /// # Panics
     /// When there are not as many values as inputs.
-    pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Restless> {
+    pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Oscillation> {
         assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
         for (&slot, &value) in self.inputs.iter().zip(inputs) {
             self.values[slot as usize] = value;
         }
         let rests = (0..self.limit()).any(|_| !self.step());
-        if rests { Ok(self.outputs()) } else { Err(Restless) }
+        if rests { Ok(self.outputs()) } else { Err(Oscillation) }
     }
 
     /// The number of steps after which a circuit of this size has settled, if it ever does. Without loops the longest
@@ -191,6 +191,6 @@ mod tests {
         let gate = netlist.add_gate(Function::NOT, &[wire]);
         netlist.drive(wire, 0, gate);
         netlist.add_output("q", gate);
-        assert_eq!(Logic::new(&netlist).settle(&[]), Err(Restless));
+        assert_eq!(Logic::new(&netlist).settle(&[]), Err(Oscillation));
     }
 }

@@ -7,7 +7,7 @@ use crate::circuit::elaborate::MAX_CELLS;
 use crate::circuit::guarded::Guarded;
 use crate::circuit::loops::Loops;
 use crate::circuit::network::{Network, Signal, View};
-use crate::circuit::options::{MapOptions, Objective};
+use crate::circuit::options::{MapOptions, MappingObjective};
 use crate::circuit::passes::{self, DissolveWires, Pass, Sweep};
 use crate::circuit::proof::core_names;
 use crate::circuit::recipes::{Operand, Recipe, Recipes};
@@ -82,7 +82,7 @@ pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -
     }
     let mut source = netlist.clone();
     passes::run(&mut source)?;
-    if options.objective == Objective::Margin {
+    if options.objective == MappingObjective::Margin {
         return map_widest(&source, library, options);
     }
     let mut mapped = Mapper::new(&source, library).map(options)?;
@@ -96,7 +96,7 @@ pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -
 fn map_widest(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
     let mut margins: Vec<f64> = library.kinds().map(|(_, kind)| kind.margin).collect();
     margins.sort_by(f64::total_cmp);
-    let options = MapOptions { objective: Objective::Area, ..options };
+    let options = MapOptions { objective: MappingObjective::Area, ..options };
     let wide = margins.into_iter().rev().map(|margin| library.with_margin(margin));
     let mapped = wide.map(|wide| map_with(source, &wide, options)).find(Result::is_ok);
     mapped.unwrap_or_else(|| map_with(source, library, options))
@@ -334,8 +334,8 @@ mod tests {
             let margins = mapped.cells().map(|(_, cell)| library.get(cell.function).unwrap().margin);
             (mapped.cells().count(), margins.fold(f64::INFINITY, f64::min))
         };
-        assert_eq!(cells(Objective::Area), (5, 0.1));
-        assert_eq!(cells(Objective::Margin), (9, 2.0));
+        assert_eq!(cells(MappingObjective::Area), (5, 0.1));
+        assert_eq!(cells(MappingObjective::Margin), (9, 2.0));
     }
 
     #[test]
@@ -352,7 +352,7 @@ mod tests {
             let mapped = map_with(&netlist, &library, MapOptions { objective, ..MapOptions::default() }).unwrap();
             crate::circuit::Timing::of(&mapped, &library, crate::circuit::Delays::Clock).hold
         };
-        let (area, delay) = (hold(Objective::Area), hold(Objective::Delay));
+        let (area, delay) = (hold(MappingObjective::Area), hold(MappingObjective::Delay));
         assert!(delay < area, "{delay} cycles by delay, {area} by area");
     }
 

@@ -2,7 +2,7 @@
 
 /// What to minimize.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Objective {
+pub enum MappingObjective {
     /// Robots.
     #[default]
     Area,
@@ -28,7 +28,7 @@ pub enum Effort {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MapOptions {
     /// What to minimize.
-    pub objective: Objective,
+    pub objective: MappingObjective,
     /// The amount of search.
     pub effort: Effort,
 }

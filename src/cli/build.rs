@@ -11,7 +11,7 @@ use crate::circuit::timing::fan_out;
 use crate::circuit::{CellLibrary, Delays, MapOptions, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::report::{Document, Schema};
 use crate::session::{CompileOptions, Mapping, Session};
@@ -26,7 +26,7 @@ Examples:
 /// Compile a circuit to robots, prove the result, and print its netlist
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Arguments {
+pub struct BuildArguments {
     /// The .nb file
     file: PathBuf,
     #[command(flatten)]
@@ -58,7 +58,7 @@ enum Emit {
     Json,
 }
 
-impl Arguments {
+impl BuildArguments {
     /// Compiles, proves and prints.
     ///
     /// # Errors
@@ -83,12 +83,12 @@ impl Arguments {
         Ok(Status::Done)
     }
 
-    fn emit(&self, format: Format) -> Result<Emit, Failure> {
+    fn emit(&self, format: OutputFormat) -> Result<Emit, Failure> {
         match (self.emit, format) {
-            (None, Format::Text) => Ok(Emit::Netlist),
-            (None | Some(Emit::Json), Format::Json) => Ok(Emit::Json),
-            (Some(emit), Format::Text) => Ok(emit),
-            (Some(_), Format::Json) => {
+            (None, OutputFormat::Text) => Ok(Emit::Netlist),
+            (None | Some(Emit::Json), OutputFormat::Json) => Ok(Emit::Json),
+            (Some(emit), OutputFormat::Text) => Ok(emit),
+            (Some(_), OutputFormat::Json) => {
                 let message = "`--format json` and `--emit` ask for two formats";
                 Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message).with_help("leave out one")))
             }

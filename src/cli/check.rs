@@ -3,7 +3,7 @@
 use clap::Args;
 use serde_json::Value;
 
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::report::Schema;
 use crate::session::Session;
 use crate::store::DiskWorld;
@@ -15,13 +15,13 @@ use crate::store::DiskWorld;
   nbc check circuits/*.nb --format json
 
 Exit status: 0 no errors, 2 errors. `nbc explain CODE` describes an error in detail.")]
-pub struct Arguments {
+pub struct CheckArguments {
     /// The source files
     #[arg(required = true)]
     files: Vec<String>,
 }
 
-impl Arguments {
+impl CheckArguments {
     /// Checks and prints.
     ///
     /// # Errors
@@ -30,11 +30,11 @@ impl Arguments {
         let mut session = Session::new(DiskWorld);
         let found: Vec<_> = self.files.iter().map(|path| session.checked(path)).collect();
         match context.format {
-            Format::Json => {
+            OutputFormat::Json => {
                 let all: Vec<Value> = found.iter().flat_map(|checked| checked.json()).collect();
                 context.print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": all }))?
             }
-            Format::Text => found.iter().for_each(|checked| context.tell(&checked.diagnostics, &checked.sources)),
+            OutputFormat::Text => found.iter().for_each(|checked| context.tell(&checked.diagnostics, &checked.sources)),
         }
         let has_errors = found.iter().any(|checked| checked.has_errors());
         Ok(if has_errors { Status::BadInput } else { Status::Done })

@@ -3,25 +3,25 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-use crate::cli::{Cli, Context, Failure, Format, Status};
+use crate::cli::{Cli, Context, Failure, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic};
 
 /// Print a completion script for a shell
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc completions bash > ~/.local/share/bash-completion/completions/nbc")]
-pub struct Arguments {
+pub struct CompletionsArguments {
     /// The shell
     #[arg(value_enum)]
     shell: Shell,
 }
 
-impl Arguments {
+impl CompletionsArguments {
     /// Prints the script.
     ///
     /// # Errors
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        if context.format == Format::Json {
+        if context.format == OutputFormat::Json {
             let fault = Diagnostic::without_place(Code::BadValue, "a completion script cannot be JSON");
             return Err(Failure::plain(fault.with_help("leave out `--format json`")));
         }

@@ -17,7 +17,7 @@ use crate::source::Sources;
 
 /// The format of the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub enum OutputFormat {
     /// Text for people.
     #[default]
     Text,
@@ -27,7 +27,7 @@ pub enum Format {
 
 /// When to color.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum Color {
+pub(super) enum ColorChoice {
     /// On a terminal, unless NO_COLOR is set
     #[default]
     Auto,
@@ -42,13 +42,13 @@ pub(super) enum Color {
 pub(super) struct GlobalArguments {
     /// The format of the output: text for people or JSON for programs
     #[arg(long, global = true, value_enum, default_value_t, hide_possible_values = false)]
-    format: Format,
+    format: OutputFormat,
     /// When to color messages
     #[arg(long, global = true, value_enum, default_value_t)]
-    color: Color,
+    color: ColorChoice,
 }
 
-impl Color {
+impl ColorChoice {
     fn on(self) -> bool {
         match self {
             Self::Always => true,
@@ -63,7 +63,7 @@ impl Color {
 /// The output channels of a command: results go to standard output; progress, logs and diagnostics to standard error.
 pub struct Context {
     /// The format of the output.
-    pub format: Format,
+    pub format: OutputFormat,
     /// Whether messages are colored.
     pub color: bool,
     out: Output,
@@ -121,7 +121,7 @@ impl Context {
     pub(super) fn report(&mut self, failure: Failure) -> Status {
         match failure {
             Failure::Input(found) => {
-                if self.format == Format::Json {
+                if self.format == OutputFormat::Json {
                     let value = serde_json::json!({ "diagnostics": found.json() });
                     // The failure itself is what matters if this cannot be written either.
                     let _ = self.print_json(Schema::Diagnostics, &value).and_then(|()| self.flush());

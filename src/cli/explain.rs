@@ -5,7 +5,7 @@ use include_dir::{Dir, include_dir};
 use serde_json::json;
 
 use crate::check::PRELUDE;
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic, suggest};
 use crate::report::Schema;
 
@@ -19,12 +19,12 @@ static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
   nbc explain
   nbc explain prelude > prelude.nb          the paper's materials, stimuli, schedules and evolution
   nbc explain standard                      the standard circuits")]
-pub struct Arguments {
+pub struct ExplainArguments {
     /// An error code, `prelude` or `standard`; without it, all codes are listed
     code: Option<String>,
 }
 
-impl Arguments {
+impl ExplainArguments {
     /// Prints the page of a code, or the list of codes.
     ///
     /// # Errors
@@ -33,11 +33,11 @@ impl Arguments {
         let Some(word) = self.code else { return list(context) };
         if let Some((name, text)) = PRELUDE.iter().find(|(name, _)| name.strip_suffix(".nb") == Some(&word)) {
             match context.format {
-                Format::Json => {
+                OutputFormat::Json => {
                     let files = json!({ "files": [{ "name": name, "text": text }] });
                     context.print_json(Schema::Explain, &files)?;
                 }
-                Format::Text => context.print(text)?,
+                OutputFormat::Text => context.print(text)?,
             }
             return Ok(Status::Done);
         }
@@ -50,13 +50,13 @@ impl Arguments {
         };
         let page = page(*code);
         match context.format {
-            Format::Json => context.print_json(
+            OutputFormat::Json => context.print_json(
                 Schema::Explain,
                 &json!({ "codes": [{
                 "code": code, "severity": code.severity(), "meaning": code.meaning(), "page": page,
             }] }),
             )?,
-            Format::Text => context.print(page)?,
+            OutputFormat::Text => context.print(page)?,
         }
         Ok(Status::Done)
     }
@@ -68,7 +68,7 @@ fn page(code: Code) -> &'static str {
 }
 
 fn list(context: &mut Context) -> Result<Status, Failure> {
-    if context.format == Format::Json {
+    if context.format == OutputFormat::Json {
         let codes: Vec<_> = Code::ALL
             .iter()
             .map(|code| json!({ "code": code, "severity": code.severity(), "meaning": code.meaning() }))

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
-use crate::cli::{Context, Failure, Format, Status, robots};
+use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Library;
 use crate::report::{Document, Elites, Schema, robots_csv};
@@ -20,7 +20,7 @@ use crate::store::{self, RobotRecord};
   nbc export shipped --to csv               the built-in library
 
 docs/evolution.md lists the columns and shows how pandas and pyribs read them.")]
-pub struct Arguments {
+pub struct ExportArguments {
     /// The folder of a run or of one of its seeds, a folder of robot files, a robot file, or `shipped`
     what: String,
     /// The format [default: from the name of the file, else CSV]
@@ -46,7 +46,7 @@ struct Robots {
     robots: Vec<RobotRecord>,
 }
 
-impl Arguments {
+impl ExportArguments {
     /// Reads and exports.
     ///
     /// # Errors
@@ -54,8 +54,8 @@ impl Arguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (target, what) = (self.target(context.format)?, Path::new(&self.what));
         if is_run(what) {
-            let harvest = read_run(what, context)?;
-            let elites = Elites::of(&harvest);
+            let results = read_run(what, context)?;
+            let elites = Elites::of(&results);
             self.write(target, Schema::Elites, &elites, || elites.csv(), context)?;
         } else {
             let library = self.library()?;
@@ -99,14 +99,14 @@ impl Arguments {
     }
 
     /// The format from `--to`, from the name of the file, or from `--format`.
-    fn target(&self, format: Format) -> Result<Target, Failure> {
+    fn target(&self, format: OutputFormat) -> Result<Target, Failure> {
         let ending = self.output.as_ref().and_then(|path| path.extension()).map(|ending| ending.to_ascii_lowercase());
         let by_name = ending.and_then(|ending| match ending.to_str() {
             Some("csv") => Some(Target::Csv),
             Some("json") => Some(Target::Json),
             _ => None,
         });
-        let by_format = (format == Format::Json && self.output.is_none()).then_some(Target::Json);
+        let by_format = (format == OutputFormat::Json && self.output.is_none()).then_some(Target::Json);
         match (self.to, by_format.or(by_name)) {
             (Some(Target::Csv), Some(Target::Json)) if by_format.is_some() => {
                 let message = "`--format json` and `--to csv` ask for two formats";

@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::check;
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::report::Schema;
 use crate::source::Sources;
 use crate::store::{self, DiskWorld};
@@ -19,7 +19,7 @@ use crate::syntax;
   nbc fmt --check circuits/*.nb
 
 Exit status: 0 done, 1 with --check if a file is not formatted, 2 if a file cannot be parsed.")]
-pub struct Arguments {
+pub struct FmtArguments {
     /// The source files
     #[arg(required = true)]
     files: Vec<String>,
@@ -28,7 +28,7 @@ pub struct Arguments {
     check: bool,
 }
 
-impl Arguments {
+impl FmtArguments {
     /// Formats the files. A file that cannot be parsed is not changed.
     ///
     /// # Errors
@@ -37,12 +37,12 @@ impl Arguments {
         let mut told = Vec::new();
         for path in &self.files {
             let canonical = self.format_file(path)?;
-            if self.check && !canonical && context.format == Format::Text {
+            if self.check && !canonical && context.format == OutputFormat::Text {
                 context.print(format!("{path}\n"))?;
             }
             told.push(json!({ "file": path, "canonical": canonical, "written": !canonical && !self.check }));
         }
-        if context.format == Format::Json {
+        if context.format == OutputFormat::Json {
             context.print_json(Schema::Formatted, &json!({ "files": told }))?;
         }
         let differs = told.iter().any(|file| file["canonical"] == false);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::circuit::{CellLibrary, Effort, MapOptions, Objective};
+use crate::circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
 use crate::cli::{Failure, robots};
 use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
@@ -73,7 +73,7 @@ enum EffortWord {
     High,
 }
 
-impl From<ObjectiveWord> for Objective {
+impl From<ObjectiveWord> for MappingObjective {
     fn from(word: ObjectiveWord) -> Self {
         match word {
             ObjectiveWord::Area => Self::Area,

@@ -1,4 +1,4 @@
-//! The command line: one file per command, each an `Arguments` that clap reads and a `run` that does it.
+//! The command line: one file per command, each with the arguments that clap reads and a `run` that does it.
 //!
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 
@@ -40,17 +40,17 @@ use clap::{Parser, Subcommand};
 use crate::diag::{is_hidden, render, visible};
 use crate::source::Sources;
 
-pub use context::{Context, Format};
+pub use context::{Context, OutputFormat};
 pub use failure::Failure;
 pub use interrupt::Interrupt;
 pub use progress::Progress;
 pub use status::Status;
 
 macro_rules! commands {
-    ($($name:ident in $module:ident,)*) => {
+    ($($name:ident($module:ident::$arguments:ident),)*) => {
         #[derive(Subcommand)]
         enum Command {
-            $($name($module::Arguments),)*
+            $($name($module::$arguments),)*
         }
 
         impl Command {
@@ -64,20 +64,20 @@ macro_rules! commands {
 }
 
 commands! {
-    Bench in bench,
-    Build in build,
-    Check in check,
-    Completions in completions,
-    Draw in draw,
-    Evolve in evolve,
-    Explain in explain,
-    Export in export,
-    Fmt in fmt,
-    Library in library,
-    Run in run,
-    Simulate in simulate,
-    Synth in synth,
-    Test in test,
+    Bench(bench::BenchArguments),
+    Build(build::BuildArguments),
+    Check(check::CheckArguments),
+    Completions(completions::CompletionsArguments),
+    Draw(draw::DrawArguments),
+    Evolve(evolve::EvolveArguments),
+    Explain(explain::ExplainArguments),
+    Export(export::ExportArguments),
+    Fmt(fmt::FmtArguments),
+    Library(library::LibraryArguments),
+    Run(run::RunArguments),
+    Simulate(simulate::SimulateArguments),
+    Synth(synth::SynthArguments),
+    Test(test::TestArguments),
 }
 
 const EXAMPLES: &str = "\

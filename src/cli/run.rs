@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
-use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitTest, Robot, Simulation};
 use crate::report::{
@@ -29,7 +29,7 @@ Every robot is simulated voxel by voxel. A test runs once for each swarm that is
 Pictures, waveforms, a table of the cycles, a report page and result.json are written to a folder in `out/` with \
 the file's name.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
-pub struct Arguments {
+pub struct RunArguments {
     /// The source file
     file: PathBuf,
     /// Run only tests and simulations with this name: a test's title, a circuit or a swarm
@@ -84,7 +84,7 @@ impl Ran {
     }
 }
 
-impl Arguments {
+impl RunArguments {
     /// Runs the file's tests and simulations, and writes what came of them.
     ///
     /// # Errors
@@ -155,8 +155,8 @@ impl Arguments {
             write(&page, report::draw_run_page(&source, &swarms, Scheme::default()).as_bytes())?;
         }
         match context.format {
-            Format::Json => context.print_json(Schema::Run, &result)?,
-            Format::Text => {
+            OutputFormat::Json => context.print_json(Schema::Run, &result)?,
+            OutputFormat::Text => {
                 for drawn in &drawn {
                     context.print(describe(drawn))?;
                 }

@@ -4,10 +4,10 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::robots::read_body;
-use crate::cli::{Context, Failure, Format, Status, schedule};
+use crate::cli::{Context, Failure, OutputFormat, Status, schedule};
 use crate::diag::{Code, Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
-use crate::report::{Align, Schema, Table};
+use crate::report::{Align, Schema, TextTable};
 use crate::sim::Simulator;
 use crate::source::Sources;
 
@@ -23,7 +23,7 @@ const MAX_WORLD_WIDTH: usize = 1_000_000;
 A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, \
 1 rigid, 2 soft, 3 actuator, 4 actuator in antiphase. While stimulus 1 is present, 5 shrinks and 7 grows; while \
 stimulus 2 is present, 6 shrinks and 8 grows.")]
-pub struct Arguments {
+pub struct SimulateArguments {
     /// A file with a body, or the name of a robot in the library
     robot: String,
     /// Patterns of the two stimuli with durations: `01*10` is ten cycles, `01*56steps` is 56 env steps
@@ -48,7 +48,7 @@ struct Outcome<'a> {
     unstable_at: Option<u32>,
 }
 
-impl Arguments {
+impl SimulateArguments {
     /// Simulates and prints.
     ///
     /// # Errors
@@ -63,8 +63,8 @@ impl Arguments {
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
         match context.format {
-            Format::Json => context.print_json(Schema::Simulate, &Outcome::of(&schedule, &trajectory))?,
-            Format::Text => context.print(describe(&schedule, &trajectory))?,
+            OutputFormat::Json => context.print_json(Schema::Simulate, &Outcome::of(&schedule, &trajectory))?,
+            OutputFormat::Text => context.print(describe(&schedule, &trajectory))?,
         }
         Ok(Status::Done)
     }
@@ -132,7 +132,8 @@ fn displacements(schedule: &Schedule, trajectory: &Trajectory) -> Vec<Option<f64
 
 fn describe(schedule: &Schedule, trajectory: &Trajectory) -> String {
     use Align::{Left, Right};
-    let mut table = Table::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
+    let mut table =
+        TextTable::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
     for (spell, walked) in schedule.spells.iter().zip(displacements(schedule, trajectory)) {
         let length = match spell.steps % CYCLE_STEPS {
             0 => counted((spell.steps / CYCLE_STEPS) as usize, "cycle"),

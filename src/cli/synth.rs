@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::circuit::formats::Design;
 use crate::circuit::{self, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions};
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::report::Schema;
 use crate::session::synthesize;
@@ -28,7 +28,7 @@ Examples:
 /// extension selects the format.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
-pub struct Arguments {
+pub struct SynthArguments {
     /// The circuit: .blif, .aig, .aag, .bench or .v
     input: PathBuf,
     /// The file to write: .blif, .aig, .aag, .v, .dot or .nb
@@ -70,7 +70,7 @@ struct Report {
     what_if: BTreeMap<String, i64>,
 }
 
-impl Arguments {
+impl SynthArguments {
     /// Reads, synthesizes, proves and writes.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl Arguments {
         let design = store::read_circuit(&self.input, self.clock.as_deref())?;
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
-            None => matches!(target, Some(circuit::formats::Format::Nb | circuit::formats::Format::Dot)),
+            None => matches!(target, Some(circuit::formats::CircuitFormat::Nb | circuit::formats::CircuitFormat::Dot)),
         };
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let options = self.mapping.options();
@@ -102,8 +102,8 @@ impl Arguments {
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
         }
         match context.format {
-            Format::Json => context.print_json(Schema::Synth, &report)?,
-            Format::Text => context.print(report.text())?,
+            OutputFormat::Json => context.print_json(Schema::Synth, &report)?,
+            OutputFormat::Text => context.print(report.text())?,
         }
         Ok(Status::Done)
     }
@@ -143,9 +143,9 @@ impl Report {
 }
 
 /// The format for a file's extension.
-fn format(path: &Path) -> Result<circuit::formats::Format, Failure> {
+fn format(path: &Path) -> Result<circuit::formats::CircuitFormat, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    circuit::formats::Format::of_ending(&ending).ok_or_else(|| {
+    circuit::formats::CircuitFormat::of_ending(&ending).ok_or_else(|| {
         let message =
             format!("unrecognized circuit format of `{}`; expected .blif, .aig, .aag, .v, .dot or .nb", path.display());
         Failure::plain(Diagnostic::without_place(Code::BadValue, message))

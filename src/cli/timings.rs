@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use crate::cli::Context;
-use crate::report::{Align, Table};
+use crate::report::{Align, TextTable};
 use crate::sim::{LaneBackend, Meter, Part, Simulator, Times};
 
 /// The option, for commands that simulate.
@@ -97,7 +97,7 @@ pub fn part_seconds(times: &Times) -> [f64; Part::ALL.len()] {
 
 /// The times as a table, and the speed of simulation.
 fn describe(times: &Times, chores: [f64; Chore::ALL.len()], elapsed: f64) -> String {
-    let mut table = Table::new(&[("stage", Align::Left), ("seconds", Align::Right), ("share", Align::Right)]);
+    let mut table = TextTable::new(&[("stage", Align::Left), ("seconds", Align::Right), ("share", Align::Right)]);
     let parts = part_seconds(times);
     let names = Part::ALL.map(Part::name).into_iter().chain(Chore::ALL.map(Chore::name));
     let (simulated, all) = (parts.iter().sum::<f64>(), parts.iter().chain(&chores).sum::<f64>());

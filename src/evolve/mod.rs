@@ -14,6 +14,6 @@ pub use archive::{AddStatus, Archive, ArchiveStats, Champion, Elite};
 pub use descriptor::{Descriptor, NicheKey};
 pub use develop::{LEAST_ACTUATORS, Undeveloped, develop, phenotype, validate};
 pub use mutate::mutate;
-pub use outcome::{Counts, Outcome, Scores};
-pub use search::{Candidate, Origin, Search, SearchState};
+pub use outcome::{CandidateOutcome, Counts, Scores};
+pub use search::{Candidate, CandidateOrigin, Search, SearchState};
 pub use symmetry::{Recoding, mirrored, recodings};

@@ -18,7 +18,7 @@ pub struct Scores {
 
 /// The result of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum CandidateOutcome {
     /// It was tried in full.
     Measured(Scores),
     /// Dropped early: cheaper tests showed that it cannot enter any niche.

@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::mutate::pick;
 use crate::evolve::{
-    AddStatus, Archive, Counts, Descriptor, Elite, NicheKey, Outcome, Recoding, Scores, cppn, develop, mirrored,
-    mutate, phenotype, recodings, validate,
+    AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Scores, cppn, develop,
+    mirrored, mutate, phenotype, recodings, validate,
 };
 use crate::model::{Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
 
@@ -16,7 +16,7 @@ const MOST_ATTEMPTS: u32 = 20_000;
 
 /// The origin of a candidate.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum CandidateOrigin {
     /// A new random network.
     Random,
     /// From an elite of that niche by mutation.
@@ -31,7 +31,7 @@ pub struct Candidate {
     /// Its place in the generation.
     pub index: u32,
     /// Its origin.
-    pub origin: Origin,
+    pub origin: CandidateOrigin,
     /// Its network.
     pub genotype: Genotype,
     /// Its voxels.
@@ -161,8 +161,8 @@ impl Search {
     pub fn ask(&self) -> Vec<Candidate> {
         let parents = self.parents();
         let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
-        let offspring = parents.iter().map(|(key, elite)| (Origin::Offspring((*key).clone()), Some(*elite)));
-        let newcomers = std::iter::repeat_n((Origin::Random, None), fresh);
+        let offspring = parents.iter().map(|(key, elite)| (CandidateOrigin::Offspring((*key).clone()), Some(*elite)));
+        let newcomers = std::iter::repeat_n((CandidateOrigin::Random, None), fresh);
         let mut candidates: Vec<Candidate> = Vec::new();
         for (index, (origin, parent)) in (0..).zip(offspring.chain(newcomers)) {
             candidates.extend(self.draw(index, origin, parent));
@@ -176,7 +176,7 @@ impl Search {
     ///
     /// # Panics
     /// When there is not one outcome for each candidate.
-    pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[Outcome]) {
+    pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[CandidateOutcome]) {
         assert_eq!(candidates.len(), outcomes.len(), "each candidate has one outcome");
         self.mirrors.clear();
         self.generation += 1;
@@ -184,10 +184,10 @@ impl Search {
             self.counts.evaluations += 1;
             self.counts.undeveloped += u64::from(candidate.undeveloped);
             match outcome {
-                Outcome::Measured(scores) => self.take(candidate, scores),
-                Outcome::Surpassed => self.counts.surpassed += 1,
-                Outcome::Inconsistent => self.counts.inconsistent += 1,
-                Outcome::Faulty(_) => self.counts.faults += 1,
+                CandidateOutcome::Measured(scores) => self.take(candidate, scores),
+                CandidateOutcome::Surpassed => self.counts.surpassed += 1,
+                CandidateOutcome::Inconsistent => self.counts.inconsistent += 1,
+                CandidateOutcome::Faulty(_) => self.counts.faults += 1,
             }
         }
     }
@@ -213,7 +213,7 @@ impl Search {
             evaluations: self.counts.evaluations,
         };
         let taken = self.offer(elite);
-        if taken && self.evolution.symmetry == Symmetry::Npn && candidate.origin != Origin::Mirror {
+        if taken && self.evolution.symmetry == Symmetry::Npn && candidate.origin != CandidateOrigin::Mirror {
             self.mirrors.push(mirrored(&candidate.genotype));
         }
     }
@@ -249,7 +249,7 @@ impl Search {
     }
 
     /// Mutates until the body is valid; `None` if this seems impossible.
-    fn draw(&self, index: u32, origin: Origin, parent: Option<&Elite>) -> Option<Candidate> {
+    fn draw(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
         let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
         let mut rng = self.stream(index);
         let start =
@@ -270,7 +270,7 @@ impl Search {
     fn mirror(&self, index: u32, genotype: &Genotype) -> Candidate {
         let Evolution { palette, rules, width, height, .. } = &self.evolution;
         let body = phenotype(genotype, palette, *rules, *width, *height);
-        Candidate { index, origin: Origin::Mirror, genotype: genotype.clone(), body, undeveloped: 0 }
+        Candidate { index, origin: CandidateOrigin::Mirror, genotype: genotype.clone(), body, undeveloped: 0 }
     }
 
     /// The random stream of a place in the coming generation.
@@ -322,7 +322,9 @@ pub(crate) mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::model::{Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Pattern, Schedule, Spell};
+    use crate::model::{
+        Axis, Behavior, Count, MutationWeights, Niche, Palette, Pattern, Schedule, SearchObjective, Spell,
+    };
 
     /// The paper's run in a 5 x 5 box.
     pub(crate) fn evolution() -> Evolution {
@@ -342,26 +344,26 @@ pub(crate) mod tests {
             generations: 30,
             seeds: vec![1],
             rules: Rules::Paper,
-            objective: Objective::Distance,
+            objective: SearchObjective::Distance,
             symmetry: Symmetry::None,
             niche: Niche::Dominance,
         }
     }
 
     /// A made-up outcome that depends on the body alone.
-    pub(crate) fn outcome(body: &Body) -> Outcome {
+    pub(crate) fn outcome(body: &Body) -> CandidateOutcome {
         let weight = |k: usize| {
             body.codes().iter().enumerate().map(|(i, &c)| ((i * k + 3) % 7 * usize::from(c)) as f64).sum::<f64>()
         };
         let displacement = [1, 2, 3, 5].map(|k| weight(k) % 11.0 - 5.0);
         let fitness =
             [displacement.iter().map(|d| d.abs()).sum(), displacement.iter().map(|d| d.abs()).fold(9.0, f64::min)];
-        Outcome::Measured(Scores { fitness, behavior: Behavior::of(&displacement), displacement })
+        CandidateOutcome::Measured(Scores { fitness, behavior: Behavior::of(&displacement), displacement })
     }
 
     fn advance(search: &mut Search) {
         let candidates = search.ask();
-        let outcomes: Vec<Outcome> = candidates.iter().map(|candidate| outcome(&candidate.body)).collect();
+        let outcomes: Vec<CandidateOutcome> = candidates.iter().map(|candidate| outcome(&candidate.body)).collect();
         search.tell(&candidates, &outcomes);
     }
 
@@ -371,7 +373,7 @@ pub(crate) mod tests {
         for _ in 0..20 {
             for candidate in search.ask() {
                 assert_eq!(validate(&candidate.body), Ok(()));
-                if let Origin::Offspring(key) = &candidate.origin {
+                if let CandidateOrigin::Offspring(key) = &candidate.origin {
                     let (_, elites) = search.archive().niches().find(|(niche, _)| *niche == key).unwrap();
                     assert_ne!(elites[0].body, candidate.body);
                 }
@@ -452,7 +454,7 @@ pub(crate) mod tests {
                 assert!(held, "the image's niche holds something as good");
             }
         }
-        assert!(search.ask().iter().any(|candidate| candidate.origin == Origin::Mirror));
+        assert!(search.ask().iter().any(|candidate| candidate.origin == CandidateOrigin::Mirror));
     }
 
     #[test]

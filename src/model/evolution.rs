@@ -37,7 +37,7 @@ pub struct Evolution {
     /// Whether to follow the paper's text or the authors' code where they differ.
     pub rules: Rules,
     /// The objective.
-    pub objective: Objective,
+    pub objective: SearchObjective,
     /// The niches that one evaluation may enter.
     pub symmetry: Symmetry,
     /// The elites that a niche keeps.
@@ -117,7 +117,7 @@ impl Default for MutationWeights {
 /// The objective of an evolution run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Objective {
+pub enum SearchObjective {
     /// The paper's two fitnesses: the distance in the variable simulation, and the smallest distance in the fixed ones.
     #[default]
     Distance,

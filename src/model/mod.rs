@@ -25,7 +25,7 @@ pub use circuit::{
     Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
 };
 pub use column::Column;
-pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Objective, Rules, Symmetry};
+pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SearchObjective, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialError, MaterialKind, Response};

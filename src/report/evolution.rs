@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use crate::evolve::{ArchiveStats, Counts, Search};
-use crate::model::Objective;
+use crate::model::SearchObjective;
 use crate::swarm::Work;
 
 /// A run after a generation, as a line of `progress.jsonl`.
@@ -53,8 +53,8 @@ impl EvolutionLine {
 pub fn evolution_table(search: &Search, work: Work) -> String {
     let stats = search.archive().stats();
     let [first, second] = match search.evolution().objective {
-        Objective::Distance => ["variable", "fixed"],
-        Objective::Gate => ["settled", "unchanged"],
+        SearchObjective::Distance => ["variable", "fixed"],
+        SearchObjective::Gate => ["settled", "unchanged"],
     };
     let mut text = format!("{:<10}{:<12}{:>8}{first:>11}{second:>11}\n", "behavior", "function", "niches");
     for best in &stats.champions {

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::evolve::{Elite, NicheKey};
 use crate::model::{Axis, Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Setting, Spell};
 use crate::report::chart::range_of;
-use crate::report::harvest::{Harvest, axis_word, bins};
+use crate::report::evolution_results::{EvolutionResults, axis_word, bins};
 use crate::report::heatmap::{heat, share};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
@@ -39,30 +39,30 @@ struct Entry<'a> {
 }
 
 /// The page for the runs of one declaration. The gaits are simulated here.
-pub fn draw_evolution_page(harvest: &Harvest, plates: &[Plate], scheme: Scheme) -> String {
-    let entries = ranked(harvest);
+pub fn draw_evolution_page(results: &EvolutionResults, plates: &[Plate], scheme: Scheme) -> String {
+    let entries = ranked(results);
     let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);
     let (pace, gaits) = record(&entries);
     let left_out = entries.len() - gaits.len();
-    let behaviors = Behavior::all().filter(|&behavior| harvest.champion(behavior).is_some()).count();
+    let behaviors = Behavior::all().filter(|&behavior| results.champion(behavior).is_some()).count();
     Html {
-        heading: &harvest.name,
+        heading: &results.name,
         passed: behaviors > 0,
-        verdict: verdict(harvest, behaviors, entries.len()),
-        body: archive(harvest, left_out) + &plates.iter().map(plate).collect::<String>(),
-        data: data(harvest, &entries, &gaits, pace, &looks),
+        verdict: verdict(results, behaviors, entries.len()),
+        body: archive(results, left_out) + &plates.iter().map(plate).collect::<String>(),
+        data: data(results, &entries, &gaits, pace, &looks),
         script: SCRIPT,
     }
     .finish()
 }
 
-fn verdict(harvest: &Harvest, behaviors: usize, filled: usize) -> String {
-    let seeds: Vec<u64> = harvest.runs.keys().copied().collect();
+fn verdict(results: &EvolutionResults, behaviors: usize, filled: usize) -> String {
+    let seeds: Vec<u64> = results.runs.keys().copied().collect();
     let runs = match seeds[..] {
         [seed] => format!("seed {seed}"),
         _ => format!("{} seeds together", seeds.len()),
     };
-    let niches = harvest.niche_count();
+    let niches = results.niche_count();
     format!(
         "{behaviors} of 16 behaviors in {filled} of {niches} niches ({:.1} %), {runs}",
         100.0 * filled as f64 / niches.max(1) as f64
@@ -71,9 +71,9 @@ fn verdict(harvest: &Harvest, behaviors: usize, filled: usize) -> String {
 
 /// The best elite of each niche: first the best of every behavior, then the second best; behaviors that depend on more
 /// stimuli first.
-fn ranked(harvest: &Harvest) -> Vec<Entry<'_>> {
+fn ranked(results: &EvolutionResults) -> Vec<Entry<'_>> {
     let mut of_behavior: BTreeMap<Behavior, Vec<Entry<'_>>> = BTreeMap::new();
-    for (key, (seed, elite)) in harvest.best() {
+    for (key, (seed, elite)) in results.best() {
         of_behavior.entry(elite.behavior).or_default().push(Entry { key, seed, elite });
     }
     let mut ranked = Vec::new();
@@ -99,12 +99,12 @@ fn record(entries: &[Entry<'_>]) -> (u32, Vec<Recorded>) {
     (recording.frames_per_cycle, recording.robots)
 }
 
-fn archive(harvest: &Harvest, left_out: usize) -> String {
-    let counted: Vec<usize> = (0..harvest.axes.len()).filter(|&i| harvest.axes[i] != Axis::Behavior).collect();
+fn archive(results: &EvolutionResults, left_out: usize) -> String {
+    let counted: Vec<usize> = (0..results.axes.len()).filter(|&i| results.axes[i] != Axis::Behavior).collect();
     let choice = |label: &str, place: usize| {
         let option = |&i: &usize| {
             let chosen = if counted.get(place.min(counted.len() - 1)) == Some(&i) { " selected" } else { "" };
-            format!("<option value=\"{i}\"{chosen}>{}</option>", axis_word(harvest.axes[i]))
+            format!("<option value=\"{i}\"{chosen}>{}</option>", axis_word(results.axes[i]))
         };
         let options: String = counted.iter().map(option).collect();
         format!("<label>{label} <select class=\"axis\">{options}</select></label>")
@@ -122,16 +122,16 @@ fn archive(harvest: &Harvest, left_out: usize) -> String {
          <p class=\"untold dim\" hidden>There was no room for the gait of this elite.</p>\n\
          <div class=\"player\">{controls}<canvas class=\"stage\" role=\"img\" aria-label=\"the elite walking\"></canvas></div></div></div>\n\
          {untold}</section>\n",
-        unit = escape(harvest.unit()),
-        low = number(range(harvest).0),
-        high = number(range(harvest).1),
+        unit = escape(results.unit()),
+        low = number(range(results).0),
+        high = number(range(results).1),
         colors = (0..=8).map(|i| heat(f64::from(i) / 8.0).to_string()).collect::<Vec<_>>().join(","),
         controls = controls("1"),
     )
 }
 
-fn range(harvest: &Harvest) -> (f64, f64) {
-    range_of(harvest.best().values().map(|(_, elite)| elite.fitness[0]), 0.0)
+fn range(results: &EvolutionResults) -> (f64, f64) {
+    range_of(results.best().values().map(|(_, elite)| elite.fitness[0]), 0.0)
 }
 
 fn number(value: f64) -> String {
@@ -143,17 +143,17 @@ fn plate(plate: &Plate) -> String {
     format!("<section>\n<h2>{heading}</h2>\n{}</section>\n", picture(&plate.drawing, &plate.heading))
 }
 
-fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, looks: &Looks) -> Value {
-    let range = range(harvest);
+fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, looks: &Looks) -> Value {
+    let range = range(results);
     let elites: Vec<Value> = entries
         .iter()
         .enumerate()
         .map(|(i, entry)| {
-            elite_data(harvest, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string(), looks)
+            elite_data(results, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string(), looks)
         })
         .collect();
     let axes: Vec<Value> =
-        harvest.axes.iter().map(|&axis| json!({ "word": axis_word(axis), "bins": bins(axis) })).collect();
+        results.axes.iter().map(|&axis| json!({ "word": axis_word(axis), "bins": bins(axis) })).collect();
     let behaviors: Vec<Value> = Behavior::all()
         .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
         .collect();
@@ -169,9 +169,15 @@ fn data(harvest: &Harvest, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32,
     })
 }
 
-fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, color: String, looks: &Looks) -> Value {
+fn elite_data(
+    results: &EvolutionResults,
+    entry: &Entry<'_>,
+    gait: Option<&Recorded>,
+    color: String,
+    looks: &Looks,
+) -> Value {
     let Entry { key: NicheKey(niche), seed, elite } = entry;
-    let counted = harvest.axes.iter().zip(niche).filter(|(axis, _)| **axis != Axis::Behavior);
+    let counted = results.axes.iter().zip(niche).filter(|(axis, _)| **axis != Axis::Behavior);
     let place: Vec<String> =
         counted.map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, bins(*axis))).collect();
     let walked: Vec<String> = Pattern::PAIRS
@@ -187,7 +193,7 @@ fn elite_data(harvest: &Harvest, entry: &Entry<'_>, gait: Option<&Recorded>, col
         "color": color,
         "size": [elite.body.width(), elite.body.height()],
         "about": [
-            ["fitness", &format!("{}, {}", number(elite.fitness[0]), harvest.unit())],
+            ["fitness", &format!("{}, {}", number(elite.fitness[0]), results.unit())],
             ["bins", &place.join(", ")],
             ["second", &format!("{:.3}", elite.fitness[1])],
             ["displacement", &format!("{} voxels", walked.join(", "))],

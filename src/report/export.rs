@@ -4,15 +4,15 @@
 use serde::Serialize;
 
 use crate::evolve::{Elite, NicheKey};
-use crate::model::{Axis, Behavior, Body, Library, Material, MaterialKind, Objective, Pattern, Robot};
+use crate::model::{Axis, Behavior, Body, Library, Material, MaterialKind, Pattern, Robot, SearchObjective};
 use crate::report::csv::{cell, line};
-use crate::report::harvest::{Harvest, axis_word, bins};
+use crate::report::evolution_results::{EvolutionResults, axis_word, bins};
 
 /// The archives of a declaration's runs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Elites<'a> {
     run: &'a str,
-    objective: Objective,
+    objective: SearchObjective,
     axes: Vec<AxisData>,
     elites: Vec<EliteData<'a>>,
 }
@@ -85,18 +85,18 @@ impl<'a> BodyData<'a> {
 
 impl<'a> Elites<'a> {
     /// All elites of some runs, seed by seed and niche by niche.
-    pub fn of(harvest: &'a Harvest) -> Self {
+    pub fn of(results: &'a EvolutionResults) -> Self {
         let axis = |axis: &Axis| AxisData { name: axis_word(*axis), bins: bins(*axis) };
-        let elites = harvest.runs.iter().flat_map(|(&seed, run)| {
+        let elites = results.runs.iter().flat_map(|(&seed, run)| {
             let niche = move |(key, elites): &'a (NicheKey, Vec<Elite>)| {
                 elites.iter().map(move |elite| EliteData::of(seed, key, elite))
             };
             run.niches.iter().flat_map(niche)
         });
         Self {
-            run: &harvest.name,
-            objective: harvest.objective,
-            axes: harvest.axes.iter().map(axis).collect(),
+            run: &results.name,
+            objective: results.objective,
+            axes: results.axes.iter().map(axis).collect(),
             elites: elites.collect(),
         }
     }

@@ -10,7 +10,7 @@ use statrs::stats_tests::mannwhitneyu::{MannWhitneyUMethod, mannwhitneyu};
 
 use crate::evolve::Champion;
 use crate::model::Behavior;
-use crate::report::{Align, Table};
+use crate::report::{Align, TextTable};
 
 /// The thresholds of significance that are spoken of; the paper's is the last.
 const THRESHOLDS: [f64; 2] = [0.05, 0.001];
@@ -146,15 +146,20 @@ fn choices(n: usize, k: usize) -> f64 {
 /// The groups and their comparisons in words.
 pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> String {
     use Align::{Left, Right};
-    let mut table =
-        Table::new(&[("group", Left), ("runs", Right), ("mean distance", Right), ("least", Right), ("most", Right)]);
+    let mut table = TextTable::new(&[
+        ("group", Left),
+        ("runs", Right),
+        ("mean distance", Right),
+        ("least", Right),
+        ("most", Right),
+    ]);
     for BehaviorGroup { name, values, .. } in groups {
         let number = |value: f64| if values.is_empty() { "-".to_owned() } else { format!("{value:.2}") };
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), &v| (v.min(l), v.max(m)));
         table.push(vec![(*name).to_owned(), values.len().to_string(), number(mean), number(least), number(most)]);
     }
-    let mut pairs = Table::new(&[("compared", Left), ("p", Right), ("Holm", Right), ("A12", Right), ("", Left)]);
+    let mut pairs = TextTable::new(&[("compared", Left), ("p", Right), ("Holm", Right), ("A12", Right), ("", Left)]);
     for comparison in comparisons {
         let [a, b] = comparison.groups.map(|i| groups[i].name.split(',').next().unwrap_or_default());
         let note = if comparison.is_approximate { "approximate: there are ties" } else { "" };

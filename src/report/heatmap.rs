@@ -7,7 +7,7 @@ use crate::evolve::NicheKey;
 use crate::model::{Axis, Behavior, Count, Function};
 use crate::report::Color;
 use crate::report::chart::{Scale, range_of, tick_label};
-use crate::report::harvest::bins;
+use crate::report::evolution_results::bins;
 use crate::report::svg::{Anchor, Paint, Svg, Type};
 
 const CELL: f64 = 26.0;

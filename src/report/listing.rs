@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::diag::counted;
 use crate::model::{Library, Palette, Pattern, Robot};
 use crate::report::looks::material_words;
-use crate::report::{Align, Table};
+use crate::report::{Align, TextTable};
 use crate::store;
 
 /// The data of a robot in a list, for programs.
@@ -64,9 +64,9 @@ impl Listing {
     }
 
     /// A list as a table for people.
-    pub fn table(list: &[Self]) -> Table {
+    pub fn table(list: &[Self]) -> TextTable {
         use Align::{Left, Right};
-        let mut table = Table::new(&[
+        let mut table = TextTable::new(&[
             ("function", Left),
             ("robot", Left),
             ("behavior", Left),

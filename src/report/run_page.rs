@@ -9,7 +9,9 @@ use crate::report::looks::Looks;
 use crate::report::page_bodies::{look_data, materials, voxel_data};
 use crate::report::scheme::Scheme;
 use crate::report::svg::Svg;
-use crate::swarm::{Assembly, Recorded, RowActivity, RowVerdict, Signal, SimulationResult, SwarmTrace, TestVerdict};
+use crate::swarm::{
+    Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, StimulusSource, SwarmTrace, TestVerdict,
+};
 
 const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
 
@@ -216,8 +218,8 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
     let body = &member.robot.body;
     let character = &member.robot.character;
     let wired = |i: usize| match robot.senses[i] {
-        Signal::Constant(value) => format!("nothing (always {})", u8::from(value)),
-        Signal::Input(_) | Signal::Robot(_) => robot.sensed_nets[i].clone(),
+        StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(value)),
+        StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
     };
     let sensed = [0, 1].map(|i| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k][i])));
     json!({

@@ -7,7 +7,7 @@ use crate::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory};
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
 use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
-use crate::swarm::{RobotTrace, Signal, SwarmTrace};
+use crate::swarm::{RobotTrace, StimulusSource, SwarmTrace};
 
 const PANEL_WIDTH: f64 = 150.0;
 const STRIP_WIDTH: f64 = 13.0;
@@ -191,7 +191,7 @@ fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
     let robot = &trace.robots[k];
     let sensed = [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate().filter_map(|(i, color)| {
         let bits = trace.cycles.iter().map(|cycle| cycle.sensed[k][i]);
-        let wired = !matches!(robot.senses[i], Signal::Constant(_));
+        let wired = !matches!(robot.senses[i], StimulusSource::Constant(_));
         wired.then(|| Strip::of_cycles(&robot.sensed_nets[i], color, bits))
     });
     let bits = trace.cycles.iter().map(|cycle| cycle.bits[k]);
@@ -206,7 +206,7 @@ fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
 
 /// The robot that an output port shows, with the circuit's inputs beside it; `None` where the port shows no robot.
 fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
-    let Signal::Robot(k) = trace.shown[output] else { return None };
+    let StimulusSource::Robot(k) = trace.shown[output] else { return None };
     let robot = &trace.robots[k];
     let bits = trace.cycles.iter().map(|cycle| cycle.outputs[output]);
     let name = trace.outputs.iter().flat_map(Column::bits).nth(output)?;

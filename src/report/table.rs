@@ -13,12 +13,12 @@ pub enum Align {
 
 /// A table with a header, its columns two blanks apart.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct TextTable {
     columns: Vec<(String, Align)>,
     rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl TextTable {
     /// An empty table.
     pub fn new(columns: &[(&str, Align)]) -> Self {
         Self { columns: columns.iter().map(|&(name, align)| (name.to_owned(), align)).collect(), rows: Vec::new() }
@@ -47,7 +47,7 @@ impl Table {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for TextTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.line(self.columns.iter().map(|(name, _)| name.as_str())))?;
         for row in &self.rows {
@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn words_are_left_aligned_and_numbers_right_aligned() {
-        let mut table = Table::new(&[("name", Align::Left), ("clock", Align::Right), ("", Align::Left)]);
+        let mut table = TextTable::new(&[("name", Align::Left), ("clock", Align::Right), ("", Align::Left)]);
         table.push(vec!["nand_1".to_owned(), "4".to_owned(), "é".to_owned()]);
         table.push(vec!["x".to_owned(), "12".to_owned(), String::new()]);
         assert_eq!(table.to_string(), "name    clock\nnand_1      4  é\nx          12\n");

@@ -2,7 +2,7 @@
 
 use crate::diag::counted;
 use crate::model::{Column, Value};
-use crate::report::{Align, Table};
+use crate::report::{Align, TextTable};
 use crate::swarm::{Lapse, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
 /// The most failing rows of a test that are described.
@@ -12,7 +12,7 @@ const MOST_ROWS: usize = 20;
 pub fn describe_test(verdict: &TestVerdict) -> String {
     use Align::{Left, Right};
     let mut table =
-        Table::new(&[("inputs", Left), ("expected", Left), ("observed", Left), ("cycles", Right), ("", Left)]);
+        TextTable::new(&[("inputs", Left), ("expected", Left), ("observed", Left), ("cycles", Right), ("", Left)]);
     let inputs = PortColumns::of(&verdict.inputs, verdict.rows.iter().map(|row| &row.inputs));
     let expected = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.expected));
     let observed = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.observed));
@@ -42,7 +42,7 @@ pub fn describe_failures(verdict: &TestVerdict) -> String {
 /// The outputs of a simulated swarm.
 pub fn describe_simulation(result: &SimulationResult) -> String {
     use Align::{Left, Right};
-    let mut table = Table::new(&[("inputs", Left), ("cycles", Right), ("at the end", Left), ("changes", Left)]);
+    let mut table = TextTable::new(&[("inputs", Left), ("cycles", Right), ("at the end", Left), ("changes", Left)]);
     let inputs = PortColumns::of(&result.inputs, result.rows.iter().map(|row| &row.inputs));
     let observed = PortColumns::of(&result.outputs, result.rows.iter().map(|row| &row.observed));
     table.push(vec![inputs.names(), String::new(), observed.names(), observed.names()]);
@@ -54,7 +54,7 @@ pub fn describe_simulation(result: &SimulationResult) -> String {
     format!("simulate {}, of {}\n{}", result.swarm, result.circuit, indented(&table))
 }
 
-fn indented(table: &Table) -> String {
+fn indented(table: &TextTable) -> String {
     table.to_string().lines().map(|line| format!("    {line}\n")).collect()
 }
 

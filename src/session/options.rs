@@ -1,6 +1,6 @@
 //! What a door may choose about compiling.
 
-use crate::circuit::{Effort, MapOptions, Objective};
+use crate::circuit::{Effort, MapOptions, MappingObjective};
 use crate::model::Library;
 
 /// Where evolution runs are unless another place is named.
@@ -14,7 +14,7 @@ pub struct CompileOptions {
     /// These robots instead of those that the source declares.
     pub robots: Option<Library>,
     /// What mapping minimizes.
-    pub objective: Objective,
+    pub objective: MappingObjective,
     /// How much work mapping does.
     pub effort: Effort,
     /// The folder of evolution runs: the robots of `from: NAME` are in `NAME/robots` there.

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::store::draft::{Draft, keep_owner_and_mode};
+use crate::store::draft::{DraftFile, keep_owner_and_mode};
 
 /// Writes a file atomically: at any time, its path has either the old contents or all of `bytes`. A new file in the
 /// same folder is flushed to the disk and then takes the old name.
@@ -38,7 +38,7 @@ fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>
     if before.as_ref().is_some_and(|before| before.permissions().readonly()) {
         return Err(io::Error::other("it is read-only"));
     }
-    let mut draft = Draft::create(&folder)?;
+    let mut draft = DraftFile::create(&folder)?;
     let mut buffer = BufWriter::new(draft.file());
     content(&mut buffer)?;
     buffer.flush()?;

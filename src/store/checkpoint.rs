@@ -7,7 +7,7 @@ use crate::evolve::{Search, SearchState};
 use crate::model::Evolution;
 use crate::store::declared::Declared;
 use crate::store::first_checkpoint::FirstRecord;
-use crate::store::search_state::Record as StateRecord;
+use crate::store::search_state::SearchRecord as StateRecord;
 
 /// The checkpoint version that this program writes; it also reads earlier ones.
 const FORMAT: &str = "2";
@@ -128,8 +128,10 @@ fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evolve::{Outcome, Scores};
-    use crate::model::{Axis, Behavior, Count, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Symmetry};
+    use crate::evolve::{CandidateOutcome, Scores};
+    use crate::model::{
+        Axis, Behavior, Count, MutationWeights, Niche, Palette, Rules, Schedule, SearchObjective, Symmetry,
+    };
 
     fn evolution() -> Evolution {
         Evolution {
@@ -146,7 +148,7 @@ mod tests {
             generations: 5,
             seeds: vec![1],
             rules: Rules::Paper,
-            objective: Objective::Distance,
+            objective: SearchObjective::Distance,
             symmetry: Symmetry::Npn,
             niche: Niche::Pareto(3),
         }
@@ -161,7 +163,8 @@ mod tests {
                 behavior: Behavior::of(&[1.0, -1.0, i as f64 - 3.0, 1.0]),
                 displacement: [0.1 + 0.2, 1e-300, -1.0 / 3.0, 0.0],
             };
-            let outcomes: Vec<Outcome> = (0..candidates.len()).map(|i| Outcome::Measured(scores(i))).collect();
+            let outcomes: Vec<CandidateOutcome> =
+                (0..candidates.len()).map(|i| CandidateOutcome::Measured(scores(i))).collect();
             search.tell(&candidates, &outcomes);
         }
         search

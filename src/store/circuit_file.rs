@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::circuit::formats::{Design, Format, aiger, bench, blif};
+use crate::circuit::formats::{CircuitFormat, Design, aiger, bench, blif};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileError, Sources};
 use crate::store::{disk, yosys};
@@ -42,9 +42,9 @@ pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnost
 ///
 /// # Errors
 /// Why the format cannot hold the design.
-pub fn encode_circuit(design: &Design, format: Format) -> Result<Vec<u8>, Diagnostic> {
+pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>, Diagnostic> {
     let bytes = format.encode(design)?;
-    if format != Format::Nb {
+    if format != CircuitFormat::Nb {
         return Ok(bytes);
     }
     Ok(canonical(String::from_utf8(bytes).expect("a program is text"))?.into_bytes())

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::{Axis, Evolution, Objective, Palette};
+use crate::model::{Axis, Evolution, Palette, SearchObjective};
 
 /// The declaration in a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Declared {
     /// The archive's axes; `None` in the oldest checkpoints, which do not have them.
     pub axes: Vec<Axis>,
     /// The objective.
-    pub objective: Objective,
+    pub objective: SearchObjective,
     /// The meaning of the codes in its bodies.
     pub palette: Arc<Palette>,
     pub(super) whole: Whole,

@@ -8,14 +8,14 @@ use tempfile::{Builder, NamedTempFile};
 
 /// A new file in a folder. If the system supports unnamed files it has no name, so nothing is left behind however the
 /// program ends. Elsewhere it is removed when dropped.
-pub(super) enum Draft {
+pub(super) enum DraftFile {
     /// A file without a name.
     Unnamed(File),
     /// A file with a name of its own.
     Named(NamedTempFile),
 }
 
-impl Draft {
+impl DraftFile {
     pub(super) fn create(folder: &Path) -> io::Result<Self> {
         match unnamed(folder) {
             Some(file) => Ok(Self::Unnamed(file)),

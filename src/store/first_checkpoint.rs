@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::model::{Axis, Drive, Material, MaterialKind, Objective, Palette, Response};
+use crate::model::{Axis, Drive, Material, MaterialKind, Palette, Response, SearchObjective};
 use crate::store::declared::{Declared, Whole};
-use crate::store::search_state::Record as StateRecord;
+use crate::store::search_state::SearchRecord as StateRecord;
 
 /// The part of such a checkpoint after its header.
 #[derive(Deserialize)]
@@ -18,7 +18,7 @@ pub(super) struct FirstRecord {
     #[serde(default)]
     descriptors: Vec<Axis>,
     #[serde(default)]
-    objective: Objective,
+    objective: SearchObjective,
     pub(super) state: StateRecord,
     pub(super) env_steps: u64,
     pub(super) left_out: u64,

@@ -14,7 +14,7 @@ const MAX_BINS: usize = 1000;
 /// A search's state.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Record {
+pub(super) struct SearchRecord {
     seed: u64,
     generation: u32,
     counts: Counts,
@@ -35,7 +35,7 @@ struct EliteRecord {
     evaluations: u64,
 }
 
-impl Record {
+impl SearchRecord {
     pub(super) fn of(state: SearchState) -> Self {
         let SearchState { seed, generation, counts, mirrors, niches } = state;
         let record = |elites: Vec<Elite>| elites.into_iter().map(EliteRecord::of).collect();

@@ -11,7 +11,7 @@ use crate::swarm::cells::choose;
 /// Where a stimulus or an output port gets its bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Signal {
+pub enum StimulusSource {
     /// A bit of the input ports, by its place among their bits.
     Input(usize),
     /// A member's output in the cycle before, by its place among the members.
@@ -28,7 +28,7 @@ pub struct Member {
     /// The robot that drives it.
     pub robot: Robot,
     /// What it senses as stimulus 1 and stimulus 2.
-    pub senses: [Signal; 2],
+    pub senses: [StimulusSource; 2],
     /// Its output before the first cycle.
     pub start: bool,
 }
@@ -45,7 +45,7 @@ pub struct Assembly {
     /// The output ports.
     pub outputs: Vec<Column>,
     /// What each bit of the output ports shows.
-    pub shown: Vec<Signal>,
+    pub shown: Vec<StimulusSource>,
 }
 
 /// A netlist that a library cannot play.
@@ -76,10 +76,10 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
     let before = Logic::new(netlist);
     let mut members = Vec::new();
     for (id, cell) in netlist.cells() {
-        let pins: Vec<Signal> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
+        let pins: Vec<StimulusSource> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
         let missing = AssembleError::MissingFunction { function: cell.function };
         let (robot, exchange) = choose(library, cell.function).ok_or(missing)?;
-        let mut senses = [pins[0], pins.get(1).copied().unwrap_or(Signal::Constant(false))];
+        let mut senses = [pins[0], pins.get(1).copied().unwrap_or(StimulusSource::Constant(false))];
         if exchange {
             senses.reverse();
         }
@@ -101,17 +101,17 @@ fn ports(netlist: &Netlist, bits: &[NetId]) -> Vec<Column> {
 }
 
 /// The signal of each net: inputs and robots are numbered in the netlist's order.
-fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, Signal> {
-    let mut signals: BTreeMap<NetId, Signal> =
-        netlist.inputs().iter().enumerate().map(|(i, &id)| (id, Signal::Input(i))).collect();
+fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, StimulusSource> {
+    let mut signals: BTreeMap<NetId, StimulusSource> =
+        netlist.inputs().iter().enumerate().map(|(i, &id)| (id, StimulusSource::Input(i))).collect();
     let mut robots = 0;
     for id in netlist.ids() {
         match netlist.node(id) {
             Node::Constant(value) => {
-                signals.insert(id, Signal::Constant(*value));
+                signals.insert(id, StimulusSource::Constant(*value));
             }
             Node::Cell(_) => {
-                signals.insert(id, Signal::Robot(robots));
+                signals.insert(id, StimulusSource::Robot(robots));
                 robots += 1;
             }
             Node::Input(_) | Node::Output(_) => {}
@@ -153,7 +153,7 @@ mod tests {
         }
     }
 
-    fn check(function: Function, robots: &[Function], expected: Result<(&str, [Signal; 2]), AssembleError>) {
+    fn check(function: Function, robots: &[Function], expected: Result<(&str, [StimulusSource; 2]), AssembleError>) {
         let mut netlist = Netlist::new("one");
         let pins: Vec<_> = (0..function.arity()).map(|i| netlist.add_input(format!("i{i}"))).collect();
         let gate = netlist.add_gate(function, &pins);
@@ -161,7 +161,7 @@ mod tests {
         let library = Library { robots: robots.iter().copied().map(robot).collect() };
         let found = assemble(&netlist, &library).map(|assembly| {
             assert_eq!(assembly.outputs, [Column { name: "y".to_owned(), width: 1 }]);
-            assert_eq!(assembly.shown, [Signal::Robot(0)]);
+            assert_eq!(assembly.shown, [StimulusSource::Robot(0)]);
             (assembly.members[0].robot.name.clone(), assembly.members[0].senses)
         });
         assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses)));
@@ -169,20 +169,28 @@ mod tests {
 
     #[test]
     fn a_cell_gets_the_robot_of_its_function() {
-        let senses = [Signal::Input(0), Signal::Input(1)];
+        let senses = [StimulusSource::Input(0), StimulusSource::Input(1)];
         check(Function::NAND, &[Function::AND, Function::NAND], Ok(("nand", senses)));
     }
 
     #[test]
     fn a_robot_with_exchanged_inputs_is_accepted() {
         let (here, there) = (Function::new(0b0100), Function::new(0b0010));
-        check(here, &[there], Ok(("nota_and_b", [Signal::Input(1), Signal::Input(0)])));
+        check(here, &[there], Ok(("nota_and_b", [StimulusSource::Input(1), StimulusSource::Input(0)])));
     }
 
     #[test]
     fn an_inverter_reads_the_stimulus_its_robot_depends_on() {
-        check(Function::NOT, &[Function::NOT], Ok(("not", [Signal::Input(0), Signal::Constant(false)])));
-        check(Function::NOT, &[Function::NOT_B], Ok(("notb", [Signal::Constant(false), Signal::Input(0)])));
+        check(
+            Function::NOT,
+            &[Function::NOT],
+            Ok(("not", [StimulusSource::Input(0), StimulusSource::Constant(false)])),
+        );
+        check(
+            Function::NOT,
+            &[Function::NOT_B],
+            Ok(("notb", [StimulusSource::Constant(false), StimulusSource::Input(0)])),
+        );
     }
 
     #[test]

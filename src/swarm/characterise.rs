@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::model::{Behavior, Body, Character, Direction, Fault, Pattern, Setting, Transition, Trial};
 use crate::sim::Simulator;
-use crate::swarm::holds::{Hold, HoldPlan, holds};
+use crate::swarm::holds::{HoldPlan, PatternHold, holds};
 
 /// Seed of the random sequences.
 const SEED: u64 = 0x6e62_6373;
@@ -95,7 +95,7 @@ impl Tally {
         f64::from(self.wrong) / f64::from(self.switches.max(1))
     }
 
-    fn count(&mut self, hold: &Hold, behavior: Behavior) {
+    fn count(&mut self, hold: &PatternHold, behavior: Behavior) {
         let Some(before) = hold.before else { return };
         let right = behavior.direction(hold.pattern);
         let is_wrong = |displacement: &&f64| Direction::of(**displacement) != right;
@@ -117,7 +117,7 @@ impl<'a> Probe<'a> {
     }
 
     /// Runs plans from each start.
-    fn run(&self, plans: &[HoldPlan]) -> Result<Vec<Vec<Hold>>, Fault> {
+    fn run(&self, plans: &[HoldPlan]) -> Result<Vec<Vec<PatternHold>>, Fault> {
         let trials: Vec<Trial> =
             plans.iter().map(|plan| Trial { body: self.body.clone(), schedule: plan.schedule() }).collect();
         let mut found = Vec::with_capacity(plans.len() * STARTS.len());
@@ -187,7 +187,7 @@ impl<'a> Probe<'a> {
     }
 
     /// The cycle from which on the output is right.
-    fn settled(&self, hold: &Hold) -> u32 {
+    fn settled(&self, hold: &PatternHold) -> u32 {
         let right = self.behavior.direction(hold.pattern);
         let last_wrong = hold.cycles.iter().rposition(|&displacement| Direction::of(displacement) != right);
         last_wrong.map_or(1, |cycle| cycle as u32 + 2)
@@ -195,7 +195,7 @@ impl<'a> Probe<'a> {
 }
 
 /// Whether the last hold of some pattern finds the body far lower than its first hold did.
-fn has_toppled(holds: &[Hold]) -> bool {
+fn has_toppled(holds: &[PatternHold]) -> bool {
     Pattern::PAIRS.iter().any(|&pattern| {
         let mut heights = holds.iter().filter(|hold| hold.pattern == pattern).map(|hold| hold.height);
         heights.next().is_some_and(|first| heights.next_back().is_some_and(|last| last < TOPPLED * first))
@@ -211,12 +211,12 @@ mod tests {
         "RRRL".parse().unwrap()
     }
 
-    fn hold(before: usize, pattern: usize, cycles: &[f64]) -> Hold {
+    fn hold(before: usize, pattern: usize, cycles: &[f64]) -> PatternHold {
         let pairs = Pattern::PAIRS;
-        Hold { before: Some(pairs[before]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 2.0 }
+        PatternHold { before: Some(pairs[before]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 2.0 }
     }
 
-    fn tally(clock: u32, holds: &[Hold]) -> Tally {
+    fn tally(clock: u32, holds: &[PatternHold]) -> Tally {
         let (margin, toppled) = (f64::INFINITY, false);
         let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
         holds.iter().for_each(|hold| tally.count(hold, nand()));
@@ -232,7 +232,7 @@ mod tests {
         };
         assert_eq!(found(1), (3, 3, -0.5));
         assert_eq!(found(2), (3, 2, -0.1), "an isolated wrong cycle in steady state counts");
-        let start = Hold { before: None, ..hold(0, 3, &[9.0]) };
+        let start = PatternHold { before: None, ..hold(0, 3, &[9.0]) };
         assert_eq!(tally(1, &[start]).switches, 0, "a fresh start is no switch");
     }
 
@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn a_body_has_toppled_when_it_stays_low_in_a_pattern_that_it_stood_in() {
-        let at = |pattern, height| Hold { height, ..hold(0, pattern, &[0.1]) };
+        let at = |pattern, height| PatternHold { height, ..hold(0, pattern, &[0.1]) };
         assert!(has_toppled(&[at(3, 2.0), at(1, 1.9), at(3, 1.3)]));
         assert!(!has_toppled(&[at(3, 2.0), at(1, 1.2), at(3, 1.5)]), "low in another pattern is no fall");
     }
@@ -269,7 +269,7 @@ mod tests {
         let back: Vec<u32> = settle.iter().filter(|t| t.to == Pattern::PAIRS[0]).map(|t| t.cycles).collect();
         assert_eq!(back, [SETTLE_AFTER + 1; 3], "wrong to the end");
         let probe = Probe::new(&simulator, &body, contrary);
-        let settled = |cycles: &[f64]| probe.settled(&Hold { cycles: cycles.to_vec(), ..hold(1, 0, &[]) });
+        let settled = |cycles: &[f64]| probe.settled(&PatternHold { cycles: cycles.to_vec(), ..hold(1, 0, &[]) });
         let sign = if walks_right { -1.0 } else { 1.0 };
         assert_eq!([settled(&[sign; 4]), settled(&[-sign, sign, -sign, sign])], [1, 4]);
     }

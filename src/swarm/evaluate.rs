@@ -1,8 +1,8 @@
 //! Evaluation of candidates by the paper's protocol, and the loop of asking, evaluating and telling (paper, Methods;
 //! docs/physics.md 10).
 
-use crate::evolve::{Candidate, Outcome, Scores, Search};
-use crate::model::{Behavior, Direction, Objective, Pattern, Schedule, Setting, Trajectory, Trial};
+use crate::evolve::{Candidate, CandidateOutcome, Scores, Search};
+use crate::model::{Behavior, Direction, Pattern, Schedule, SearchObjective, Setting, Trajectory, Trial};
 use crate::sim::Simulator;
 use crate::swarm::{Work, gate};
 
@@ -15,10 +15,10 @@ pub fn evolve_generation(search: &mut Search) -> Work {
 }
 
 /// The outcome of each candidate, judged against the archive as it is now.
-pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
     match search.evolution().objective {
-        Objective::Distance => distance(simulator, search, candidates),
-        Objective::Gate => gate::evaluate(simulator, search, candidates),
+        SearchObjective::Distance => distance(simulator, search, candidates),
+        SearchObjective::Gate => gate::evaluate(simulator, search, candidates),
     }
 }
 
@@ -39,14 +39,14 @@ pub fn fixed_trials(body: &crate::model::Body, steps: u32) -> [Trial; 4] {
 }
 
 /// The paper's two objectives: four fixed simulations, then the variable one for those whose fixed fitness can still win a niche.
-fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
     let evolution = search.evolution();
     let setting = Setting::default();
     let trials: Vec<Trial> =
         candidates.iter().flat_map(|candidate| fixed_trials(&candidate.body, evolution.fixed_steps)).collect();
     let mut work = Work { env_steps: steps(&trials), left_out: 0 };
     let trajectories = simulator.run_trials(&setting, &trials);
-    let first: Vec<Result<Scores, Outcome>> = candidates
+    let first: Vec<Result<Scores, CandidateOutcome>> = candidates
         .iter()
         .zip(trajectories.chunks_exact(4))
         .map(|(candidate, four)| fixed_scores(search, candidate, four))
@@ -72,30 +72,30 @@ fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) ->
 }
 
 /// The scores as far as the fixed simulations give them, with a first fitness that nothing exceeds.
-fn fixed_scores(search: &Search, candidate: &Candidate, four: &[Trajectory]) -> Result<Scores, Outcome> {
+fn fixed_scores(search: &Search, candidate: &Candidate, four: &[Trajectory]) -> Result<Scores, CandidateOutcome> {
     let four = four.first_chunk::<4>().expect("four trials for each candidate");
-    let displacement = fixed_displacements(four).map_err(Outcome::Faulty)?;
+    let displacement = fixed_displacements(four).map_err(CandidateOutcome::Faulty)?;
     let least = displacement.iter().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
     let scores = Scores { fitness: [f64::INFINITY, least], behavior: Behavior::of(&displacement), displacement };
-    if search.could_take(&candidate.body, &scores) { Ok(scores) } else { Err(Outcome::Surpassed) }
+    if search.could_take(&candidate.body, &scores) { Ok(scores) } else { Err(CandidateOutcome::Surpassed) }
 }
 
 /// What the variable simulation adds: the sum of distances, and whether each spell's direction is that of the fixed simulations.
-fn variable_outcome(schedule: &Schedule, scores: Scores, trajectory: &Trajectory) -> Outcome {
+fn variable_outcome(schedule: &Schedule, scores: Scores, trajectory: &Trajectory) -> CandidateOutcome {
     if let Some(fault) = trajectory.fault {
-        return Outcome::Faulty(fault);
+        return CandidateOutcome::Faulty(fault);
     }
     let (mut at, mut sum) = (0, 0.0);
     for spell in &schedule.spells {
         let end = at + spell.steps as usize;
         let moved = displacement(&trajectory.com_x, at, end);
         if Direction::of(moved) != scores.behavior.direction(spell.pattern) {
-            return Outcome::Inconsistent;
+            return CandidateOutcome::Inconsistent;
         }
         sum += moved.abs();
         at = end;
     }
-    Outcome::Measured(Scores { fitness: [sum, scores.fitness[1]], ..scores })
+    CandidateOutcome::Measured(Scores { fitness: [sum, scores.fitness[1]], ..scores })
 }
 
 fn displacement(com_x: &[f64], from: usize, to: usize) -> f64 {

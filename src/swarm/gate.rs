@@ -4,11 +4,11 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::evolve::{Candidate, Outcome, Scores, Search};
+use crate::evolve::{Candidate, CandidateOutcome, Scores, Search};
 use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern, Setting};
 use crate::sim::Simulator;
 use crate::swarm::Work;
-use crate::swarm::holds::{Hold, HoldPlan};
+use crate::swarm::holds::{HoldPlan, PatternHold};
 
 /// Cycles of each hold of the walks.
 const HOLD: usize = 4;
@@ -49,7 +49,11 @@ fn random_sequences() -> Vec<Lane> {
 
 /// The outcome of each candidate by the gate objective: the walks, then the random sequences. After each cycle those are dropped that
 /// no niche could take any more; their scores can only fall.
-pub(crate) fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<Outcome>, Work) {
+pub(crate) fn evaluate(
+    simulator: &Simulator,
+    search: &Search,
+    candidates: &[Candidate],
+) -> (Vec<CandidateOutcome>, Work) {
     let mut attempts: Vec<Attempt> = candidates.iter().map(Attempt::new).collect();
     let mut work = Work::default();
     for (stage, lanes) in [walks(), random_sequences()].iter().enumerate() {
@@ -93,9 +97,9 @@ fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], l
 struct Attempt<'a> {
     candidate: &'a Candidate,
     /// The holds of each lane so far.
-    holds: Vec<Vec<Hold>>,
+    holds: Vec<Vec<PatternHold>>,
     scores: Scores,
-    outcome: Option<Outcome>,
+    outcome: Option<CandidateOutcome>,
 }
 
 impl<'a> Attempt<'a> {
@@ -110,13 +114,13 @@ impl<'a> Attempt<'a> {
         let before = holds.last().map(|hold| hold.pattern);
         match holds.last_mut() {
             Some(hold) if hold.pattern == pattern => hold.cycles.push(displacement),
-            _ => holds.push(Hold { before, pattern, cycles: vec![displacement], height: 0.0 }),
+            _ => holds.push(PatternHold { before, pattern, cycles: vec![displacement], height: 0.0 }),
         }
     }
 
     fn fail(&mut self, fault: Option<crate::model::Fault>) {
         if self.outcome.is_none() {
-            self.outcome = fault.map(Outcome::Faulty);
+            self.outcome = fault.map(CandidateOutcome::Faulty);
         }
     }
 
@@ -132,19 +136,19 @@ impl<'a> Attempt<'a> {
         }
         self.scores.fitness = fitness(self.scores.behavior, self.holds.iter().flatten());
         if self.scores.fitness[0] < HOPELESS {
-            self.outcome = Some(Outcome::Inconsistent);
+            self.outcome = Some(CandidateOutcome::Inconsistent);
         } else if cycles >= HOLD && !search.could_take(&self.candidate.body, &self.scores) {
-            self.outcome = Some(Outcome::Surpassed);
+            self.outcome = Some(CandidateOutcome::Surpassed);
         }
     }
 
-    fn end(self) -> Outcome {
-        self.outcome.unwrap_or(Outcome::Measured(self.scores))
+    fn end(self) -> CandidateOutcome {
+        self.outcome.unwrap_or(CandidateOutcome::Measured(self.scores))
     }
 }
 
 /// Displacement under each pattern at the fresh starts of the walks, without the first cycle, in which the body finds its shape.
-fn settled_displacement(walks: &[Vec<Hold>]) -> [f64; 4] {
+fn settled_displacement(walks: &[Vec<PatternHold>]) -> [f64; 4] {
     let mut displacement = [0.0; 4];
     for hold in walks.iter().filter_map(|holds| holds.first()) {
         displacement[hold.pattern.pair_index()] = hold.cycles[1..].iter().sum();
@@ -154,13 +158,14 @@ fn settled_displacement(walks: &[Vec<Hold>]) -> [f64; 4] {
 
 /// Two fitnesses between 0 and 1, one half where the worst cycle stands still: how right the output is from the second, third and
 /// fourth cycle of a hold on, and how right it is in every cycle of holds that ought not to change it.
-fn fitness<'a>(behavior: Behavior, holds: impl Iterator<Item = &'a Hold> + Clone) -> [f64; 2] {
+fn fitness<'a>(behavior: Behavior, holds: impl Iterator<Item = &'a PatternHold> + Clone) -> [f64; 2] {
     let from = |clock: usize| holds.clone().flat_map(move |hold| hold.rightward(behavior).skip(clock - 1));
     let settled = CLOCKS.map(|clock| worth(least(from(clock))));
-    let is_static =
-        |hold: &&Hold| hold.before.is_none_or(|before| behavior.direction(before) == behavior.direction(hold.pattern));
+    let is_static = |hold: &&PatternHold| {
+        hold.before.is_none_or(|before| behavior.direction(before) == behavior.direction(hold.pattern))
+    };
     // A fresh start is no switch: its first cycle counts for nothing.
-    let cycles = |hold: &'a Hold| hold.rightward(behavior).skip(usize::from(hold.before.is_none()));
+    let cycles = |hold: &'a PatternHold| hold.rightward(behavior).skip(usize::from(hold.before.is_none()));
     [settled.iter().sum::<f64>() / CLOCKS.len() as f64, worth(least(holds.clone().filter(is_static).flat_map(cycles)))]
 }
 
@@ -188,9 +193,9 @@ mod tests {
         assert!(random_sequences().iter().all(|lane| lane.len() == RANDOM_CYCLES));
     }
 
-    fn hold(before: Option<usize>, pattern: usize, cycles: &[f64]) -> Hold {
+    fn hold(before: Option<usize>, pattern: usize, cycles: &[f64]) -> PatternHold {
         let pairs = Pattern::PAIRS;
-        Hold { before: before.map(|i| pairs[i]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 0.0 }
+        PatternHold { before: before.map(|i| pairs[i]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 0.0 }
     }
 
     #[test]
@@ -206,7 +211,7 @@ mod tests {
     #[test]
     fn more_holds_never_raise_the_fitness() {
         let nand: Behavior = "RRRL".parse().unwrap();
-        let holds: Vec<Hold> =
+        let holds: Vec<PatternHold> =
             (0..40).map(|i| hold((i > 0).then_some((i + 1) % 4), i % 4, &[0.3, 0.1 - 0.01 * i as f64, 0.2])).collect();
         let fitnesses: Vec<[f64; 2]> = (1..40).map(|n| fitness(nand, holds[..n].iter())).collect();
         assert!(fitnesses.windows(2).all(|two| two[1][0] <= two[0][0] && two[1][1] <= two[0][1]));

@@ -31,7 +31,7 @@ impl HoldPlan {
 
 /// One hold as it went.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Hold {
+pub(crate) struct PatternHold {
     /// The pattern before; `None` at a fresh start.
     pub before: Option<Pattern>,
     /// The pattern held.
@@ -42,7 +42,7 @@ pub(crate) struct Hold {
     pub height: f64,
 }
 
-impl Hold {
+impl PatternHold {
     /// Displacement of each cycle in the direction that is right for a behavior; negative where the output is wrong.
     pub(crate) fn rightward(&self, behavior: Behavior) -> impl Iterator<Item = f64> + '_ {
         let sign = if behavior.direction(self.pattern) == Direction::Right { 1.0 } else { -1.0 };
@@ -51,7 +51,7 @@ impl Hold {
 }
 
 /// The holds of a trajectory that ran to its end.
-pub(crate) fn holds(plan: &HoldPlan, trajectory: &Trajectory) -> Vec<Hold> {
+pub(crate) fn holds(plan: &HoldPlan, trajectory: &Trajectory) -> Vec<PatternHold> {
     let cycle = CYCLE_STEPS as usize;
     let mut at = 0;
     let mut before = None;
@@ -61,7 +61,7 @@ pub(crate) fn holds(plan: &HoldPlan, trajectory: &Trajectory) -> Vec<Hold> {
         let cycles = ends.map(|start| trajectory.com_x[start + cycle] - trajectory.com_x[start]).collect();
         at += count as usize * cycle;
         let last = &trajectory.com_y[at + 1 - cycle..=at];
-        holds.push(Hold { before, pattern, cycles, height: last.iter().sum::<f64>() / cycle as f64 });
+        holds.push(PatternHold { before, pattern, cycles, height: last.iter().sum::<f64>() / cycle as f64 });
         before = Some(pattern);
     }
     holds
@@ -82,7 +82,7 @@ mod tests {
         let holds = holds(&plan, &trajectory);
         assert_eq!(
             holds[0],
-            Hold { before: None, pattern: Pattern::PAIRS[1], cycles: vec![84.0, -168.0], height: 2.0 }
+            PatternHold { before: None, pattern: Pattern::PAIRS[1], cycles: vec![84.0, -168.0], height: 2.0 }
         );
         assert_eq!((holds[1].before, holds[1].cycles.as_slice()), (Some(Pattern::PAIRS[1]), [-168.0].as_slice()));
         let behavior: Behavior = "RLRR".parse().unwrap();

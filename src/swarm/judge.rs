@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::model::{Base, Column, Function, Stimulation};
     use crate::source::{FileId, Span};
-    use crate::swarm::{CycleTrace, Recording, RobotTrace, Signal};
+    use crate::swarm::{CycleTrace, Recording, RobotTrace, StimulusSource};
 
     fn port(name: &str) -> Column {
         Column { name: name.to_owned(), width: 1 }
@@ -135,13 +135,13 @@ mod tests {
             circuit: "inverter".to_owned(),
             inputs: vec![port("a")],
             outputs: vec![port("y")],
-            shown: vec![Signal::Robot(0)],
+            shown: vec![StimulusSource::Robot(0)],
             samples_per_cycle: 1,
             robots: vec![RobotTrace {
                 net: "y".to_owned(),
                 function: Function::NOT,
                 robot: "not_1".to_owned(),
-                senses: [Signal::Input(0), Signal::Constant(false)],
+                senses: [StimulusSource::Input(0), StimulusSource::Constant(false)],
                 sensed_nets: ["a".to_owned(), "0".to_owned()],
                 com_x: vec![0.0; cycles.len() + 1],
                 fault: None,

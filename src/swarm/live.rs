@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::model::{Body, CYCLE_STEPS, Column, Pattern, Setting};
 use crate::sim::{Flock, Simulator};
-use crate::swarm::{Assembly, CycleTrace, Member, Recording, RobotTrace, Room, Signal, SwarmTrace};
+use crate::swarm::{Assembly, CycleTrace, Member, Recording, RobotTrace, Room, StimulusSource, SwarmTrace};
 
 /// Samples of a robot's path that a trace keeps of each cycle.
 const SAMPLES_PER_CYCLE: u32 = 12;
@@ -124,11 +124,11 @@ impl LiveSwarm {
     }
 }
 
-fn read(signal: Signal, inputs: &[bool], bits: &[bool]) -> bool {
+fn read(signal: StimulusSource, inputs: &[bool], bits: &[bool]) -> bool {
     match signal {
-        Signal::Input(i) => inputs[i],
-        Signal::Robot(i) => bits[i],
-        Signal::Constant(value) => value,
+        StimulusSource::Input(i) => inputs[i],
+        StimulusSource::Robot(i) => bits[i],
+        StimulusSource::Constant(value) => value,
     }
 }
 
@@ -136,9 +136,9 @@ fn read(signal: Signal, inputs: &[bool], bits: &[bool]) -> bool {
 fn begin(assembly: &Assembly, flock: &dyn Flock) -> SwarmTrace {
     let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
     let net_name = |signal| match signal {
-        Signal::Input(i) => inputs[i].clone(),
-        Signal::Robot(i) => assembly.members[i].net.clone(),
-        Signal::Constant(value) => u8::from(value).to_string(),
+        StimulusSource::Input(i) => inputs[i].clone(),
+        StimulusSource::Robot(i) => assembly.members[i].net.clone(),
+        StimulusSource::Constant(value) => u8::from(value).to_string(),
     };
     let robot = |(i, member): (usize, &Member)| RobotTrace {
         net: member.net.clone(),

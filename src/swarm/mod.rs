@@ -20,7 +20,7 @@ mod weak;
 mod work;
 
 pub use activity::{RowActivity, SimulationResult, activity};
-pub use assemble::{AssembleError, Assembly, Member, Signal, assemble};
+pub use assemble::{AssembleError, Assembly, Member, StimulusSource, assemble};
 pub use cells::cells;
 pub use characterise::{characterise, screen};
 pub use evaluate::{evaluate, evolve_generation, fixed_displacements, fixed_trials};

@@ -6,7 +6,7 @@
 //! Seger & Bryant, "Modeling of circuit delays in symbolic simulation" (1989).
 
 use crate::model::Function;
-use crate::swarm::{Assembly, Member, START_CYCLES, Signal};
+use crate::swarm::{Assembly, Member, START_CYCLES, StimulusSource};
 
 /// What is known of a bit; nothing where it may be either.
 type Known = Option<bool>;
@@ -103,11 +103,11 @@ impl<'a> Settling<'a> {
     }
 }
 
-fn read(signal: Signal, inputs: &[bool], heard: &[Known]) -> Known {
+fn read(signal: StimulusSource, inputs: &[bool], heard: &[Known]) -> Known {
     match signal {
-        Signal::Input(i) => Some(inputs[i]),
-        Signal::Robot(i) => heard[i],
-        Signal::Constant(value) => Some(value),
+        StimulusSource::Input(i) => Some(inputs[i]),
+        StimulusSource::Robot(i) => heard[i],
+        StimulusSource::Constant(value) => Some(value),
     }
 }
 

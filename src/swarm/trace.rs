@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::model::{Column, Fault, Function, Value};
-use crate::swarm::{Recording, Signal};
+use crate::swarm::{Recording, StimulusSource};
 
 /// A swarm's run from its start to the end of its stimulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -15,7 +15,7 @@ pub struct SwarmTrace {
     /// The output ports.
     pub outputs: Vec<Column>,
     /// What each bit of the output ports shows.
-    pub shown: Vec<Signal>,
+    pub shown: Vec<StimulusSource>,
     /// Samples of the robots' paths in one cycle.
     pub samples_per_cycle: usize,
     /// The robots, in order of the assembly's members.
@@ -38,7 +38,7 @@ pub struct RobotTrace {
     /// The robot's name in its library.
     pub robot: String,
     /// What it senses as stimulus 1 and stimulus 2.
-    pub senses: [Signal; 2],
+    pub senses: [StimulusSource; 2],
     /// The names of the nets it senses, likewise.
     pub sensed_nets: [String; 2],
     /// Horizontal place of the center of mass in voxels: the start, then `samples_per_cycle` samples a cycle.
@@ -77,7 +77,7 @@ impl SwarmTrace {
     pub fn by_interest(&self) -> Vec<usize> {
         let rank = |robot: usize| {
             let net = &self.robots[robot].net;
-            let is_shown = self.shown.contains(&Signal::Robot(robot));
+            let is_shown = self.shown.contains(&StimulusSource::Robot(robot));
             (!is_shown, is_unnamed(net), net.matches('/').count())
         };
         let mut robots: Vec<usize> = (0..self.robots.len()).collect();

@@ -10,7 +10,7 @@ use crate::source::{FileId, Span};
 use crate::syntax::arena::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
-    Circuit, Declaration, DeclarationKind, Name, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
+    CircuitSyntax, Declaration, DeclarationKind, NameSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
 };
 use crate::syntax::wording::Slip;
 
@@ -64,7 +64,7 @@ impl Converter<'_> {
         DeclarationKind::Record(RecordDeclaration { keyword, name, record })
     }
 
-    fn circuit(&mut self, pair: Pair<Rule>) -> Circuit {
+    fn circuit(&mut self, pair: Pair<Rule>) -> CircuitSyntax {
         let mut arena = Arena::default();
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
@@ -75,7 +75,7 @@ impl Converter<'_> {
         let inputs = self.ports(parts.next().expect("inputs"), &mut arena);
         let outputs = self.ports(parts.next().expect("outputs"), &mut arena);
         let statements = self.statements(parts.next().expect("a body"), &mut arena);
-        Circuit { name, parameters, inputs, outputs, body: arena.body(statements) }
+        CircuitSyntax { name, parameters, inputs, outputs, body: arena.body(statements) }
     }
 
     /// Notes a slip that the grammar knows.
@@ -101,8 +101,8 @@ impl Converter<'_> {
         }
     }
 
-    pub(crate) fn name(&self, pair: &Pair<Rule>) -> Name {
-        Name { text: pair.as_str().to_owned(), span: self.span(pair) }
+    pub(crate) fn name(&self, pair: &Pair<Rule>) -> NameSyntax {
+        NameSyntax { text: pair.as_str().to_owned(), span: self.span(pair) }
     }
 
     pub(crate) fn number(&self, pair: &Pair<Rule>) -> Number {

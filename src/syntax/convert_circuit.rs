@@ -3,23 +3,21 @@
 use pest::iterators::Pair;
 
 use crate::model::SizeOperator;
-use crate::source::Span;
 use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
-    Argument, Body, Expression, ExpressionId, ExpressionKind, Index, Parameter, Port, Size, SizeId, SizeKind,
-    Statement, StatementKind, Target,
+    Argument, Index, ParameterSyntax, Port, SizeSyntaxId, SizeSyntaxKind, StatementKind, StatementSyntax, TargetSyntax,
 };
 use crate::syntax::wording::Slip;
 
 impl Converter<'_> {
-    pub(crate) fn parameters(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Parameter> {
+    pub(crate) fn parameters(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ParameterSyntax> {
         parts(pair)
             .map(|parameter| {
                 let mut parts = parts(parameter);
                 let name = self.name(&parts.next().expect("a name"));
-                Parameter { name, default: parts.next().map(|size| self.size(size, arena)) }
+                ParameterSyntax { name, default: parts.next().map(|size| self.size(size, arena)) }
             })
             .collect()
     }
@@ -34,11 +32,11 @@ impl Converter<'_> {
         Port { name, width: parts.next().map(|size| self.size(size, arena)) }
     }
 
-    pub(crate) fn statements(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Statement> {
+    pub(crate) fn statements(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
         parts(pair).filter_map(|statement| self.statement(statement, arena)).collect()
     }
 
-    fn statement(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Option<Statement> {
+    fn statement(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Option<StatementSyntax> {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::drive => self.drive(pair, arena),
@@ -53,7 +51,7 @@ impl Converter<'_> {
                 return None;
             }
         };
-        Some(Statement { kind, span })
+        Some(StatementSyntax { kind, span })
     }
 
     fn for_loop(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
@@ -78,12 +76,12 @@ impl Converter<'_> {
         StatementKind::Drive { targets, grouped, value: self.expression(parts.next().expect("a value"), arena) }
     }
 
-    fn target(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Target {
+    fn target(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TargetSyntax {
         let span = self.span(&pair);
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
         let index = parts.next_if(|part| part.as_rule() == Rule::index).map(|index| self.index(index, arena));
-        Target { name, index, start: parts.next().map(|size| self.size(size, arena)), span }
+        TargetSyntax { name, index, start: parts.next().map(|size| self.size(size, arena)), span }
     }
 
     pub(crate) fn index(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Index {
@@ -106,7 +104,7 @@ impl Converter<'_> {
 
     /// An integer expression: `**` binds tighter than `*`, `/` and `%`, and these tighter than `+` and `-`; from left
     /// to right.
-    pub(crate) fn size(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeId {
+    pub(crate) fn size(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeSyntaxId {
         let (mut values, mut operators) = (Vec::new(), Vec::<SizeOperator>::new());
         for part in parts(pair) {
             if part.as_rule() == Rule::size_infix {
@@ -125,22 +123,22 @@ impl Converter<'_> {
         values.pop().expect("an operand")
     }
 
-    pub(crate) fn size_operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeId {
+    pub(crate) fn size_operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeSyntaxId {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
-            Rule::digits => SizeKind::Literal(pair.as_str().to_owned()),
-            Rule::name => SizeKind::Name(pair.as_str().to_owned()),
-            Rule::log2 => SizeKind::Log2(self.size(parts(pair).next().expect("an operand"), arena)),
-            _ => SizeKind::Group(self.size(parts(pair).next().expect("an operand"), arena)),
+            Rule::digits => SizeSyntaxKind::Literal(pair.as_str().to_owned()),
+            Rule::name => SizeSyntaxKind::Name(pair.as_str().to_owned()),
+            Rule::log2 => SizeSyntaxKind::Log2(self.size(parts(pair).next().expect("an operand"), arena)),
+            _ => SizeSyntaxKind::Group(self.size(parts(pair).next().expect("an operand"), arena)),
         };
         arena.size(kind, span)
     }
 }
 
-fn reduce(values: &mut Vec<SizeId>, operators: &mut Vec<SizeOperator>, arena: &mut Arena) {
+fn reduce(values: &mut Vec<SizeSyntaxId>, operators: &mut Vec<SizeOperator>, arena: &mut Arena) {
     let right = values.pop().expect("a right operand");
     let left = values.pop().expect("a left operand");
     let operator = operators.pop().expect("an operator");
     let span = arena.sizes[left.0 as usize].span.to(arena.sizes[right.0 as usize].span);
-    values.push(arena.size(SizeKind::Binary(operator, left, right), span));
+    values.push(arena.size(SizeSyntaxKind::Binary(operator, left, right), span));
 }

@@ -7,13 +7,15 @@ use crate::source::Span;
 use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
-use crate::syntax::tree::{ExpressionId, ExpressionKind, Index, Infix, SizeId, SizeKind, TableRow};
+use crate::syntax::tree::{
+    ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntaxId, SizeSyntaxKind, TableRowSyntax,
+};
 use crate::syntax::wording::{Slip, SyntaxError};
 
 /// Operands and operators of an expression before they are combined.
 #[derive(Default)]
 struct Stacks {
-    values: Vec<ExpressionId>,
+    values: Vec<ExpressionSyntaxId>,
     waiting: Vec<Waiting>,
 }
 
@@ -33,7 +35,7 @@ impl Waiting {
 }
 
 impl Converter<'_> {
-    pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
+    pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxId {
         let mut stacks = Stacks::default();
         let mut parts = parts(pair).peekable();
         while let Some(part) = parts.next() {
@@ -116,7 +118,7 @@ impl Converter<'_> {
         sign.unwrap_or_else(|| Infix::Bitwise(Operator::parse(word).expect("the grammar knows the operators")))
     }
 
-    fn operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionId {
+    fn operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxId {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::choice => self.choice(pair, arena),
@@ -124,20 +126,22 @@ impl Converter<'_> {
             Rule::operation => self.operation(pair, arena),
             Rule::constant => self.constant(pair, arena),
             Rule::reference => self.reference(pair, arena),
-            Rule::group => ExpressionKind::Group(self.expression(parts(pair).next().expect("an expression"), arena)),
-            Rule::concatenation => ExpressionKind::Concatenation(self.expressions(pair, arena)),
+            Rule::group => {
+                ExpressionSyntaxKind::Group(self.expression(parts(pair).next().expect("an expression"), arena))
+            }
+            Rule::concatenation => ExpressionSyntaxKind::Concatenation(self.expressions(pair, arena)),
             Rule::repetition => self.repetition(pair, arena),
             rule => unreachable!("an operand is not {rule:?}"),
         };
         arena.expression(kind, span)
     }
 
-    fn expressions(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ExpressionId> {
+    fn expressions(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ExpressionSyntaxId> {
         parts(pair).map(|expression| self.expression(expression, arena)).collect()
     }
 
     /// An `if` expression. In the grammar the expressions after `else` are siblings; in the tree they are nested.
-    fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let branches = parts(pair).filter(|part| part.as_rule() == Rule::expression);
         let mut values: Vec<_> = branches.map(|branch| self.expression(branch, arena)).collect();
         let mut otherwise = values.pop().expect("a choice has its last branch");
@@ -145,33 +149,33 @@ impl Converter<'_> {
             let then = values.pop().expect("a choice has a value");
             let condition = values.pop().expect("a choice has a condition");
             if values.is_empty() {
-                return ExpressionKind::Choice { condition, then, otherwise };
+                return ExpressionSyntaxKind::Choice { condition, then, otherwise };
             }
             let span = arena.span(condition).to(arena.span(otherwise));
-            otherwise = arena.expression(ExpressionKind::Choice { condition, then, otherwise }, span);
+            otherwise = arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, span);
         }
     }
 
-    fn operation(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn operation(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let operator =
             Operator::parse(parts.next().expect("an operator").as_str()).expect("the grammar knows the operators");
-        ExpressionKind::Operation { operator, operands: self.expressions(parts.next().expect("operands"), arena) }
+        ExpressionSyntaxKind::Operation { operator, operands: self.expressions(parts.next().expect("operands"), arena) }
     }
 
-    fn repetition(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn repetition(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let count = self.size_operand(parts.next().expect("a count"), arena);
-        ExpressionKind::Repetition { count, values: parts.map(|value| self.expression(value, arena)).collect() }
+        ExpressionSyntaxKind::Repetition { count, values: parts.map(|value| self.expression(value, arena)).collect() }
     }
 
-    fn constant(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn constant(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let first = parts.next().expect("digits");
-        let Some(base) = parts.next() else { return ExpressionKind::Digits(first.as_str().to_owned()) };
+        let Some(base) = parts.next() else { return ExpressionSyntaxKind::Digits(first.as_str().to_owned()) };
         let width = match first.as_rule() {
-            Rule::digits => SizeKind::Literal(first.as_str().to_owned()),
-            _ => SizeKind::Name(first.as_str().to_owned()),
+            Rule::digits => SizeSyntaxKind::Literal(first.as_str().to_owned()),
+            _ => SizeSyntaxKind::Name(first.as_str().to_owned()),
         };
         let width = arena.size(width, self.span(&first));
         let base = base.as_str().chars().next().expect("a base");
@@ -180,27 +184,33 @@ impl Converter<'_> {
             return self.computed(width, base, value, arena);
         }
         let digits = value.as_str().to_owned();
-        ExpressionKind::Constant { width, base, digits }
+        ExpressionSyntaxKind::Constant { width, base, digits }
     }
 
-    fn computed(&mut self, width: SizeId, base: char, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn computed(
+        &mut self,
+        width: SizeSyntaxId,
+        base: char,
+        pair: Pair<Rule>,
+        arena: &mut Arena,
+    ) -> ExpressionSyntaxKind {
         let span = self.span(&pair);
         if base != 'd' {
             self.slip(Slip::BaseOfComputed { base }, span);
         }
-        ExpressionKind::Computed { width, value: self.size(parts(pair).next().expect("a size"), arena) }
+        ExpressionSyntaxKind::Computed { width, value: self.size(parts(pair).next().expect("a size"), arena) }
     }
 
-    fn reference(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn reference(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
         let brackets = parts.next_if(|part| matches!(part.as_rule(), Rule::index | Rule::arguments));
         let Some(operands) = parts.next() else {
             let index = brackets.and_then(|brackets| self.index_of_net(brackets, arena));
-            return ExpressionKind::Net { name, index };
+            return ExpressionSyntaxKind::Net { name, index };
         };
         let arguments = brackets.map_or(Vec::new(), |brackets| self.arguments_of_call(brackets, arena));
-        ExpressionKind::Call { name, arguments, operands: self.expressions(operands, arena) }
+        ExpressionSyntaxKind::Call { name, arguments, operands: self.expressions(operands, arena) }
     }
 
     fn index_of_net(&mut self, brackets: Pair<Rule>, arena: &mut Arena) -> Option<Index> {
@@ -223,18 +233,18 @@ impl Converter<'_> {
         vec![crate::syntax::tree::Argument { name: None, value: index.high, span }]
     }
 
-    fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionKind {
+    fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let inputs = self.expressions(parts.next().expect("operands"), arena);
-        ExpressionKind::Table { inputs, rows: parts.map(|row| self.table_row(row)).collect() }
+        ExpressionSyntaxKind::Table { inputs, rows: parts.map(|row| self.table_row(row)).collect() }
     }
 
-    fn table_row(&mut self, pair: Pair<Rule>) -> TableRow {
+    fn table_row(&mut self, pair: Pair<Rule>) -> TableRowSyntax {
         let span = self.span(&pair);
         let mut parts = parts(pair);
         let pattern = parts.next().expect("a pattern");
         let pattern = (pattern.as_rule() == Rule::pattern).then(|| self.name(&pattern));
-        TableRow { pattern, output: self.name(&parts.next().expect("an output")), span }
+        TableRowSyntax { pattern, output: self.name(&parts.next().expect("an output")), span }
     }
 }
 
@@ -243,11 +253,11 @@ impl Stacks {
     fn reduce(&mut self, arena: &mut Arena) {
         let right = self.values.pop().expect("an operand");
         let value = match self.waiting.pop().expect("an operator") {
-            Waiting::Not(place) => arena.expression(ExpressionKind::Not(right), place.to(arena.span(right))),
+            Waiting::Not(place) => arena.expression(ExpressionSyntaxKind::Not(right), place.to(arena.span(right))),
             Waiting::Infix(operator, place) => {
                 let left = self.values.pop().expect("a left operand");
                 let span = arena.span(left).to(arena.span(right));
-                arena.expression(ExpressionKind::Infix { operator, place, left, right }, span)
+                arena.expression(ExpressionSyntaxKind::Infix { operator, place, left, right }, span)
             }
         };
         self.values.push(value);

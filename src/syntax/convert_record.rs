@@ -5,13 +5,13 @@ use pest::iterators::Pair;
 use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
-use crate::syntax::tree::{Field, Instance, Record, Value, ValueKind};
+use crate::syntax::tree::{Field, InstanceSyntax, RecordSyntax, ValueKind, ValueSyntax};
 use crate::syntax::wording::Slip;
 
 impl Converter<'_> {
-    pub(crate) fn record(&mut self, pair: Pair<Rule>) -> Record {
+    pub(crate) fn record(&mut self, pair: Pair<Rule>) -> RecordSyntax {
         let span = self.span(&pair);
-        Record { fields: parts(pair).map(|field| self.field(field)).collect(), span }
+        RecordSyntax { fields: parts(pair).map(|field| self.field(field)).collect(), span }
     }
 
     fn field(&mut self, pair: Pair<Rule>) -> Field {
@@ -23,7 +23,7 @@ impl Converter<'_> {
         Field { name, value: self.value(parts.next().expect("a value")) }
     }
 
-    fn value(&mut self, pair: Pair<Rule>) -> Value {
+    fn value(&mut self, pair: Pair<Rule>) -> ValueSyntax {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::record => ValueKind::Record(self.record(pair)),
@@ -32,11 +32,11 @@ impl Converter<'_> {
             Rule::quantity => ValueKind::Quantity(self.quantity(pair)),
             Rule::instance => ValueKind::Instance(self.instance(pair)),
             Rule::function => {
-                ValueKind::Instance(Instance { name: self.name(&pair), arguments: Vec::new(), sizes: Vec::new() })
+                ValueKind::Instance(InstanceSyntax { name: self.name(&pair), arguments: Vec::new(), sizes: Vec::new() })
             }
             rule => self.pair_of_values(rule, pair),
         };
-        Value { kind, span }
+        ValueSyntax { kind, span }
     }
 
     fn pair_of_values(&mut self, rule: Rule, pair: Pair<Rule>) -> ValueKind {
@@ -56,11 +56,11 @@ impl Converter<'_> {
         }
     }
 
-    pub(crate) fn instance(&mut self, pair: Pair<Rule>) -> Instance {
+    pub(crate) fn instance(&mut self, pair: Pair<Rule>) -> InstanceSyntax {
         let mut arena = Arena::default();
         let mut parts = parts(pair);
         let name = self.name(&parts.next().expect("a name"));
         let arguments = parts.next().map_or(Vec::new(), |arguments| self.arguments(arguments, &mut arena));
-        Instance { name, arguments, sizes: arena.sizes }
+        InstanceSyntax { name, arguments, sizes: arena.sizes }
     }
 }

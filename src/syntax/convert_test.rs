@@ -5,14 +5,16 @@ use pest::iterators::Pair;
 use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
-use crate::syntax::tree::{Name, Schedule, Simulate, Spell, Test, TestKind, TestRow, TestTable, With};
+use crate::syntax::tree::{
+    NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestKind, TestRowSyntax, TestTable, With,
+};
 
 impl Converter<'_> {
-    pub(crate) fn schedule(&mut self, pair: Pair<Rule>) -> Schedule {
+    pub(crate) fn schedule(&mut self, pair: Pair<Rule>) -> ScheduleSyntax {
         let mut parts = parts(pair);
         let name = self.name(&parts.next().expect("a name"));
         let columns = self.names(parts.next().expect("columns"));
-        Schedule { name, columns, spells: self.spells(parts.next().expect("spells")) }
+        ScheduleSyntax { name, columns, spells: self.spells(parts.next().expect("spells")) }
     }
 
     pub(crate) fn simulate(&mut self, pair: Pair<Rule>) -> Simulate {
@@ -26,19 +28,19 @@ impl Converter<'_> {
         Simulate { swarm, with }
     }
 
-    fn names(&self, pair: Pair<Rule>) -> Vec<Name> {
+    fn names(&self, pair: Pair<Rule>) -> Vec<NameSyntax> {
         parts(pair).map(|name| self.name(&name)).collect()
     }
 
-    fn spells(&self, pair: Pair<Rule>) -> Vec<Spell> {
+    fn spells(&self, pair: Pair<Rule>) -> Vec<SpellSyntax> {
         parts(pair).map(|spell| self.spell(spell)).collect()
     }
 
-    fn spell(&self, pair: Pair<Rule>) -> Spell {
+    fn spell(&self, pair: Pair<Rule>) -> SpellSyntax {
         let span = self.span(&pair);
         let (cells, rest): (Vec<_>, Vec<_>) = parts(pair).partition(|part| part.as_rule() == Rule::cell);
         let length = self.quantity(rest.into_iter().next().expect("a length"));
-        Spell { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
+        SpellSyntax { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
     }
 
     pub(crate) fn test(&mut self, pair: Pair<Rule>) -> Test {
@@ -73,16 +75,16 @@ impl Converter<'_> {
         TestTable { inputs, outputs, rows: parts.map(|row| self.test_row(row)).collect(), header: span }
     }
 
-    fn test_row(&self, pair: Pair<Rule>) -> TestRow {
+    fn test_row(&self, pair: Pair<Rule>) -> TestRowSyntax {
         let span = self.span(&pair);
         let hold = parts(pair.clone()).find(|part| part.as_rule() == Rule::held);
         let hold = hold.map(|held| self.quantity(parts(held).next().expect("a quantity")));
         let (inputs, bars, outputs) = self.columns_of(pair);
-        TestRow { inputs, bars, outputs, hold, span }
+        TestRowSyntax { inputs, bars, outputs, hold, span }
     }
 
     /// The text before the first bar, the bars, and the text after it.
-    fn columns_of(&self, pair: Pair<Rule>) -> (Vec<Name>, Vec<crate::source::Span>, Vec<Name>) {
+    fn columns_of(&self, pair: Pair<Rule>) -> (Vec<NameSyntax>, Vec<crate::source::Span>, Vec<NameSyntax>) {
         let (mut before, mut bars, mut after) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts(pair) {
             match part.as_rule() {

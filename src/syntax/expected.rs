@@ -6,11 +6,11 @@ use crate::diag::{Diagnostic, Suggestion, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
 use crate::syntax::slips;
-use crate::syntax::split::{KEYWORDS, Piece};
+use crate::syntax::split::{KEYWORDS, SourcePiece};
 use crate::syntax::wording::SyntaxError;
 
 /// The diagnostic for a declaration that does not follow the grammar.
-pub(crate) fn diagnostic(text: &str, file: FileId, piece: &Piece, error: &Error<Rule>) -> Diagnostic {
+pub(crate) fn diagnostic(text: &str, file: FileId, piece: &SourcePiece, error: &Error<Rule>) -> Diagnostic {
     let at = piece.range.start
         + match error.location {
             InputLocation::Pos(at) => at,
@@ -38,7 +38,7 @@ pub(crate) fn diagnostic(text: &str, file: FileId, piece: &Piece, error: &Error<
     error.at(span)
 }
 
-fn unexpected_end(file: FileId, piece: &Piece, error: &Error<Rule>) -> Diagnostic {
+fn unexpected_end(file: FileId, piece: &SourcePiece, error: &Error<Rule>) -> Diagnostic {
     match piece.unclosed.last() {
         Some(&open) => SyntaxError::UnclosedBracket.at(Span::new(file, open, open + 1)),
         None => {

@@ -9,8 +9,8 @@ use crate::source::{FileId, Sources, Span};
 use crate::syntax::convert::Converter;
 use crate::syntax::expected;
 use crate::syntax::grammar::{NbParser, Rule};
-use crate::syntax::split::{Piece, split};
-use crate::syntax::tree::{Declaration, Instance, Tree};
+use crate::syntax::split::{SourcePiece, split};
+use crate::syntax::tree::{Declaration, InstanceSyntax, Tree};
 use crate::syntax::wording::SyntaxError;
 
 /// The largest source text, in bytes.
@@ -61,7 +61,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
 ///
 /// # Errors
 /// When it is anything else.
-pub fn parse_instance(sources: &Sources, file: FileId) -> Result<Instance, Diagnostic> {
+pub fn parse_instance(sources: &Sources, file: FileId) -> Result<InstanceSyntax, Diagnostic> {
     let text = sources.file(file).text.as_str();
     let mut converter = Converter { file, text, comments: &[], offset: 0, errors: Vec::new() };
     let parsed = NbParser::parse(Rule::one_instance, text).ok().and_then(|mut pairs| pairs.next());
@@ -71,7 +71,7 @@ pub fn parse_instance(sources: &Sources, file: FileId) -> Result<Instance, Diagn
 }
 
 /// The word after the keyword of a declaration.
-fn name_of(text: &str, file: FileId, piece: &Piece) -> Option<Span> {
+fn name_of(text: &str, file: FileId, piece: &SourcePiece) -> Option<Span> {
     let source = &text[piece.range.clone()];
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let keyword = source.find(|c| !is_word(c))?;
@@ -84,7 +84,7 @@ fn parse_piece(
     text: &str,
     file: FileId,
     comments: &[Range<usize>],
-    piece: &Piece,
+    piece: &SourcePiece,
 ) -> (Option<Declaration>, Vec<Diagnostic>) {
     if let Some(error) = over_limits(piece) {
         return (None, vec![error.at(Span::new(file, piece.range.start, piece.range.start + 1))]);
@@ -102,7 +102,7 @@ fn parse_piece(
 }
 
 /// What is wrong with a declaration that nests too deeply or is too long to be parsed.
-fn over_limits(piece: &Piece) -> Option<SyntaxError> {
+fn over_limits(piece: &SourcePiece) -> Option<SyntaxError> {
     if piece.depth > MAX_NESTING {
         return Some(SyntaxError::TooDeep { depth: piece.depth, most: MAX_NESTING });
     }

@@ -20,7 +20,7 @@ const BETWEEN: [&str; 8] = ["and", "else", "nand", "nor", "or", "then", "xnor", 
 const KINDS: [&str; 8] = ["bit", "bool", "input", "int", "logic", "output", "reg", "wire"];
 
 /// A place where a declaration violates the grammar.
-pub(crate) struct Place<'a> {
+pub(crate) struct SlipPlace<'a> {
     file: FileId,
     /// The text of the file.
     text: &'a str,
@@ -40,7 +40,7 @@ pub(crate) struct Place<'a> {
 type Found = Option<(Slip, Span)>;
 
 /// In order: the first that recognizes the place decides.
-const LOOKS: [fn(&Place<'_>) -> Found; 16] = [
+const LOOKS: [fn(&SlipPlace<'_>) -> Found; 16] = [
     block_comment,
     letters,
     unclosed_quote,
@@ -70,7 +70,7 @@ pub(crate) fn look(
 ) -> Option<Diagnostic> {
     let ErrorVariant::ParsingError { positives, .. } = &error.variant else { return None };
     let open = open_brackets(text, range.start, at);
-    let place = Place { file, text, start: range.start, end: range.end, at, found, wanted: positives, open };
+    let place = SlipPlace { file, text, start: range.start, end: range.end, at, found, wanted: positives, open };
     LOOKS.iter().find_map(|look| look(&place)).map(|(slip, span)| slip.at(span))
 }
 
@@ -112,7 +112,7 @@ fn brief(text: &str) -> &str {
     if text.is_empty() || text.len() > 40 || text.contains(['\n', '\r']) { "…" } else { text }
 }
 
-impl<'a> Place<'a> {
+impl<'a> SlipPlace<'a> {
     fn before(&self) -> &'a str {
         &self.text[self.start..self.at]
     }
@@ -170,11 +170,11 @@ fn ends_operand(text: &str) -> bool {
     ends && !RESERVED.contains(&word)
 }
 
-fn block_comment(place: &Place<'_>) -> Found {
+fn block_comment(place: &SlipPlace<'_>) -> Found {
     place.after().starts_with("/*").then(|| (Slip::BlockComment, place.span(place.at, place.at + 2)))
 }
 
-fn letters(place: &Place<'_>) -> Found {
+fn letters(place: &SlipPlace<'_>) -> Found {
     let foreign = |word: &str| !word.is_ascii();
     let (rest, head) = last_word(place.before());
     let tail = place.after().find(|c| !is_word(c)).unwrap_or(place.after().len());
@@ -183,12 +183,12 @@ fn letters(place: &Place<'_>) -> Found {
         .then(|| (Slip::ForeignLetters { word: word.to_owned() }, place.span(place.at - head.len(), place.at + tail)))
 }
 
-fn unclosed_quote(place: &Place<'_>) -> Found {
+fn unclosed_quote(place: &SlipPlace<'_>) -> Found {
     let line = place.after().lines().next().unwrap_or_default();
     (place.found == "\"" && !line[1..].contains('"')).then(|| (Slip::UnclosedQuote, place.here()))
 }
 
-fn single_quote(place: &Place<'_>) -> Found {
+fn single_quote(place: &SlipPlace<'_>) -> Found {
     (place.found == "'" && place.wants(&[Rule::text])).then(|| {
         let line = place.after().lines().next().unwrap_or_default();
         let close = line[1..].find('\'').map(|end| place.span(place.at + end + 1, place.at + end + 2));
@@ -196,7 +196,7 @@ fn single_quote(place: &Place<'_>) -> Found {
     })
 }
 
-fn reserved_word(place: &Place<'_>) -> Found {
+fn reserved_word(place: &SlipPlace<'_>) -> Found {
     let assigned = |rest: &str| rest.trim_start().starts_with('=') && !rest.trim_start().starts_with("==");
     let (word, start) = if RESERVED.contains(&place.found) {
         let name = place.wants(&[Rule::name, Rule::port, Rule::target, Rule::parameter]);
@@ -209,7 +209,7 @@ fn reserved_word(place: &Place<'_>) -> Found {
     Some((Slip::ReservedWord { word: word.to_owned() }, place.span(start, start + word.len())))
 }
 
-fn colon_in_brackets(place: &Place<'_>) -> Found {
+fn colon_in_brackets(place: &SlipPlace<'_>) -> Found {
     let (open, b'[') = place.inside()? else { return None };
     if place.found != ":" {
         return None;
@@ -232,7 +232,7 @@ fn width(high: &str, low: &str) -> Option<u64> {
     Some(u64::from(high?.abs_diff(low?)) + 1)
 }
 
-fn question_mark(place: &Place<'_>) -> Found {
+fn question_mark(place: &SlipPlace<'_>) -> Found {
     if place.found != "?" {
         return None;
     }
@@ -244,7 +244,7 @@ fn question_mark(place: &Place<'_>) -> Found {
     Some((Slip::QuestionMark { condition, then, otherwise }, place.here()))
 }
 
-fn width_before_name(place: &Place<'_>) -> Found {
+fn width_before_name(place: &SlipPlace<'_>) -> Found {
     let open = match place.inside()? {
         (_, b'(') if place.found == "[" => place.at,
         (open, b'[') => open,
@@ -268,7 +268,7 @@ fn width_before_name(place: &Place<'_>) -> Found {
     Some((slip, place.span(open, open + 1)))
 }
 
-fn port_kind(place: &Place<'_>) -> Found {
+fn port_kind(place: &SlipPlace<'_>) -> Found {
     let (word, start, _) = place.word_before()?;
     let named = place.in_ports() && KINDS.contains(&word) && place.found.starts_with(is_word);
     named.then(|| {
@@ -278,7 +278,7 @@ fn port_kind(place: &Place<'_>) -> Found {
     })
 }
 
-fn width_of_constant(place: &Place<'_>) -> Found {
+fn width_of_constant(place: &SlipPlace<'_>) -> Found {
     let before = place.before();
     let open = before.strip_suffix(')').and_then(|inside| inside.rfind('(')).filter(|_| place.found == "'")?;
     let sum = brief(&before[open + 1..before.len() - 1]);
@@ -290,7 +290,7 @@ fn width_of_constant(place: &Place<'_>) -> Found {
     Some((Slip::WidthOfConstant { width: sum.to_owned(), digits: brief(digits).to_owned(), zero }, place.here()))
 }
 
-fn nets_in_braces(place: &Place<'_>) -> Found {
+fn nets_in_braces(place: &SlipPlace<'_>) -> Found {
     let close = place.after().find('}')?;
     let assigned = place.after()[close + 1..].trim_start();
     if place.found != "{" || !place.in_body() || !assigned.starts_with('=') || assigned.starts_with("==") {
@@ -302,7 +302,7 @@ fn nets_in_braces(place: &Place<'_>) -> Found {
     Some((Slip::NetsInBraces { nets: brief(&names.join(", ")).to_owned(), bits }, place.here()))
 }
 
-fn space_before_operands(place: &Place<'_>) -> Found {
+fn space_before_operands(place: &SlipPlace<'_>) -> Found {
     let before = place.before().trim_end();
     let open = if place.found == "(" { place.at } else { place.start + opening(before.strip_suffix(')')?)? };
     let head = &place.text[place.start..open];
@@ -331,7 +331,7 @@ fn opening(inside: &str) -> Option<usize> {
     })
 }
 
-fn misspelled_operator(place: &Place<'_>) -> Found {
+fn misspelled_operator(place: &SlipPlace<'_>) -> Found {
     let operator = |word| suggest::nearest(word, BETWEEN);
     let (word, start, near) = match place.word_before() {
         Some((word, start, line)) if ends_operand(line) && operator(word).is_some() => (word, start, operator(word)?),
@@ -347,14 +347,14 @@ fn misspelled_operator(place: &Place<'_>) -> Found {
     Some((Slip::MisspelledOperator { word: word.to_owned(), operator: near.to_owned() }, span))
 }
 
-fn missing_operator(place: &Place<'_>) -> Found {
+fn missing_operator(place: &SlipPlace<'_>) -> Found {
     let (word, start, line) = place.word_before()?;
     let drives = place.wants(&[Rule::index, Rule::slip_arrow]) && place.in_body();
     (drives && ends_operand(line) && line.contains('=') && !RESERVED.contains(&word))
         .then(|| (Slip::MissingOperator { found: word.to_owned() }, place.span(start, start + word.len())))
 }
 
-fn space_in_pattern(place: &Place<'_>) -> Found {
+fn space_in_pattern(place: &SlipPlace<'_>) -> Found {
     let is_pattern = |word: &str| !word.is_empty() && word.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-'));
     let (open, b'{') = place.inside()? else { return None };
     let in_table = place.text[place.start..open].trim_end().ends_with(')') && place.open.len() > 1;
@@ -373,7 +373,7 @@ fn space_in_pattern(place: &Place<'_>) -> Found {
     })
 }
 
-fn missing_comma(place: &Place<'_>) -> Found {
+fn missing_comma(place: &SlipPlace<'_>) -> Found {
     let (_, bracket) = place.inside()?;
     let follows = ends_operand(place.before().trim_end()) && place.found.starts_with(is_word);
     let close = match bracket {

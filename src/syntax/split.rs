@@ -13,14 +13,14 @@ pub const KEYWORDS: [&str; 10] =
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Split {
     /// The declarations.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<SourcePiece>,
     /// All comments.
     pub comments: Vec<Range<usize>>,
 }
 
 /// The text of a declaration, without the spaces and comments around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Piece {
+pub struct SourcePiece {
     /// The range of bytes.
     pub range: Range<usize>,
     /// The brackets that are not closed, as offsets.
@@ -55,7 +55,7 @@ pub fn split(text: &str) -> Split {
 struct Splitter<'a> {
     text: &'a str,
     split: Split,
-    piece: Option<Piece>,
+    piece: Option<SourcePiece>,
     open: Vec<usize>,
     /// Whether all braces of the piece are closed, so that any keyword at the start of a line begins another
     /// declaration.
@@ -108,7 +108,7 @@ impl Splitter<'_> {
     }
 
     fn extend(&mut self, start: usize, end: usize) {
-        let empty = || Piece { range: start..end, unclosed: Vec::new(), unopened: None, depth: 0, words: 0 };
+        let empty = || SourcePiece { range: start..end, unclosed: Vec::new(), unopened: None, depth: 0, words: 0 };
         let piece = self.piece.get_or_insert_with(empty);
         piece.range.end = end;
         piece.words += 1;

@@ -29,22 +29,22 @@ pub enum DeclarationKind {
     /// `use "file.nb"`
     Use(Text),
     /// `stimulus s1, s2`
-    Stimulus(Vec<Name>),
+    Stimulus(Vec<NameSyntax>),
     /// `material`, `evolution`, `library`, `swarm`: a name and a record.
     Record(RecordDeclaration),
     /// `schedule`
-    Schedule(Schedule),
+    Schedule(ScheduleSyntax),
     /// `simulate`
     Simulate(Simulate),
     /// `circuit`
-    Circuit(Circuit),
+    Circuit(CircuitSyntax),
     /// `test`
     Test(Test),
 }
 
 /// A name with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Name {
+pub struct NameSyntax {
     /// The name.
     pub text: String,
     /// The place.
@@ -91,14 +91,14 @@ pub struct RecordDeclaration {
     /// The keyword.
     pub keyword: RecordKeyword,
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The fields.
-    pub record: Record,
+    pub record: RecordSyntax,
 }
 
 /// Fields in braces.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Record {
+pub struct RecordSyntax {
     /// The fields in order of text.
     pub fields: Vec<Field>,
     /// The place, including the braces.
@@ -109,14 +109,14 @@ pub struct Record {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The value.
-    pub value: Value,
+    pub value: ValueSyntax,
 }
 
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Value {
+pub struct ValueSyntax {
     /// The kind.
     pub kind: ValueKind,
     /// The place.
@@ -127,9 +127,9 @@ pub struct Value {
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueKind {
     /// `{ name: value, … }`
-    Record(Record),
+    Record(RecordSyntax),
     /// `[value, …]`
-    List(Vec<Value>),
+    List(Vec<ValueSyntax>),
     /// `"text"`
     Text(String),
     /// `84 steps`
@@ -139,11 +139,11 @@ pub enum ValueKind {
     /// `5 x 5`
     Product(Number, Number),
     /// `voxels in 4 bins`
-    Bins(Name, Number),
+    Bins(NameSyntax, Number),
     /// `pareto(8)`
-    Applied(Name, Vec<Value>),
+    Applied(NameSyntax, Vec<ValueSyntax>),
     /// A word, or a circuit with its parameters.
-    Instance(Instance),
+    Instance(InstanceSyntax),
 }
 
 /// A number as written.
@@ -161,7 +161,7 @@ pub struct Quantity {
     /// The number.
     pub number: Number,
     /// The unit, if there is one.
-    pub unit: Option<Name>,
+    pub unit: Option<NameSyntax>,
 }
 
 impl Quantity {
@@ -173,31 +173,31 @@ impl Quantity {
 
 /// A circuit's name with values for its parameters, which are sizes of the surrounding arena.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Instance {
+pub struct InstanceSyntax {
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The parameters given.
     pub arguments: Vec<Argument>,
     /// The sizes of the parameters, if the instance is not inside a circuit.
-    pub sizes: Vec<Size>,
+    pub sizes: Vec<SizeSyntax>,
 }
 
 /// `schedule sweep(s1, s2) { … }`
 #[derive(Clone, Debug, PartialEq)]
-pub struct Schedule {
+pub struct ScheduleSyntax {
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The stimuli.
-    pub columns: Vec<Name>,
+    pub columns: Vec<NameSyntax>,
     /// The spells in order of time.
-    pub spells: Vec<Spell>,
+    pub spells: Vec<SpellSyntax>,
 }
 
 /// `0 1 for 10 cycles`
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spell {
+pub struct SpellSyntax {
     /// The values, one for each column.
-    pub cells: Vec<Name>,
+    pub cells: Vec<NameSyntax>,
     /// The duration.
     pub length: Quantity,
     /// The place.
@@ -208,7 +208,7 @@ pub struct Spell {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulate {
     /// The swarm.
-    pub swarm: Name,
+    pub swarm: NameSyntax,
     /// Its inputs over time.
     pub with: With,
 }
@@ -217,13 +217,13 @@ pub struct Simulate {
 #[derive(Clone, Debug, PartialEq)]
 pub enum With {
     /// `with sweep`
-    Named(Name),
+    Named(NameSyntax),
     /// `with schedule (d, e) { … }`
     Spells {
         /// The input ports.
-        columns: Vec<Name>,
+        columns: Vec<NameSyntax>,
         /// The spells in order of time.
-        spells: Vec<Spell>,
+        spells: Vec<SpellSyntax>,
     },
 }
 
@@ -231,7 +231,7 @@ pub enum With {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Test {
     /// The tested circuit.
-    pub circuit: Instance,
+    pub circuit: InstanceSyntax,
     /// The title.
     pub title: Option<Text>,
     /// The method.
@@ -244,33 +244,33 @@ pub enum TestKind {
     /// A table of rows.
     Table(TestTable),
     /// `for all inputs against other`
-    Against(Instance),
+    Against(InstanceSyntax),
     /// `for all inputs { … }`
-    Reference(Box<Body>),
+    Reference(Box<BodySyntax>),
 }
 
 /// The rows of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestTable {
     /// The input columns.
-    pub inputs: Vec<Name>,
+    pub inputs: Vec<NameSyntax>,
     /// The output columns.
-    pub outputs: Vec<Name>,
+    pub outputs: Vec<NameSyntax>,
     /// The rows in order of time.
-    pub rows: Vec<TestRow>,
+    pub rows: Vec<TestRowSyntax>,
     /// The place of the header.
     pub header: Span,
 }
 
 /// One row of a test.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TestRow {
+pub struct TestRowSyntax {
     /// The values before the bar.
-    pub inputs: Vec<Name>,
+    pub inputs: Vec<NameSyntax>,
     /// The bars; a valid row has one.
     pub bars: Vec<Span>,
     /// The values after the bar.
-    pub outputs: Vec<Name>,
+    pub outputs: Vec<NameSyntax>,
     /// The hold, if the row sets it.
     pub hold: Option<Quantity>,
     /// The place.
@@ -279,59 +279,59 @@ pub struct TestRow {
 
 /// `circuit half_adder(a, b) -> (s, c) { … }`
 #[derive(Clone, Debug, PartialEq)]
-pub struct Circuit {
+pub struct CircuitSyntax {
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The width parameters.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<ParameterSyntax>,
     /// The input ports.
     pub inputs: Vec<Port>,
     /// The output ports.
     pub outputs: Vec<Port>,
     /// The body; it also has the sizes of the ports.
-    pub body: Body,
+    pub body: BodySyntax,
 }
 
 /// Statements and the arenas they point into.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Body {
+pub struct BodySyntax {
     /// The statements in order of text.
-    pub statements: Vec<Statement>,
+    pub statements: Vec<StatementSyntax>,
     /// The expressions, children before parents.
-    pub expressions: Vec<Expression>,
+    pub expressions: Vec<ExpressionSyntax>,
     /// The sizes, children before parents.
-    pub sizes: Vec<Size>,
+    pub sizes: Vec<SizeSyntax>,
 }
 
-/// A place in [`Body::expressions`].
+/// A place in [`BodySyntax::expressions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ExpressionId(pub u32);
+pub struct ExpressionSyntaxId(pub u32);
 
-/// A place in [`Body::sizes`].
+/// A place in [`BodySyntax::sizes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SizeId(pub u32);
+pub struct SizeSyntaxId(pub u32);
 
 /// `n` or `start = 0` in a circuit's parameters.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
+pub struct ParameterSyntax {
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The default value.
-    pub default: Option<SizeId>,
+    pub default: Option<SizeSyntaxId>,
 }
 
 /// `a` or `a[8]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     /// The name.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The width in bits, if there is one.
-    pub width: Option<SizeId>,
+    pub width: Option<SizeSyntaxId>,
 }
 
 /// A statement with its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Statement {
+pub struct StatementSyntax {
     /// The kind.
     pub kind: StatementKind,
     /// The place.
@@ -344,36 +344,36 @@ pub enum StatementKind {
     /// `q init 0 = nand(s, nq)`
     Drive {
         /// The targets.
-        targets: Vec<Target>,
+        targets: Vec<TargetSyntax>,
         /// Whether the targets are in parentheses.
         grouped: bool,
         /// The driver.
-        value: ExpressionId,
+        value: ExpressionSyntaxId,
     },
     /// `net c[9]`
     Nets(Vec<Port>),
     /// `for i in 0..8 { … }`
     For {
         /// The variable.
-        variable: Name,
+        variable: NameSyntax,
         /// Its first value.
-        from: SizeId,
+        from: SizeSyntaxId,
         /// One more than its last value.
-        to: SizeId,
+        to: SizeSyntaxId,
         /// The repeated statements.
-        statements: Vec<Statement>,
+        statements: Vec<StatementSyntax>,
     },
 }
 
 /// The left side of a drive.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Target {
+pub struct TargetSyntax {
     /// The net.
-    pub name: Name,
+    pub name: NameSyntax,
     /// The bits, if not the whole net is driven.
     pub index: Option<Index>,
     /// The value before the first cycle.
-    pub start: Option<SizeId>,
+    pub start: Option<SizeSyntaxId>,
     /// The place.
     pub span: Span,
 }
@@ -382,66 +382,66 @@ pub struct Target {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Index {
     /// The bit, or the highest of them.
-    pub high: SizeId,
+    pub high: SizeSyntaxId,
     /// The lowest bit of a slice.
-    pub low: Option<SizeId>,
+    pub low: Option<SizeSyntaxId>,
     /// The place, including the brackets.
     pub span: Span,
 }
 
 /// An integer with its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Size {
+pub struct SizeSyntax {
     /// The kind.
-    pub kind: SizeKind,
+    pub kind: SizeSyntaxKind,
     /// The place.
     pub span: Span,
 }
 
 /// The kinds of integers.
 #[derive(Clone, Debug, PartialEq)]
-pub enum SizeKind {
+pub enum SizeSyntaxKind {
     /// Digits.
     Literal(String),
     /// A parameter or loop variable.
     Name(String),
     /// `log2(n)`
-    Log2(SizeId),
+    Log2(SizeSyntaxId),
     /// `(n)`
-    Group(SizeId),
+    Group(SizeSyntaxId),
     /// `n + 1`
-    Binary(crate::model::SizeOperator, SizeId, SizeId),
+    Binary(crate::model::SizeOperator, SizeSyntaxId, SizeSyntaxId),
 }
 
 /// A parameter given to a circuit: `8` or `start = 1`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument {
     /// The parameter's name, if it is given.
-    pub name: Option<Name>,
+    pub name: Option<NameSyntax>,
     /// The value.
-    pub value: SizeId,
+    pub value: SizeSyntaxId,
     /// The place.
     pub span: Span,
 }
 
 /// An expression with its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Expression {
+pub struct ExpressionSyntax {
     /// The kind.
-    pub kind: ExpressionKind,
+    pub kind: ExpressionSyntaxKind,
     /// The place.
     pub span: Span,
 }
 
 /// The kinds of expressions.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ExpressionKind {
+pub enum ExpressionSyntaxKind {
     /// Digits without a width.
     Digits(String),
     /// `4'b1010`
     Constant {
         /// The width: a literal or a parameter.
-        width: SizeId,
+        width: SizeSyntaxId,
         /// `b`, `d` or `h`.
         base: char,
         /// The digits in that base.
@@ -450,39 +450,39 @@ pub enum ExpressionKind {
     /// `n'd(i + 1)`
     Computed {
         /// The width: a literal or a parameter.
-        width: SizeId,
+        width: SizeSyntaxId,
         /// The value.
-        value: SizeId,
+        value: SizeSyntaxId,
     },
     /// `a`, `a[3]`, `a[3..0]`
     Net {
         /// The name.
-        name: Name,
+        name: NameSyntax,
         /// The bits, if not the whole net is read.
         index: Option<Index>,
     },
     /// `add[8](a, b)`
     Call {
         /// The circuit.
-        name: Name,
+        name: NameSyntax,
         /// The parameters given.
         arguments: Vec<Argument>,
         /// The operands.
-        operands: Vec<ExpressionId>,
+        operands: Vec<ExpressionSyntaxId>,
     },
     /// `(a)`
-    Group(ExpressionId),
+    Group(ExpressionSyntaxId),
     /// `{a, b}`
-    Concatenation(Vec<ExpressionId>),
+    Concatenation(Vec<ExpressionSyntaxId>),
     /// `{4{a, b}}`
     Repetition {
         /// The number of repetitions.
-        count: SizeId,
+        count: SizeSyntaxId,
         /// The repeated value.
-        values: Vec<ExpressionId>,
+        values: Vec<ExpressionSyntaxId>,
     },
     /// `not a`
-    Not(ExpressionId),
+    Not(ExpressionSyntaxId),
     /// `a and b`
     Infix {
         /// The operator.
@@ -490,42 +490,42 @@ pub enum ExpressionKind {
         /// The place of the operator.
         place: Span,
         /// The left operand.
-        left: ExpressionId,
+        left: ExpressionSyntaxId,
         /// The right operand.
-        right: ExpressionId,
+        right: ExpressionSyntaxId,
     },
     /// `nand(a, b, c)`
     Operation {
         /// The operation.
         operator: crate::model::Operator,
         /// The operands.
-        operands: Vec<ExpressionId>,
+        operands: Vec<ExpressionSyntaxId>,
     },
     /// `if c then a else b`
     Choice {
         /// The condition.
-        condition: ExpressionId,
+        condition: ExpressionSyntaxId,
         /// The value if it is 1.
-        then: ExpressionId,
+        then: ExpressionSyntaxId,
         /// The value if it is 0.
-        otherwise: ExpressionId,
+        otherwise: ExpressionSyntaxId,
     },
     /// `table(a, b) { 00: 1, else: 0 }`
     Table {
         /// The inputs.
-        inputs: Vec<ExpressionId>,
+        inputs: Vec<ExpressionSyntaxId>,
         /// The rows in order of text.
-        rows: Vec<TableRow>,
+        rows: Vec<TableRowSyntax>,
     },
 }
 
 /// `0-1: 1` or `else: 0`
 #[derive(Clone, Debug, PartialEq)]
-pub struct TableRow {
+pub struct TableRowSyntax {
     /// The pattern; `None` is `else`.
-    pub pattern: Option<Name>,
+    pub pattern: Option<NameSyntax>,
     /// The output.
-    pub output: Name,
+    pub output: NameSyntax,
     /// The place of the row.
     pub span: Span,
 }

@@ -2,7 +2,7 @@
 
 use nbc::circuit::formats::{Design, aiger, bench, blif};
 use nbc::circuit::network::Network;
-use nbc::circuit::synth::exact::{self, Answer};
+use nbc::circuit::synth::exact::{self, ExactResult};
 use nbc::circuit::synth::prices::Prices;
 use nbc::circuit::synth::reduce;
 use nbc::circuit::{CellLibrary, MapOptions, Netlist};
@@ -57,9 +57,9 @@ fn any_library_makes_functions_with_the_fewest_cells() {
         let wanted = sum_of_products(3, 1 + random.next_u32() % 254);
         let made = reduce(&wanted, &[], &library, MapOptions::default()).unwrap().gates.len();
         match exact::fewer(&wanted, &Prices::of(&library), 24, 2_000_000) {
-            Answer::Made(fewest) => assert_eq!(made, fewest.gates.len(), "{library:?} {wanted:?}"),
-            Answer::Impossible => panic!("a complete library makes every function"),
-            Answer::Unknown => continue,
+            ExactResult::Made(fewest) => assert_eq!(made, fewest.gates.len(), "{library:?} {wanted:?}"),
+            ExactResult::Impossible => panic!("a complete library makes every function"),
+            ExactResult::Unknown => continue,
         }
         compared += 1;
     }

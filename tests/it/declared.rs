@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nbc::Session;
 use nbc::evolve::Search;
 use nbc::model::{
-    Axis, Count, Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Spell, Symmetry,
+    Axis, Count, Evolution, MutationWeights, Niche, Palette, Rules, Schedule, SearchObjective, Spell, Symmetry,
 };
 use nbc::source::MemoryWorld;
 use nbc::swarm::evolve_generation;
@@ -96,7 +96,7 @@ fn changes() -> Vec<Change> {
         ("newcomers: 3", |run| run.newcomers = 3),
         ("seed: 8", |run| run.seeds = vec![8]),
         ("as: code", |run| run.rules = Rules::Code),
-        ("objective: gate", |run| run.objective = Objective::Gate),
+        ("objective: gate", |run| run.objective = SearchObjective::Gate),
         ("symmetry: npn", |run| run.symmetry = Symmetry::Npn),
         ("niche: pareto(4)", |run| run.niche = Niche::Pareto(4)),
     ]
@@ -142,7 +142,7 @@ fn the_papers_experiment_is_declared_as_the_paper_says() {
         assert_eq!((run.batch, run.generations, run.seeds.len()), (16, 3000, 10), "{name}");
         let patterns = nbc::model::Pattern::PAIRS;
         assert_eq!(run.variable.spells, patterns.map(|pattern| Spell { pattern, steps: 840 }));
-        assert_eq!((run.fixed_steps, run.objective, run.niche), (840, Objective::Distance, Niche::Dominance));
+        assert_eq!((run.fixed_steps, run.objective, run.niche), (840, SearchObjective::Distance, Niche::Dominance));
         assert_eq!((&run.palette, run.mutation), (&Palette::paper(), MutationWeights::default()));
         assert_eq!(Search::new(run, 1).archive().stats().niches, 1024);
     }

@@ -10,7 +10,7 @@ use nbc::model::{
 use nbc::session;
 use nbc::sim::Simulator;
 use nbc::store::{self, Checkpoint, DiskWorld};
-use nbc::swarm::{self, Assembly, Exposure, Member, Signal};
+use nbc::swarm::{self, Assembly, Exposure, Member, StimulusSource};
 
 use crate::cli::Bench;
 use crate::language::root;
@@ -217,7 +217,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     let member = |robot: &Robot| Member {
         net: robot.name.clone(),
         robot: robot.clone(),
-        senses: [Signal::Input(0), Signal::Constant(false)],
+        senses: [StimulusSource::Input(0), StimulusSource::Constant(false)],
         start: false,
     };
     let assembly = Assembly {

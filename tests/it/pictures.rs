@@ -3,7 +3,7 @@
 use nbc::circuit::{Cell, Netlist};
 use nbc::model::{Body, Column, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
 use nbc::report::{self, Scheme};
-use nbc::swarm::{CycleTrace, Recording, RobotTrace, Signal, SwarmTrace};
+use nbc::swarm::{CycleTrace, Recording, RobotTrace, StimulusSource, SwarmTrace};
 
 /// A port of one bit.
 pub fn port(name: &str) -> Column {
@@ -14,21 +14,21 @@ pub fn port(name: &str) -> Column {
 pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
     let names = ["n1", "q", "n3", "not_d", "nq"];
     let senses = [
-        [Signal::Input(0), Signal::Input(1)],
-        [Signal::Robot(0), Signal::Robot(4)],
-        [Signal::Robot(3), Signal::Input(1)],
-        [Signal::Input(0), Signal::Constant(false)],
-        [Signal::Robot(2), Signal::Robot(1)],
+        [StimulusSource::Input(0), StimulusSource::Input(1)],
+        [StimulusSource::Robot(0), StimulusSource::Robot(4)],
+        [StimulusSource::Robot(3), StimulusSource::Input(1)],
+        [StimulusSource::Input(0), StimulusSource::Constant(false)],
+        [StimulusSource::Robot(2), StimulusSource::Robot(1)],
     ];
     let functions = [Function::NAND, Function::NAND, Function::NAND, Function::NOT, Function::NAND];
     let mut bits = vec![false; 5];
     let mut paths = vec![vec![250.0]; 5];
     let mut cycles = Vec::new();
     for &(d, e) in rows.iter().flat_map(|row| std::iter::repeat_n(row, hold)) {
-        let value = |signal: Signal| match signal {
-            Signal::Input(i) => [d, e][i],
-            Signal::Robot(k) => bits[k],
-            Signal::Constant(value) => value,
+        let value = |signal: StimulusSource| match signal {
+            StimulusSource::Input(i) => [d, e][i],
+            StimulusSource::Robot(k) => bits[k],
+            StimulusSource::Constant(value) => value,
         };
         let sensed: Vec<[bool; 2]> = senses.iter().map(|pair| pair.map(value)).collect();
         bits = functions.iter().zip(&sensed).map(|(function, s)| function.output(s[0], s[1])).collect();
@@ -38,10 +38,10 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
         }
         cycles.push(CycleTrace { inputs: vec![d, e], sensed, outputs: vec![bits[1], bits[4]], bits: bits.clone() });
     }
-    let net = |signal: Signal| match signal {
-        Signal::Input(i) => ["d", "e"][i].to_owned(),
-        Signal::Robot(k) => names[k].to_owned(),
-        Signal::Constant(value) => u8::from(value).to_string(),
+    let net = |signal: StimulusSource| match signal {
+        StimulusSource::Input(i) => ["d", "e"][i].to_owned(),
+        StimulusSource::Robot(k) => names[k].to_owned(),
+        StimulusSource::Constant(value) => u8::from(value).to_string(),
     };
     let robots = (0..5).map(|k| RobotTrace {
         net: names[k].to_owned(),
@@ -56,7 +56,7 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
         circuit: "d_latch".to_owned(),
         inputs: ["d", "e"].map(port).into(),
         outputs: ["q", "nq"].map(port).into(),
-        shown: vec![Signal::Robot(1), Signal::Robot(4)],
+        shown: vec![StimulusSource::Robot(1), StimulusSource::Robot(4)],
         samples_per_cycle: 4,
         robots: robots.collect(),
         cycles,
@@ -184,7 +184,7 @@ fn an_empty_trace_is_still_drawn() {
     let mut trace = latch(&[], 8);
     report::png(&report::draw_swarm(&trace));
     trace.robots.clear();
-    trace.shown = vec![Signal::Constant(true), Signal::Input(0)];
+    trace.shown = vec![StimulusSource::Constant(true), StimulusSource::Input(0)];
     report::png(&report::draw_swarm(&trace));
 }
 

@@ -65,7 +65,7 @@ fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
 }
 
 fn evolution() -> nbc::model::Evolution {
-    use nbc::model::{Evolution, MutationWeights, Niche, Objective, Palette, Rules, Schedule, Symmetry};
+    use nbc::model::{Evolution, MutationWeights, Niche, Palette, Rules, Schedule, SearchObjective, Symmetry};
     Evolution {
         name: "gates".to_owned(),
         width: 3,
@@ -80,7 +80,7 @@ fn evolution() -> nbc::model::Evolution {
         generations: 1,
         seeds: vec![1],
         rules: Rules::Paper,
-        objective: Objective::Distance,
+        objective: SearchObjective::Distance,
         symmetry: Symmetry::None,
         niche: Niche::Dominance,
     }

@@ -4,7 +4,7 @@ use nbc::circuit::CellLibrary;
 use nbc::model::{Function, Library};
 use nbc::session::{Session, TestOptions};
 use nbc::store::DiskWorld;
-use nbc::swarm::{Assembly, Level, START_CYCLES, Settling, Signal, assemble};
+use nbc::swarm::{Assembly, Level, START_CYCLES, Settling, StimulusSource, assemble};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -34,10 +34,10 @@ impl<'a> Whims<'a> {
         let before = self.bits.clone();
         for (i, member) in self.assembly.members.iter().enumerate() {
             let sensed = member.senses.map(|signal| match signal {
-                Signal::Input(input) => inputs[input],
-                Signal::Robot(other) if starting => self.assembly.members[other].start,
-                Signal::Robot(other) => before[other].0,
-                Signal::Constant(value) => value,
+                StimulusSource::Input(input) => inputs[input],
+                StimulusSource::Robot(other) if starting => self.assembly.members[other].start,
+                StimulusSource::Robot(other) => before[other].0,
+                StimulusSource::Constant(value) => value,
             });
             let held = if self.cycles > 0 && sensed == self.sensed[i].0 { self.sensed[i].1 + 1 } else { 1 };
             self.sensed[i] = (sensed, held);

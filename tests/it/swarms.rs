@@ -9,7 +9,7 @@ use nbc::report::{Stage, describe_test};
 use nbc::session::SwarmRun;
 use nbc::sim::Simulator;
 use nbc::store::shipped_library;
-use nbc::swarm::{Assembly, Exposure, Member, Recording, Room, Signal, SwarmTrace, simulate};
+use nbc::swarm::{Assembly, Exposure, Member, Recording, Room, StimulusSource, SwarmTrace, simulate};
 use nbc::{CompileOptions, RunReport};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -88,8 +88,8 @@ fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
 fn a_robot_never_reaches_the_end_of_its_ground() {
     let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
-    let member = Member { net: "y".to_owned(), robot, senses: [Signal::Constant(false); 2], start: true };
-    let (outputs, shown) = (vec![crate::pictures::port("y")], vec![Signal::Robot(0)]);
+    let member = Member { net: "y".to_owned(), robot, senses: [StimulusSource::Constant(false); 2], start: true };
+    let (outputs, shown) = (vec![crate::pictures::port("y")], vec![StimulusSource::Robot(0)]);
     let assembly = Assembly { circuit: "one".to_owned(), inputs: Vec::new(), members: vec![member], outputs, shown };
     let exposure = Exposure { inputs: vec![Vec::new(); 80], window: 1, poses: None };
     let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
@@ -106,7 +106,7 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
     let member = |robot: &Robot| Member {
         net: robot.name.clone(),
         robot: robot.clone(),
-        senses: [Signal::Constant(true), Signal::Robot(0)],
+        senses: [StimulusSource::Constant(true), StimulusSource::Robot(0)],
         start: false,
     };
     let assembly = Assembly {
@@ -114,7 +114,7 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
         inputs: Vec::new(),
         members: shipped_library().robots[..3].iter().map(member).collect(),
         outputs: vec![crate::pictures::port("y")],
-        shown: vec![Signal::Robot(1)],
+        shown: vec![StimulusSource::Robot(1)],
     };
     let run = |poses| {
         let exposure = Exposure { inputs: vec![Vec::new(); 3], window: 1, poses };

@@ -1,6 +1,6 @@
 //! Files written for other tools and in the language: valid unique names, formatted programs, the same function.
 
-use nbc::circuit::formats::{Design, Format, aiger, blif};
+use nbc::circuit::formats::{CircuitFormat, Design, aiger, blif};
 use nbc::circuit::{Logic, Netlist, elaborate};
 use nbc::model::{Function, Instance};
 use nbc::source::{FileId, MemoryWorld, Sources};
@@ -88,7 +88,7 @@ fn same(one: &Netlist, two: &Netlist, text: &str) {
 
 /// The text of a design as a program, checked to be formatted, and its circuit.
 fn as_program(design: &Design) -> (String, Netlist) {
-    let text = String::from_utf8(store::encode_circuit(design, Format::Nb).unwrap()).unwrap();
+    let text = String::from_utf8(store::encode_circuit(design, CircuitFormat::Nb).unwrap()).unwrap();
     let mut sources = Sources::default();
     let file = sources.add("written.nb", text.clone());
     let parsed = syntax::parse(&sources, file);
@@ -127,7 +127,7 @@ proptest! {
     #[test]
     fn verilog_names_are_legal_and_different(netlist in netlists()) {
         let ports = netlist.inputs().len() + netlist.outputs().len();
-        let text = String::from_utf8(Format::Verilog.encode(&Design { logic: netlist, registers: Vec::new() }).unwrap()).unwrap();
+        let text = String::from_utf8(CircuitFormat::Verilog.encode(&Design { logic: netlist, registers: Vec::new() }).unwrap()).unwrap();
         assert!(text.chars().all(|c| c == '\n' || c == ' ' || c.is_ascii_graphic()), "{text}");
         let head = text.lines().next().unwrap();
         // An escaped name and the plain one are the same name.
@@ -144,6 +144,6 @@ proptest! {
 fn a_model_without_outputs_is_not_a_program() {
     let mut logic = Netlist::new("silent");
     logic.add_input("a");
-    let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, Format::Nb).unwrap_err();
+    let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, CircuitFormat::Nb).unwrap_err();
     assert_eq!(fault.message, "`silent` has no outputs, and a circuit of a .nb file needs one");
 }

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::circuit::elaborate::frame::{Frame, Item};
+use crate::circuit::elaborate::frame::{Item, Scope};
 use crate::circuit::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
-use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, NONE, Signal};
+use crate::circuit::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModuleSignal, NONE};
 use crate::circuit::elaborate::wording::{ElaborateError, shown_at, unknown_circuit};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
@@ -141,7 +141,7 @@ pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) builder: &'b mut Builder<'a>,
     pub(super) circuit: &'a Circuit,
     pub(super) module: Module,
-    pub(super) frames: Vec<Frame>,
+    pub(super) frames: Vec<Scope>,
     pub(super) items: Vec<Item<'a>>,
     /// The constants 0 and 1, if they exist already.
     pub(super) constants: [Bit; 2],
@@ -206,7 +206,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             if net < self.circuit.inputs {
                 self.module.inputs.push(width);
                 for bit in bits {
-                    self.module.signals[bit as usize] = Signal::Input(input);
+                    self.module.signals[bit as usize] = ModuleSignal::Input(input);
                     input += 1;
                 }
             } else {
@@ -227,7 +227,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         }
         self.module.nets[net].width = Some(width);
         self.module.nets[net].first = first;
-        let signal = |bit| Signal::Net { net: net as u32, bit, driver: NONE, by: 0 };
+        let signal = |bit| ModuleSignal::Net { net: net as u32, bit, driver: NONE, by: 0 };
         self.module.signals.extend((0..width).map(signal));
     }
 
@@ -254,11 +254,12 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
     }
 
     fn is_driven(&self, bit: Bit) -> bool {
-        !matches!(self.module.signals[bit as usize], Signal::Net { driver: NONE, .. })
+        !matches!(self.module.signals[bit as usize], ModuleSignal::Net { driver: NONE, .. })
     }
 
     fn total(&mut self) {
-        let gates = self.module.signals.iter().filter(|signal| matches!(signal, Signal::Gate { .. })).count() as u64;
+        let gates =
+            self.module.signals.iter().filter(|signal| matches!(signal, ModuleSignal::Gate { .. })).count() as u64;
         let inside = |count: fn(&Module) -> u64| {
             self.module.sites.iter().fold(0u64, |sum, site| sum.saturating_add(count(self.builder.module(site.module))))
         };

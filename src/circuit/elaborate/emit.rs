@@ -1,8 +1,8 @@
 //! From expressions to gates, bit by bit; the lowest bit of a value comes first.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
-use crate::circuit::elaborate::module::{Bit, ModuleId, NONE, Signal, Site};
-use crate::circuit::elaborate::wording::{ElaborateError, Operand, Wide, WidthError};
+use crate::circuit::elaborate::module::{Bit, ModuleId, ModuleSignal, NONE, Site};
+use crate::circuit::elaborate::wording::{ElaborateError, OperandText, Wide, WidthError};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
 use crate::source::Span;
 
@@ -55,7 +55,7 @@ impl ModuleBuilder<'_, '_> {
             return;
         };
         if value.len() as u32 != count {
-            let found = Operand { span, ..self.operand(self.items[by as usize].value, value) };
+            let found = OperandText { span, ..self.operand(self.items[by as usize].value, value) };
             let what = Wide::Value { net: name, target: target.span };
             self.fault(WidthError::Wrong { what, expected: count, found }.into());
             return;
@@ -70,7 +70,7 @@ impl ModuleBuilder<'_, '_> {
     }
 
     fn drive_bit(&mut self, bit: Bit, value: Bit, item: u32, span: Span) {
-        let Signal::Net { driver, by, net, .. } = &mut self.module.signals[bit as usize] else {
+        let ModuleSignal::Net { driver, by, net, .. } = &mut self.module.signals[bit as usize] else {
             unreachable!("inputs are no targets")
         };
         if *driver == NONE {
@@ -151,18 +151,18 @@ impl ModuleBuilder<'_, '_> {
     /// The constant 0 or 1.
     pub(super) fn constant(&mut self, value: bool) -> Bit {
         if self.constants[usize::from(value)] == NONE {
-            self.constants[usize::from(value)] = self.signal(Signal::Constant(value));
+            self.constants[usize::from(value)] = self.signal(ModuleSignal::Constant(value));
         }
         self.constants[usize::from(value)]
     }
 
-    fn signal(&mut self, signal: Signal) -> Bit {
+    fn signal(&mut self, signal: ModuleSignal) -> Bit {
         self.module.signals.push(signal);
         self.module.signals.len() as Bit - 1
     }
 
     pub(super) fn gate(&mut self, function: Function, pins: [Bit; 2], span: Span) -> Bit {
-        self.signal(Signal::Gate { function, pins, span })
+        self.signal(ModuleSignal::Gate { function, pins, span })
     }
 
     fn number(&mut self, width: SizeId, value: u128, frame: u32, span: Span) -> Option<Vec<Bit>> {
@@ -270,18 +270,19 @@ impl ModuleBuilder<'_, '_> {
         self.module.sites.push(Site { module: id, inputs: values.concat(), name });
         let mut bits = 0..;
         let outputs = self.builder.module(id).outputs.clone();
-        let mut output =
-            |width| bits.by_ref().take(width as usize).map(|bit| self.signal(Signal::Output { site, bit })).collect();
+        let mut output = |width| {
+            bits.by_ref().take(width as usize).map(|bit| self.signal(ModuleSignal::Output { site, bit })).collect()
+        };
         Some(outputs.into_iter().map(&mut output).collect())
     }
 
     /// A value with the name that advice calls it by.
-    fn operand(&self, id: ExpressionId, value: &[Bit]) -> Operand {
+    fn operand(&self, id: ExpressionId, value: &[Bit]) -> OperandText {
         let net = match self.circuit.expressions[id.0 as usize].kind {
             ExpressionKind::Net(slot) => Some(self.circuit.nets[slot.0 as usize].name.clone()),
             _ => None,
         };
-        Operand { width: value.len() as u32, span: self.span(id), net }
+        OperandText { width: value.len() as u32, span: self.span(id), net }
     }
 
     /// The module of a called circuit, if its parameters and the widths of the operands fit.

@@ -1,7 +1,7 @@
 //! Flattens a module: everything inside it becomes cells of one netlist, with names and start values.
 
 use crate::circuit::elaborate::build::Builder;
-use crate::circuit::elaborate::module::{ModuleId, NONE, Signal};
+use crate::circuit::elaborate::module::{ModuleId, ModuleSignal, NONE};
 use crate::circuit::elaborate::wording::ElaborateError;
 use crate::circuit::{Cell, NetId, Netlist};
 use crate::diag::Diagnostic;
@@ -60,11 +60,11 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<u32> {
     for (at, place) in places.iter().enumerate() {
         let module = builder.module(place.module);
         same.extend(module.signals.iter().map(|signal| match *signal {
-            Signal::Input(_) if at == 0 => SELF,
-            Signal::Input(bit) => place.inputs[bit as usize],
-            Signal::Constant(_) | Signal::Gate { .. } => SELF,
-            Signal::Net { driver, .. } => place.base + driver,
-            Signal::Output { site, bit } => {
+            ModuleSignal::Input(_) if at == 0 => SELF,
+            ModuleSignal::Input(bit) => place.inputs[bit as usize],
+            ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => SELF,
+            ModuleSignal::Net { driver, .. } => place.base + driver,
+            ModuleSignal::Output { site, bit } => {
                 let inner = &places[inside + site as usize];
                 inner.base + builder.module(inner.module).output_bits[bit as usize]
             }
@@ -103,7 +103,7 @@ fn resolve(same: &mut [u32]) -> Result<(), usize> {
 fn named<'a>(builder: &'a Builder<'_>, place: &'a Place) -> impl Iterator<Item = (u32, String, Span)> + 'a {
     let module = builder.module(place.module);
     module.signals.iter().enumerate().filter_map(move |(at, signal)| {
-        let Signal::Net { net, bit, .. } = *signal else { return None };
+        let ModuleSignal::Net { net, bit, .. } = *signal else { return None };
         let net = &module.nets[net as usize];
         let bit = if net.width == Some(1) { String::new() } else { format!("[{bit}]") };
         Some((place.base + at as u32, format!("{}{}{bit}", place.prefix, net.name), net.span))
@@ -138,10 +138,10 @@ fn add_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mu
                 continue;
             }
             nets[at] = match *signal {
-                Signal::Gate { function, span, .. } => {
+                ModuleSignal::Gate { function, span, .. } => {
                     Some(netlist.add_loose_cell(Cell { function, name: None, start: None, span: Some(span) }))
                 }
-                Signal::Constant(value) => {
+                ModuleSignal::Constant(value) => {
                     Some(*constants[usize::from(value)].get_or_insert_with(|| netlist.add_constant(value)))
                 }
                 _ => nets[at],
@@ -154,7 +154,7 @@ fn connect(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut 
     let driver = |bit: u32| nets[same[bit as usize] as usize].expect("every signal ends in a net");
     for place in places {
         for (signal, at) in builder.module(place.module).signals.iter().zip(place.base as usize..) {
-            let Signal::Gate { pins, .. } = *signal else { continue };
+            let ModuleSignal::Gate { pins, .. } = *signal else { continue };
             let cell = nets[at].expect("every gate is a cell");
             for (pin, bit) in pins.into_iter().enumerate().filter(|(_, bit)| *bit != NONE) {
                 netlist.connect(cell, pin as u8, driver(place.base + bit));

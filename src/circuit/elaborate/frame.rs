@@ -3,7 +3,7 @@
 use crate::model::{ExpressionId, Target};
 
 /// A block in one turn of the loops around it.
-pub(super) struct Frame {
+pub(super) struct Scope {
     /// The frame of the block around.
     pub(super) parent: u32,
     /// The first slot of the block's nets, and the net it is in this turn.
@@ -14,7 +14,7 @@ pub(super) struct Frame {
     pub(super) variables: Vec<i64>,
 }
 
-impl Frame {
+impl Scope {
     /// The first slot of the block's nets, its net in this iteration, and the number of slots.
     pub(super) fn nets(&self) -> (u32, u32, u32) {
         (self.first_slot, self.first_net, self.nets)

@@ -1,7 +1,7 @@
 //! Loops without a start value: found by looking at a module with all bits cut that have one.
 
 use crate::circuit::elaborate::build::Builder;
-use crate::circuit::elaborate::module::{Module, ModuleId, NONE, Signal};
+use crate::circuit::elaborate::module::{Module, ModuleId, ModuleSignal, NONE};
 use crate::circuit::elaborate::wording::ElaborateError;
 use crate::diag::Diagnostic;
 use petgraph::algo::kosaraju_scc;
@@ -32,7 +32,7 @@ impl Builder<'_> {
         let has_sites = coarse
             .iter()
             .flatten()
-            .any(|&at| at >= module.signals.len() || matches!(module.signals[at], Signal::Output { .. }));
+            .any(|&at| at >= module.signals.len() || matches!(module.signals[at], ModuleSignal::Output { .. }));
         let exact = if has_sites { loops(&self.graph(module, true)) } else { coarse };
         exact.iter().filter_map(|signals| warning(module, signals)).collect()
     }
@@ -50,17 +50,17 @@ impl Builder<'_> {
         let started = started(module);
         for (at, signal) in module.signals.iter().enumerate() {
             match *signal {
-                Signal::Gate { pins, .. } => {
+                ModuleSignal::Gate { pins, .. } => {
                     pins.iter().filter(|&&pin| pin != NONE).for_each(|&pin| edge(pin as usize, at))
                 }
-                Signal::Net { driver, .. } if !started[at] && driver != NONE => edge(driver as usize, at),
-                Signal::Output { site, bit } if exact => {
+                ModuleSignal::Net { driver, .. } if !started[at] && driver != NONE => edge(driver as usize, at),
+                ModuleSignal::Output { site, bit } if exact => {
                     let inputs = &module.sites[site as usize].inputs;
                     passes[site as usize][bit as usize]
                         .iter()
                         .for_each(|&input| edge(inputs[input as usize] as usize, at));
                 }
-                Signal::Output { site, .. } => edge(signals + site as usize, at),
+                ModuleSignal::Output { site, .. } => edge(signals + site as usize, at),
                 _ => {}
             }
         }
@@ -84,7 +84,7 @@ impl Builder<'_> {
                 if std::mem::replace(&mut seen[at.index()], true) {
                     continue;
                 }
-                if let Signal::Input(input) = module.signals[at.index()] {
+                if let ModuleSignal::Input(input) = module.signals[at.index()] {
                     inputs.push(input);
                 }
                 open.extend(graph.neighbors_directed(at, petgraph::Direction::Incoming));
@@ -120,7 +120,7 @@ fn loops(graph: &DiGraph<(), ()>) -> Vec<Vec<usize>> {
 fn warning(module: &Module, signals: &[usize]) -> Option<Diagnostic> {
     let mut nets: Vec<u32> = Vec::new();
     for &at in signals {
-        if let Some(Signal::Net { net, .. }) = module.signals.get(at)
+        if let Some(ModuleSignal::Net { net, .. }) = module.signals.get(at)
             && !nets.contains(net)
             && nets.len() < 4
         {

@@ -22,7 +22,7 @@ pub(super) const NONE: Bit = Bit::MAX;
 
 /// The source of a bit.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Signal {
+pub(super) enum ModuleSignal {
     /// An input bit of the module, counted over the ports in order, the lowest bit of a port first.
     Input(u32),
     /// Always the same.
@@ -39,7 +39,7 @@ pub(super) enum Signal {
 #[derive(Clone, Debug)]
 pub(super) struct Site {
     pub(super) module: ModuleId,
-    /// Its input bits, as [`Signal::Input`] counts them.
+    /// Its input bits, as [`ModuleSignal::Input`] counts them.
     pub(super) inputs: Vec<Bit>,
     pub(super) name: String,
 }
@@ -61,7 +61,7 @@ pub(super) struct Module {
     pub(super) circuit: CircuitId,
     pub(super) inputs: Vec<u32>,
     pub(super) outputs: Vec<u32>,
-    pub(super) signals: Vec<Signal>,
+    pub(super) signals: Vec<ModuleSignal>,
     /// The nets: input ports, output ports, others.
     pub(super) nets: Vec<ModuleNet>,
     pub(super) sites: Vec<Site>,

@@ -1,7 +1,7 @@
 //! Unrolls loops: one frame for each iteration, with its nets and statements.
 
 use crate::circuit::elaborate::build::ModuleBuilder;
-use crate::circuit::elaborate::frame::{Frame, Item};
+use crate::circuit::elaborate::frame::{Item, Scope};
 use crate::circuit::elaborate::limits::{MAX_STATEMENTS, MAX_WIDTH};
 use crate::circuit::elaborate::module::{ModuleNet, NONE};
 use crate::circuit::elaborate::size;
@@ -25,7 +25,7 @@ impl<'a> ModuleBuilder<'a, '_> {
             let name = if parent == u32::MAX { net.name.clone() } else { format!("{}{turn}", net.name) };
             self.module.nets.push(ModuleNet { name, span: net.span, width: None, first: NONE });
         }
-        self.frames.push(Frame {
+        self.frames.push(Scope {
             parent,
             first_slot: block.nets.start,
             first_net,

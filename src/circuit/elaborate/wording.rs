@@ -12,13 +12,13 @@ fn bits(width: impl Into<u64>) -> String {
 
 /// A value as advice speaks of it: a net's own name where it is one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Operand {
+pub(super) struct OperandText {
     pub(super) width: u32,
     pub(super) span: Span,
     pub(super) net: Option<String>,
 }
 
-impl Operand {
+impl OperandText {
     /// How it is made as wide as something else, which is wider.
     fn widened(&self, to: u32) -> String {
         let net = self.net.as_deref().unwrap_or("…");
@@ -64,11 +64,11 @@ impl fmt::Display for Wide {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum WidthError {
     /// A value that is to be of a certain width.
-    Wrong { what: Wide, expected: u32, found: Operand },
+    Wrong { what: Wide, expected: u32, found: OperandText },
     /// Operands of an operator.
-    Operands { operator: &'static str, first: Operand, second: Operand },
+    Operands { operator: &'static str, first: OperandText, second: OperandText },
     /// The two values of a choice.
-    Branches { first: Operand, second: Operand },
+    Branches { first: OperandText, second: OperandText },
 }
 
 impl From<WidthError> for Diagnostic {
@@ -83,7 +83,7 @@ impl From<WidthError> for Diagnostic {
     }
 }
 
-fn wrong(what: &Wide, expected: u32, found: &Operand) -> Diagnostic {
+fn wrong(what: &Wide, expected: u32, found: &OperandText) -> Diagnostic {
     let message = format!("{what} is {} wide, expected {}", bits(found.width), bits(expected));
     let help = match (what, found.net.as_deref().unwrap_or("…"), found.width) {
         (Wide::Condition, net, width) => {
@@ -99,7 +99,7 @@ fn wrong(what: &Wide, expected: u32, found: &Operand) -> Diagnostic {
     }
 }
 
-fn unequal(what: &str, first: &Operand, second: &Operand) -> Diagnostic {
+fn unequal(what: &str, first: &OperandText, second: &OperandText) -> Diagnostic {
     let message = format!("{what} are {} and {} wide", bits(first.width), bits(second.width));
     let (narrow, wide) = if first.width < second.width { (first, second) } else { (second, first) };
     let help = match narrow.width {

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
-use crate::circuit::formats::names::Names;
-use crate::circuit::formats::wording::{AigerError, Place};
+use crate::circuit::formats::names::FileNames;
+use crate::circuit::formats::wording::{AigerError, AigerPlace};
 use crate::circuit::network::{Gate, View};
 use crate::circuit::{NetId, Netlist};
 use crate::diag::Diagnostic;
@@ -21,7 +21,7 @@ pub const MOST_PORTS: usize = 1_000_000;
 /// # Errors
 /// What is wrong with it, with the line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
-    Reader { bytes, at: 0, lines: 0, place: Place::Line(1) }.read(clock)
+    Reader { bytes, at: 0, lines: 0, place: AigerPlace::Line(1) }.read(clock)
 }
 
 struct Reader<'b> {
@@ -30,7 +30,7 @@ struct Reader<'b> {
     /// The lines read so far.
     lines: usize,
     /// The start of the last token.
-    place: Place,
+    place: AigerPlace,
 }
 
 /// The numbers of the header.
@@ -44,14 +44,14 @@ struct Header {
 }
 
 /// A literal with its position.
-type Placed = (usize, Place);
+type Placed = (usize, AigerPlace);
 
 /// A latch: its literal, its next literal, its start value.
 struct Latch {
     literal: usize,
     next: usize,
     start: Option<bool>,
-    place: Place,
+    place: AigerPlace,
 }
 
 /// A gate: its literal and the literals of its pins.
@@ -59,7 +59,7 @@ struct Latch {
 struct And {
     out: usize,
     pins: [usize; 2],
-    place: Place,
+    place: AigerPlace,
 }
 
 /// The contents of a file before its symbols.
@@ -78,7 +78,7 @@ impl<'b> Reader<'b> {
     fn line(&mut self) -> Result<&'b str, Diagnostic> {
         let rest = &self.bytes[self.at..];
         self.lines += 1;
-        self.place = Place::Line(self.lines);
+        self.place = AigerPlace::Line(self.lines);
         let Some(end) = rest.iter().position(|&byte| byte == b'\n') else {
             return self.fault(AigerError::EndOfFile);
         };
@@ -173,7 +173,7 @@ impl<'b> Reader<'b> {
             };
         }
         let out = 2 * (header.inputs + header.latches + i + 1);
-        let place = Place::Byte(self.at);
+        let place = AigerPlace::Byte(self.at);
         let (first, second) = (self.delta()?, self.delta()?);
         self.place = place;
         match out.checked_sub(first).and_then(|a| Some((a, a.checked_sub(second)?))) {
@@ -184,7 +184,7 @@ impl<'b> Reader<'b> {
 
     /// A number in groups of seven bits, the lowest first.
     fn delta(&mut self) -> Result<usize, Diagnostic> {
-        self.place = Place::Byte(self.at);
+        self.place = AigerPlace::Byte(self.at);
         let mut value = 0;
         for shift in (0..35).step_by(7) {
             let Some(&byte) = self.bytes.get(self.at) else {
@@ -453,7 +453,7 @@ impl Ands {
         }
         let readable = |name: &str| name.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
         let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
-        let names = Names::new(&design.logic, &design.registers, &[], legal);
+        let names = FileNames::new(&design.logic, &design.registers, &[], legal);
         let label = |kind: &str, ids: &[NetId]| {
             let line = |(i, &id)| format!("{kind}{i} {}\n", names.net(id));
             ids.iter().enumerate().map(line).collect::<String>()

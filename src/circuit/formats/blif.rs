@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES};
-use crate::circuit::formats::names::{ClockName, Names, cells_in_order, stand_ins, visible};
+use crate::circuit::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
 use crate::circuit::formats::wording::TextError;
 use crate::circuit::{Logic, Loops, NetId, Netlist, Node};
 use crate::diag::Diagnostic;
@@ -417,7 +417,7 @@ impl<'m, 't> Flat<'m, 't> {
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);
-    let names = Names::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], legal);
+    let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], legal);
     let starts = starts(netlist);
     let mut stand_ins = stand_ins(netlist, design.registers.len());
     // A memory element keeps its own name, by which it is compared.

@@ -10,19 +10,19 @@ use crate::model::Function;
 use crate::source::Span;
 
 /// A net's number in a draft.
-pub type Name = u32;
+pub type NetName = u32;
 
 /// The definition of a net.
 #[derive(Clone, Debug)]
 pub enum Definition {
     /// A gate of any number of pins, maybe inverted in the end.
-    Gate(Function, bool, Vec<Name>),
+    Gate(Function, bool, Vec<NetName>),
     /// A sum of cubes, each with a digit `0`, `1` or `-` per pin; the net is `value` if one of them matches.
-    Cover { pins: Vec<Name>, cubes: Vec<Vec<u8>>, value: bool },
+    Cover { pins: Vec<NetName>, cubes: Vec<Vec<u8>>, value: bool },
 }
 
 impl Definition {
-    fn pins(&self) -> &[Name] {
+    fn pins(&self) -> &[NetName] {
         match self {
             Self::Gate(_, _, pins) | Self::Cover { pins, .. } => pins,
         }
@@ -43,9 +43,9 @@ pub struct DraftRegister {
     /// Its result in the design.
     pub register: Register,
     /// The net that shows its value.
-    pub output: Name,
+    pub output: NetName,
     /// The net of its next value.
-    pub next: Name,
+    pub next: NetName,
     /// The place.
     pub span: Span,
 }
@@ -56,16 +56,16 @@ pub struct Draft {
     /// The circuit's name.
     pub title: String,
     /// Input ports.
-    pub inputs: Vec<(Name, Span)>,
+    pub inputs: Vec<(NetName, Span)>,
     /// Output ports.
-    pub outputs: Vec<(Name, Span)>,
+    pub outputs: Vec<(NetName, Span)>,
     /// Registers.
     pub registers: Vec<DraftRegister>,
     names: Vec<String>,
-    numbers: BTreeMap<String, Name>,
+    numbers: BTreeMap<String, NetName>,
     definitions: Vec<Option<(Definition, Span)>>,
     /// The nets with a start value: feedback may pass through them.
-    starts: BTreeMap<Name, bool>,
+    starts: BTreeMap<NetName, bool>,
     /// The errors.
     pub errors: Vec<Diagnostic>,
     /// The nets and the pins of definitions so far.
@@ -88,11 +88,11 @@ impl Draft {
     }
 
     /// The number of a name.
-    pub fn name(&mut self, name: &str) -> Name {
+    pub fn name(&mut self, name: &str) -> NetName {
         if let Some(&number) = self.numbers.get(name) {
             return number;
         }
-        let number = self.names.len() as Name;
+        let number = self.names.len() as NetName;
         self.names.push(name.to_owned());
         self.definitions.push(None);
         self.numbers.insert(name.to_owned(), number);
@@ -100,7 +100,7 @@ impl Draft {
     }
 
     /// The name with a number.
-    pub fn text(&self, name: Name) -> &str {
+    pub fn text(&self, name: NetName) -> &str {
         &self.names[name as usize]
     }
 
@@ -112,7 +112,7 @@ impl Draft {
     }
 
     /// Defines a net, or reports its second definition.
-    pub fn define(&mut self, name: Name, definition: Definition, span: Span) {
+    pub fn define(&mut self, name: NetName, definition: Definition, span: Span) {
         self.size += 1 + definition.size();
         if self.size > MOST_PINS {
             if self.errors.last().is_none_or(|fault| fault.code != Code::TooLarge) {
@@ -128,12 +128,12 @@ impl Draft {
     }
 
     /// Sets a net's value before the first cycle, which a feedback loop needs.
-    pub fn start(&mut self, name: Name, value: bool) {
+    pub fn start(&mut self, name: NetName, value: bool) {
         self.starts.insert(name, value);
     }
 
     /// The net behind wires: `name` itself, or the net that it copies.
-    fn source(&self, name: Name) -> Name {
+    fn source(&self, name: NetName) -> NetName {
         let mut at = name;
         for _ in 0..self.names.len() {
             match &self.definitions[at as usize] {
@@ -216,7 +216,7 @@ impl Draft {
     }
 
     /// A wire for each net with a start value, to be driven when all is built.
-    fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(Name, NetId)> {
+    fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(NetName, NetId)> {
         let mut wires = Vec::new();
         for (&name, &start) in &self.starts {
             if nets[name as usize].is_none() && self.definitions[name as usize].is_some() {
@@ -229,7 +229,7 @@ impl Draft {
     }
 
     /// Builds a net and all it depends on, without recursion.
-    fn build(&mut self, root: Name, used: Span, logic: &mut Netlist, nets: &mut [Option<NetId>]) {
+    fn build(&mut self, root: NetName, used: Span, logic: &mut Netlist, nets: &mut [Option<NetId>]) {
         let mut open = vec![(root, used, 0usize)];
         let mut on_path = std::collections::BTreeSet::from([root]);
         while let Some((name, used, pin)) = open.last_mut().map(|top| {
@@ -265,7 +265,7 @@ impl Draft {
 
 /// Adds the gates of a definition whose pins are all built.
 fn add(logic: &mut Netlist, definition: &Definition, nets: &[Option<NetId>]) -> NetId {
-    let net = |name: &Name| nets[*name as usize].expect("pins are built first");
+    let net = |name: &NetName| nets[*name as usize].expect("pins are built first");
     match definition {
         Definition::Gate(function, inverted, pins) => {
             let pins = pins.iter().map(net).collect();

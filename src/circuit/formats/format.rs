@@ -9,7 +9,7 @@ use crate::diag::Diagnostic;
 
 /// A format that a design can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum CircuitFormat {
     /// BLIF.
     Blif,
     /// Binary AIGER.
@@ -24,7 +24,7 @@ pub enum Format {
     Nb,
 }
 
-impl Format {
+impl CircuitFormat {
     /// The format for a file's extension, in lower case and without the dot.
     pub fn of_ending(ending: &str) -> Option<Self> {
         Some(match ending {
@@ -112,7 +112,7 @@ mod tests {
     }
 
     fn check(registers: &[(RegisterKind, &str)], expected: Option<&str>) {
-        for format in [Format::AigerText, Format::AigerBinary] {
+        for format in [CircuitFormat::AigerText, CircuitFormat::AigerBinary] {
             let said = format.encode(&design(registers)).err().map(|fault| fault.message);
             assert_eq!(said.as_deref(), expected);
         }

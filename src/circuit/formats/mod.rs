@@ -13,4 +13,4 @@ pub mod verilog;
 mod wording;
 
 pub use design::{Design, Register, RegisterKind};
-pub use format::Format;
+pub use format::CircuitFormat;

@@ -7,7 +7,7 @@ use crate::circuit::{NetId, Netlist, Node};
 
 /// The names of a design's nets and clocks in one file.
 #[derive(Clone, Debug)]
-pub struct Names {
+pub struct FileNames {
     nets: BTreeMap<NetId, String>,
     /// The nets that clock registers, by the names that the registers have for them.
     clocked: BTreeMap<String, NetId>,
@@ -23,7 +23,7 @@ pub enum ClockName<'n> {
     Own(&'n str),
 }
 
-impl Names {
+impl FileNames {
     /// A name for every input, output, cell and clock. `legal` turns a name into a valid one of the format, and `kept`
     /// are reserved words.
     ///
@@ -116,7 +116,7 @@ mod tests {
         let gate = netlist.add_gate(Function::AND, &[a, b]);
         netlist.rename(gate, "a\u{1b}b");
         let output = netlist.add_output("", gate);
-        let names = Names::new(&netlist, &[], &["_"], |name| visible(name, &[]));
+        let names = FileNames::new(&netlist, &[], &["_"], |name| visible(name, &[]));
         assert_eq!([a, b, gate, output].map(|id| names.net(id)), ["a_b", "a_b_1", "a_b_2", "__1"]);
     }
 }

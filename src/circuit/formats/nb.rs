@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::circuit::formats::names::{Names, cells_in_order, stand_ins};
+use crate::circuit::formats::names::{FileNames, cells_in_order, stand_ins};
 use crate::circuit::{Loops, NetId, Netlist, Node};
 
 /// Words of the language that no net may be called.
@@ -41,7 +41,7 @@ const RESERVED: &[&str] = &[
 /// Writes a netlist; feedback keeps its start values.
 pub fn write(netlist: &Netlist) -> String {
     let loops = Loops::of(netlist);
-    let names = Names::new(netlist, &[], &[], word);
+    let names = FileNames::new(netlist, &[], &[], word);
     let stand_ins = stand_ins(netlist, 0);
     let net = |id: NetId| match netlist.node(id) {
         Node::Constant(value) => u8::from(*value).to_string(),

@@ -3,14 +3,14 @@
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, RegisterKind};
-use crate::circuit::formats::names::{ClockName, Names, cells_in_order, visible};
+use crate::circuit::formats::names::{ClockName, FileNames, cells_in_order, visible};
 use crate::circuit::{NetId, Netlist, Node};
 
 /// Writes a design.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     // Escaped last, because a number appended to an escaped name would be outside of it.
-    let names = Names::new(netlist, &design.registers, &[], |name| visible(name, &[]));
+    let names = FileNames::new(netlist, &design.registers, &[], |name| visible(name, &[]));
     let name = |id: NetId| escaped(names.net(id));
     let (inputs, states) = netlist.inputs().split_at(design.inputs());
     let (outputs, nexts) = netlist.outputs().split_at(design.outputs());

@@ -18,7 +18,7 @@ const WORDS: usize = 16;
 
 /// Proves two networks equal; fails with an output and inputs at which it differs.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
-    let mut sweep = Sweep::new(one.inputs);
+    let mut sweep = SatSweep::new(one.inputs);
     let first = sweep.add(one);
     let second = sweep.add(two);
     for (output, (&a, &b)) in one.outputs.iter().zip(&two.outputs).enumerate() {
@@ -30,7 +30,7 @@ pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)>
 }
 
 /// Signals of several networks over the same inputs, merged if they are proved equal or opposite.
-pub struct Sweep {
+pub struct SatSweep {
     solver: BasicSolver,
     /// The input words so far, `patterns[word][input]`.
     patterns: Vec<Vec<u64>>,
@@ -49,7 +49,7 @@ pub struct Sweep {
     pub calls: usize,
 }
 
-impl Sweep {
+impl SatSweep {
     /// No gates yet.
     pub fn new(inputs: usize) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_726f_6f66);

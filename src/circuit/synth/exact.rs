@@ -17,7 +17,7 @@ const MOST_CELLS: usize = 24;
 
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum ExactResult {
     /// A network of the fewest cells.
     Made(Network),
     /// No sequence has so few cells.
@@ -28,7 +28,7 @@ pub enum Answer {
 
 /// A network of fewer than `below` cells with the outputs of another network, with the minimal number of cells; visits
 /// at most `nodes` partial sequences. All cells must have the same cost.
-pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64) -> Answer {
+pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64) -> ExactResult {
     let outputs = truths(network);
     let given = &START[..2 + network.inputs];
     let mut targets: Vec<u8> = outputs.iter().copied().filter(|truth| !given.contains(truth)).collect();
@@ -39,13 +39,13 @@ pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64) -> Answ
     let least = targets.len() as u32;
     for cells in least..below.min(MOST_CELLS as u32) {
         if search.extend(cells) {
-            return Answer::Made(search.network(&outputs));
+            return ExactResult::Made(search.network(&outputs));
         }
         if search.nodes == 0 {
-            return Answer::Unknown;
+            return ExactResult::Unknown;
         }
     }
-    Answer::Impossible
+    ExactResult::Impossible
 }
 
 /// The outputs of a network as truth tables over three inputs.
@@ -334,7 +334,7 @@ mod tests {
         let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
         let prices = Prices::of(&library);
         let network = wanted(targets);
-        let Answer::Made(made) = fewer(&network, &prices, MOST_CELLS as u32, u64::MAX) else {
+        let ExactResult::Made(made) = fewer(&network, &prices, MOST_CELLS as u32, u64::MAX) else {
             panic!("a complete library makes every function");
         };
         assert_eq!(truths(&made), targets);
@@ -396,7 +396,7 @@ mod tests {
     #[test]
     fn impossible_and_aborted_searches_are_distinguished() {
         let prices = Prices::of(&CellLibrary::uniform([Function::NAND]));
-        assert_eq!(fewer(&wanted(&[0x96]), &prices, 8, u64::MAX), Answer::Impossible);
-        assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, 100), Answer::Unknown);
+        assert_eq!(fewer(&wanted(&[0x96]), &prices, 8, u64::MAX), ExactResult::Impossible);
+        assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, 100), ExactResult::Unknown);
     }
 }

@@ -7,7 +7,7 @@ use crate::model::Function;
 
 /// A gate, or a constant or an input.
 #[derive(Clone, Debug)]
-pub struct Node {
+pub struct GraphNode {
     /// Its function; meaningless for sources.
     pub function: Function,
     /// The signals of its pins; the same twice for functions of one input.
@@ -28,7 +28,7 @@ pub struct Graph<'p> {
     prices: &'p Prices,
     inputs: usize,
     width: usize,
-    nodes: Vec<Node>,
+    nodes: Vec<GraphNode>,
     values: Vec<u64>,
     fanout: Vec<Vec<Signal>>,
     outputs: Vec<Signal>,
@@ -86,7 +86,7 @@ impl<'p> Graph<'p> {
     }
 
     fn source(&mut self, stage: u32, values: &[u64]) {
-        self.nodes.push(Node { function: Function::BUF, pins: [0; 2], refs: 0, alive: false, stage, arrival: 0 });
+        self.nodes.push(GraphNode { function: Function::BUF, pins: [0; 2], refs: 0, alive: false, stage, arrival: 0 });
         self.values.extend(values);
         self.fanout.push(Vec::new());
     }
@@ -117,7 +117,7 @@ impl<'p> Graph<'p> {
     }
 
     /// The node.
-    pub fn node(&self, signal: Signal) -> &Node {
+    pub fn node(&self, signal: Signal) -> &GraphNode {
         &self.nodes[signal as usize]
     }
 
@@ -167,7 +167,7 @@ impl<'p> Graph<'p> {
         }
         let [a, b] = pins;
         let shorter = if self.fanout[a as usize].len() <= self.fanout[b as usize].len() { a } else { b };
-        let equal = |node: &Node| {
+        let equal = |node: &GraphNode| {
             node.function == function && node.pins == pins
                 || node.pins == [b, a] && node.function == function.swapped() && a != b
         };
@@ -178,7 +178,7 @@ impl<'p> Graph<'p> {
     /// A new gate without looking for an equal one.
     pub fn make_new(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let stage = pins.map(|pin| self.nodes[pin as usize].stage).into_iter().max().unwrap_or(0);
-        let node = Node { function, pins, refs: 0, alive: true, stage, arrival: self.arrival(function, pins) };
+        let node = GraphNode { function, pins, refs: 0, alive: true, stage, arrival: self.arrival(function, pins) };
         let signal = match self.free.pop() {
             Some(place) => {
                 self.nodes[place as usize] = node;
@@ -232,7 +232,7 @@ impl<'p> Graph<'p> {
 
     /// Works out a gate's values from its pins'.
     fn simulate(&mut self, signal: Signal) {
-        let Node { function, pins: [a, b], .. } = self.nodes[signal as usize];
+        let GraphNode { function, pins: [a, b], .. } = self.nodes[signal as usize];
         let (a, b, out) = (a as usize * self.width, b as usize * self.width, signal as usize * self.width);
         for i in 0..self.width {
             self.values[out + i] = word(function, self.values[a + i], self.values[b + i]);
@@ -379,7 +379,7 @@ impl<'p> Graph<'p> {
             self.simulate(signal);
             let stage = self.nodes[signal as usize].pins.map(|pin| self.nodes[pin as usize].stage);
             self.nodes[signal as usize].stage = stage[0].max(stage[1]);
-            let Node { function, pins, .. } = self.nodes[signal as usize];
+            let GraphNode { function, pins, .. } = self.nodes[signal as usize];
             self.nodes[signal as usize].arrival = self.arrival(function, pins);
         }
     }
@@ -405,7 +405,7 @@ impl<'p> Graph<'p> {
         let mut network = Network::new(self.inputs);
         let mut signal: Vec<Signal> = (0..self.nodes.len() as Signal).collect();
         for &gate in &self.order {
-            let Node { function, pins, .. } = self.nodes[gate as usize];
+            let GraphNode { function, pins, .. } = self.nodes[gate as usize];
             signal[gate as usize] = network.add(function, pins.map(|pin| signal[pin as usize]));
         }
         network.outputs = self.outputs.iter().map(|&output| signal[output as usize]).collect();

@@ -5,13 +5,13 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::circuit::cells::CellLibrary;
 use crate::circuit::network::{Network, Signal};
-use crate::circuit::options::{Effort, MapOptions, Objective};
-use crate::circuit::synth::exact::{self, Answer};
+use crate::circuit::options::{Effort, MapOptions, MappingObjective};
+use crate::circuit::synth::exact::{self, ExactResult};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::roam::roam;
-use crate::circuit::synth::walk::{self, Pace, Plan};
-use crate::circuit::synth::window::{self, Panes};
+use crate::circuit::synth::walk::{self, Pace, WalkPlan};
+use crate::circuit::synth::window::{self, WindowPlan};
 use crate::model::Function;
 
 /// The most inputs of a network that is searched as a whole.
@@ -58,7 +58,7 @@ pub fn reduce(
         best = cheaper(best, mapped, &target);
     }
     best = course.fewest(best);
-    if options.objective == Objective::Delay {
+    if options.objective == MappingObjective::Delay {
         best = course.quicken(&best, &mut random);
     }
     Ok(best)
@@ -118,8 +118,8 @@ impl Course<'_> {
             Effort::Normal => (12 * gates).clamp(150, 500),
             Effort::High => (1_000 * gates).clamp(10_000, 60_000),
         };
-        let calm = Plan::calm(visits * share);
-        let bold = Plan { climb: 400, patience: visits / 4, ..calm };
+        let calm = WalkPlan::calm(visits * share);
+        let bold = WalkPlan { climb: 400, patience: visits / 4, ..calm };
         let mut walk = || {
             let first = walk::improve_all(network, self.prices, self.stages, calm, random);
             walk::improve_all(&first, self.prices, self.stages, bold, random)
@@ -142,10 +142,10 @@ impl Course<'_> {
         for round in 0..rounds {
             let gates = best.gates.len();
             let (inputs, size) = if effort == Effort::High && round % 2 == 1 { (10, 50) } else { (8, 30) };
-            let panes = Panes { windows: gates.min(3000), inputs, gates: size, plan: Plan::calm(visits) };
+            let panes = WindowPlan { windows: gates.min(3000), inputs, gates: size, plan: WalkPlan::calm(visits) };
             best = self.no_dearer(best, |best| window::improve(best, prices, stages, panes, random));
             if gates <= MOST_ROAMED {
-                let plan = Plan::calm(steps * gates as u64);
+                let plan = WalkPlan::calm(steps * gates as u64);
                 best = self.no_dearer(best, |best| roam(best, prices, stages, plan, random));
             }
         }
@@ -170,8 +170,8 @@ impl Course<'_> {
             return best;
         }
         match exact::fewer(&best, self.prices, cost(&best, self.prices), nodes) {
-            Answer::Made(network) => network,
-            Answer::Impossible | Answer::Unknown => best,
+            ExactResult::Made(network) => network,
+            ExactResult::Impossible | ExactResult::Unknown => best,
         }
     }
 
@@ -187,7 +187,7 @@ impl Course<'_> {
         let mut now = network.clone();
         for _ in 0..rounds {
             for pace in [Pace::Hurry, Pace::Keep] {
-                let plan = Plan { pace, ..Plan::calm((10 * now.gates.len() as u64).min(3_000)) };
+                let plan = WalkPlan { pace, ..WalkPlan::calm((10 * now.gates.len() as u64).min(3_000)) };
                 now = match is_narrow(&now) {
                     true => walk::improve_all(&now, self.prices, self.stages, plan, random),
                     false => roam(&now, self.prices, self.stages, plan, random),

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::circuit::network::Network;
 use crate::circuit::proof::equal;
 use crate::circuit::synth::prices::Prices;
-use crate::circuit::synth::walk::{self, Plan};
+use crate::circuit::synth::walk::{self, WalkPlan};
 
 /// Words of 64 random patterns to start with.
 const WORDS: usize = 32;
@@ -17,13 +17,13 @@ const BATCH: [u64; 3] = [32, 8, 4_000];
 
 /// Searches for a cheaper network in `visits` visits; every network that it passes through is proved equal to the one
 /// before.
-pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: Plan, random: &mut ChaCha8Rng) -> Network {
+pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: WalkPlan, random: &mut ChaCha8Rng) -> Network {
     let mut samples = Samples::new(network.inputs, random);
     let [mut batch, least, most] = BATCH;
     let mut now = network.clone();
     let mut visits = 0;
     while visits < plan.visits && !now.gates.is_empty() {
-        let short = Plan { visits: batch, ..plan };
+        let short = WalkPlan { visits: batch, ..plan };
         let next = walk::improve(&now, prices, stages, &samples.words, short, random);
         visits += batch;
         match equal(&now, &next) {

@@ -12,7 +12,7 @@ use crate::model::Function;
 
 /// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
+pub struct WalkPlan {
     /// Gates to visit.
     pub visits: u64,
     /// One of this number of visits may make the network slightly more expensive; 0 for never.
@@ -35,7 +35,7 @@ pub enum Pace {
     Hurry,
 }
 
-impl Plan {
+impl WalkPlan {
     /// A walk that never climbs and never turns back.
     pub fn calm(visits: u64) -> Self {
         Self { visits, climb: 0, patience: u64::MAX, pace: Pace::Any }
@@ -48,7 +48,7 @@ pub fn improve(
     prices: &Prices,
     stages: &[u32],
     patterns: &[Vec<u64>],
-    plan: Plan,
+    plan: WalkPlan,
     random: &mut ChaCha8Rng,
 ) -> Network {
     let graph = Graph::new(network, prices, stages, patterns);
@@ -78,7 +78,13 @@ pub fn improve(
 }
 
 /// As [`improve`], over every pattern of the inputs.
-pub fn improve_all(network: &Network, prices: &Prices, stages: &[u32], plan: Plan, random: &mut ChaCha8Rng) -> Network {
+pub fn improve_all(
+    network: &Network,
+    prices: &Prices,
+    stages: &[u32],
+    plan: WalkPlan,
+    random: &mut ChaCha8Rng,
+) -> Network {
     improve(network, prices, stages, &every_pattern(network.inputs), plan, random)
 }
 

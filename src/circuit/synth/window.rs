@@ -7,11 +7,11 @@ use rand_chacha::ChaCha8Rng;
 use crate::circuit::network::{Network, Signal};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::prices::Prices;
-use crate::circuit::synth::walk::{Plan, improve_all};
+use crate::circuit::synth::walk::{WalkPlan, improve_all};
 
 /// The size and the number of windows, and the search in each.
 #[derive(Clone, Copy, Debug)]
-pub struct Panes {
+pub struct WindowPlan {
     /// Windows to cut.
     pub windows: usize,
     /// The most inputs of a window.
@@ -19,13 +19,19 @@ pub struct Panes {
     /// The most gates of a window.
     pub gates: usize,
     /// The search in each.
-    pub plan: Plan,
+    pub plan: WalkPlan,
 }
 
 /// Optimizes a network window by window.
-pub fn improve(network: &Network, prices: &Prices, stages: &[u32], panes: Panes, random: &mut ChaCha8Rng) -> Network {
+pub fn improve(
+    network: &Network,
+    prices: &Prices,
+    stages: &[u32],
+    plan: WindowPlan,
+    random: &mut ChaCha8Rng,
+) -> Network {
     let mut graph = Graph::new(network, prices, stages, &[]);
-    for i in 0..panes.windows {
+    for i in 0..plan.windows {
         if graph.order().is_empty() {
             break;
         }
@@ -33,8 +39,8 @@ pub fn improve(network: &Network, prices: &Prices, stages: &[u32], panes: Panes,
         let at =
             if i < graph.order().len() { i * 7919 % graph.order().len() } else { below(random, graph.order().len()) };
         let seed = graph.order()[at];
-        if let Some(window) = Window::around(&graph, seed, panes, random) {
-            window.replace(&mut graph, panes.plan, random);
+        if let Some(window) = Window::around(&graph, seed, plan, random) {
+            window.replace(&mut graph, plan.plan, random);
         }
     }
     graph.network()
@@ -52,11 +58,11 @@ struct Window {
 
 impl Window {
     /// Grows a window from a gate, towards drivers and listeners.
-    fn around(graph: &Graph<'_>, seed: Signal, panes: Panes, random: &mut ChaCha8Rng) -> Option<Self> {
+    fn around(graph: &Graph<'_>, seed: Signal, plan: WindowPlan, random: &mut ChaCha8Rng) -> Option<Self> {
         let mut gates = BTreeSet::from([seed]);
         let mut leaves: BTreeSet<Signal> = sources(graph.node(seed).pins).collect();
-        let gate_limit = panes.gates / 2 + below(random, panes.gates / 2 + 1);
-        let input_limit = panes.inputs.min(4 + below(random, panes.inputs.saturating_sub(3).max(1)));
+        let gate_limit = plan.gates / 2 + below(random, plan.gates / 2 + 1);
+        let input_limit = plan.inputs.min(4 + below(random, plan.inputs.saturating_sub(3).max(1)));
         while gates.len() < gate_limit {
             let Some(next) = next(graph, &gates, &leaves, input_limit, random) else {
                 break;
@@ -65,12 +71,12 @@ impl Window {
             gates.insert(next);
             leaves.extend(sources(graph.node(next).pins).filter(|pin| !gates.contains(pin)));
         }
-        close(graph, &mut gates, &mut leaves, panes.inputs)?;
+        close(graph, &mut gates, &mut leaves, plan.inputs)?;
         (gates.len() > 1).then(|| Self { gates, leaves: leaves.into_iter().collect() })
     }
 
     /// Searches for a cheaper form of the window and puts it in the window's place.
-    fn replace(&self, graph: &mut Graph<'_>, plan: Plan, random: &mut ChaCha8Rng) {
+    fn replace(&self, graph: &mut Graph<'_>, plan: WalkPlan, random: &mut ChaCha8Rng) {
         let mut order: Vec<_> = self.gates.iter().copied().collect();
         order.sort_unstable_by_key(|&gate| graph.position(gate));
         let mut network = Network::new(self.leaves.len());

@@ -1,33 +1,30 @@
 //! `nbc bench`: how fast this machine simulates.
 
+mod speed;
 mod swarm;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
 
 use crate::cli::timings::{meter, part_seconds};
-use crate::cli::{Context, Failure, Format, Progress, Status};
-use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
-use crate::report::{Align, Schema, Table};
-use crate::sim::{Constants, Kernel, LaneBackend, Meter, Part, Simulator};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::report::{Align, Schema, TextTable};
+use crate::sim::{Kernel, Part};
 
+use speed::{cycle_substeps, race};
 use swarm::SwarmFigures;
 
 /// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];
 /// Cycles of the paper's evaluation of one robot.
 const EVALUATION: f64 = 80.0;
-/// The shortest measurement of a figure.
-const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Measure how fast this machine simulates, on one core
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc bench --format json")]
-pub struct Arguments {
+pub struct BenchArguments {
     /// Also show the share of time of each stage of a substep, with one body in all lanes
     #[arg(long)]
     timings: bool,
@@ -64,7 +61,7 @@ struct Figures {
     swarm: Option<SwarmFigures>,
 }
 
-impl Arguments {
+impl BenchArguments {
     /// Measures and prints.
     ///
     /// # Errors
@@ -82,8 +79,8 @@ impl Arguments {
         let swarm = self.swarm.then(|| SwarmFigures::measure(kernel));
         let figures = Figures { machine: machine(kernel), width: kernel.lanes(), cases, swarm };
         match context.format {
-            Format::Json => context.print_json(Schema::Bench, &figures)?,
-            Format::Text => context.print(describe(&figures))?,
+            OutputFormat::Json => context.print_json(Schema::Bench, &figures)?,
+            OutputFormat::Text => context.print(describe(&figures))?,
         }
         Ok(Status::Done)
     }
@@ -110,39 +107,6 @@ fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     Part::ALL.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
 }
 
-/// Substeps of a cycle.
-fn cycle_substeps() -> f64 {
-    f64::from(CYCLE_STEPS * Constants::default().substeps)
-}
-
-/// Lane-substeps per second, with lanes whose bodies are `shift` apart.
-fn race(side: usize, kernel: Kernel, shift: usize, meter: Option<&Arc<Meter>>) -> f64 {
-    let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
-    let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
-    let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
-    let backend = LaneBackend { kernel, meter: meter.cloned(), ..LaneBackend::default() };
-    let simulator = Simulator::new(backend);
-    let setting = Setting::default();
-    // One thread takes all lanes as one batch.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
-    pool.install(|| {
-        let (start, spent, mut rounds) = (Instant::now(), processor_seconds(), 0);
-        while start.elapsed() < PATIENCE {
-            simulator.run_trials(&setting, &trials);
-            rounds += 1;
-        }
-        let seconds = processor_seconds().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
-        f64::from(rounds) * trials.len() as f64 * cycle_substeps() / seconds
-    })
-}
-
-/// CPU time of this thread, in seconds, where the system has it (Linux). Other programs do not distort it.
-fn processor_seconds() -> Option<f64> {
-    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
-    (nanoseconds > 0.0).then_some(nanoseconds / 1e9)
-}
-
 /// The name of the processor, where the system has it, and its instruction set.
 fn machine(kernel: Kernel) -> String {
     let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -154,7 +118,7 @@ fn machine(kernel: Kernel) -> String {
 fn describe(figures: &Figures) -> String {
     use Align::{Left, Right};
     let columns = [("box", Left), ("scalar", Right), ("one body", Right), ("different", Right), ("evaluations", Right)];
-    let mut table = Table::new(&columns);
+    let mut table = TextTable::new(&columns);
     for case in &figures.cases {
         let thousands = |speed: f64| format!("{:.0}k", speed / 1e3);
         let speeds = [case.scalar, case.lanes, case.different].map(thousands);
@@ -172,7 +136,7 @@ fn describe(figures: &Figures) -> String {
 fn describe_timings(figures: &Figures) -> String {
     let columns = Part::ALL.map(|part| (part.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();
-    let mut table = Table::new(&columns);
+    let mut table = TextTable::new(&columns);
     for case in &figures.cases {
         let Some(timings) = &case.timings else { return String::new() };
         let shares = Part::ALL.iter().map(|part| format!("{:.0} %", 100.0 * timings[part.name()]));

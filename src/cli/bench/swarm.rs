@@ -5,11 +5,11 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::cli::bench::{PATIENCE, cycle_substeps, processor_seconds, race};
+use crate::cli::bench::speed::{PATIENCE, cycle_substeps, processor_seconds, race};
 use crate::model::{Column, Function};
 use crate::sim::{Kernel, LaneBackend, Simulator};
 use crate::store;
-use crate::swarm::{Assembly, LiveSwarm, Member, Room, Signal};
+use crate::swarm::{Assembly, LiveSwarm, Member, Room, StimulusSource};
 
 /// The robots of a counter of three bits (circuits/counter.nb), by their gates.
 const GATES: [(Function, usize); 5] =
@@ -70,7 +70,7 @@ fn assembly() -> Assembly {
     let member = |(i, function): (usize, Function)| Member {
         net: format!("n{i}"),
         robot: library.robots_for(function).next().expect("the shipped robots compute every function").clone(),
-        senses: [Signal::Input(0), Signal::Input(1)],
+        senses: [StimulusSource::Input(0), StimulusSource::Input(1)],
         start: false,
     };
     let inputs = ["a", "b"].map(|name| Column { name: name.to_owned(), width: 1 });

@@ -20,7 +20,7 @@ Examples:
   nbc draw out/gates --behavior RRRL --as strip -o nand.png
 
 docs/pictures.md shows every kind.")]
-pub struct Arguments {
+pub struct DrawArguments {
     /// A file with a body, a robot of the library, a folder of robot files, `shipped`, the folder of a run, or a source
     /// file (.nb)
     pub(super) what: String,

@@ -11,7 +11,7 @@ mod swarm;
 
 use std::path::Path;
 
-use crate::cli::{Context, Failure, Format, Status, robots, schedule};
+use crate::cli::{Context, Failure, OutputFormat, Status, robots, schedule};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{Behavior, Schedule};
 use crate::report::{Schema, Scheme};
@@ -22,13 +22,13 @@ use canvas::Canvas;
 use options::Drawn;
 use robot::Subject;
 
-pub(super) use arguments::Arguments;
+pub(super) use arguments::DrawArguments;
 pub(super) use run::{is_run, page as run_page, read as read_run};
 
 /// The stimuli of robots where none are given: every pattern as long as in the paper.
 const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
 
-impl Arguments {
+impl DrawArguments {
     /// Draws and writes.
     ///
     /// # Errors
@@ -40,16 +40,16 @@ impl Arguments {
         match drawn {
             Drawn::Program => self.draw_program(&canvas)?,
             Drawn::Run => {
-                let harvest = run::read(Path::new(&self.what), context)?;
+                let results = run::read(Path::new(&self.what), context)?;
                 match self.behavior {
-                    Some(behavior) => self.draw_robot(&canvas, &self.champion(&harvest, behavior)?)?,
-                    None => self.draw_run(&canvas, &harvest)?,
+                    Some(behavior) => self.draw_robot(&canvas, &self.champion(&results, behavior)?)?,
+                    None => self.draw_run(&canvas, &results)?,
                 }
             }
             Drawn::Library => self.draw_library(&canvas)?,
             Drawn::Robot => self.draw_robot(&canvas, &self.robot()?)?,
         }
-        if context.format == Format::Json {
+        if context.format == OutputFormat::Json {
             let drawn = serde_json::json!({ "file": self.output, "kind": self.kind.word() });
             context.print_json(Schema::Drawn, &drawn)?;
         }

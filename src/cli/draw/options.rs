@@ -1,6 +1,6 @@
 //! Options of `nbc draw` that cannot apply to what is drawn: they are refused, not ignored.
 
-use crate::cli::draw::arguments::Arguments;
+use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::kind::Kind;
 use crate::diag::{Code, Diagnostic};
 
@@ -13,7 +13,7 @@ pub(super) enum Drawn {
     Run,
 }
 
-impl Arguments {
+impl DrawArguments {
     /// Refuses the first option that would not change the picture, whatever its value.
     ///
     /// # Errors

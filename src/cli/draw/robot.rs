@@ -1,7 +1,7 @@
 //! Pictures of one robot.
 
 use crate::cli::Failure;
-use crate::cli::draw::arguments::Arguments;
+use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::diag::{Code, Diagnostic};
@@ -21,7 +21,7 @@ impl Subject {
     }
 }
 
-impl Arguments {
+impl DrawArguments {
     pub(super) fn draw_robot(&self, canvas: &Canvas, robot: &Subject) -> Result<(), Failure> {
         let Subject { title, body } = robot;
         let schedule = self.schedule()?;

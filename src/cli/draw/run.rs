@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::draw::arguments::Arguments;
+use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::robot::Subject;
@@ -13,8 +13,8 @@ use crate::cli::run_folder::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, rea
 use crate::cli::{Context, Failure};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::NicheKey;
-use crate::model::{Behavior, CYCLE_STEPS, Objective, Pattern, Schedule, Spell};
-use crate::report::{self, Harvest, History, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
+use crate::model::{Behavior, CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
+use crate::report::{self, EvolutionResults, History, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
 use crate::source::Sources;
 use crate::store::Declared;
 
@@ -43,8 +43,8 @@ fn seeds(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// What the runs in a folder found.
-pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Harvest, Failure> {
-    let mut harvest: Option<Harvest> = None;
+pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<EvolutionResults, Failure> {
+    let mut results: Option<EvolutionResults> = None;
     for path in seeds(folder) {
         let Some(checkpoint) = read_checkpoint(&path)? else { continue };
         let (seed, progress) = (checkpoint.state.seed, path.with_file_name(PROGRESS));
@@ -58,17 +58,18 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Harvest, 
             return Err(unusable(&path, "does not say the axes of its archive", "`nbc evolve --resume` writes them"));
         }
         let Declared { name, axes, objective, .. } = checkpoint.declared;
-        let harvest = harvest.get_or_insert(Harvest { name, axes: axes.clone(), objective, runs: BTreeMap::new() });
-        if harvest.axes != axes || harvest.objective != objective {
+        let results =
+            results.get_or_insert(EvolutionResults { name, axes: axes.clone(), objective, runs: BTreeMap::new() });
+        if results.axes != axes || results.objective != objective {
             let help = "draw the folder of one seed";
             return Err(unusable(&path, "was made by another declaration than those before it", help));
         }
-        if harvest.runs.insert(seed, run).is_some() {
+        if results.runs.insert(seed, run).is_some() {
             let help = "a run counts once: move the copy out of the folder";
             return Err(unusable(&path, &format!("is of seed {seed}, as another run of the folder is"), help));
         }
     }
-    harvest.ok_or_else(|| unusable(folder, "holds no run", "name the folder of a run, such as `out/gates`"))
+    results.ok_or_else(|| unusable(folder, "holds no run", "name the folder of a run, such as `out/gates`"))
 }
 
 fn unusable(path: &Path, what: &str, help: &str) -> Failure {
@@ -76,33 +77,33 @@ fn unusable(path: &Path, what: &str, help: &str) -> Failure {
     Failure::plain(Diagnostic::without_place(Code::Checkpoint, message).with_help(help))
 }
 
-impl Arguments {
-    pub(super) fn draw_run(&self, canvas: &Canvas, harvest: &Harvest) -> Result<(), Failure> {
+impl DrawArguments {
+    pub(super) fn draw_run(&self, canvas: &Canvas, results: &EvolutionResults) -> Result<(), Failure> {
         match self.kind {
-            Kind::Comparison => canvas.picture(&comparison(harvest)),
+            Kind::Comparison => canvas.picture(&comparison(results)),
             Kind::Heatmap => {
-                let [x, y] = self.chosen_axes(harvest)?;
-                canvas.picture(&heatmap(harvest, x, y))
+                let [x, y] = self.chosen_axes(results)?;
+                canvas.picture(&heatmap(results, x, y))
             }
-            Kind::Progress => canvas.picture(&progress(harvest)),
-            Kind::Report => canvas.bytes(page(harvest, self.scheme()).as_bytes()),
-            Kind::Spacetime => canvas.picture(&champions(&each_champion(harvest), &self.schedule()?)),
-            Kind::Apng | Kind::Gif | Kind::Sprite => self.draw_several(canvas, &best_champions(harvest)),
+            Kind::Progress => canvas.picture(&progress(results)),
+            Kind::Report => canvas.bytes(page(results, self.scheme()).as_bytes()),
+            Kind::Spacetime => canvas.picture(&champions(&each_champion(results), &self.schedule()?)),
+            Kind::Apng | Kind::Gif | Kind::Sprite => self.draw_several(canvas, &best_champions(results)),
             Kind::Pose | Kind::Strip => Err(self.not_of("a run", "one `--behavior` of it")),
             Kind::Dot | Kind::Schematic | Kind::Vcd => Err(self.not_of("a run", "a source file (.nb)")),
         }
     }
 
     /// The best robot of a behavior.
-    pub(super) fn champion(&self, harvest: &Harvest, behavior: Behavior) -> Result<Subject, Failure> {
-        let elite = harvest.champion(behavior).ok_or_else(|| self.none_of(behavior))?;
-        let title = format!("{}: {}, {behavior}", harvest.name, behavior.function());
+    pub(super) fn champion(&self, results: &EvolutionResults, behavior: Behavior) -> Result<Subject, Failure> {
+        let elite = results.champion(behavior).ok_or_else(|| self.none_of(behavior))?;
+        let title = format!("{}: {}, {behavior}", results.name, behavior.function());
         Ok(Subject { title, body: elite.body.clone() })
     }
 
     /// The places of the two axes that are asked for; the first two where none are.
-    fn chosen_axes(&self, harvest: &Harvest) -> Result<[usize; 2], Failure> {
-        let words: Vec<&str> = harvest.axes.iter().map(|&axis| axis_word(axis)).collect();
+    fn chosen_axes(&self, results: &EvolutionResults) -> Result<[usize; 2], Failure> {
+        let words: Vec<&str> = results.axes.iter().map(|&axis| axis_word(axis)).collect();
         let bad = |message: String| {
             let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
             let fault = Diagnostic::without_place(Code::BadValue, message);
@@ -127,59 +128,59 @@ impl Arguments {
 }
 
 /// The champions of every seed, by behavior.
-fn each_champion(harvest: &Harvest) -> Several {
+fn each_champion(results: &EvolutionResults) -> Several {
     let one = |behavior: Behavior| {
-        harvest.runs.iter().filter_map(move |(seed, run)| {
+        results.runs.iter().filter_map(move |(seed, run)| {
             let body = run.champion(behavior)?.body.clone();
             Some(One { behavior, name: format!("seed {seed}"), body })
         })
     };
-    let title = match harvest.runs.len() {
-        1 => format!("{}: the champion of each behavior", harvest.name),
-        seeds => format!("{}: the champions of {seeds} seeds by behavior", harvest.name),
+    let title = match results.runs.len() {
+        1 => format!("{}: the champion of each behavior", results.name),
+        seeds => format!("{}: the champions of {seeds} seeds by behavior", results.name),
     };
     Several { title, robots: Behavior::all().flat_map(one).collect() }
 }
 
 /// The best of each behavior over all seeds.
-fn best_champions(harvest: &Harvest) -> Several {
+fn best_champions(results: &EvolutionResults) -> Several {
     let one = |behavior: Behavior| {
-        let body = harvest.champion(behavior)?.body.clone();
+        let body = results.champion(behavior)?.body.clone();
         Some(One { behavior, name: behavior.function().to_string(), body })
     };
     let robots = Behavior::all().filter_map(one).collect();
-    Several { title: format!("{}: the champion of each behavior", harvest.name), robots }
+    Several { title: format!("{}: the champion of each behavior", results.name), robots }
 }
 
-fn heatmap(harvest: &Harvest, x: usize, y: usize) -> Svg {
-    let best = harvest.best();
+fn heatmap(results: &EvolutionResults, x: usize, y: usize) -> Svg {
+    let best = results.best();
     let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
-    let terrain = Terrain { unit: harvest.unit(), axes: &harvest.axes, niches: &niches };
-    report::draw_heatmap(&format!("{}: the best of each niche", harvest.name), &terrain, x, y)
+    let terrain = Terrain { unit: results.unit(), axes: &results.axes, niches: &niches };
+    report::draw_heatmap(&format!("{}: the best of each niche", results.name), &terrain, x, y)
 }
 
-fn progress(harvest: &Harvest) -> Svg {
-    report::draw_progress(&format!("{} over time", harvest.name), "generation", &harvest.courses())
+fn progress(results: &EvolutionResults) -> Svg {
+    report::draw_progress(&format!("{} over time", results.name), "generation", &results.courses())
 }
 
-fn comparison(harvest: &Harvest) -> Svg {
-    let champions = harvest.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
+fn comparison(results: &EvolutionResults) -> Svg {
+    let champions = results.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
     let groups = report::behavior_groups(&champions);
-    let title = format!("{}: champions by group of behaviors", harvest.name);
-    report::draw_comparison(&title, harvest.unit(), &groups, &report::compare_groups(&groups))
+    let title = format!("{}: champions by group of behaviors", results.name);
+    report::draw_comparison(&title, results.unit(), &groups, &report::compare_groups(&groups))
 }
 
 /// The page of a run with all its plots.
-pub(in crate::cli) fn page(harvest: &Harvest, scheme: Scheme) -> String {
+pub(in crate::cli) fn page(results: &EvolutionResults, scheme: Scheme) -> String {
     let spell = |pattern| Spell { pattern, steps: 10 * CYCLE_STEPS };
     let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
     let plate = |heading: &str, drawing| Plate { heading: heading.to_owned(), drawing };
     let mut plates = vec![
-        plate("Progress", progress(harvest)),
-        plate("Champions in space and time", champions(&each_champion(harvest), &schedule)),
+        plate("Progress", progress(results)),
+        plate("Champions in space and time", champions(&each_champion(results), &schedule)),
     ];
-    if harvest.objective == Objective::Distance {
-        plates.push(plate("Groups of behaviors", comparison(harvest)));
+    if results.objective == SearchObjective::Distance {
+        plates.push(plate("Groups of behaviors", comparison(results)));
     }
-    report::draw_evolution_page(harvest, &plates, scheme)
+    report::draw_evolution_page(results, &plates, scheme)
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::cli::Failure;
-use crate::cli::draw::arguments::Arguments;
+use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::model::{Behavior, Body, CYCLE_STEPS, Library, Schedule, Setting, Trial};
@@ -34,7 +34,7 @@ pub(super) fn of_library(name: &str, library: &Library) -> Several {
     Several { title, robots: robots.collect() }
 }
 
-impl Arguments {
+impl DrawArguments {
     pub(super) fn draw_several(&self, canvas: &Canvas, several: &Several) -> Result<(), Failure> {
         match self.kind {
             Kind::Apng | Kind::Gif => self.film(canvas, several),

@@ -3,7 +3,7 @@
 use crate::circuit::formats::dot;
 use crate::circuit::is_same_instance;
 use crate::cli::Failure;
-use crate::cli::draw::arguments::Arguments;
+use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::several::{One, Several};
@@ -15,7 +15,7 @@ use crate::session::{self, Checked, CompileOptions, Compiled, Session, SwarmRun}
 use crate::store::DiskWorld;
 use crate::swarm::{Assembly, Room, SwarmTrace};
 
-impl Arguments {
+impl DrawArguments {
     pub(super) fn draw_program(&self, canvas: &Canvas) -> Result<(), Failure> {
         match self.kind {
             Kind::Comparison | Kind::Heatmap | Kind::Progress => {

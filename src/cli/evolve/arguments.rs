@@ -15,7 +15,7 @@ Examples:
   nbc evolve library/evolve.nb --resume     continue after an interruption
 
 Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
-pub struct Arguments {
+pub struct EvolveArguments {
     /// The file with the declarations; without it, `gates` of the prelude
     pub(super) file: Option<PathBuf>,
     /// Run only the declaration with this name

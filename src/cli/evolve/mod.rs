@@ -10,19 +10,19 @@ use std::time::Instant;
 use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
-use crate::cli::evolve::run::{Ended, Run};
+use crate::cli::evolve::run::{Ended, EvolutionRun};
 use crate::cli::timings::{Timer, Timings};
-use crate::cli::{Context, Failure, Format, Interrupt, Status};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};
-use crate::model::{Evolution, Objective};
+use crate::model::{Evolution, SearchObjective};
 use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
 use crate::session::{self, Session};
 use crate::sim::Simulator;
 use crate::store::{self, DiskWorld};
 use crate::swarm;
 
-pub(super) use arguments::Arguments;
+pub(super) use arguments::EvolveArguments;
 
 /// The size of a run with `--quick`.
 const QUICK_SEEDS: usize = 3;
@@ -47,7 +47,7 @@ struct Comparison {
     pairs: Vec<GroupComparison>,
 }
 
-impl Arguments {
+impl EvolveArguments {
     /// Runs the evolutions one after another.
     ///
     /// # Errors
@@ -78,11 +78,11 @@ impl Arguments {
     ) -> Result<bool, Failure> {
         let mut champions = BTreeMap::new();
         for &seed in &evolution.seeds {
-            let mut run = Run::open(self, evolution, seed, timer, context)?;
+            let mut run = EvolutionRun::open(self, evolution, seed, timer, context)?;
             let finished = run.make(interrupt)?;
             champions.insert(seed, run.archive_stats().champions);
             results.runs.push(run.ended(finished));
-            if context.format == Format::Text {
+            if context.format == OutputFormat::Text {
                 context.print(run.summary(finished))?;
                 context.flush()?;
             }
@@ -92,7 +92,7 @@ impl Arguments {
         }
         if is_comparable(evolution) {
             let comparison = Comparison::of(evolution, &champions);
-            if context.format == Format::Text {
+            if context.format == OutputFormat::Text {
                 context.print(comparison.describe())?;
             }
             results.comparisons.push(comparison);
@@ -109,7 +109,7 @@ impl Arguments {
         let path = folder.join("report.html");
         let page = run_page(&read_run(&folder, context)?, Scheme::default());
         store::write(&path, page.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
-        if context.format == Format::Text {
+        if context.format == OutputFormat::Text {
             context.print(format_args!("report  {}\n", path.display()))?;
         }
         Ok(())
@@ -118,7 +118,7 @@ impl Arguments {
 
 impl Results {
     fn end(&self, context: &mut Context, status: Status) -> Result<Status, Failure> {
-        if context.format == Format::Json {
+        if context.format == OutputFormat::Json {
             context.print_json(Schema::Evolve, self)?;
         }
         Ok(status)
@@ -137,7 +137,7 @@ impl Comparison {
     }
 }
 
-impl Arguments {
+impl EvolveArguments {
     /// The evolutions to run, with the changes from the command line.
     fn declared(&self) -> Result<Vec<Evolution>, Failure> {
         let mut evolutions = self.chosen()?;
@@ -213,5 +213,5 @@ fn seconds_each(evolution: &Evolution) -> f64 {
 
 /// Whether the paper's comparison of behaviors is possible: it needs several runs with its objective.
 fn is_comparable(evolution: &Evolution) -> bool {
-    evolution.seeds.len() > 1 && evolution.objective == Objective::Distance
+    evolution.seeds.len() > 1 && evolution.objective == SearchObjective::Distance
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::cli::evolve::arguments::Arguments;
+use crate::cli::evolve::arguments::EvolveArguments;
 use crate::cli::run_folder::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
 use crate::cli::timings::{Chore, Timer};
 use crate::cli::{Context, Failure, Interrupt, Progress};
@@ -33,7 +33,7 @@ pub(super) struct Ended {
 }
 
 /// One declaration with one seed, in its folder.
-pub(super) struct Run<'a> {
+pub(super) struct EvolutionRun<'a> {
     search: Search,
     simulator: Simulator,
     timer: &'a Timer,
@@ -49,13 +49,13 @@ pub(super) struct Run<'a> {
     _lock: FolderLock,
 }
 
-impl<'a> Run<'a> {
+impl<'a> EvolutionRun<'a> {
     /// A run that has done nothing yet, or goes on from its checkpoint.
     ///
     /// # Errors
     /// When its folder is in use by another process, holds a run that is not to be resumed, or cannot be used.
     pub(super) fn open(
-        arguments: &Arguments,
+        arguments: &EvolveArguments,
         evolution: &Evolution,
         seed: u64,
         timer: &'a Timer,

@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::run_folder::{CHECKPOINT, read_checkpoint};
-use crate::cli::{Context, Failure, Format, Progress, Status, workers};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Provenance, Robot};
@@ -24,7 +24,7 @@ use crate::swarm::{Nominee, Selected, Selection};
 
 The output shows for each behavior the robot that was added, or why there is none.
 Exit status: 0 done, 1 if there is no robot for a behavior named by --behavior, or none at all, 2 bad input.")]
-pub struct Arguments {
+pub struct AddArguments {
     /// Folders of runs, each with a checkpoint
     #[arg(required = true)]
     runs: Vec<PathBuf>,
@@ -52,7 +52,7 @@ struct Answers<'a> {
     answers: Vec<Answer>,
 }
 
-impl Arguments {
+impl AddArguments {
     /// Selects, measures and writes robots.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Arguments {
                 write(&self.into, robot)?;
             }
             let answer = Answer::of(behavior, &selected, self.max_error);
-            if context.format == Format::Text {
+            if context.format == OutputFormat::Text {
                 context.print(&answer)?;
                 context.flush()?;
             }
@@ -87,8 +87,8 @@ impl Arguments {
     fn end(&self, answers: Vec<Answer>, context: &mut Context) -> Result<Status, Failure> {
         let (asked, added) = (answers.len(), answers.iter().filter(|answer| answer.is_added()).count());
         match context.format {
-            Format::Json => context.print_json(Schema::Added, &Answers { folder: &self.into, answers })?,
-            Format::Text => {
+            OutputFormat::Json => context.print_json(Schema::Added, &Answers { folder: &self.into, answers })?,
+            OutputFormat::Text => {
                 let folder = self.into.display();
                 context.print(format_args!("{added} of {asked} behaviors have a robot in {folder}\n"))?;
             }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use crate::cli::robots::{find, robots};
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::model::{Library, Robot};
 use crate::report::{self, Listing, Schema};
 use crate::store;
@@ -17,17 +17,17 @@ use crate::store;
 /// List, show, verify, add and rewrite robots
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc library show nand")]
-pub struct Arguments {
+pub struct LibraryArguments {
     #[command(subcommand)]
     action: Action,
 }
 
 #[derive(Subcommand)]
 enum Action {
-    Add(add::Arguments),
+    Add(add::AddArguments),
     /// List all robots, best first within each function
     List,
-    Rewrite(rewrite::Arguments),
+    Rewrite(rewrite::RewriteArguments),
     /// Show one robot
     Show {
         /// The name of a robot, or a function such as `nand` for its best robot
@@ -40,7 +40,7 @@ enum Action {
     },
 }
 
-impl Arguments {
+impl LibraryArguments {
     /// Runs the subcommand.
     ///
     /// # Errors
@@ -61,16 +61,16 @@ impl Arguments {
 fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {
     let list = Listing::all(library);
     match context.format {
-        Format::Json => context.print_json(Schema::Library, &serde_json::json!({ "robots": list }))?,
-        Format::Text => context.print(Listing::table(&list))?,
+        OutputFormat::Json => context.print_json(Schema::Library, &serde_json::json!({ "robots": list }))?,
+        OutputFormat::Text => context.print(Listing::table(&list))?,
     }
     Ok(Status::Done)
 }
 
 fn show(robot: &Robot, context: &mut Context) -> Result<Status, Failure> {
     match context.format {
-        Format::Json => context.print_json(Schema::Robot, &store::RobotRecord::of(robot))?,
-        Format::Text => context.print(report::describe_robot(robot))?,
+        OutputFormat::Json => context.print_json(Schema::Robot, &store::RobotRecord::of(robot))?,
+        OutputFormat::Text => context.print(report::describe_robot(robot))?,
     }
     Ok(Status::Done)
 }

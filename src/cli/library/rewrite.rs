@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::robots::robot_paths;
-use crate::cli::{Context, Failure, Format, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::Diagnostic;
 use crate::report::Schema;
 use crate::source::Sources;
@@ -15,7 +15,7 @@ use crate::store;
 /// Convert robot files to the newest format
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc library rewrite library/robots")]
-pub struct Arguments {
+pub struct RewriteArguments {
     /// Robot files, or folders of them
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
@@ -28,7 +28,7 @@ struct Rewritten {
     changed: bool,
 }
 
-impl Arguments {
+impl RewriteArguments {
     /// Reads all files before it writes the first one.
     ///
     /// # Errors
@@ -46,8 +46,8 @@ impl Arguments {
         }
         let done: Vec<Rewritten> = files.into_iter().map(|(path, changed, _)| Rewritten { path, changed }).collect();
         match context.format {
-            Format::Json => context.print_json(Schema::Rewritten, &serde_json::json!({ "files": done }))?,
-            Format::Text => {
+            OutputFormat::Json => context.print_json(Schema::Rewritten, &serde_json::json!({ "files": done }))?,
+            OutputFormat::Text => {
                 let changed = done.iter().filter(|file| file.changed).count();
                 context.print(format_args!("{changed} of {} robot files rewritten\n", done.len()))?;
             }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::cli::{Context, Failure, Format, Progress, Status};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use crate::diag::counted;
 use crate::model::{Library, Robot};
 use crate::report::Schema;
@@ -42,8 +42,8 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
     drop(bar);
     let failed = findings.iter().filter(|finding| !finding.verified).count();
     match context.format {
-        Format::Json => context.print_json(Schema::Verify, &serde_json::json!({ "robots": findings }))?,
-        Format::Text => {
+        OutputFormat::Json => context.print_json(Schema::Verify, &serde_json::json!({ "robots": findings }))?,
+        OutputFormat::Text => {
             for finding in &findings {
                 let verdict =
                     if finding.verified { "ok".to_owned() } else { format!("differs: {}", finding.differs.join(", ")) };

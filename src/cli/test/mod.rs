@@ -7,7 +7,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::cli::program::RunsArguments;
-use crate::cli::{Context, Failure, Format, Progress, Status, workers};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::diag::{Code, Diagnostic, counted};
 use crate::report::{self, Schema};
 use crate::session::{Checked, Session, TestCase, TestOptions};
@@ -25,7 +25,7 @@ At the level of logic, every cell takes one time step, and a row is held until n
 robot is simulated voxel by voxel, and a test runs once for each swarm that is declared for its circuit. By default, \
 circuits of fewer than 40 robots are tested in physics and larger ones at the level of logic.
 Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
-pub struct Arguments {
+pub struct TestArguments {
     /// The source files
     #[arg(required = true)]
     files: Vec<PathBuf>,
@@ -42,7 +42,7 @@ pub struct Arguments {
 /// A case with the index of its file on the command line.
 type Numbered<'a> = (usize, TestCase<'a>);
 
-impl Arguments {
+impl TestArguments {
     /// Runs the tests in parallel and prints each result as soon as those before it are done.
     ///
     /// # Errors
@@ -57,10 +57,12 @@ impl Arguments {
         let verdicts = run_cases(&session, &cases, &files, context)?;
         let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
         match context.format {
-            Format::Json => {
+            OutputFormat::Json => {
                 context.print_json(Schema::Test, &serde_json::json!({ "passed": failed == 0, "tests": verdicts }))?
             }
-            Format::Text => context.print(format_args!("{} passed, {failed} failed\n", verdicts.len() - failed))?,
+            OutputFormat::Text => {
+                context.print(format_args!("{} passed, {failed} failed\n", verdicts.len() - failed))?
+            }
         }
         Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
     }
@@ -113,7 +115,7 @@ fn run_cases(
     let mut tell = |(file, verdict, mut warnings): (usize, TestVerdict, Vec<Diagnostic>)| -> Result<(), Failure> {
         warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
         context.warn(&files[file], &warnings);
-        if context.format == Format::Text {
+        if context.format == OutputFormat::Text {
             context.print(describe(&verdict))?;
             context.flush()?;
         }

@@ -2,17 +2,19 @@
 
 use crate::source::Span;
 use crate::syntax::format::expression::{expression, index, size};
-use crate::syntax::format::layout::{Piece, layout};
+use crate::syntax::format::layout::{LayoutPiece, layout};
 use crate::syntax::format::printer::Printer;
-use crate::syntax::tree::{Body, Circuit, Parameter, Port, Size, Statement, StatementKind, Target};
+use crate::syntax::tree::{
+    BodySyntax, CircuitSyntax, ParameterSyntax, Port, SizeSyntax, StatementKind, StatementSyntax, TargetSyntax,
+};
 
 impl Printer<'_> {
-    pub(super) fn circuit(&mut self, circuit: &Circuit, span: Span) {
+    pub(super) fn circuit(&mut self, circuit: &CircuitSyntax, span: Span) {
         let sizes = &circuit.body.sizes;
         let mut pieces =
-            vec![Piece::Text(format!("circuit {}{}", circuit.name.text, parameters(sizes, &circuit.parameters)))];
+            vec![LayoutPiece::Text(format!("circuit {}{}", circuit.name.text, parameters(sizes, &circuit.parameters)))];
         ports(sizes, &circuit.inputs, &mut pieces);
-        pieces.push(Piece::Text(" -> ".to_owned()));
+        pieces.push(LayoutPiece::Text(" -> ".to_owned()));
         ports(sizes, &circuit.outputs, &mut pieces);
         let head = layout(&pieces, self.column(), self.indent);
         self.write(&head);
@@ -20,7 +22,7 @@ impl Printer<'_> {
         self.block(span.end, |printer| printer.statements(&circuit.body, &circuit.body.statements));
     }
 
-    pub(super) fn statements(&mut self, body: &Body, statements: &[Statement]) {
+    pub(super) fn statements(&mut self, body: &BodySyntax, statements: &[StatementSyntax]) {
         let mut at = 0;
         while at < statements.len() {
             let run = self.aligned_run(&statements[at..]);
@@ -34,9 +36,9 @@ impl Printer<'_> {
     }
 
     /// The number of statements at the start whose `=` are aligned: drivers of one target on adjacent lines.
-    fn aligned_run(&self, statements: &[Statement]) -> usize {
-        let plain = |statement: &Statement| matches!(statement.kind, StatementKind::Drive { grouped: false, .. });
-        let follows = |pair: &&[Statement]| {
+    fn aligned_run(&self, statements: &[StatementSyntax]) -> usize {
+        let plain = |statement: &StatementSyntax| matches!(statement.kind, StatementKind::Drive { grouped: false, .. });
+        let follows = |pair: &&[StatementSyntax]| {
             plain(&pair[0])
                 && plain(&pair[1])
                 && self.adjacent(pair[0].span, pair[1].span)
@@ -45,7 +47,7 @@ impl Printer<'_> {
         1 + statements.windows(2).take_while(follows).count()
     }
 
-    fn statement(&mut self, body: &Body, statement: &Statement, left: &str, width: usize) {
+    fn statement(&mut self, body: &BodySyntax, statement: &StatementSyntax, left: &str, width: usize) {
         let head = match &statement.kind {
             StatementKind::For { statements, .. } => {
                 statements.first().map_or(statement.span.end, |first| first.span.start)
@@ -68,7 +70,7 @@ impl Printer<'_> {
 }
 
 /// The text before the `=` or the block of a statement.
-fn left(body: &Body, statement: &Statement) -> String {
+fn left(body: &BodySyntax, statement: &StatementSyntax) -> String {
     let sizes = &body.sizes;
     match &statement.kind {
         StatementKind::Nets(nets) => {
@@ -84,18 +86,18 @@ fn left(body: &Body, statement: &Statement) -> String {
     }
 }
 
-fn target(sizes: &[Size], target: &Target) -> String {
+fn target(sizes: &[SizeSyntax], target: &TargetSyntax) -> String {
     let start = target.start.map_or(String::new(), |start| format!(" init {}", size(sizes, start)));
     format!("{}{}{start}", target.name.text, index(sizes, target.index.as_ref()))
 }
 
-fn port(sizes: &[Size], port: &Port) -> String {
+fn port(sizes: &[SizeSyntax], port: &Port) -> String {
     let width = port.width.map_or(String::new(), |width| format!("[{}]", size(sizes, width)));
     format!("{}{width}", port.name.text)
 }
 
-fn parameters(sizes: &[Size], parameters: &[Parameter]) -> String {
-    let one = |parameter: &Parameter| {
+fn parameters(sizes: &[SizeSyntax], parameters: &[ParameterSyntax]) -> String {
+    let one = |parameter: &ParameterSyntax| {
         let default = parameter.default.map_or(String::new(), |default| format!(" = {}", size(sizes, default)));
         format!("{}{default}", parameter.name.text)
     };
@@ -105,11 +107,11 @@ fn parameters(sizes: &[Size], parameters: &[Parameter]) -> String {
     }
 }
 
-fn ports(sizes: &[Size], list: &[Port], pieces: &mut Vec<Piece>) {
-    pieces.extend([Piece::Text("(".to_owned()), Piece::Open]);
+fn ports(sizes: &[SizeSyntax], list: &[Port], pieces: &mut Vec<LayoutPiece>) {
+    pieces.extend([LayoutPiece::Text("(".to_owned()), LayoutPiece::Open]);
     for (at, one) in list.iter().enumerate() {
-        pieces.push(Piece::Break(if at == 0 { "" } else { ", " }));
-        pieces.push(Piece::Text(port(sizes, one)));
+        pieces.push(LayoutPiece::Break(if at == 0 { "" } else { ", " }));
+        pieces.push(LayoutPiece::Text(port(sizes, one)));
     }
-    pieces.extend([Piece::EndBreak(""), Piece::Close, Piece::Text(")".to_owned())]);
+    pieces.extend([LayoutPiece::EndBreak(""), LayoutPiece::Close, LayoutPiece::Text(")".to_owned())]);
 }

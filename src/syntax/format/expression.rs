@@ -1,75 +1,76 @@
 //! Expressions and sizes as pieces of text.
 
-use crate::syntax::format::layout::Piece;
+use crate::syntax::format::layout::LayoutPiece;
 use crate::syntax::tree::{
-    Argument, Body, ExpressionId, ExpressionKind, Index, Infix, Size, SizeId, SizeKind, TableRow,
+    Argument, BodySyntax, ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntax, SizeSyntaxId,
+    SizeSyntaxKind, TableRowSyntax,
 };
 
 /// The pieces of an expression.
-pub(super) fn expression(body: &Body, id: ExpressionId) -> Vec<Piece> {
+pub(super) fn expression(body: &BodySyntax, id: ExpressionSyntaxId) -> Vec<LayoutPiece> {
     let mut pieces = Vec::new();
     push(body, id, &mut pieces);
     pieces
 }
 
-fn text(pieces: &mut Vec<Piece>, text: impl Into<String>) {
+fn text(pieces: &mut Vec<LayoutPiece>, text: impl Into<String>) {
     let text = text.into();
     match pieces.last_mut() {
-        Some(Piece::Text(last)) => last.push_str(&text),
-        _ => pieces.push(Piece::Text(text)),
+        Some(LayoutPiece::Text(last)) => last.push_str(&text),
+        _ => pieces.push(LayoutPiece::Text(text)),
     }
 }
 
 /// The recursion is no deeper than the nesting of the text's brackets.
-fn push(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
+fn push(body: &BodySyntax, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>) {
     match &body.expressions[id.0 as usize].kind {
-        ExpressionKind::Digits(digits) => text(pieces, digits.clone()),
-        ExpressionKind::Constant { width, base, digits } => {
+        ExpressionSyntaxKind::Digits(digits) => text(pieces, digits.clone()),
+        ExpressionSyntaxKind::Constant { width, base, digits } => {
             text(pieces, format!("{}'{base}{digits}", size(&body.sizes, *width)));
         }
-        ExpressionKind::Computed { width, value } => {
+        ExpressionSyntaxKind::Computed { width, value } => {
             text(pieces, format!("{}'d({})", size(&body.sizes, *width), size(&body.sizes, *value)));
         }
-        ExpressionKind::Net { name, index: bits } => {
+        ExpressionSyntaxKind::Net { name, index: bits } => {
             text(pieces, format!("{}{}", name.text, index(&body.sizes, bits.as_ref())));
         }
-        ExpressionKind::Call { name, arguments: given, operands } => {
+        ExpressionSyntaxKind::Call { name, arguments: given, operands } => {
             text(pieces, format!("{}{}", name.text, arguments(&body.sizes, given)));
             list(body, "(", operands, ")", pieces);
         }
-        ExpressionKind::Group(inner) => list(body, "(", &[*inner], ")", pieces),
-        ExpressionKind::Concatenation(parts) => list(body, "{", parts, "}", pieces),
-        ExpressionKind::Repetition { count, values } => {
+        ExpressionSyntaxKind::Group(inner) => list(body, "(", &[*inner], ")", pieces),
+        ExpressionSyntaxKind::Concatenation(parts) => list(body, "{", parts, "}", pieces),
+        ExpressionSyntaxKind::Repetition { count, values } => {
             text(pieces, format!("{{{}", size(&body.sizes, *count)));
             list(body, "{", values, "}", pieces);
             text(pieces, "}");
         }
-        ExpressionKind::Not(_) => negation(body, id, pieces),
-        ExpressionKind::Infix { operator, .. } => chain(body, id, *operator, pieces),
-        ExpressionKind::Operation { operator, operands } => {
+        ExpressionSyntaxKind::Not(_) => negation(body, id, pieces),
+        ExpressionSyntaxKind::Infix { operator, .. } => chain(body, id, *operator, pieces),
+        ExpressionSyntaxKind::Operation { operator, operands } => {
             text(pieces, operator.word());
             list(body, "(", operands, ")", pieces);
         }
-        ExpressionKind::Choice { .. } => choice(body, id, pieces),
-        ExpressionKind::Table { inputs, rows } => table(body, inputs, rows, pieces),
+        ExpressionSyntaxKind::Choice { .. } => choice(body, id, pieces),
+        ExpressionSyntaxKind::Table { inputs, rows } => table(body, inputs, rows, pieces),
     }
 }
 
-fn list(body: &Body, open: &str, values: &[ExpressionId], close: &str, pieces: &mut Vec<Piece>) {
+fn list(body: &BodySyntax, open: &str, values: &[ExpressionSyntaxId], close: &str, pieces: &mut Vec<LayoutPiece>) {
     text(pieces, open);
-    pieces.push(Piece::Open);
+    pieces.push(LayoutPiece::Open);
     for (at, &value) in values.iter().enumerate() {
-        pieces.push(Piece::Break(if at == 0 { "" } else { ", " }));
+        pieces.push(LayoutPiece::Break(if at == 0 { "" } else { ", " }));
         push(body, value, pieces);
     }
-    pieces.push(Piece::EndBreak(""));
-    pieces.push(Piece::Close);
+    pieces.push(LayoutPiece::EndBreak(""));
+    pieces.push(LayoutPiece::Close);
     text(pieces, close);
 }
 
-fn negation(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
+fn negation(body: &BodySyntax, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>) {
     let mut at = id;
-    while let ExpressionKind::Not(inner) = body.expressions[at.0 as usize].kind {
+    while let ExpressionSyntaxKind::Not(inner) = body.expressions[at.0 as usize].kind {
         text(pieces, "not ");
         at = inner;
     }
@@ -77,78 +78,78 @@ fn negation(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
 }
 
 /// A chain of operators with the same precedence is one group.
-fn chain(body: &Body, id: ExpressionId, operator: Infix, pieces: &mut Vec<Piece>) {
+fn chain(body: &BodySyntax, id: ExpressionSyntaxId, operator: Infix, pieces: &mut Vec<LayoutPiece>) {
     let mut links = Vec::new();
     let mut at = id;
-    while let ExpressionKind::Infix { operator: here, left, right, .. } = body.expressions[at.0 as usize].kind
+    while let ExpressionSyntaxKind::Infix { operator: here, left, right, .. } = body.expressions[at.0 as usize].kind
         && here.precedence() == operator.precedence()
     {
         links.push((here, right));
         at = left;
     }
-    pieces.push(Piece::Open);
+    pieces.push(LayoutPiece::Open);
     push(body, at, pieces);
     for (operator, right) in links.into_iter().rev() {
-        pieces.push(Piece::Break(" "));
+        pieces.push(LayoutPiece::Break(" "));
         text(pieces, format!("{} ", operator.word()));
         push(body, right, pieces);
     }
-    pieces.push(Piece::Close);
+    pieces.push(LayoutPiece::Close);
 }
 
 /// An `if` expression; those after its `else` are at the same level.
-fn choice(body: &Body, id: ExpressionId, pieces: &mut Vec<Piece>) {
-    pieces.push(Piece::Open);
+fn choice(body: &BodySyntax, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>) {
+    pieces.push(LayoutPiece::Open);
     let mut at = id;
-    while let ExpressionKind::Choice { condition, then, otherwise } = body.expressions[at.0 as usize].kind {
+    while let ExpressionSyntaxKind::Choice { condition, then, otherwise } = body.expressions[at.0 as usize].kind {
         text(pieces, "if ");
         push(body, condition, pieces);
-        pieces.push(Piece::Break(" "));
+        pieces.push(LayoutPiece::Break(" "));
         text(pieces, "then ");
         push(body, then, pieces);
-        pieces.push(Piece::Break(" "));
+        pieces.push(LayoutPiece::Break(" "));
         text(pieces, "else ");
         at = otherwise;
     }
     push(body, at, pieces);
-    pieces.push(Piece::Close);
+    pieces.push(LayoutPiece::Close);
 }
 
-fn table(body: &Body, inputs: &[ExpressionId], rows: &[TableRow], pieces: &mut Vec<Piece>) {
+fn table(body: &BodySyntax, inputs: &[ExpressionSyntaxId], rows: &[TableRowSyntax], pieces: &mut Vec<LayoutPiece>) {
     text(pieces, "table");
     list(body, "(", inputs, ")", pieces);
     text(pieces, " {");
-    pieces.push(Piece::Open);
-    let pattern = |row: &TableRow| row.pattern.as_ref().map_or("else", |pattern| &pattern.text).to_owned();
+    pieces.push(LayoutPiece::Open);
+    let pattern = |row: &TableRowSyntax| row.pattern.as_ref().map_or("else", |pattern| &pattern.text).to_owned();
     let width = rows.iter().map(|row| pattern(row).len()).max().unwrap_or(0);
     for (at, row) in rows.iter().enumerate() {
         let pattern = pattern(row);
         let pad = width - pattern.len();
-        pieces.push(Piece::Break(if at == 0 { " " } else { ", " }));
-        pieces.push(Piece::Text(format!("{pattern}:")));
-        pieces.push(Piece::Pad(pad));
-        pieces.push(Piece::Text(format!(" {}", row.output.text)));
+        pieces.push(LayoutPiece::Break(if at == 0 { " " } else { ", " }));
+        pieces.push(LayoutPiece::Text(format!("{pattern}:")));
+        pieces.push(LayoutPiece::Pad(pad));
+        pieces.push(LayoutPiece::Text(format!(" {}", row.output.text)));
     }
-    pieces.push(Piece::EndBreak(" "));
-    pieces.push(Piece::Close);
+    pieces.push(LayoutPiece::EndBreak(" "));
+    pieces.push(LayoutPiece::Close);
     text(pieces, "}");
 }
 
 /// A size as text; always on one line.
-pub(super) fn size(sizes: &[Size], id: SizeId) -> String {
+pub(super) fn size(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     match &sizes[id.0 as usize].kind {
-        SizeKind::Literal(word) | SizeKind::Name(word) => word.clone(),
-        SizeKind::Log2(inner) => format!("log2({})", size(sizes, *inner)),
-        SizeKind::Group(inner) => format!("({})", size(sizes, *inner)),
-        SizeKind::Binary(..) => size_chain(sizes, id),
+        SizeSyntaxKind::Literal(word) | SizeSyntaxKind::Name(word) => word.clone(),
+        SizeSyntaxKind::Log2(inner) => format!("log2({})", size(sizes, *inner)),
+        SizeSyntaxKind::Group(inner) => format!("({})", size(sizes, *inner)),
+        SizeSyntaxKind::Binary(..) => size_chain(sizes, id),
     }
 }
 
 /// A chain of operators, without recursion into the left side, which may be long.
-fn size_chain(sizes: &[Size], id: SizeId) -> String {
+fn size_chain(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     let mut links = Vec::new();
     let mut at = id;
-    while let SizeKind::Binary(operator, left, right) = sizes[at.0 as usize].kind {
+    while let SizeSyntaxKind::Binary(operator, left, right) = sizes[at.0 as usize].kind {
         links.push(format!(" {} {}", operator.sign(), size(sizes, right)));
         at = left;
     }
@@ -158,7 +159,7 @@ fn size_chain(sizes: &[Size], id: SizeId) -> String {
 }
 
 /// `[3]`, `[3..0]` or nothing.
-pub(super) fn index(sizes: &[Size], index: Option<&Index>) -> String {
+pub(super) fn index(sizes: &[SizeSyntax], index: Option<&Index>) -> String {
     match index {
         None => String::new(),
         Some(Index { high, low: None, .. }) => format!("[{}]", size(sizes, *high)),
@@ -167,7 +168,7 @@ pub(super) fn index(sizes: &[Size], index: Option<&Index>) -> String {
 }
 
 /// `[8, start = 1]` or nothing.
-pub(super) fn arguments(sizes: &[Size], arguments: &[Argument]) -> String {
+pub(super) fn arguments(sizes: &[SizeSyntax], arguments: &[Argument]) -> String {
     let one = |argument: &Argument| {
         let value = size(sizes, argument.value);
         argument.name.as_ref().map_or_else(|| value.clone(), |name| format!("{} = {value}", name.text))

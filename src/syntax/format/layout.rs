@@ -5,7 +5,7 @@ pub(super) const WIDTH: usize = 100;
 
 /// A piece of text, or a layout instruction between pieces.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Piece {
+pub(super) enum LayoutPiece {
     /// Text without a line break.
     Text(String),
     /// A possible break of the surrounding group: this text on one line, else a line break.
@@ -21,7 +21,7 @@ pub(super) enum Piece {
 }
 
 /// The text of pieces that begin at a column, in lines indented by at least `indent`.
-pub(super) fn layout(pieces: &[Piece], column: usize, indent: usize) -> String {
+pub(super) fn layout(pieces: &[LayoutPiece], column: usize, indent: usize) -> String {
     let widths = flat_widths(pieces);
     let mut out = String::new();
     let mut column = column;
@@ -29,29 +29,29 @@ pub(super) fn layout(pieces: &[Piece], column: usize, indent: usize) -> String {
     for (at, piece) in pieces.iter().enumerate() {
         let broken = groups.last().copied().flatten();
         match piece {
-            Piece::Text(text) => {
+            LayoutPiece::Text(text) => {
                 out.push_str(text);
                 column += text.chars().count();
             }
-            Piece::Open => {
+            LayoutPiece::Open => {
                 let outer = groups.iter().rev().find_map(|group| *group).unwrap_or(indent);
                 let inside_flat = matches!(groups.last(), Some(None));
                 let fits = column + widths[at] <= WIDTH;
                 groups.push((!fits && !inside_flat).then_some(outer + super::printer::INDENT));
             }
-            Piece::Close => _ = groups.pop(),
-            Piece::Pad(spaces) if broken.is_some() => {
+            LayoutPiece::Close => _ = groups.pop(),
+            LayoutPiece::Pad(spaces) if broken.is_some() => {
                 out.extend(std::iter::repeat_n(' ', *spaces));
                 column += spaces;
             }
-            Piece::Pad(_) => {}
-            Piece::Break(flat) | Piece::EndBreak(flat) => match broken {
+            LayoutPiece::Pad(_) => {}
+            LayoutPiece::Break(flat) | LayoutPiece::EndBreak(flat) => match broken {
                 None => {
                     out.push_str(flat);
                     column += flat.len();
                 }
                 Some(inner) => {
-                    let end = matches!(piece, Piece::EndBreak(_));
+                    let end = matches!(piece, LayoutPiece::EndBreak(_));
                     column = if end { inner - super::printer::INDENT } else { inner };
                     out.push_str(if flat.starts_with(',') && !in_rows(pieces, at) { ",\n" } else { "\n" });
                     out.extend(std::iter::repeat_n(' ', column));
@@ -63,12 +63,12 @@ pub(super) fn layout(pieces: &[Piece], column: usize, indent: usize) -> String {
 }
 
 /// Whether a broken comma separates rows, which end with their lines.
-fn in_rows(pieces: &[Piece], at: usize) -> bool {
-    matches!(pieces.get(at + 1), Some(Piece::Text(text)) if text.ends_with(':'))
+fn in_rows(pieces: &[LayoutPiece], at: usize) -> bool {
+    matches!(pieces.get(at + 1), Some(LayoutPiece::Text(text)) if text.ends_with(':'))
 }
 
 /// The width of each group on one line, including the text after it up to the next possible break.
-fn flat_widths(pieces: &[Piece]) -> Vec<usize> {
+fn flat_widths(pieces: &[LayoutPiece]) -> Vec<usize> {
     let mut widths = vec![0; pieces.len()];
     let mut after = 0;
     let mut ends: Vec<usize> = Vec::new();
@@ -76,18 +76,18 @@ fn flat_widths(pieces: &[Piece]) -> Vec<usize> {
     // It runs from the end, because the text after a group on its line counts in its width.
     for (at, piece) in pieces.iter().enumerate().rev() {
         match piece {
-            Piece::Text(text) => {
+            LayoutPiece::Text(text) => {
                 let width = text.chars().count();
                 total += width;
                 after += width;
             }
-            Piece::Break(flat) | Piece::EndBreak(flat) => {
+            LayoutPiece::Break(flat) | LayoutPiece::EndBreak(flat) => {
                 total += flat.len();
                 after = 0;
             }
-            Piece::Pad(_) => {}
-            Piece::Close => ends.push(total - after),
-            Piece::Open => {
+            LayoutPiece::Pad(_) => {}
+            LayoutPiece::Close => ends.push(total - after),
+            LayoutPiece::Open => {
                 widths[at] = total - ends.pop().expect("groups open before they close");
             }
         }

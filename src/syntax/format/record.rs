@@ -5,7 +5,8 @@ use crate::syntax::format::expression::arguments;
 use crate::syntax::format::layout::WIDTH;
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{
-    Declaration, DeclarationKind, Field, Instance, Quantity, Record, RecordDeclaration, Value, ValueKind,
+    Declaration, DeclarationKind, Field, InstanceSyntax, Quantity, RecordDeclaration, RecordSyntax, ValueKind,
+    ValueSyntax,
 };
 
 /// The width of records that form the rows of a table.
@@ -43,7 +44,7 @@ impl Printer<'_> {
         self.record(&declaration.record);
     }
 
-    fn record(&mut self, record: &Record) {
+    fn record(&mut self, record: &RecordSyntax) {
         let flat = flat_record(record);
         if !self.has_comment_inside(record.span) && self.column() + flat.chars().count() <= WIDTH {
             return self.write(&flat);
@@ -65,7 +66,7 @@ impl Printer<'_> {
         }
     }
 
-    fn long_list(&mut self, values: &[Value]) {
+    fn long_list(&mut self, values: &[ValueSyntax]) {
         self.write("[");
         self.indent += super::printer::INDENT;
         for one in values {
@@ -93,7 +94,7 @@ fn aligned(run: &[(&RecordDeclaration, Span)]) -> Vec<String> {
     let mut lines = Vec::new();
     for group in run.chunk_by(same) {
         let columns = group[0].0.record.fields.len();
-        let width = |record: &Record, at: usize| value(&record.fields[at].value).chars().count();
+        let width = |record: &RecordSyntax, at: usize| value(&record.fields[at].value).chars().count();
         let widest = |at: usize| group.iter().map(|(record, _)| width(&record.record, at)).max().unwrap_or(0);
         let widths: Vec<_> = (0..columns).map(widest).collect();
         for (record, _) in group {
@@ -105,7 +106,7 @@ fn aligned(run: &[(&RecordDeclaration, Span)]) -> Vec<String> {
 }
 
 /// A record on one line with its values in columns: numbers to the right, others to the left.
-fn row(record: &Record, widths: &[usize]) -> String {
+fn row(record: &RecordSyntax, widths: &[usize]) -> String {
     let mut text = String::new();
     for (at, (field, width)) in record.fields.iter().zip(widths).enumerate() {
         let shown = value(&field.value);
@@ -120,7 +121,7 @@ fn row(record: &Record, widths: &[usize]) -> String {
     if text.is_empty() { "{}".to_owned() } else { format!("{{ {text} }}") }
 }
 
-fn flat_record(record: &Record) -> String {
+fn flat_record(record: &RecordSyntax) -> String {
     let field = |field: &Field| format!("{}: {}", field.name.text, value(&field.value));
     match &record.fields[..] {
         [] => "{}".to_owned(),
@@ -128,8 +129,8 @@ fn flat_record(record: &Record) -> String {
     }
 }
 
-fn value(value_: &Value) -> String {
-    let list = |values: &[Value]| values.iter().map(value).collect::<Vec<_>>().join(", ");
+fn value(value_: &ValueSyntax) -> String {
+    let list = |values: &[ValueSyntax]| values.iter().map(value).collect::<Vec<_>>().join(", ");
     match &value_.kind {
         ValueKind::Record(record) => flat_record(record),
         ValueKind::List(values) => format!("[{}]", list(values)),
@@ -152,6 +153,6 @@ pub(super) fn quantity(quantity: &Quantity) -> String {
 }
 
 /// `add[8]`
-pub(super) fn instance(instance: &Instance) -> String {
+pub(super) fn instance(instance: &InstanceSyntax) -> String {
     format!("{}{}", instance.name.text, arguments(&instance.sizes, &instance.arguments))
 }

@@ -3,10 +3,10 @@
 use crate::source::Span;
 use crate::syntax::format::printer::Printer;
 use crate::syntax::format::record::{instance, quantity};
-use crate::syntax::tree::{Name, Schedule, Simulate, Spell, Test, TestKind, TestTable, With};
+use crate::syntax::tree::{NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestKind, TestTable, With};
 
 impl Printer<'_> {
-    pub(super) fn schedule(&mut self, schedule: &Schedule, span: Span) {
+    pub(super) fn schedule(&mut self, schedule: &ScheduleSyntax, span: Span) {
         self.write(&format!("schedule {}({}) ", schedule.name.text, names(&schedule.columns)));
         self.spells(&schedule.spells, span);
     }
@@ -22,7 +22,7 @@ impl Printer<'_> {
         }
     }
 
-    fn spells(&mut self, spells: &[Spell], span: Span) {
+    fn spells(&mut self, spells: &[SpellSyntax], span: Span) {
         let widths = widths(spells.iter().map(|spell| &spell.cells[..]));
         self.block(span.end, |printer| {
             for spell in spells {
@@ -49,12 +49,12 @@ impl Printer<'_> {
     }
 
     fn test_table(&mut self, table: &TestTable, span: Span) {
-        let even = |row: &&crate::syntax::tree::TestRow| row.bars.len() == 1;
+        let even = |row: &&crate::syntax::tree::TestRowSyntax| row.bars.len() == 1;
         let header = [&table.inputs[..], &table.outputs[..]];
         let rows: Vec<_> = table.rows.iter().filter(even).collect();
         let inputs = widths(rows.iter().map(|row| &row.inputs[..]).chain([header[0]]));
         let outputs = widths(rows.iter().map(|row| &row.outputs[..]).chain([header[1]]));
-        let line = |left: &[Name], right: &[Name]| {
+        let line = |left: &[NameSyntax], right: &[NameSyntax]| {
             let words = [aligned(left, &inputs), vec!["|".to_owned()], aligned(right, &outputs)].concat();
             words.join(" ")
         };
@@ -75,11 +75,11 @@ impl Printer<'_> {
 }
 
 /// `a, b`
-pub(super) fn names(names: &[Name]) -> String {
+pub(super) fn names(names: &[NameSyntax]) -> String {
     names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-fn widths<'a>(rows: impl Iterator<Item = &'a [Name]>) -> Vec<usize> {
+fn widths<'a>(rows: impl Iterator<Item = &'a [NameSyntax]>) -> Vec<usize> {
     let mut widths = Vec::new();
     for row in rows {
         for (at, name) in row.iter().enumerate() {
@@ -94,6 +94,6 @@ fn widths<'a>(rows: impl Iterator<Item = &'a [Name]>) -> Vec<usize> {
     widths
 }
 
-fn aligned(row: &[Name], widths: &[usize]) -> Vec<String> {
+fn aligned(row: &[NameSyntax], widths: &[usize]) -> Vec<String> {
     row.iter().zip(widths).map(|(name, &width)| format!("{:width$}", name.text)).collect()
 }

@@ -6,14 +6,14 @@ use crate::diag::{Code, Diagnostic};
 
 /// Where something stands: gates of a binary file have no lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum AigerPlace {
     /// A line, from 1.
     Line(usize),
     /// A byte, from 0.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for AigerPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
@@ -77,7 +77,7 @@ pub enum AigerError {
 
 impl AigerError {
     /// The error at its place in the file.
-    pub fn at(self, place: Place) -> Diagnostic {
+    pub fn at(self, place: AigerPlace) -> Diagnostic {
         let message = match self {
             Self::EndOfFile => "unexpected end of file".to_owned(),
             Self::NotText => "expected text".to_owned(),

@@ -4,6 +4,6 @@ mod aiger;
 mod encode;
 mod text;
 
-pub use aiger::{AigerError, Place};
+pub use aiger::{AigerError, AigerPlace};
 pub use encode::EncodeError;
 pub use text::TextError;

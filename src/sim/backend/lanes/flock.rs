@@ -1,7 +1,7 @@
 //! Robots that are advanced step by step. They keep their lanes from advance to advance.
 
 use crate::model::{Body, Fault, Pattern, Schedule, Setting};
-use crate::sim::backend::lanes::formation::{Candidate, Formation};
+use crate::sim::backend::lanes::formation::{Formation, LaneRequest};
 use crate::sim::backend::lanes::run::{Run, runs};
 use crate::sim::backend::lanes::squad::Squad;
 use crate::sim::backend::lanes::threads;
@@ -32,8 +32,8 @@ impl LaneFlock {
 
     /// The best formation of these runs.
     fn formation<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> Formation {
-        let candidates: Vec<Candidate> =
-            runs.map(|run| Candidate { size: run.lattice.size(), body: run.body }).collect();
+        let candidates: Vec<LaneRequest> =
+            runs.map(|run| LaneRequest { size: run.lattice.size(), body: run.body }).collect();
         let kernel = self.world.kernel;
         Formation::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
     }

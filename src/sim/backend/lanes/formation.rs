@@ -8,7 +8,7 @@ use crate::sim::backend::lanes::kernel::Kernel;
 
 /// A robot that needs a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Candidate {
+pub struct LaneRequest {
     /// Columns and rows of its box.
     pub size: (usize, usize),
     /// The number of its body: equal bodies have one number.
@@ -29,17 +29,17 @@ impl Formation {
     ///
     /// Robots are put in order, large boxes first, and in a box rare bodies before frequent ones; squads are robots one after another.
     /// So lanes that large robots leave idle go to those that nobody is like, and equal bodies stay together, which is faster.
-    pub fn of(robots: &[Candidate], kernel: Kernel, lanes: usize) -> Self {
+    pub fn of(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> Self {
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for robot in robots {
             *counts.entry(robot.body).or_default() += 1;
         }
         let mut order: Vec<usize> = (0..robots.len()).collect();
         order.sort_by_key(|&i| {
-            let Candidate { size: (columns, rows), body } = robots[i];
+            let LaneRequest { size: (columns, rows), body } = robots[i];
             (Reverse(columns * rows), columns, counts[&body], body, i)
         });
-        let ordered: Vec<Candidate> = order.iter().map(|&i| robots[i]).collect();
+        let ordered: Vec<LaneRequest> = order.iter().map(|&i| robots[i]).collect();
         let (cuts, cost) = divide(&ordered, kernel, lanes);
         let mut squads: Vec<(u64, Vec<usize>)> =
             cuts.into_iter().map(|squad| (cost_of(&ordered[squad.clone()], kernel), order[squad].to_vec())).collect();
@@ -50,7 +50,7 @@ impl Formation {
 
 /// The cheapest way to cut a row of robots into squads, and what it costs: the best way for each number of first robots, from those for
 /// fewer.
-fn divide(robots: &[Candidate], kernel: Kernel, lanes: usize) -> (Vec<Range<usize>>, u64) {
+fn divide(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> (Vec<Range<usize>>, u64) {
     let mut best: Vec<(u64, usize)> = vec![(0, 0)];
     for end in 1..=robots.len() {
         let squads = end.saturating_sub(lanes)..end;
@@ -67,8 +67,8 @@ fn divide(robots: &[Candidate], kernel: Kernel, lanes: usize) -> (Vec<Range<usiz
 }
 
 /// What a substep of these robots costs side by side.
-fn cost_of(robots: &[Candidate], kernel: Kernel) -> u64 {
-    let most = |side: fn(&Candidate) -> usize| robots.iter().map(side).max().unwrap_or(0) as u64;
+fn cost_of(robots: &[LaneRequest], kernel: Kernel) -> u64 {
+    let most = |side: fn(&LaneRequest) -> usize| robots.iter().map(side).max().unwrap_or(0) as u64;
     let alike = robots.windows(2).all(|pair| pair[0].body == pair[1].body);
     most(|robot| robot.size.0) * most(|robot| robot.size.1) * kernel.cost(robots.len(), alike)
 }
@@ -79,8 +79,8 @@ mod tests {
     use crate::sim::InstructionSet;
 
     fn check(robots: &[(usize, usize)], lanes: usize, expected: &[&[usize]]) {
-        let robots: Vec<Candidate> =
-            robots.iter().map(|&(side, body)| Candidate { size: (side, side), body }).collect();
+        let robots: Vec<LaneRequest> =
+            robots.iter().map(|&(side, body)| LaneRequest { size: (side, side), body }).collect();
         let kernel = Kernel::of(InstructionSet::Avx512, 8);
         assert_eq!(Formation::of(&robots, kernel, lanes).squads, expected);
     }

@@ -4,19 +4,19 @@
 use std::collections::BTreeMap;
 
 use crate::evolve::{Champion, Elite, NicheKey};
-use crate::model::{Axis, Behavior, Count, Objective};
+use crate::model::{Axis, Behavior, Count, SearchObjective};
 use crate::report::history::ProgressLine;
 use crate::report::progress::Course;
 
 /// Runs of one declaration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Harvest {
+pub struct EvolutionResults {
     /// The declaration's name.
     pub name: String,
     /// The archive's axes.
     pub axes: Vec<Axis>,
     /// The objective.
-    pub objective: Objective,
+    pub objective: SearchObjective,
     /// The runs by their seeds: a seed is one run, however often it was read.
     pub runs: BTreeMap<u64, SeedRun>,
 }
@@ -56,7 +56,7 @@ fn fittest<'a>(elites: impl Iterator<Item = &'a Elite>) -> Option<&'a Elite> {
     })
 }
 
-impl Harvest {
+impl EvolutionResults {
     /// The fittest elite of each niche over all seeds, with its seed.
     pub fn best(&self) -> BTreeMap<&NicheKey, (u64, &Elite)> {
         let mut best: BTreeMap<&NicheKey, (u64, &Elite)> = BTreeMap::new();
@@ -107,8 +107,8 @@ impl Harvest {
     /// The meaning of the first fitness.
     pub fn unit(&self) -> &'static str {
         match self.objective {
-            Objective::Distance => "distance (voxels)",
-            Objective::Gate => "being right (share)",
+            SearchObjective::Distance => "distance (voxels)",
+            SearchObjective::Gate => "being right (share)",
         }
     }
 }

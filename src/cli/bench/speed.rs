@@ -1,0 +1,43 @@
+//! Lane-substeps per second of one core.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
+use crate::sim::{Constants, Kernel, LaneBackend, Meter, Simulator};
+
+/// The shortest measurement of a figure.
+pub(super) const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Substeps of a cycle.
+pub(super) fn cycle_substeps() -> f64 {
+    f64::from(CYCLE_STEPS * Constants::default().substeps)
+}
+
+/// Lane-substeps per second, with lanes whose bodies are `shift` apart.
+pub(super) fn race(side: usize, kernel: Kernel, shift: usize, meter: Option<&Arc<Meter>>) -> f64 {
+    let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
+    let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
+    let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
+    let backend = LaneBackend { kernel, meter: meter.cloned(), ..LaneBackend::default() };
+    let simulator = Simulator::new(backend);
+    let setting = Setting::default();
+    // One thread takes all lanes as one batch.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
+    pool.install(|| {
+        let (start, spent, mut rounds) = (Instant::now(), processor_seconds(), 0);
+        while start.elapsed() < PATIENCE {
+            simulator.run_trials(&setting, &trials);
+            rounds += 1;
+        }
+        let seconds = processor_seconds().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
+        f64::from(rounds) * trials.len() as f64 * cycle_substeps() / seconds
+    })
+}
+
+/// CPU time of this thread, in seconds, where the system has it (Linux). Other programs do not distort it.
+pub(super) fn processor_seconds() -> Option<f64> {
+    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
+    (nanoseconds > 0.0).then_some(nanoseconds / 1e9)
+}
