@@ -11,6 +11,7 @@
 
 pub mod check;
 pub mod circuit;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;
 pub mod evolve;
@@ -24,4 +25,6 @@ pub mod swarm;
 pub mod syntax;
 
 pub use diag::Diagnostics;
-pub use session::{CompileOptions, RunReport, Session, run_file};
+#[cfg(feature = "disk")]
+pub use session::run_file;
+pub use session::{CompileOptions, RunReport, Session};

@@ -4,7 +4,7 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
+use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use crate::cli::Status;
@@ -23,9 +23,11 @@ impl Interrupt {
         for signal in [SIGINT, SIGTERM] {
             flag::register_conditional_shutdown(signal, Status::Interrupted.code().into(), interrupt.0.clone())?;
         }
-        for signal in [SIGINT, SIGTERM, SIGUSR1] {
+        for signal in [SIGINT, SIGTERM] {
             flag::register(signal, interrupt.0.clone())?;
         }
+        #[cfg(unix)]
+        flag::register(signal_hook::consts::SIGUSR1, interrupt.0.clone())?;
         Ok(interrupt)
     }
 

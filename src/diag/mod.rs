@@ -8,6 +8,7 @@ mod diagnostics;
 mod file;
 mod fix;
 mod json;
+#[cfg(feature = "cli")]
 pub mod render;
 mod severity;
 pub mod suggest;

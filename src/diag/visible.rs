@@ -22,6 +22,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
 
 /// Like [`visible`], but the offset of every byte stays the same, for excerpts with places in them. A carriage return
 /// at the end of a line becomes a space or the line break itself.
+#[cfg(feature = "cli")]
 pub(super) fn visible_in_place(text: &str) -> Cow<'_, str> {
     if !text.contains(|c| is_hidden(c) && c != '\t') {
         return Cow::Borrowed(text);

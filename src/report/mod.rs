@@ -12,6 +12,7 @@ mod evolution;
 mod evolution_page;
 mod evolution_results;
 mod export;
+#[cfg(feature = "pictures")]
 mod film;
 mod groups;
 mod heatmap;
@@ -25,6 +26,7 @@ mod page_bodies;
 mod portraits;
 mod pose;
 mod progress;
+#[cfg(feature = "pictures")]
 mod raster;
 mod result;
 mod run_page;
@@ -35,6 +37,7 @@ mod sprite;
 mod stage;
 mod strip;
 mod svg;
+#[cfg(feature = "pictures")]
 mod swatches;
 mod table;
 mod timing;
@@ -52,6 +55,7 @@ pub use evolution::{EvolutionLine, evolution_table};
 pub use evolution_page::{Plate, draw_evolution_page};
 pub use evolution_results::{EvolutionResults, SeedRun, axis_word};
 pub use export::{Elites, robots_csv};
+#[cfg(feature = "pictures")]
 pub use film::{Film, STRIDE, write_apng, write_gif};
 pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
 pub use heatmap::{Terrain, draw_heatmap, heat};
@@ -61,6 +65,7 @@ pub use looks::{Look, Looks, Mark, describe_material};
 pub use portraits::{Portrait, draw_portraits};
 pub use pose::draw_pose;
 pub use progress::{Course, draw_progress};
+#[cfg(feature = "pictures")]
 pub use raster::{png, rasterize};
 pub use result::{RobotResult, RunResult, SwarmResult};
 pub use run_page::{PageSwarm, SwarmOutcome, draw_run_page};

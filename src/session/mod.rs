@@ -216,6 +216,7 @@ impl Session {
 ///
 /// # Errors
 /// As [`Session::run`].
+#[cfg(feature = "disk")]
 pub fn run_file(path: impl AsRef<std::path::Path>, options: &CompileOptions) -> Result<RunReport, Diagnostics> {
     Session::new(crate::store::DiskWorld).run(&path.as_ref().to_string_lossy(), options, &mut ())
 }

@@ -8,8 +8,6 @@ use crate::diag::io_words;
 use crate::source::{FileError, SourceWorld};
 use crate::syntax::MAX_SOURCE_BYTES;
 
-/// The largest robot file, in bytes; the largest body takes a tenth of it.
-pub const MAX_ROBOT_BYTES: u64 = 1 << 20;
 /// The largest checkpoint of an evolution run, in bytes.
 pub const MAX_CHECKPOINT_BYTES: u64 = 1 << 30;
 /// The largest record of a run's progress, in bytes.

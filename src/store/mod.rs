@@ -1,30 +1,45 @@
 //! Files: the disk as a [`crate::source::SourceWorld`], atomic writes, robot files, checkpoints, the built-in library. The
 //! only user of YAML.
 
+#[cfg(feature = "disk")]
 mod atomic;
+#[cfg(feature = "disk")]
 mod checkpoint;
+#[cfg(feature = "disk")]
 mod circuit_file;
+#[cfg(feature = "disk")]
 mod declared;
+#[cfg(feature = "disk")]
 mod disk;
+#[cfg(feature = "disk")]
 mod draft;
+#[cfg(feature = "disk")]
 mod first_checkpoint;
 mod library;
+#[cfg(feature = "disk")]
 mod lock;
 mod robot;
+#[cfg(feature = "disk")]
 mod search_state;
 mod shape;
 mod soundness;
 mod yaml;
+#[cfg(feature = "disk")]
 mod yosys;
 
+#[cfg(feature = "disk")]
 pub use atomic::{create_folder, write, write_with};
+#[cfg(feature = "disk")]
 pub use checkpoint::Checkpoint;
+#[cfg(feature = "disk")]
 pub use circuit_file::{encode_circuit, read_circuit};
+#[cfg(feature = "disk")]
 pub use declared::Declared;
-pub use disk::{
-    DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, MAX_ROBOT_BYTES, read, read_text,
-};
+#[cfg(feature = "disk")]
+pub use disk::{DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, read, read_text};
 pub use library::{best_first, read_library, shipped_library};
+#[cfg(feature = "disk")]
 pub use lock::{FolderLock, LockFault, lock_folder};
 pub use robot::{FORMAT, RobotRecord, own_materials, print_robot, read_robot};
 pub use shape::read_body;
+pub use yaml::MAX_ROBOT_BYTES;

@@ -5,7 +5,9 @@ use serde::de::DeserializeOwned;
 
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, SourceFile, Span};
-use crate::store::MAX_ROBOT_BYTES;
+
+/// The largest robot file, in bytes; the largest body takes a tenth of it.
+pub const MAX_ROBOT_BYTES: u64 = 1 << 20;
 
 /// The deepest nesting of brackets, because the reader's time grows with its square.
 const MAX_DEPTH: usize = 64;

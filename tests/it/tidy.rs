@@ -93,12 +93,35 @@ fn a_folder_imports_lower_layers_only() {
     assert!(found.is_empty(), "a folder imports lower layers only, and none of its own\n{}", found.join("\n"));
 }
 
+/// The files that the feature `disk` brings in.
+const DISK: [&str; 5] = ["store/atomic.rs", "store/disk.rs", "store/draft.rs", "store/lock.rs", "store/yosys.rs"];
+
+fn is_shell(path: &Path) -> bool {
+    matches!(folder(path).as_str(), "cli" | "main") || DISK.iter().any(|name| path.ends_with(name))
+}
+
 #[test]
 fn the_core_touches_nothing_outside() {
-    let outside =
-        ["println!", "eprintln!", "print!(", "std::fs", "std::env::", "Instant::now", "SystemTime", "std::net"];
-    let shells = |path: &Path| matches!(folder(path).as_str(), "cli" | "store" | "main");
-    forbid("no printing, clock, environment, file or network outside cli/ and store/", &outside, shells);
+    let rule = "no printing, clock, environment, file, thread, process or network in the core";
+    let outside = ["println!", "eprintln!", "print!(", "Instant::now", "SystemTime", "thread_local!"];
+    forbid(rule, &outside, is_shell);
+    let modules = ["std::env", "std::fs", "std::net", "std::process", "std::thread", "std::time"];
+    forbid(rule, &modules, is_shell);
+}
+
+#[test]
+fn the_core_has_no_statics() {
+    let mut found = Vec::new();
+    for (path, text) in source_files() {
+        let is_static = |line: &str| {
+            let item = line.trim_start().trim_start_matches("pub(crate) ").trim_start_matches("pub(super) ");
+            item.trim_start_matches("pub ").starts_with("static ")
+        };
+        if !is_shell(&path) && product_code(&text).lines().any(is_static) {
+            found.push(path);
+        }
+    }
+    assert!(found.is_empty(), "two sessions share nothing that changes: no statics outside cli/: {found:?}");
 }
 
 #[test]
@@ -131,7 +154,12 @@ fn each_outer_crate_has_one_home() {
     forbid("only diag/render.rs names miette", &["miette"], |path| path.ends_with("diag/render.rs"));
     forbid("only store/ names YAML", &["serde_yaml"], in_folder("store"));
     let shell = |path: &Path| matches!(folder(path).as_str(), "cli" | "main");
-    forbid("only cli/ names clap and indicatif", &["clap::", "indicatif"], shell);
+    forbid("only cli/ names clap, indicatif and signals", &["clap::", "indicatif", "signal_hook"], shell);
+    let threads = |path: &Path| shell(path) || path.ends_with("sim/backend/lanes/threads.rs");
+    forbid("only cli/ and one file of sim/ name rayon", &["rayon"], threads);
+    let pixels = |path: &Path| ["report/film.rs", "report/raster.rs"].iter().any(|name| path.ends_with(name));
+    forbid("only two files of report/ name what draws pixels", &["resvg", "gif::", "png::"], pixels);
+    forbid("only store/ names what writes files", &["tempfile", "rustix", "crc32fast"], in_folder("store"));
 }
 
 #[test]

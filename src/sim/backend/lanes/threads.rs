@@ -1,18 +1,33 @@
-//! Work shared out over the threads of the machine.
+//! Work shared out over the threads of the machine, where the feature `parallel` has them; results do not depend on it.
 
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 /// Fewer runs than this side by side leave a kernel's lanes idle; threads do not split them further.
 const LEAST_LANES: usize = 4;
 
 /// How many threads work side by side.
+#[cfg(feature = "parallel")]
 pub fn count() -> usize {
     rayon::current_num_threads()
 }
 
+/// How many threads work side by side.
+#[cfg(not(feature = "parallel"))]
+pub fn count() -> usize {
+    1
+}
+
 /// Does the work for each item, in any order.
+#[cfg(feature = "parallel")]
 pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
     items.par_iter_mut().with_max_len(1).for_each(work);
+}
+
+/// Does the work for each item, in any order.
+#[cfg(not(feature = "parallel"))]
+pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
+    items.iter_mut().for_each(work);
 }
 
 /// How many of `runs` runs share a batch at most: all threads get some, but not so few that lanes are idle.
