@@ -32,7 +32,7 @@ use crate::diag::Diagnostics;
 use crate::model::{CircuitTest, Instance, Library, Simulation};
 use crate::sim::Simulator;
 use crate::source::SourceWorld;
-use crate::swarm::{self, Level, Room};
+use crate::swarm::{self, Level, LiveSwarm, Room};
 use documents::Documents;
 use robots::Supply;
 use swarm_run::Physics;
@@ -46,6 +46,9 @@ pub struct Session {
 }
 
 impl Session {
+    /// The cycles for which [`Session::swarm`] has ground, even for a robot that walks its own width in each.
+    pub const LIVE_CYCLES: usize = 1000;
+
     /// A session over the sources of a world.
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
         Self { documents: Documents::new(Box::new(world)), physics: Physics::default(), shipped: OnceLock::new() }
@@ -187,6 +190,11 @@ impl Session {
         let compiled = simulation::compiled(self.supply(), &checked.program, simulation, options);
         let compiled = compiled.map_err(|faults| checked.fail(faults))?;
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
+    }
+
+    /// A compiled circuit's swarm at its start, to be stepped a cycle at a time.
+    pub fn swarm(&self, compiled: &Compiled) -> LiveSwarm {
+        self.physics.swarm(compiled, Self::LIVE_CYCLES)
     }
 
     /// Runs every test and every simulation of a source in physics.

@@ -7,7 +7,7 @@ use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
 use crate::session::plan;
 use crate::session::robots::Supply;
-use crate::session::swarm_run::{self, Physics, RunEnd, SwarmRun};
+use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
 use crate::swarm::{self, SimulationResult};
 
 /// A simulation with what came of it.
@@ -49,7 +49,7 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> SimulationRun {
     let held = simulation.spells.iter().flat_map(|spell| std::iter::repeat_n(&spell.inputs, spell.cycles as usize));
-    let (trace, end) = swarm_run::run(physics, &compiled, held.cloned().collect(), observer);
+    let (trace, end) = physics.run(&compiled, held.cloned().collect(), observer);
     let result = SimulationResult {
         file: simulation.file.clone(),
         line: simulation.line,

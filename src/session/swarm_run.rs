@@ -3,7 +3,7 @@
 use crate::session::compile::Compiled;
 use crate::session::observer::Observer;
 use crate::sim::Simulator;
-use crate::swarm::{self, Exposure, Room, SwarmTrace};
+use crate::swarm::{LiveSwarm, Room, SwarmTrace};
 
 /// A swarm with what it did.
 #[derive(Clone, Debug)]
@@ -32,16 +32,28 @@ pub enum RunEnd {
     Cancelled,
 }
 
-/// Runs a swarm with these input bits in each cycle.
-pub(super) fn run(
-    physics: &Physics,
-    compiled: &Compiled,
-    inputs: Vec<Vec<bool>>,
-    observer: &mut dyn Observer,
-) -> (SwarmTrace, RunEnd) {
-    let all = inputs.len();
-    let exposure = Exposure { inputs, window: compiled.plan.window as usize, poses: physics.poses };
-    let mut observe = |done| observer.progress(done as u64, all as u64);
-    let trace = swarm::simulate(&physics.simulator, &compiled.assembly, &exposure, &mut observe);
-    (trace, RunEnd::Complete)
+impl Physics {
+    /// A swarm at its start, on ground for so many cycles.
+    pub fn swarm(&self, compiled: &Compiled, cycles: usize) -> LiveSwarm {
+        LiveSwarm::new(&self.simulator, &compiled.assembly, cycles, compiled.plan.window as usize, self.poses)
+    }
+
+    /// Runs a swarm with these input bits in each cycle.
+    pub fn run(
+        &self,
+        compiled: &Compiled,
+        inputs: Vec<Vec<bool>>,
+        observer: &mut dyn Observer,
+    ) -> (SwarmTrace, RunEnd) {
+        let all = inputs.len() as u64;
+        let mut swarm = self.swarm(compiled, inputs.len());
+        for (cycle, inputs) in (1..).zip(&inputs) {
+            swarm.step(inputs);
+            observer.progress(cycle, all);
+            if observer.is_cancelled() && cycle < all {
+                return (swarm.into_trace(), RunEnd::Cancelled);
+            }
+        }
+        (swarm.into_trace(), RunEnd::Complete)
+    }
 }

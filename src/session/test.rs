@@ -8,7 +8,7 @@ use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
 use crate::session::plan::plans;
 use crate::session::robots::Supply;
-use crate::session::swarm_run::{self, Physics, RunEnd, SwarmRun};
+use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
 use crate::swarm::{self, Demand, Level, START_CYCLES, Settling, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
@@ -141,7 +141,7 @@ fn in_physics(
     let mut warnings = compiled.warnings.clone();
     warnings.extend(short_hold(test, rows, demands, &compiled));
     let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
-    let (trace, end) = swarm_run::run(physics, &compiled, held.collect(), observer);
+    let (trace, end) = physics.run(&compiled, held.collect(), observer);
     let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
     let judged = swarm::judge_swarm(test, rows, demands, &trace, &clocks);
     let mut verdict = verdict(test, Level::Physics, Some(&compiled), judged);

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::model::{Body, CYCLE_STEPS, Column, Pattern, Setting};
-use crate::sim::{Flock, Simulator};
+use crate::sim::{Flock, Simulator, Snapshot};
 use crate::swarm::{Assembly, CycleTrace, Member, Recording, RobotTrace, Room, StimulusSource, SwarmTrace};
 
 /// Samples of a robot's path that a trace keeps of each cycle.
@@ -41,6 +41,14 @@ pub struct LiveSwarm {
     stops: BTreeSet<u32>,
     /// Env steps from frame to frame of the recording.
     stride: u32,
+    trace: SwarmTrace,
+}
+
+/// A swarm at the end of a cycle, with everything that it did until then.
+#[derive(Clone, Debug)]
+pub struct SwarmSnapshot {
+    robots: Vec<Snapshot>,
+    heard: Vec<bool>,
     trace: SwarmTrace,
 }
 
@@ -103,6 +111,25 @@ impl LiveSwarm {
     /// What it did.
     pub fn into_trace(self) -> SwarmTrace {
         self.trace
+    }
+
+    /// The swarm as it is now, to come back to.
+    pub fn snapshot(&self) -> SwarmSnapshot {
+        let robots = (0..self.flock.len()).map(|robot| self.flock.snapshot(robot)).collect();
+        SwarmSnapshot { robots, heard: self.heard.clone(), trace: self.trace.clone() }
+    }
+
+    /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
+    ///
+    /// # Panics
+    /// When the snapshot is of another number of robots.
+    pub fn restore(&mut self, snapshot: &SwarmSnapshot) {
+        assert_eq!(snapshot.robots.len(), self.flock.len(), "a snapshot is of the same swarm");
+        for (i, robot) in snapshot.robots.iter().enumerate() {
+            self.flock.restore(i, robot);
+        }
+        self.heard.clone_from(&snapshot.heard);
+        self.trace.clone_from(&snapshot.trace);
     }
 
     /// Simulates a cycle under what the robots sense, from stop to stop.

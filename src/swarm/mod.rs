@@ -25,7 +25,7 @@ pub use cells::cells;
 pub use characterise::{characterise, screen};
 pub use evaluate::{evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, judge_logic, judge_swarm};
-pub use live::{LiveSwarm, START_CYCLES, setting};
+pub use live::{LiveSwarm, START_CYCLES, SwarmSnapshot, setting};
 pub use measure::{Measurement, measure};
 pub use recording::{Recorded, Recording, Room};
 pub use selection::{Nominee, Selected, Selection};

@@ -19,6 +19,7 @@ mod gallery;
 mod hostile;
 mod language;
 mod library;
+mod live;
 mod manual;
 mod memory;
 mod notices;

@@ -1,0 +1,103 @@
+//! A session as a door that is not the command line sees it: sources in memory, swarms that are stepped, work that is cancelled.
+
+use nbc::session::RunEnd;
+use nbc::{CompileOptions, Level, MemoryWorld, Observer, Session, TestOptions, TestRun};
+
+#[allow(dead_code, reason = "the example's own main reads the terminal")]
+#[path = "../../examples/live.rs"]
+mod example;
+
+const LATCH: &str = include_str!("../../circuits/latch.nb");
+
+fn session() -> Session {
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("latch.nb", 1, LATCH);
+    session
+}
+
+fn in_physics(observer: &mut dyn Observer) -> TestRun {
+    let mut session = session();
+    let checked = session.open("latch.nb").unwrap();
+    let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+    session.test(&checked, &checked.program.tests[0], &options, observer).unwrap().remove(0)
+}
+
+#[test]
+fn the_example_steps_the_latch() {
+    let mut told = Vec::new();
+    example::converse(&b"11 8\n00 4\nwhat\n01 8\n10 4\n"[..], &mut told).unwrap();
+    let told = String::from_utf8(told).unwrap();
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!(lines[0], "5 robots, inputs d e");
+    let expected = [
+        "cycle 8: q 1, nq 0",
+        "cycle 12: q 1, nq 0",
+        "expected 2 bits and a number of cycles, such as `11 6`",
+        "cycle 20: q 0, nq 1",
+        "cycle 24: q 0, nq 1",
+    ];
+    assert_eq!(lines[1..], expected);
+}
+
+#[test]
+fn a_live_swarm_does_what_a_test_does() {
+    let run = in_physics(&mut ());
+    assert!(run.verdict.passed && run.end == RunEnd::Complete);
+    let tested = run.swarm.unwrap();
+    let mut live = session().swarm(&tested.compiled);
+    for cycle in &tested.trace.cycles {
+        assert_eq!(live.step(&cycle.inputs), cycle);
+    }
+    assert_eq!(*live.trace(), tested.trace);
+}
+
+#[test]
+fn a_restored_swarm_does_the_same_again() {
+    let mut session = session();
+    let checked = session.open("latch.nb").unwrap();
+    let compiled = session.compile(&checked, &"d_latch".into(), &CompileOptions::default()).unwrap();
+    let mut swarm = session.swarm(&compiled);
+    let walk = |swarm: &mut nbc::LiveSwarm| {
+        [[true, true], [true, false], [false, true]].iter().for_each(|inputs| _ = swarm.step(inputs));
+        swarm.trace().clone()
+    };
+    swarm.step(&[false, true]);
+    let snapshot = swarm.snapshot();
+    let first = walk(&mut swarm);
+    swarm.restore(&snapshot);
+    assert_eq!(walk(&mut swarm), first);
+    let mut other = session.swarm(&compiled);
+    other.restore(&snapshot);
+    assert_eq!(walk(&mut other), first);
+}
+
+/// Cancels after so many cycles.
+struct Until(u64);
+
+impl Observer for Until {
+    fn progress(&mut self, done: u64, _: u64) {
+        self.0 = self.0.saturating_sub(done.min(1));
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.0 == 0
+    }
+}
+
+#[test]
+fn a_cancelled_test_has_what_was_done_and_has_not_passed() {
+    let whole = in_physics(&mut ());
+    let first = whole.verdict.rows[0].cycles.unwrap() as u64;
+    let run = in_physics(&mut Until(first + 1));
+    assert_eq!((run.end, run.verdict.passed), (RunEnd::Cancelled, false));
+    assert_eq!(run.verdict.rows, whole.verdict.rows[..1]);
+    assert_eq!(run.swarm.unwrap().trace.cycles.len() as u64, first + 1);
+}
+
+#[test]
+fn an_error_has_its_sources() {
+    let mut session = session();
+    session.update("latch.nb", 2, LATCH.replace("not d", "not f"));
+    let fault = session.open("latch.nb").unwrap_err();
+    assert!(fault.to_string().starts_with("latch.nb:5:31: error[unknown]"), "{fault}");
+}
