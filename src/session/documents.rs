@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::session::Checked;
+use crate::session::checked::Checked;
 use crate::source::{FileError, OverlayWorld, SourceWorld};
 
 /// The sources of a session.
