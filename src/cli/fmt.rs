@@ -5,12 +5,10 @@ use std::path::Path;
 use clap::Args;
 use serde_json::json;
 
-use crate::check;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::report::Schema;
-use crate::source::Sources;
+use crate::session::{Formatted, Session};
 use crate::store::{self, DiskWorld};
-use crate::syntax;
 
 /// Format programs
 #[derive(Args)]
@@ -51,18 +49,11 @@ impl FmtArguments {
 
     /// Formats a file, or only checks it; returns whether it was formatted.
     fn format_file(&self, path: &str) -> Result<bool, Failure> {
-        let mut sources = Sources::default();
-        let file = check::open(&DiskWorld, path, &mut sources).map_err(Failure::plain)?;
-        let parsed = syntax::parse(&sources, file);
-        if !parsed.errors.is_empty() {
-            return Err(Failure::input(parsed.errors, sources));
-        }
-        let text = syntax::format(&sources, file, &parsed.tree);
-        let canonical = text == sources.file(file).text;
-        if !canonical && !self.check {
+        let Formatted { text, is_canonical } = Session::new(DiskWorld).formatted(path)?;
+        if !is_canonical && !self.check {
             let path = Path::new(path);
             store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
         }
-        Ok(canonical)
+        Ok(is_canonical)
     }
 }

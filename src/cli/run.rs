@@ -13,7 +13,7 @@ use crate::model::{CircuitTest, Robot, Simulation};
 use crate::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
+use crate::session::{Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
 use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
 
@@ -114,19 +114,12 @@ impl RunArguments {
     }
 
     /// The tests and simulations that are asked for.
-    fn chosen<'f>(&self, file: &'f Checked) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
-        let program = &file.program;
+    fn chosen<'f>(&'f self, file: &'f Checked) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
         let only = self.only.as_deref();
-        let tests = program.tests.iter();
-        let tests: Vec<_> =
-            tests.filter(|test| only.is_none_or(|name| session::is_called(program, test, name))).collect();
-        let is_called = |simulation: &Simulation, name: &str| {
-            let circuit = program.swarm(&simulation.swarm).map(|swarm| swarm.circuit.to_string());
-            simulation.swarm == name || circuit.as_deref() == Some(name)
+        let (tests, simulations): (Vec<_>, Vec<_>) = match only {
+            Some(name) => (file.tests(name).collect(), file.simulations(name).collect()),
+            None => (file.program.tests.iter().collect(), file.program.simulations.iter().collect()),
         };
-        let simulations = program.simulations.iter();
-        let simulations: Vec<_> =
-            simulations.filter(|simulation| only.is_none_or(|name| is_called(simulation, name))).collect();
         if tests.is_empty() && simulations.is_empty() {
             return Err(Failure::plain(nothing_to_run(file, only)));
         }

@@ -2,7 +2,7 @@
 
 use crate::circuit::is_same_instance;
 use crate::diag::{Code, Diagnostic, Diagnostics, suggest};
-use crate::model::{CircuitTest, Instance, Program, Swarm};
+use crate::model::{CircuitTest, Instance, Program, Simulation, Swarm};
 use crate::session::checked::Checked;
 
 /// Which circuit of a source is meant; what is left out is chosen by the source.
@@ -29,6 +29,26 @@ impl Checked {
             },
             (None, None) => self.last_circuit().map_err(|fault| self.fail(vec![fault])),
         }
+    }
+
+    /// The tests of that name: that of their title, their circuit, or one of its swarms.
+    pub fn tests<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a CircuitTest> {
+        let is_called = move |test: &&CircuitTest| {
+            test.title == name
+                || test.circuit.circuit == name
+                || test.circuit.to_string() == name
+                || swarms_of(&self.program, &test.circuit).iter().any(|swarm| swarm.name == name)
+        };
+        self.program.tests.iter().filter(is_called)
+    }
+
+    /// The simulations of that name: that of their swarm or its circuit.
+    pub fn simulations<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Simulation> {
+        let is_called = move |simulation: &&Simulation| {
+            let circuit = self.program.swarm(&simulation.swarm).map(|swarm| swarm.circuit.to_string());
+            simulation.swarm == name || circuit.as_deref() == Some(name)
+        };
+        self.program.simulations.iter().filter(is_called)
     }
 
     /// The circuit that a text of its own names.
@@ -72,12 +92,4 @@ pub(super) fn declared_swarm<'p>(program: &'p Program, name: &str) -> Result<&'p
             None => fault,
         }
     })
-}
-
-/// Whether a test goes by a name: its title, its circuit, or one of its circuit's swarms.
-pub fn is_called(program: &Program, test: &CircuitTest, name: &str) -> bool {
-    test.title == name
-        || test.circuit.circuit == name
-        || test.circuit.to_string() == name
-        || swarms_of(program, &test.circuit).iter().any(|swarm| swarm.name == name)
 }

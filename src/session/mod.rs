@@ -5,6 +5,7 @@ mod checked;
 mod choice;
 mod compile;
 mod documents;
+mod formatted;
 mod observer;
 mod options;
 mod plan;
@@ -17,8 +18,9 @@ mod test;
 use std::sync::{Arc, OnceLock};
 
 pub use checked::{Checked, prelude};
-pub use choice::{Choice, is_called, swarms_of};
+pub use choice::{Choice, swarms_of};
 pub use compile::{Compiled, Mapping, synthesize};
+pub use formatted::Formatted;
 pub use observer::Observer;
 pub use options::{CompileOptions, RUNS};
 pub use plan::Plan;
@@ -90,6 +92,14 @@ impl Session {
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
         let checked = self.checked(path);
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
+    }
+
+    /// The source at `path` in its canonical form.
+    ///
+    /// # Errors
+    /// When it cannot be read or parsed.
+    pub fn formatted(&self, path: &str) -> Result<Formatted, Diagnostics> {
+        formatted::format(self.documents.world(), path)
     }
 
     /// The robots that come with the program.

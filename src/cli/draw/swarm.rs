@@ -129,10 +129,8 @@ fn several_swarms(circuit: &Instance, swarms: &[&Swarm]) -> Diagnostic {
 }
 
 /// The first test of that title or circuit.
-fn test_called<'f>(file: &'f Checked, name: &str) -> Result<&'f CircuitTest, Failure> {
-    let program = &file.program;
-    let found = program.tests.iter().find(|test| session::is_called(program, test, name));
-    found.ok_or_else(|| {
+fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, Failure> {
+    file.tests(name).next().ok_or_else(|| {
         let message = format!("no test of `{}` is called `{name}`", file.path);
         Failure::plain(Diagnostic::without_place(Code::Unknown, message))
     })
