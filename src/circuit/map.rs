@@ -294,7 +294,8 @@ mod tests {
         assert_eq!(error.to_string(), "`and` cannot be made of `not` and `xor`");
         assert_eq!(
             error.help().unwrap(),
-            "any one of `nor`, `nota_and_b`, `a_and_notb`, `nand`, `and`, `nota_or_b`, `a_or_notb` or `or` would complete \
+            "any one of `nor`, `nota_and_b`, `a_and_notb`, `nand`, `and`, `nota_or_b`, `a_or_notb` or `or` would \
+             complete \
              the library"
         );
         assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made of no cells");

@@ -1,9 +1,9 @@
 //! `nbc completions`: completion scripts for shells.
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 
-use crate::cli::{Cli, Context, Failure, OutputFormat, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic};
 
 /// Print a completion script for a shell
@@ -26,7 +26,7 @@ impl CompletionsArguments {
             return Err(Failure::plain(fault.with_help("leave out `--format json`")));
         }
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), "nbc", &mut script);
+        clap_complete::generate(self.shell, &mut (context.command)(), "nbc", &mut script);
         context.print(String::from_utf8_lossy(&script))?;
         Ok(Status::Done)
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 
-use clap::{Args, ValueEnum};
+use clap::{Args, Command, ValueEnum};
 use serde::Serialize;
 use serde_json::ser::Formatter;
 
@@ -66,12 +66,14 @@ pub struct Context {
     pub format: OutputFormat,
     /// Whether messages are colored.
     pub color: bool,
+    /// Describes the command line, for completion scripts.
+    pub command: fn() -> Command,
     out: Output,
 }
 
 impl Context {
-    pub(super) fn new(global: &GlobalArguments) -> Self {
-        Self { format: global.format, color: global.color.on(), out: Output::new(io::stdout().lock()) }
+    pub(super) fn new(global: &GlobalArguments, command: fn() -> Command) -> Self {
+        Self { format: global.format, color: global.color.on(), command, out: Output::new(io::stdout().lock()) }
     }
 
     /// Prints to standard output. A closed pipe is ignored and the command continues, because its work decides the exit

@@ -35,7 +35,7 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::diag::{is_hidden, render, visible};
 use crate::source::Sources;
@@ -109,7 +109,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(cli) => cli,
         Err(told) => return tell(&told).into(),
     };
-    let mut context = Context::new(&cli.global);
+    let mut context = Context::new(&cli.global, Cli::command);
     let outcome = threads::start(&context)
         .and_then(|()| cli.command.run(&mut context))
         .and_then(|status| context.flush().map(|()| status));

@@ -48,7 +48,8 @@ codes! {
     BadSchedule = "bad-schedule", Error: "A schedule on the command line that is none.";
     BadValue = "bad-value", Error: "An option's value that makes no sense.";
     Checkpoint = "checkpoint", Error: "A checkpoint that is damaged, none, or of another run.";
-    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what cannot be built.";
+    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what \
+        cannot be built.";
     CircularUse = "circular-use", Error: "Files that use each other in a circle.";
     Duplicate = "duplicate", Error: "A name that is declared twice.";
     Empty = "empty", Error: "A file that declares nothing.";
@@ -62,13 +63,15 @@ codes! {
     Nesting = "nesting", Error: "Text that is nested too deep.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
     OutOfRange = "out-of-range", Error: "A number outside the range that makes sense.";
-    Recursion = "recursion", Error: "A circuit that contains itself, or an evolution that takes its fields from itself.";
+    Recursion = "recursion", Error: "A circuit that contains itself, or an evolution that takes its fields from \
+        itself.";
     RobotFile = "robot-file", Error: "A robot file that is damaged, or none.";
     RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";
     Syntax = "syntax", Error: "The text does not follow the grammar.";
     TableIncomplete = "table-incomplete", Error: "A truth table that leaves a pattern out.";
     TableOverlap = "table-overlap", Error: "A truth table with two rows for one pattern.";
-    TooLarge = "too-large", Error: "A circuit with more cells than can be built, or a program with more text than is read.";
+    TooLarge = "too-large", Error: "A circuit with more cells than can be built, or a program with more text than is \
+        read.";
     Undriven = "undriven", Error: "A net that nothing drives.";
     Unit = "unit", Error: "A quantity with a wrong unit, or without the unit it needs.";
     Unknown = "unknown", Error: "A name that nothing declares.";

@@ -240,7 +240,8 @@ mod tests {
             let mut archive = archive(niche);
             for (voxels, behavior, fitness) in offers {
                 let before = archive.clone();
-                let could = archive.could_take(&elite(voxels, behavior, fitness).body, elite(voxels, behavior, fitness).behavior, &fitness);
+                let offered = elite(voxels, behavior, fitness);
+                let could = archive.could_take(&offered.body, offered.behavior, &fitness);
                 let status = archive.add(elite(voxels, behavior, fitness));
                 prop_assert!(could || status == AddStatus::Rejected, "what cannot be taken is not");
                 prop_assert!(archive.stats().filled >= before.stats().filled);

@@ -66,7 +66,8 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
     let counts = search.counts();
     let _ = writeln!(
         text,
-        "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults), {} invalid bodies drawn; {} of {} niches ({:.1} %), {} of 16 behaviors, QD-score {:.2}",
+        "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults), {} invalid bodies drawn; {} of \
+         {} niches ({:.1} %), {} of 16 behaviors, QD-score {:.2}",
         search.generation(),
         counts.evaluations,
         counts.surpassed,

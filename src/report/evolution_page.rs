@@ -115,12 +115,16 @@ fn archive(results: &EvolutionResults, left_out: usize) -> String {
         _ => format!("<p class=\"dim\">{left_out} elites have no gait here, as the page has no room for more.</p>\n"),
     };
     format!(
-        "<section id=\"archive\">\n<h2>Archive</h2>\n<p>Each square is a niche, colored by the best {unit} found there. \
+        "<section id=\"archive\">\n<h2>Archive</h2>\n<p>Each square is a niche, colored by the best {unit} found \
+         there. \
          Choose one to see its elite walk; the arrow keys go from niche to niche.</p>\n\
-         <div class=\"controls\">{axes}<span class=\"key\">{low} <i style=\"background:linear-gradient(90deg,{colors})\"></i> {high}</span></div>\n\
-         <div class=\"beside\"><div class=\"maps\"></div>\n<div class=\"elite\"><div class=\"robot\" aria-live=\"polite\"></div>\n\
+         <div class=\"controls\">{axes}<span class=\"key\">{low} <i \
+         style=\"background:linear-gradient(90deg,{colors})\"></i> {high}</span></div>\n\
+         <div class=\"beside\"><div class=\"maps\"></div>\n<div class=\"elite\"><div class=\"robot\" \
+         aria-live=\"polite\"></div>\n\
          <p class=\"untold dim\" hidden>There was no room for the gait of this elite.</p>\n\
-         <div class=\"player\">{controls}<canvas class=\"stage\" role=\"img\" aria-label=\"the elite walking\"></canvas></div></div></div>\n\
+         <div class=\"player\">{controls}<canvas class=\"stage\" role=\"img\" aria-label=\"the elite \
+         walking\"></canvas></div></div></div>\n\
          {untold}</section>\n",
         unit = escape(results.unit()),
         low = number(range(results).0),

@@ -37,8 +37,10 @@ impl Html<'_> {
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n\
-             <title>{heading}: {verdict}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
+             script-src 'unsafe-inline'; img-src data:\">\n\
+             <title>{heading}: {verdict}</title>\n<link rel=\"icon\" \
+             href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
              <h1>{heading}</h1>\n<p class=\"verdict {class}\">{verdict}</p>\n{body}\
              <footer class=\"dim\"><p>made by nbc {version}</p></footer>\n</main>\n\
              <script id=\"data\" type=\"application/json\">{data}</script>\n{scripts}</body>\n</html>\n",
@@ -57,7 +59,8 @@ pub fn controls(speed: &str) -> String {
     format!(
         "<div class=\"controls\"><button type=\"button\" class=\"play\">Play</button>\
          <input type=\"range\" class=\"scrub\" min=\"0\" step=\"0.05\" value=\"0\" aria-label=\"time in cycles\">\
-         <label>cycles a second <select class=\"speed\">{speeds}</select></label><output class=\"clock\"></output></div>\n"
+         <label>cycles a second <select class=\"speed\">{speeds}</select></label><output \
+         class=\"clock\"></output></div>\n"
     )
 }
 

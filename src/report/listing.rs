@@ -119,7 +119,8 @@ pub fn describe_robot(robot: &Robot) -> String {
          clock         {clock}\n\
          errors        {errors}\n\
          settles       {settles}\n\
-         made by       {program} {version}, evolution {evolution}, seed {seed}, generation {generation}, {evaluations} evaluations\n",
+         made by       {program} {version}, evolution {evolution}, seed {seed}, generation {generation}, \
+         {evaluations} evaluations\n",
         name = robot.name,
         function = robot.function(),
         behavior = robot.behavior,

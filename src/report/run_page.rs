@@ -1,4 +1,5 @@
-//! The report of a run as one HTML page that needs nothing else: the verdict, the schematic, and a player in step with the waveform.
+//! The report of a run as one HTML page that needs nothing else: the verdict, the schematic, and a player in step with
+//! the waveform.
 
 use serde_json::{Value as Json, json};
 
@@ -107,13 +108,15 @@ fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
     let left_out = match swarm.trace.robots.len() - shown {
         0 => String::new(),
         _ => format!(
-            "<p class=\"dim\">The player has room for {shown} robots: those of outputs and of named nets come first.</p>\n"
+            "<p class=\"dim\">The player has room for {shown} robots: those of outputs and of named nets come \
+             first.</p>\n"
         ),
     };
     let player = if shown == 0 { String::new() } else { player() };
     format!(
         "<section id=\"swarm-{number}\">\n<h2>{heading}</h2>\n{table}\
-         <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" aria-live=\"polite\"></div></div>\n{left_out}{player}\
+         <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" \
+         aria-live=\"polite\"></div></div>\n{left_out}{player}\
          <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n</section>\n",
         heading = swarm.outcome.heading(),
         table = swarm.outcome.table(),
@@ -125,7 +128,8 @@ fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
 fn player() -> String {
     format!(
         "<h3>Robots</h3>\n{}<canvas class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas>\n\
-         <h3>Waveform</h3>\n<canvas class=\"wave\" role=\"img\" aria-label=\"inputs, robots' bits and outputs over the cycles\"></canvas>\n",
+         <h3>Waveform</h3>\n<canvas class=\"wave\" role=\"img\" aria-label=\"inputs, robots' bits and outputs over \
+         the cycles\"></canvas>\n",
         controls("2")
     )
 }
@@ -239,14 +243,15 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
             ["stimulus 2", &wired(1)],
             ["body", &body.rows().join(" ")],
             ["materials", &materials(body)],
-            ["clock", &format!("{}, margin {:.3} voxels a cycle", counted(character.clock as usize, "cycle"), character.margin)],
+            ["clock", &format!("{}, margin {:.3} voxels a \
+                cycle", counted(character.clock as usize, "cycle"), character.margin)],
             ["errors", &format!("{:.2} % of {} switches", character.error_rate * 100.0, character.switches)],
         ],
     })
 }
 
-/// The rows of the waveform: inputs, the recorded robots, outputs; what a cycle puts out holds from its end. A row of a bit is a text of
-/// digits, that of a bus a list of values.
+/// The rows of the waveform: inputs, the recorded robots, outputs. An output changes at the end of its cycle. The row of
+/// a bit is a text of digits, that of a bus a list of values.
 fn waves(trace: &SwarmTrace) -> Vec<Json> {
     let cycles = 0..trace.cycles.len();
     let row = |name: &str, color: &str, shift: usize, values: Json| json!({ "name": name, "color": color, "shift": shift, "values": values });

@@ -206,7 +206,8 @@ impl Svg {
     pub fn finish(&self) -> String {
         let (width, height, title) = (Number(self.width), Number(self.height), Escaped(&self.title));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} \
+             {height}\" \
              role=\"img\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n<title>{title}</title>\n{}</svg>\n",
             self.body
         )
@@ -282,7 +283,8 @@ mod tests {
     fn shapes_are_written_with_short_numbers() {
         check(
             |svg| svg.line((0.0, -0.001), (1.0 / 3.0, 2.5), Paint::stroke(Color::BLACK, 1.0)),
-            "<line x1=\"0\" y1=\"0\" x2=\"0.33\" y2=\"2.5\" fill=\"none\" stroke=\"#1a1a1a\" stroke-width=\"1\" stroke-linejoin=\"round\"/>",
+            "<line x1=\"0\" y1=\"0\" x2=\"0.33\" y2=\"2.5\" fill=\"none\" stroke=\"#1a1a1a\" stroke-width=\"1\" \
+             stroke-linejoin=\"round\"/>",
         );
         check(
             |svg| svg.polygon(&[(f64::NAN, 1.0), (f64::INFINITY, 100.0)], Paint::fill(Color::WHITE)),

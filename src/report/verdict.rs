@@ -225,7 +225,8 @@ mod tests {
     fn a_test_is_a_truth_table() {
         assert_eq!(
             describe_test(&verdict(true)),
-            "test latch \"holds\": pass\n    inputs  expected  observed  cycles\n    d en    q nq      q nq\n    1 0     1 -       1 0           12  pass\n"
+            "test latch \"holds\": pass\n    inputs  expected  observed  cycles\n    d en    q nq      q nq\n    1 \
+             0     1 -       1 0           12  pass\n"
         );
     }
 

@@ -57,7 +57,8 @@ fn declaration_text(evolution: &Evolution) -> String {
     let Evolution { width, height, palette, mutation, fixed_steps, descriptors, batch, newcomers, .. } = evolution;
     let Evolution { rules, objective, symmetry, niche, .. } = evolution;
     format!(
-        "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + {newcomers}; {rules:?}; \
+        "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + \
+         {newcomers}; {rules:?}; \
          {objective:?}; {symmetry:?}; {niche:?}"
     )
 }

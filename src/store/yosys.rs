@@ -16,8 +16,10 @@ const INCLUDED: &str = "included";
 const FLAT: &str = "flat.blif";
 
 /// The script, with the names above.
-const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; flatten; opt; memory; opt; techmap; \
-                      dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; \
+const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; flatten; opt; memory; \
+    opt; techmap; \
+                      dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; \
+                      simplemap; \
                       opt_clean; write_blif flat.blif";
 
 /// The BLIF of a Verilog source that was read from `path`.

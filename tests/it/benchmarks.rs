@@ -99,7 +99,8 @@ fn measure_the_benchmarks() {
     let only = std::env::var("ONLY").unwrap_or_default();
     let (mut ratios, mut missed) = ([const { Vec::new() }; 3], Vec::new());
     println!(
-        "| circuit | library | cells | levels | ABC fast | ABC best | optimum | seconds |\n|---|---|---|---|---|---|---|---|"
+        "| circuit | library | cells | levels | ABC fast | ABC best | optimum | seconds \
+         |\n|---|---|---|---|---|---|---|---|"
     );
     for path in files().iter().filter(|path| path.display().to_string().contains(&only)) {
         let (name, design) = (path.file_stem().unwrap().display().to_string(), read(path));

@@ -29,7 +29,8 @@ fn errors_in_blif_have_their_place() {
     check(".subckt\n", "2:1 `.subckt`: `.subckt` is incomplete; expected the name of a model");
     check(
         ".gate and2 a=b\n",
-        "2:1 `.gate`: `.gate` names a cell of a library that is not in the file; expected its function, written with `.names`",
+        "2:1 `.gate`: `.gate` names a cell of a library that is not in the file; expected its function, written with \
+         `.names`",
     );
     check(".names a y\n1 1 1\n", "3:1 `1 1 1`: malformed row; expected the digits of the inputs and of the output");
     check(".names a y\n11 1\n", "3:1 `11 1`: row has the wrong width; expected 1 digits `0`, `1` or `-`, found `11`");

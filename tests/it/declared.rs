@@ -71,7 +71,8 @@ fn changes() -> Vec<Change> {
             run.palette = Arc::new(Palette::new(order.map(|i: usize| paper[i].clone()).to_vec()));
         }),
         (
-            "mutation: { add_node: 3, remove_node: 0.5, add_link: 2, remove_link: 0, change_activation: 4, change_weight: 5 }",
+            "mutation: { add_node: 3, remove_node: 0.5, add_link: 2, remove_link: 0, change_activation: 4, \
+             change_weight: 5 }",
             |run| {
                 run.mutation = MutationWeights {
                     add_node: 3.0,

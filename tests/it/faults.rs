@@ -77,7 +77,8 @@ proptest! {
             for (code, message) in found(&[SOUND, text]) {
                 // The right place of an unclosed or stray brace depends on the following text.
                 let here = |found: &&(Code, String)| found.0 == code && (code == Code::Syntax || found.1 == message);
-                prop_assert!(together.iter().any(|one| here(&one)), "{} of {} is not among {:?}", message, text, together);
+                prop_assert!(together.iter().any(|one| here(&one)), "{} of {} is not among \
+                    {:?}", message, text, together);
             }
         }
         let syntax = |text: &&&str| found(&[SOUND, text])[0].0 == Code::Syntax;

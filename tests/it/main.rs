@@ -22,6 +22,7 @@ mod library;
 mod live;
 mod manual;
 mod memory;
+mod modules;
 mod notices;
 mod optima;
 mod page;

@@ -216,7 +216,8 @@ fn run(program: &str) {
 #[test]
 fn a_register_stores_a_constant_in_physics() {
     run("circuit once(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n\
-         test once \"takes 1 at the first rise\" {\n    clk | q\n    0   | 0\n    1   | 1\n    0   | 1\n    1   | 1\n}\n");
+         test once \"takes 1 at the first rise\" {\n    clk | q\n    0   | 0\n    1   | 1\n    0   | 1\n    1   | \
+         1\n}\n");
 }
 
 #[test]

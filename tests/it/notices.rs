@@ -100,9 +100,11 @@ fn expected() -> String {
         sections.iter().map(|(crates, text)| format!("\n## {}\n\n```text\n{text}\n```\n", crates.join(", "))).collect();
     let fonts = clean(&fs::read_to_string(root().join("assets/DejaVu-LICENSE.txt")).unwrap());
     format!(
-        "# Third-party licenses\n\nThe crates of which `nbc` is built, with the licenses that their authors offer, and the texts of those that \
+        "# Third-party licenses\n\nThe crates of which `nbc` is built, with the licenses that their authors offer, \
+         and the texts of those that \
          they are used under. Crates without a text of their own name their license in the table. Written by \
-         `NBC_UPDATE_NOTICES=1 cargo test --test it notices`.\n\n| crate | version | license |\n|---|---|---|\n{list}{sections}\n\
+         `NBC_UPDATE_NOTICES=1 cargo test --test it notices`.\n\n| crate | version | license \
+         |\n|---|---|---|\n{list}{sections}\n\
          ## The DejaVu fonts, in pictures and pages\n\n```text\n{fonts}\n```\n"
     )
 }

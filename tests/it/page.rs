@@ -161,18 +161,23 @@ fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> Str
 
 /// A reader's actions, as scripts before and after the page's own.
 const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => faults.push(e.message));\
-    addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => faults.push(String(m));\
-    const tell = found => { document.body.innerHTML = ''; const told = document.createElement('pre'); told.id = 'found';\
+    addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => \
+    faults.push(String(m));\
+    const tell = found => { document.body.innerHTML = ''; const told = document.createElement('pre'); told.id = \
+    'found';\
     told.textContent = JSON.stringify({ ...found, faults }); document.body.append(told); };\
     const later = (ready, then) => { const started = performance.now(), wait = setInterval(() => {\
     if (ready() || performance.now() - started > 20000) { clearInterval(wait); then(); } }, 100); };</script>";
 const READER: &str = r#"<script>
-const player = players[0], section = document.getElementById("swarm-0"), shot = () => section.querySelector(".stage").toDataURL();
+const player = players[0], section = document.getElementById("swarm-0");
+const shot = () => section.querySelector(".stage").toDataURL();
 const before = shot(), moved = () => shot() !== before && player.clock.time > 0; section.querySelector(".play").click();
 later(moved, () => {
   const walked = moved(); section.querySelector(".play").click();
-  const cell = section.querySelector('[data-id="cell-1"]'); cell.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
-  const followed = player.chosen, pressed = cell.getAttribute("aria-pressed"), panel = section.querySelector(".robot").textContent;
+  const cell = section.querySelector('[data-id="cell-1"]');
+  cell.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
+  const followed = player.chosen, pressed = cell.getAttribute("aria-pressed");
+  const panel = section.querySelector(".robot").textContent;
   section.querySelector('[data-id="cell-2"]').dispatchEvent(new MouseEvent("mouseenter"));
   const hovered = section.querySelector(".robot").textContent;
   const slider = section.querySelector(".scrub"); slider.value = 6; slider.dispatchEvent(new Event("input"));
@@ -181,24 +186,29 @@ later(moved, () => {
 });
 </script>"#;
 const EXPLORER: &str = r##"<script>
-const niches = [...document.querySelectorAll("button.niche")], last = niches[niches.length - 1], stage = document.querySelector(".stage");
+const niches = [...document.querySelectorAll("button.niche")], last = niches[niches.length - 1];
+const stage = document.querySelector(".stage");
 last.click();
-const elite = archive.data.elites[Number(last.dataset.elite)], shot = () => stage.toDataURL(), before = shot(), moved = () => shot() !== before;
+const elite = archive.data.elites[Number(last.dataset.elite)], shot = () => stage.toDataURL();
+const before = shot(), moved = () => shot() !== before;
 later(moved, () => {
   const walked = moved() && archive.clock.time > 0, panel = document.querySelector(".robot").textContent;
   niches[0].focus(); niches[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
   const stepped = document.activeElement === niches[1], maps = document.querySelectorAll(".map").length;
   const axis = document.querySelectorAll(".axis")[1]; axis.value = "2"; axis.dispatchEvent(new Event("change"));
-  const again = document.querySelectorAll("button.niche").length, wide = document.documentElement.scrollWidth <= innerWidth;
-  tell({ walked, behavior: elite.behavior, body: elite.about[4][1], panel, stepped, maps, niches: niches.length, again, wide });
+  const again = document.querySelectorAll("button.niche").length;
+  const wide = document.documentElement.scrollWidth <= innerWidth, body = elite.about[4][1];
+  tell({ walked, behavior: elite.behavior, body, panel, stepped, maps, niches: niches.length, again, wide });
 });
 </script>"##;
 
 const SIMULATION: &str = r#"<script>
-const player = players[1], section = document.getElementById("swarm-1"), shot = () => section.querySelector(".stage").toDataURL();
+const player = players[1], section = document.getElementById("swarm-1");
+const shot = () => section.querySelector(".stage").toDataURL();
 const before = shot(), moved = () => shot() !== before && player.clock.time > 0;
 section.scrollIntoView();
-const rows = [...section.querySelectorAll("tr")].filter(row => row.querySelector("td")).map(row => [...row.cells].map(cell => cell.textContent.trim()));
+const rows = [...section.querySelectorAll("tr")].filter(row => row.querySelector("td"))
+  .map(row => [...row.cells].map(cell => cell.textContent.trim()));
 section.querySelector(".play").click();
 later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
 </script>"#;

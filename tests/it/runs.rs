@@ -53,7 +53,8 @@ fn a_declared_library_and_swarm_apply_to_every_command() {
     let bench = bench();
     // The swarm's `n` is the default, which gives the same circuit.
     let program = "circuit many[n = 1](a[n]) -> (q[n]) { q = not a }\nlibrary mine { from: \"robots\" }\n\
-         swarm one { circuit: many[1], library: mine, window: 2 cycles }\ntest many {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
+         swarm one { circuit: many[1], library: mine, window: 2 cycles }\ntest many {\n    a | q\n    0 | 1\n    1 | \
+         0\n}\n";
     bench.file("a.nb", program);
     let found = json(&bench, "run a.nb");
     assert_eq!(found["tests"][0]["robots"][0]["robot"], "turner", "{found}");
@@ -112,7 +113,8 @@ fn all_swarms_of_a_circuit_run() {
     let bench = bench();
     let program = format!(
         "{INVERTER}library mine {{ from: \"robots\" }}\nswarm usual {{ circuit: inverter }}\n\
-         swarm own {{ circuit: inverter, library: mine }}\n{TEST}simulate own with schedule (a) {{\n    0 for 5 cycles\n}}\n"
+         swarm own {{ circuit: inverter, library: mine }}\n{TEST}simulate own with schedule (a) {{\n    0 for 5 \
+         cycles\n}}\n"
     );
     bench.file("a.nb", program);
     let found = json(&bench, "run a.nb");
@@ -154,7 +156,8 @@ const RING: &str = "circuit ring() -> (q) {\n    q init 0 = not not not q\n}\n";
 fn a_simulation_writes_all_its_results() {
     let bench = Bench::new();
     let program = "circuit delay(d[2], en) -> (q[2]) { q = latch(d, en) }\nswarm cells { circuit: delay }\n\
-                   simulate cells with schedule (d, en) {\n    2'd1 1 for 12 cycles\n    2'd2 0 for 3 cycles\n    2'd2 1 for 12 cycles\n}\n";
+                   simulate cells with schedule (d, en) {\n    2'd1 1 for 12 cycles\n    2'd2 0 for 3 cycles\n    \
+                   2'd2 1 for 12 cycles\n}\n";
     bench.file("a.nb", program);
     let ran = run(&bench, "run a.nb");
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
@@ -264,7 +267,11 @@ fn a_failed_test_lists_its_rows_in_their_notation() {
 #[test]
 fn build_chooses_the_right_circuit() {
     let bench = Bench::new();
-    bench.file("a.nb", "circuit choose[w = 2](a[w], b[w], s) -> (q[w]) { q = if s then a else b }\ntest choose for all inputs { q = if not s then b else a }\n");
+    bench.file(
+        "a.nb",
+        "circuit choose[w = 2](a[w], b[w], s) -> (q[w]) { q = if s then a else b }\ntest choose for \
+        all inputs { q = if not s then b else a }\n",
+    );
     let circuit = |more: &[&str]| {
         let ran = bench.run(&[&["build", "a.nb", "--emit", "json"], more].concat());
         assert_eq!(ran.status, 0, "{}", ran.err);
@@ -295,7 +302,13 @@ fn a_circuit_without_tests_is_drawn_without_simulation() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert!(read(&bench, "a.svg").contains("q[1]"));
     run(&bench, "draw a.nb --as spacetime -o b.svg").expect_fault(&["no test and no simulation", "`--as schematic`"]);
-    bench.file("b.nb", format!("{INVERTER}{TEST}circuit same(a) -> (q) {{ q = a }}\ntest same \"is the same\" {{\n    a | q\n    1 | 1\n}}\n"));
+    bench.file(
+        "b.nb",
+        format!(
+            "{INVERTER}{TEST}circuit same(a) -> (q) {{ q = a }}\ntest same \"is the same\" {{\n    \
+        a | q\n    1 | 1\n}}\n"
+        ),
+    );
     let ran = bench.run(&["draw", "b.nb", "--as", "vcd", "--test", "is the same", "-o", "b.vcd"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert!(read(&bench, "b.vcd").contains("module same"));
@@ -311,7 +324,10 @@ fn a_robot_with_errors_is_reported_once_and_first() {
     let wrong = "test inverter \"is wrong\" {\n    a | q\n    0 | 0\n}\n";
     bench.file(
         "a.nb",
-        format!("{INVERTER}library mine {{ from: \"robots\" }}\nswarm one {{ circuit: inverter, library: mine }}\n{TEST}{wrong}"),
+        format!(
+            "{INVERTER}library mine {{ from: \"robots\" }}\nswarm one {{ circuit: inverter, library: mine \
+            }}\n{TEST}{wrong}"
+        ),
     );
     for command in ["test a.nb --physics", "run a.nb"] {
         let ran = run(&bench, command);

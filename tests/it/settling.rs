@@ -109,7 +109,8 @@ proptest! {
 fn registers_of_quick_robots_settle_in_every_row() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let netlist = mapped(
-        "circuit memory(a, clk) -> (q, r) {\n    q = register[start = 0](a, clk)\n    r = register[start = 1](q xor a, clk)\n}\n",
+        "circuit memory(a, clk) -> (q, r) {\n    q = register[start = 0](a, clk)\n    r = register[start = 1](q xor \
+         a, clk)\n}\n",
         &CellLibrary::uniform([Function::NAND, Function::NOT]),
     );
     let library = robots(1, &mut random);

@@ -1,9 +1,13 @@
 //! The invariants of ARCHITECTURE.md that can be checked in the text of the source.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use regex::Regex;
+
 use crate::language::root;
+use crate::modules::{Module, circles, imports, modules};
 
 /// The folders with their layers; a folder may import lower layers only.
 const LAYERS: &[(&str, u8)] = &[
@@ -22,30 +26,6 @@ const LAYERS: &[(&str, u8)] = &[
     ("cli", 6),
 ];
 
-fn source_files() -> Vec<(PathBuf, String)> {
-    let mut open = vec![root().join("src")];
-    let mut files = Vec::new();
-    while let Some(folder) = open.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let text = fs::read_to_string(&path).unwrap();
-                files.push((path, text));
-            }
-        }
-    }
-    files.sort();
-    assert!(files.len() > 20, "the source was found");
-    files
-}
-
-/// The part of a file before its unit tests, which may do what the core may not.
-fn product_code(text: &str) -> &str {
-    text.split("#[cfg(test)]").next().unwrap()
-}
-
 /// The folder under `src` that a file belongs to; `lib` and `main` are files.
 fn folder(path: &Path) -> String {
     let inside = path.strip_prefix(root().join("src")).unwrap();
@@ -61,11 +41,12 @@ fn layer(folder: &str) -> Option<u8> {
 /// is marked `// lookups only`.
 fn forbid(rule: &str, words: &[&str], allowed: impl Fn(&Path) -> bool) {
     let mut found = Vec::new();
-    for (path, text) in source_files() {
-        if allowed(&path) {
+    for module in modules() {
+        let path = &module.path;
+        if allowed(path) {
             continue;
         }
-        for (number, line) in product_code(&text).lines().enumerate() {
+        for (number, line) in module.product.lines().enumerate() {
             let (code, remark) = line.split_once("//").unwrap_or((line, ""));
             if words.iter().any(|word| code.contains(word)) && remark.trim() != "lookups only" {
                 found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
@@ -78,10 +59,11 @@ fn forbid(rule: &str, words: &[&str], allowed: impl Fn(&Path) -> bool) {
 #[test]
 fn a_folder_imports_lower_layers_only() {
     let mut found = Vec::new();
-    for (path, text) in source_files() {
-        let from = folder(&path);
+    for module in modules() {
+        let path = &module.path;
+        let from = folder(path);
         let Some(own) = layer(&from) else { continue };
-        for (number, line) in product_code(&text).lines().enumerate() {
+        for (number, line) in module.code.lines().enumerate() {
             for part in line.split("crate::").skip(1) {
                 let to: String = part.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
                 if to != from && layer(&to).is_some_and(|layer| layer >= own) {
@@ -133,18 +115,16 @@ fn the_papers_materials_are_a_default() {
 
 #[test]
 fn unsafe_code_is_in_one_file_of_the_physics() {
-    let files: Vec<_> = source_files()
-        .into_iter()
-        .filter(|(_, text)| text.lines().any(|line| line.split("//").next().unwrap().contains("unsafe {")))
-        .map(|(path, _)| path)
-        .collect();
+    let files: Vec<PathBuf> =
+        modules().into_iter().filter(|module| module.code.contains("unsafe {")).map(|module| module.path).collect();
     assert!(files.len() <= 1, "`unsafe` is in one file: {files:?}");
     assert!(files.iter().all(|path| folder(path) == "sim"), "`unsafe` is in sim/: {files:?}");
 }
 
 #[test]
 fn nothing_iterates_over_hash_maps() {
-    let rule = "a hash map's order differs from run to run: use an ordered map, or say `// lookups only` where it is never iterated";
+    let rule = "a hash map's order differs from run to run: use an ordered map, or say `// lookups only` where it is \
+        never iterated";
     forbid(rule, &["HashMap", "HashSet"], |_| false);
 }
 
@@ -164,18 +144,72 @@ fn each_outer_crate_has_one_home() {
 
 #[test]
 fn every_module_says_what_it_is() {
-    let silent: Vec<_> =
-        source_files().into_iter().filter(|(_, text)| !text.starts_with("//!")).map(|(path, _)| path).collect();
+    let silent: Vec<_> = modules().into_iter().filter(|module| !module.product.starts_with("//!")).collect();
+    let silent: Vec<String> = silent.iter().map(Module::file).collect();
     assert!(silent.is_empty(), "every module opens with a line that says what it is: {silent:?}");
 }
 
 #[test]
 fn every_numbered_citation_of_the_model_exists() {
     let model = fs::read_to_string(root().join("docs/physics.md")).unwrap();
-    for (path, text) in source_files() {
-        for part in text.split("docs/physics.md ").skip(1) {
+    for Module { path, product, .. } in modules() {
+        for part in product.split("docs/physics.md ").skip(1) {
             let section: String = part.chars().take_while(char::is_ascii_digit).collect();
             assert!(model.contains(&format!("\n## {section}. ")), "{} cites section {section}", path.display());
         }
     }
+}
+
+#[test]
+fn files_do_not_import_each_other_in_circles() {
+    let modules = modules();
+    let imports = imports(&modules);
+    let arrows = |circle: &BTreeSet<usize>| {
+        let arrow = |&from: &usize| {
+            let to = imports[from].intersection(circle).map(|&to| modules[to].file()).collect::<Vec<_>>();
+            format!("    {} imports {}", modules[from].file(), to.join(", "))
+        };
+        circle.iter().map(arrow).collect::<Vec<_>>().join("\n")
+    };
+    let found: Vec<String> = circles(&imports).iter().map(arrows).collect();
+    assert!(found.is_empty(), "files do not import each other in circles\n{}", found.join("\n\n"));
+}
+
+#[test]
+fn a_public_type_name_has_one_meaning() {
+    let definition = Regex::new(r"(?m)^\s*pub(?:\([^)]*\))?\s+(?:struct|enum|trait|type)\s+(\w+)").unwrap();
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for module in modules() {
+        for found in definition.captures_iter(&module.code) {
+            places.entry(found[1].to_owned()).or_default().push(module.file());
+        }
+    }
+    let twice: Vec<String> =
+        places.iter().filter(|(_, files)| files.len() > 1).map(|(name, files)| format!("{name}: {files:?}")).collect();
+    assert!(twice.is_empty(), "a public type name has one meaning in the crate\n{}", twice.join("\n"));
+}
+
+#[test]
+fn lines_have_at_most_120_columns() {
+    let mut open = ["src", "tests", "docs", "benches", "examples", "README.md", "ARCHITECTURE.md"]
+        .map(|name| root().join(name))
+        .to_vec();
+    let mut wide = Vec::new();
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+            continue;
+        }
+        let Some(extension @ ("rs" | "md")) = path.extension().and_then(|extension| extension.to_str()) else {
+            continue;
+        };
+        for (number, line) in fs::read_to_string(&path).unwrap().lines().enumerate() {
+            // Rows of a Markdown table and output in a code block cannot be broken.
+            let whole = extension == "md" && (line.starts_with('|') || line.starts_with("    "));
+            if line.chars().count() > 120 && !whole {
+                wide.push(format!("{}:{}", path.display(), number + 1));
+            }
+        }
+    }
+    assert!(wide.is_empty(), "lines of more than 120 columns\n{}", wide.join("\n"));
 }

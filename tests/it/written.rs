@@ -127,14 +127,16 @@ proptest! {
     #[test]
     fn verilog_names_are_legal_and_different(netlist in netlists()) {
         let ports = netlist.inputs().len() + netlist.outputs().len();
-        let text = String::from_utf8(CircuitFormat::Verilog.encode(&Design { logic: netlist, registers: Vec::new() }).unwrap()).unwrap();
+        let design = Design { logic: netlist, registers: Vec::new() };
+        let text = String::from_utf8(CircuitFormat::Verilog.encode(&design).unwrap()).unwrap();
         assert!(text.chars().all(|c| c == '\n' || c == ' ' || c.is_ascii_graphic()), "{text}");
         let head = text.lines().next().unwrap();
         // An escaped name and the plain one are the same name.
         let names: std::collections::BTreeSet<String> = head
             .split_once('(').unwrap().1
             .split("put ").skip(1)
-            .map(|name| name.trim_start_matches('\\').split([' ', ',']).next().unwrap().trim_end_matches(");").to_owned())
+            .map(|name| name.trim_start_matches('\\').split([' ', ',']).next().unwrap())
+            .map(|name| name.trim_end_matches(");").to_owned())
             .collect();
         assert_eq!(names.len(), ports, "{head}");
     }

@@ -196,7 +196,8 @@ impl<'a> EvolutionRun<'a> {
         let in_full = rate * simulated / (simulated + left_out);
         let search = 100.0 * (searching(self.timer) - self.searching_before) / seconds;
         format!(
-            "{seconds:.1} s, {rate:.1} evaluations/s, what was simulated making {in_full:.1} full ones/s; {search:.2} % of the time for archive, development and mutation\n"
+            "{seconds:.1} s, {rate:.1} evaluations/s, {in_full:.1} full evaluations/s; {search:.2} \
+             % of the time for archive, development and mutation\n"
         )
     }
 }

@@ -101,7 +101,8 @@ mod tests {
     fn statements_are_aligned_and_spaced() {
         check(
             "circuit  f( a,b )->( q ,r){q=nand( a,b)\n\n\n nq   = not q\n r=if a then b else(  a  and b)}",
-            "circuit f(a, b) -> (q, r) {\n    q = nand(a, b)\n\n    nq = not q\n    r  = if a then b else (a and b)\n}\n",
+            "circuit f(a, b) -> (q, r) {\n    q = nand(a, b)\n\n    nq = not q\n    r  = if a then b else (a and \
+             b)\n}\n",
         );
     }
 
@@ -109,7 +110,8 @@ mod tests {
     fn comments_stay_with_their_declarations() {
         check(
             "// one\n\n// two\ncircuit f(a) -> (q) { // three\n  q = // four\n a // five\n // six\n}\n// seven",
-            "// one\n\n// two\ncircuit f(a) -> (q) {\n    // three\n    // four\n    q = a  // five\n    // six\n}\n// seven\n",
+            "// one\n\n// two\ncircuit f(a) -> (q) {\n    // three\n    // four\n    q = a  // five\n    // \
+             six\n}\n// seven\n",
         );
     }
 
@@ -117,11 +119,13 @@ mod tests {
     fn tables_are_aligned() {
         check(
             "test add \"adds\" {\na b|s\n// zeros\n0000 0001 | 1 for 3 cycles\n1 0 | 1\n}",
-            "test add \"adds\" {\n    a    b    | s\n    // zeros\n    0000 0001 | 1 for 3 cycles\n    1    0    | 1\n}\n",
+            "test add \"adds\" {\n    a    b    | s\n    // zeros\n    0000 0001 | 1 for 3 cycles\n    1    0    | \
+             1\n}\n",
         );
         check(
             "test ring {\n|q\n|- for 3 cycles\n|1\n}\nsimulate ring with schedule( ){for 9 cycles}",
-            "test ring {\n    | q\n    | - for 3 cycles\n    | 1\n}\n\nsimulate ring with schedule () {\n    for 9 cycles\n}\n",
+            "test ring {\n    | q\n    | - for 3 cycles\n    | 1\n}\n\nsimulate ring with schedule () {\n    for 9 \
+             cycles\n}\n",
         );
         check(
             "schedule s(a,b) { 0 1 for 10 cycles 1 1 for 9 steps }",
@@ -143,7 +147,8 @@ mod tests {
         check(table, table);
         let apart = "swarm a { circuit: c }\n\nswarm longer { circuit: c }\n";
         check(apart, apart);
-        let long = "evolution gates {\n    box:         5 x 5\n    materials:   [bone, flesh, muscle, antimuscle]\n    descriptors: \
+        let long = "evolution gates {\n    box:         5 x 5\n    materials:   [bone, flesh, muscle, \
+            antimuscle]\n    descriptors: \
                     [voxels in 4 bins, active in 4 bins, sensory in 4 bins, behavior]\n}\n";
         check(long, long);
     }

@@ -91,7 +91,8 @@ impl AigerError {
             Self::Sum { inputs, latches, ands, variables, binary } => {
                 let relation = if binary { "must equal" } else { "exceed" };
                 format!(
-                    "{inputs} inputs, {latches} latches and {ands} gates {relation} the {variables} variables of the header"
+                    "{inputs} inputs, {latches} latches and {ands} gates {relation} the {variables} variables of the \
+                     header"
                 )
             }
             Self::TooShort { outputs, ands } => {

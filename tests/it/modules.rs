@@ -1,0 +1,222 @@
+//! The modules of `src/` and what each of them imports, read from the text of the source.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use regex::Regex;
+
+use crate::language::root;
+
+/// A path of modules and items, without `crate`.
+type Item = Vec<String>;
+
+/// A file of the source.
+pub struct Module {
+    pub path: PathBuf,
+    /// The path of the module.
+    name: Item,
+    /// The text without unit tests; every line keeps its number.
+    pub product: String,
+    /// `product` without comments and the contents of literals.
+    pub code: String,
+}
+
+/// All files under `src/`, in order.
+pub fn modules() -> Vec<Module> {
+    let mut open = vec![root().join("src")];
+    let mut found = Vec::new();
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    assert!(found.len() > 20, "the source was found");
+    found.into_iter().map(Module::read).collect()
+}
+
+impl Module {
+    fn read(path: PathBuf) -> Self {
+        let product = without_tests(&fs::read_to_string(&path).unwrap());
+        Self { name: module_name(&path), code: code_only(&product), product, path }
+    }
+
+    /// The file without its folder, for messages.
+    pub fn file(&self) -> String {
+        self.path.strip_prefix(root().join("src")).unwrap().display().to_string()
+    }
+}
+
+fn module_name(path: &Path) -> Item {
+    let inside = path.strip_prefix(root().join("src")).unwrap().with_extension("");
+    let mut name: Item = inside.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+    if name.last().is_some_and(|last| last == "mod") || name == ["lib"] {
+        name.pop();
+    }
+    name
+}
+
+/// The text with comments and the contents of literals replaced by blanks; every character keeps its place.
+fn code_only(text: &str) -> String {
+    let literal =
+        Regex::new(r##"(?s)//[^\n]*|/\*.*?\*/|r#".*?"#|"(?:\\.|[^"\\])*"|'(?:\\(?:u\{[^}]*\}|x..|.)|[^'\\\n])'"##)
+            .unwrap();
+    let blank = |found: &regex::Captures| found[0].chars().map(|c| if c == '\n' { c } else { ' ' }).collect::<String>();
+    literal.replace_all(text, blank).into_owned()
+}
+
+/// The text without the items that are compiled for unit tests only; their lines become empty.
+fn without_tests(text: &str) -> String {
+    let text: Vec<char> = text.chars().collect();
+    let code: Vec<char> = code_only(&text.iter().collect::<String>()).chars().collect();
+    let marker: Vec<char> = "#[cfg(test)]".chars().collect();
+    let mut kept = text.clone();
+    let mut at = 0;
+    while let Some(start) = (at..code.len()).find(|&start| code[start..].starts_with(&marker)) {
+        at = item_end(&code, start + marker.len());
+        kept[start..at].iter_mut().filter(|c| **c != '\n').for_each(|c| *c = ' ');
+    }
+    kept.into_iter().collect()
+}
+
+/// The end of the item that begins at `start`: its closing brace, or the semicolon of an item without a body.
+fn item_end(code: &[char], start: usize) -> usize {
+    let mut depth = 0;
+    for (at, c) in code.iter().enumerate().skip(start) {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 && matches!(c, '}' | ';') {
+            return at + 1;
+        }
+    }
+    code.len()
+}
+
+/// For each module, by index, the modules that it imports. An item that a folder re-exports belongs to its own file.
+pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
+    let index: BTreeMap<&Item, usize> = modules.iter().enumerate().map(|(at, module)| (&module.name, at)).collect();
+    let mut exported: BTreeMap<Item, Item> = BTreeMap::new();
+    let mut named: Vec<Vec<Item>> = Vec::new();
+    for module in modules {
+        let (public, private) = uses(&module.code);
+        let resolve = |items: Vec<Item>| items.into_iter().filter_map(|item| absolute(&item, &module.name, &index));
+        for item in resolve(public) {
+            exported.insert([module.name.clone(), vec![item.last().unwrap().clone()]].concat(), item);
+        }
+        named.push(resolve(private).chain(resolve(paths(&module.code))).collect());
+    }
+    let home = |item: &Item| {
+        let mut item = item.clone();
+        // A re-exported item may be re-exported again; a circle of these would not compile.
+        while let Some(at) = (1..=item.len()).rev().find(|&at| exported.contains_key(&item[..at])) {
+            item = [exported[&item[..at]].clone(), item[at..].to_vec()].concat();
+        }
+        (0..=item.len()).rev().find_map(|at| index.get(&item[..at].to_vec()).copied())
+    };
+    let imported = |(at, items): (usize, &Vec<Item>)| {
+        items.iter().filter_map(home).filter(|&other| other != at).collect::<BTreeSet<_>>()
+    };
+    named.iter().enumerate().map(imported).collect()
+}
+
+/// The items of `pub use` and of other `use` declarations.
+fn uses(code: &str) -> (Vec<Item>, Vec<Item>) {
+    let declaration = Regex::new(r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap();
+    let (mut public, mut private) = (Vec::new(), Vec::new());
+    for found in declaration.captures_iter(code) {
+        let list = if found.get(1).is_some() { &mut public } else { &mut private };
+        expand(&found[2], &[], list);
+    }
+    (public, private)
+}
+
+/// The items of a tree such as `crate::model::{Body, program::{Swarm as S}}`.
+fn expand(tree: &str, before: &[String], items: &mut Vec<Item>) {
+    let names =
+        |path: &str| path.split("::").map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect();
+    let join = |path: &str| -> Item { [before.to_vec(), names(path)].concat() };
+    let tree = tree.trim();
+    let Some((path, rest)) = tree.split_once('{') else {
+        let (path, _) = tree.split_once(" as ").unwrap_or((tree, ""));
+        items.push(join(path));
+        return;
+    };
+    let (before, mut depth, mut start) = (join(path), 0, 0);
+    let list = rest.trim_end().strip_suffix('}').expect("a brace for each brace");
+    for (at, c) in list.char_indices().chain([(list.len(), ',')]) {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                if !list[start..at].trim().is_empty() {
+                    expand(&list[start..at], &before, items);
+                }
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The paths outside `use` declarations.
+fn paths(code: &str) -> Vec<Item> {
+    let declaration = Regex::new(r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+[^;]+;").unwrap();
+    let path = Regex::new(r"(?:^|[^\w:])(\w+(?:::\w+)+)").unwrap();
+    let code = declaration.replace_all(code, "");
+    let code = Regex::new(r"pub\(in [^)]*\)").unwrap().replace_all(&code, "pub");
+    path.captures_iter(&code).map(|found| found[1].split("::").map(str::to_owned).collect()).collect()
+}
+
+/// A path from the root of the crate, if it names something of the crate.
+fn absolute(item: &[String], module: &[String], index: &BTreeMap<&Item, usize>) -> Option<Item> {
+    let supers = item.iter().take_while(|name| *name == "super").count();
+    match item[0].as_str() {
+        "crate" => Some(item[1..].to_vec()),
+        "self" => Some([module, &item[1..]].concat()),
+        "super" => Some([&module[..module.len().checked_sub(supers)?], &item[supers..]].concat()),
+        first => {
+            let child = [module, &[first.to_owned()]].concat();
+            index.contains_key(&child).then(|| [module, item].concat())
+        }
+    }
+}
+
+/// The modules that import each other, directly or through others.
+pub fn circles(imports: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
+    let reach = |from: usize| {
+        let (mut seen, mut open) = (BTreeSet::new(), vec![from]);
+        while let Some(at) = open.pop() {
+            open.extend(imports[at].iter().filter(|&&next| seen.insert(next)));
+        }
+        seen
+    };
+    let reached: Vec<BTreeSet<usize>> = (0..imports.len()).map(reach).collect();
+    let circle = |at: usize| reached[at].iter().copied().filter(|&other| reached[other].contains(&at)).collect();
+    let circles: BTreeSet<BTreeSet<usize>> =
+        (0..imports.len()).map(circle).filter(|c: &BTreeSet<usize>| !c.is_empty()).collect();
+    circles.into_iter().collect()
+}
+
+#[test]
+fn tests_and_literals_are_not_product_code() {
+    let text = "fn a() { let b = \"{ // c\"; }\n#[cfg(test)]\nmod tests { fn d() { '}'; } }\nfn e() {} // f\n";
+    let product = without_tests(text);
+    assert_eq!(product.lines().count(), text.lines().count());
+    assert!(product.contains("fn e() {} // f") && !product.contains("fn d"), "{product}");
+    assert_eq!(code_only("a \"b\" // c\n'd' 'e: f"), format!("a{}\n    'e: f", " ".repeat(9)));
+}
+
+#[test]
+fn a_circle_is_found_through_other_modules() {
+    let imports = [vec![1], vec![2], vec![1, 3], vec![]].map(BTreeSet::from_iter);
+    assert_eq!(circles(&imports), [BTreeSet::from([1, 2])]);
+}
