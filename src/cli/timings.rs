@@ -107,7 +107,8 @@ fn describe(times: &Times, chores: [f64; Chore::ALL.len()], elapsed: f64) -> Str
     let speed = |seconds: f64| format!("{:.0}k", times.lane_substeps as f64 / seconds.max(1e-9) / 1e3);
     let (per_thread, in_all) = (speed(simulated), speed(elapsed));
     format!(
-        "{table}{all:.3} s of all threads in {elapsed:.3} s; {per_thread} lane-substeps a second per thread, {in_all} in all\n"
+        "{table}{all:.3} s of all threads in {elapsed:.3} s; {per_thread} lane-substeps per second and thread, \
+         {in_all} in all\n"
     )
 }
 
@@ -126,7 +127,7 @@ mod tests {
         limits         0.500  10.0 %
         bookkeeping    0.250   5.0 %
         output         0.250   5.0 %
-        5.000 s of all threads in 2.500 s; 2000k lane-substeps a second per thread, 3800k in all
+        5.000 s of all threads in 2.500 s; 2000k lane-substeps per second and thread, 3800k in all
         ");
     }
 }

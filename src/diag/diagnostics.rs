@@ -1,4 +1,5 @@
-//! Diagnostics with the texts that they point into: the one error of every call that can find something wrong with the user's input.
+//! Diagnostics with the texts that they point into: the one error of every call that can find something wrong with the
+//! user's input.
 
 use std::fmt;
 

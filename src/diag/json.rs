@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use super::{Diagnostic, Label};
 use crate::source::{Sources, Span};
 
-/// All diagnostics in their order, as `docs/schema/diagnostics.json` describes them: a place is `file`, `start` and `end`, each with its
-/// byte from 0, and its line and column from 1.
+/// All diagnostics in their order, as `docs/schema/diagnostics.json` describes them: a place is `file`, `start` and
+/// `end`, each with its byte from 0, and its line and column from 1.
 pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<Value> {
     diagnostics.iter().map(|diagnostic| one(diagnostic, sources)).collect()
 }

@@ -1,5 +1,6 @@
-//! Diagnostics: what is wrong with the user's input, as plain data with places; [`render`] is the only user of miette, [`suggest`] finds
-//! what was meant. Each stage has its own errors as data, and words them as diagnostics in its `wording` files.
+//! Diagnostics: what is wrong with the user's input, as plain data with places; [`render`] is the only user of miette,
+//! [`suggest`] finds what was meant. Each stage has its own errors as data, and words them as diagnostics in its
+//! `wording` files.
 
 mod code;
 mod counted;

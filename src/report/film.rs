@@ -241,8 +241,8 @@ fn fill_polygon(frame: &mut Pixmap, points: &[(f64, f64)], color: Color) {
     }
 }
 
-/// The smallest rectangle that holds every pixel that differs, one pixel where none does; those in it that do not differ are
-/// [`UNCHANGED`], which makes long runs that take no room in a file.
+/// The smallest rectangle that holds every pixel that differs, one pixel where none does; those in it that do not
+/// differ are [`UNCHANGED`], which makes long runs that take no room in a file.
 fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
     if old.len() != fresh.len() {
         return Patch { left: 0, top: 0, width, height, pixels: fresh.to_vec() };

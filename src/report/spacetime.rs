@@ -1,5 +1,5 @@
-//! Spacetime diagrams (paper, figures 3 and 6): time downwards in cycles, position across in voxels, and beside each path the bits that
-//! the robot sensed and the bit that it put out.
+//! Spacetime diagrams (paper, figures 3 and 6): time downwards in cycles, position across in voxels, and beside each
+//! path the bits that the robot sensed and the bit that it put out.
 
 use std::collections::BTreeSet;
 
@@ -111,7 +111,8 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
 
-/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`; those of spells that were not simulated to their end are left out.
+/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`; those of spells that were not simulated to their end are
+/// left out.
 fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
     let mut start = 0;
     let mut told = Vec::new();
@@ -124,8 +125,8 @@ fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
     told.join(", ")
 }
 
-/// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs (paper, figure 6). Of a
-/// large swarm it shows the robots of outputs and of named nets.
+/// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs
+/// (paper, figure 6). Of a large swarm it shows the robots of outputs and of named nets.
 pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     let changes = input_changes(trace);
     let chosen: BTreeSet<usize> = trace.by_interest().into_iter().take(MAX_PANELS).collect();

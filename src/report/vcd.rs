@@ -1,4 +1,5 @@
-//! Waveforms as a value change dump (IEEE 1364, section 18), for GTKWave, Surfer and the like: ports, robots' bits, stimuli and places.
+//! Waveforms as a value change dump (IEEE 1364, section 18), for GTKWave, Surfer and the like: ports, robots' bits,
+//! stimuli and places.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -28,8 +29,8 @@ struct Scope {
     waves: Vec<Wave>,
 }
 
-/// A trace as a value change dump. Inputs and stimuli hold from a cycle's start, outputs from the end of the cycle that made them; the
-/// places of the robots are those at the start and at the end of each cycle, in voxels to the hundredth.
+/// A trace as a value change dump. Inputs and stimuli hold from a cycle's start, outputs from the end of the cycle that
+/// made them; the places of the robots are those at the start and at the end of each cycle, in voxels to the hundredth.
 pub fn vcd(trace: &SwarmTrace) -> String {
     let scopes = scopes(trace);
     let mut text = String::from("$version nbc $end\n$timescale 1 us $end\n");
@@ -136,8 +137,8 @@ fn code(mut number: usize) -> String {
     }
 }
 
-/// Names that readers of dumps take: letters, digits and underscores. A name that is one already stays as it is; different names are
-/// told apart by a number.
+/// Names that readers of dumps take: letters, digits and underscores. A name that is one already stays as it is;
+/// different names are told apart by a number.
 fn identifiers<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Vec<String> {
     let mut taken: BTreeSet<String> =
         names.clone().filter(|name| identifier(name) == **name).map(str::to_owned).collect();

@@ -1,4 +1,4 @@
-//! A source that was parsed and checked, with everything that is needed to speak of it.
+//! A parsed and checked source.
 
 use serde_json::Value;
 
@@ -7,18 +7,18 @@ use crate::diag::{Diagnostic, Diagnostics, json};
 use crate::model::{Instance, Program};
 use crate::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
 
-/// A source with its program and what was found in its text.
+/// A source with its program and its diagnostics.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// The path by which it was asked for.
+    /// The path that was requested.
     pub path: String,
-    /// The revision of its text; 0 where the text is the world's.
+    /// The revision of its text; 0 for the world's text.
     pub revision: u64,
-    /// The texts that spans point into: the source, the prelude, and what the source uses.
+    /// The texts that spans point into: the source, the prelude, and the files it uses.
     pub sources: Sources,
-    /// The source itself, where it could be read.
+    /// The source itself, if it could be read.
     pub file: Option<FileId>,
-    /// What could be made of the source; whole only where there are no errors.
+    /// The program, complete only if there are no errors.
     pub program: Program,
     /// Errors and warnings, in order of place.
     pub diagnostics: Vec<Diagnostic>,
@@ -38,7 +38,7 @@ impl Checked {
         Self { path: path.to_owned(), revision, sources, file, program, diagnostics }
     }
 
-    /// Whether there are errors, so that the program has no meaning.
+    /// Whether there are errors.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
@@ -53,7 +53,7 @@ impl Checked {
         json(&self.diagnostics, &self.sources)
     }
 
-    /// Where a circuit is declared.
+    /// The place of a circuit's declaration.
     ///
     /// # Panics
     /// When the program has no such circuit.

@@ -1,11 +1,11 @@
-//! Which circuit and which test of a source are meant, by the words of a user.
+//! Finds the circuit and the test that a user's words refer to.
 
 use crate::circuit::is_same_instance;
 use crate::diag::{Code, Diagnostic, Diagnostics, suggest};
 use crate::model::{CircuitTest, Instance, Program, Simulation, Swarm};
 use crate::session::checked::Checked;
 
-/// Which circuit of a source is meant; what is left out is chosen by the source.
+/// A choice of a circuit; the source decides what is left open.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// A circuit, such as `adder` or `adder[8]`.
@@ -15,8 +15,8 @@ pub struct Choice {
 }
 
 impl Checked {
-    /// The circuit that is meant: the one chosen, else that of the chosen swarm, else the last circuit that the source itself declares.
-    /// Where that needs numbers for its parameters, they are those of its swarm or its test.
+    /// The chosen circuit: the one named, else that of the chosen swarm, else the last circuit declared in the source
+    /// itself. If it needs numbers for its parameters, those of its swarm or its test are used.
     ///
     /// # Errors
     /// When there is no such circuit or swarm.

@@ -1,4 +1,4 @@
-//! A circuit on its way from source to swarm: elaborate, map, prove, time, assemble.
+//! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
 
 use crate::circuit::timing::Delays;
 use crate::circuit::{CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, map_with, prove};
@@ -15,7 +15,7 @@ pub struct Mapping {
     pub source: Netlist,
     /// The netlist of cells.
     pub netlist: Netlist,
-    /// The cells that there were.
+    /// The available cells.
     pub cells: CellLibrary,
     /// How the two netlists were proved equal.
     pub proof: Proof,
@@ -24,7 +24,7 @@ pub struct Mapping {
 /// A circuit compiled to a swarm.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// What it is made of.
+    /// Its plan.
     pub plan: Plan,
     /// The circuit as cells of its robots.
     pub mapping: Mapping,
@@ -32,9 +32,9 @@ pub struct Compiled {
     pub timing: Timing,
     /// The robots and their wiring.
     pub assembly: Assembly,
-    /// The robots that make errors or have a thin margin.
+    /// The robots with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
-    /// What is legal and surely not meant.
+    /// Warnings.
     pub warnings: Vec<Diagnostic>,
 }
 
@@ -63,7 +63,7 @@ fn unmapped(error: &MapError) -> Diagnostic {
     error.help().into_iter().fold(fault, Diagnostic::with_help)
 }
 
-/// Elaborates a circuit of a program without errors, and maps it as asked for at `place`.
+/// Elaborates a circuit of a program without errors, and maps it as requested at `place`.
 ///
 /// # Errors
 /// When the circuit cannot be built, or the library lacks a function.
@@ -78,7 +78,7 @@ pub(super) fn map(
     synthesize(source, cells, options).map_err(|fault| vec![fault.with_label(place, "for this circuit")])
 }
 
-/// Compiles a circuit of a program without errors to a swarm of its plan's robots, as asked for at `place`.
+/// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
 ///
 /// # Errors
 /// As [`map`].

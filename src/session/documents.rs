@@ -1,4 +1,4 @@
-//! The sources of a session: the texts that it was given over those of its world, and what is known of each.
+//! The sources of a session: the texts given to it, which hide those of its world, and the results for each.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,14 +12,14 @@ pub(super) struct Documents {
     world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
     /// The revisions of the texts that were given, by the identities of their files.
     revisions: BTreeMap<String, u64>,
-    /// What was checked and still holds, by path.
+    /// The results that are still valid, by path.
     known: BTreeMap<String, Known>,
 }
 
-/// A checked source, with what it was made of.
+/// A checked source with its dependencies.
 struct Known {
     checked: Arc<Checked>,
-    /// The identities of the files and folders that were asked for.
+    /// The identities of the files and folders that were read.
     asked: BTreeSet<String>,
 }
 
@@ -28,7 +28,7 @@ impl Documents {
         Self { world: OverlayWorld::new(world), revisions: BTreeMap::new(), known: BTreeMap::new() }
     }
 
-    /// What sources and robots are read from.
+    /// The world that sources and robots are read from.
     pub(super) fn world(&self) -> &dyn SourceWorld {
         &self.world
     }
@@ -61,7 +61,7 @@ impl Documents {
         checked
     }
 
-    /// Drops everything that was made of the file at `path` or of the list of its folder.
+    /// Drops all results that depend on the file at `path` or on the list of its folder.
     fn forget(&mut self, path: &str) {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let changed = [path, folder].map(|path| self.world.identity(path));
@@ -69,7 +69,7 @@ impl Documents {
     }
 }
 
-/// A world that remembers what it was asked for.
+/// A world that records what was read.
 struct Asking<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,

@@ -1,5 +1,6 @@
-//! Every stage in order, from source text to a running swarm. Each door (command line, editor, page, cluster) calls a [`Session`] and
-//! repeats none of its steps. A session is a value: it can be dropped at any moment, and two sessions share nothing that changes.
+//! Every stage in order, from source text to a running swarm. Each door (command line, editor, page, cluster) calls a
+//! [`Session`] and repeats none of its steps. A session is a value: it can be dropped at any moment, and two sessions
+//! share no mutable state.
 
 mod checked;
 mod choice;
@@ -68,8 +69,8 @@ impl Session {
         self
     }
 
-    /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than the last is
-    /// ignored.
+    /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than
+    /// the last is ignored.
     pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
         self.documents.update(path, revision, text);
     }
@@ -79,14 +80,14 @@ impl Session {
         self.documents.close(path);
     }
 
-    /// The source at `path`, parsed and checked; the same value until something that it was made of changes. A file that cannot be read
-    /// has a diagnostic that says so.
+    /// The source at `path`, parsed and checked; the same value until something that it was made of changes. A file
+    /// that cannot be read has a diagnostic that says so.
     pub fn checked(&mut self, path: &str) -> Arc<Checked> {
         self.documents.checked(path)
     }
 
     /// The source at `path`, without errors.
-    ///
+    /// The built-in robots.
     /// # Errors
     /// Its diagnostics, where one of them is an error.
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
@@ -139,8 +140,8 @@ impl Session {
     /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
     ///
     /// # Errors
-    /// When the circuit cannot be built, robots cannot be read or a function is missing among them, or several swarms are declared and
-    /// none is chosen.
+    /// When the circuit cannot be built, robots cannot be read or a function is missing among them, or several swarms
+    /// are declared and none is chosen.
     pub fn compile(
         &self,
         checked: &Checked,
@@ -153,7 +154,8 @@ impl Session {
         compiled.map_err(|faults| checked.fail(faults))
     }
 
-    /// Makes a test ready to run: one case for each swarm that is declared for its circuit, or one at the level of logic.
+    /// Makes a test ready to run: one case for each swarm that is declared for its circuit, or one at the level of
+    /// logic.
     ///
     /// # Errors
     /// When the circuit cannot be built or compiled, robots cannot be read, or there are too many rows.

@@ -1,13 +1,14 @@
-//! Who is told how far long work is, and may cancel it.
+//! Progress and cancellation of long work.
 
-/// Follows long work. A door implements it for its bar, its page or its protocol; `()` watches nothing, and a closure is told the progress.
+/// Follows long work. A door implements it for its bar, its page or its protocol. `()` ignores progress, and a closure
+/// receives it.
 pub trait Observer {
     /// `done` parts of `all` are done.
     fn progress(&mut self, done: u64, all: u64) {
         let _ = (done, all);
     }
 
-    /// Whether the work should stop; asked after each part.
+    /// Whether the work should stop; called after each part.
     fn is_cancelled(&self) -> bool {
         false
     }

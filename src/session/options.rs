@@ -1,23 +1,23 @@
-//! What a door may choose about compiling.
+//! The options of compiling.
 
 use crate::circuit::{Effort, MapOptions, MappingObjective};
 use crate::model::Library;
 
-/// Where evolution runs are unless another place is named.
+/// The default folder of evolution runs.
 pub const RUNS: &str = "out";
 
-/// How a circuit becomes a swarm. The default is what the source declares.
+/// Options of compiling a circuit to a swarm. The default is what the source declares.
 #[derive(Clone, Debug)]
 pub struct CompileOptions {
-    /// The declared swarm, where several are declared for the circuit.
+    /// The declared swarm, if several are declared for the circuit.
     pub swarm: Option<String>,
-    /// These robots instead of those that the source declares.
+    /// Robots to use instead of those that the source declares.
     pub robots: Option<Library>,
     /// What mapping minimizes.
     pub objective: MappingObjective,
-    /// How much work mapping does.
+    /// The amount of search in mapping.
     pub effort: Effort,
-    /// The folder of evolution runs: the robots of `from: NAME` are in `NAME/robots` there.
+    /// The folder of evolution runs; the robots of `from: NAME` are in its `NAME/robots`.
     pub runs: String,
 }
 
@@ -29,7 +29,7 @@ impl Default for CompileOptions {
 }
 
 impl CompileOptions {
-    /// What of it concerns mapping.
+    /// The options of mapping.
     pub fn mapping(&self) -> MapOptions {
         MapOptions { objective: self.objective, effort: self.effort }
     }

@@ -1,4 +1,4 @@
-//! What a circuit's swarm is made of: which declared swarm is meant, and with it the robots, the hold and the window.
+//! The plan of a circuit's swarm: the declared swarm with its robots, hold and window.
 
 use crate::check::DEFAULT_LIBRARY;
 use crate::diag::{Code, Diagnostic};
@@ -7,23 +7,23 @@ use crate::session::choice::{declared_swarm, swarms_of};
 use crate::session::options::CompileOptions;
 use crate::session::robots::Supply;
 
-/// A circuit with all that a swarm declares for it.
+/// A circuit with everything that its swarm declares.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The circuit.
     pub circuit: Instance,
-    /// The declared swarm; none where the source declares none for the circuit.
+    /// The declared swarm; `None` if the source declares none for the circuit.
     pub swarm: Option<String>,
     /// The robots.
     pub library: Library,
-    /// How long a row of a test is held that does not say so itself.
+    /// The hold of rows that do not set their own.
     pub hold: Hold,
-    /// Cycles over which an output is taken.
+    /// Cycles over which an output is measured.
     pub window: u32,
 }
 
-/// The plans of a circuit: one for each swarm that is declared for it, or that of the default library where there is none; only the chosen
-/// one where a swarm is chosen.
+/// The plans of a circuit: one for each swarm that is declared for it, or that of the default library if there is none;
+/// only the chosen one if a swarm is chosen.
 ///
 /// # Errors
 /// When robots cannot be read, or the chosen swarm is not one of the circuit's.
@@ -62,7 +62,7 @@ pub(super) fn plan(
     Ok(plans(supply, program, circuit, options)?.remove(0))
 }
 
-/// The plan of a circuit as a declared swarm, or of the default library.
+/// The plan of a circuit for a declared swarm, or for the default library.
 ///
 /// # Errors
 /// When robots cannot be read.

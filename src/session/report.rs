@@ -1,10 +1,10 @@
-//! What came of a whole file.
+//! The results of a whole file.
 
 use crate::report;
 use crate::session::simulation::SimulationRun;
 use crate::session::test::TestRun;
 
-/// What came of a file's tests and simulations.
+/// The results of a file's tests and simulations.
 #[derive(Clone, Debug)]
 pub struct RunReport {
     /// The tests in order, each once for each swarm of its circuit.

@@ -1,4 +1,4 @@
-//! Where the robots of swarms come from: the program, a folder of the world, or an evolution's run.
+//! The sources of a swarm's robots: the program, a folder of the world, or an evolution's run.
 
 use std::sync::OnceLock;
 
@@ -7,16 +7,16 @@ use crate::model::{Library, LibrarySource, Origin};
 use crate::source::SourceWorld;
 use crate::store;
 
-/// Everything that robots can be taken from.
+/// Everything that robots can be read from.
 #[derive(Clone, Copy)]
 pub(super) struct Supply<'a> {
     pub(super) world: &'a dyn SourceWorld,
-    /// The robots in the program, once they have been asked for.
+    /// The built-in robots, after their first use.
     pub(super) shipped: &'a OnceLock<Library>,
 }
 
 impl<'a> Supply<'a> {
-    /// The robots that come with the program.
+    /// The built-in robots.
     pub(super) fn shipped(self) -> &'a Library {
         self.shipped.get_or_init(store::shipped_library)
     }

@@ -1,4 +1,4 @@
-//! Tests: compiled to cases, which nothing can be wrong with any more, and run at the level of logic or in physics.
+//! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
 use crate::circuit::{Logic, Netlist, Timing, elaborate, elaborate_reference};
 use crate::diag::{Code, Diagnostic, counted};
@@ -14,34 +14,35 @@ use crate::swarm::{self, Demand, Level, START_CYCLES, Settling, TestVerdict};
 /// The most input bits of a test that tries all patterns.
 const MAX_EXHAUSTIVE_BITS: usize = 16;
 
-/// The cycles by which a row is held longer than its slowest path needs, so that outputs have been right over two.
+/// The cycles added to the delay of the slowest path, so that outputs have been correct over two cycles.
 const STEADY_EXTRA: usize = 1;
 
-/// Swarms of as many robots or more are tested at the level of logic unless physics is asked for.
+/// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
 
-/// Circuits of as many gates are not compiled to find out: no library makes them of fewer than [`LARGE`] robots.
+/// Circuits with this many gates are not compiled to count robots: no library makes them of fewer than [`LARGE`]
+/// robots.
 const SURELY_LARGE: usize = 10 * LARGE;
 
 /// How a test is run.
 #[derive(Clone, Debug, Default)]
 pub struct TestOptions {
-    /// On gates or on robots; by default on robots where there are few.
+    /// The level; by default physics for swarms of few robots.
     pub level: Option<Level>,
     /// How its circuit becomes a swarm.
     pub compile: CompileOptions,
 }
 
-/// A test with what came of it.
+/// A test with its results.
 #[derive(Clone, Debug)]
 pub struct TestRun {
-    /// Whether the circuit did what was asked. A run that was cancelled has not passed, and its verdict has the rows that were done.
+    /// Whether the circuit passed. A cancelled run has not passed, and its verdict has the completed rows.
     pub verdict: TestVerdict,
     /// How the run ended.
     pub end: RunEnd,
-    /// What the swarm did; none at the level of logic.
+    /// The swarm and its trace; `None` at the level of logic.
     pub swarm: Option<SwarmRun>,
-    /// What is legal and surely not meant.
+    /// Warnings.
     pub warnings: Vec<Diagnostic>,
 }
 
@@ -53,7 +54,7 @@ pub struct TestCase<'a> {
     subject: Subject,
 }
 
-/// What is tested.
+/// The tested circuit.
 #[derive(Clone, Debug)]
 enum Subject {
     Gates(Netlist),
@@ -90,7 +91,7 @@ pub(super) fn cases<'a>(
 }
 
 impl TestCase<'_> {
-    /// How much there is to do: cycles in physics, rows at the level of logic.
+    /// The amount of work: cycles in physics, rows at the level of logic.
     pub fn work(&self) -> u64 {
         match &self.subject {
             Subject::Gates(_) => self.rows.len() as u64,
@@ -98,7 +99,7 @@ impl TestCase<'_> {
         }
     }
 
-    /// How long each row is held in physics; nothing at the level of logic.
+    /// The hold of each row in physics; empty at the level of logic.
     pub fn demands(&self) -> &[Demand] {
         match &self.subject {
             Subject::Gates(_) => &[],
@@ -165,7 +166,7 @@ fn verdict(test: &CircuitTest, level: Level, compiled: Option<&Compiled>, rows: 
     }
 }
 
-/// The rows of a test. Those of a test over all inputs come from its reference, which a program without errors can be asked for.
+/// The rows of a test. For a test over all inputs they are computed from its reference.
 ///
 /// # Errors
 /// When there are too many inputs for all patterns, or the reference cannot be built.
@@ -194,8 +195,8 @@ fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagn
     Ok((0..1 << bits).map(row).collect())
 }
 
-/// How long each row is held: until every robot has settled, whatever each does on the way, and never longer than static timing asks for.
-/// Rows that cannot be shown to settle are held for that long.
+/// The hold of each row: until every robot has settled for any delays, but not longer than static timing requires. Rows
+/// that cannot be shown to settle are held for that time.
 fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
     let window = compiled.plan.window;
     let bound = (compiled.timing.hold + window - 1) as usize;
@@ -213,7 +214,7 @@ fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
     rows.iter().enumerate().map(demand).collect()
 }
 
-/// Warns where a row is held for fewer cycles than its robots need; names the slowest path.
+/// Warns of a row that is held for fewer cycles than its robots need; names the slowest path.
 fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Option<Diagnostic> {
     let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
     let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();

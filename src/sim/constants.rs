@@ -1,71 +1,72 @@
 //! Every number of the physics, in one place, with its unit and its section in docs/physics.md.
 
-/// The constants of the model. [`Constants::default`] is the physics; anything else is for tests that ask what a number does.
+/// The constants of the model. [`Constants::default`] is the physics; other values are for tests of the effect of a
+/// constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
-    /// Edge of a voxel at rest, in metres (1).
+    /// Edge of a voxel at rest, in meters (1).
     pub cell: f64,
     /// Length of a substep, in seconds (1).
     pub substep: f64,
     /// Substeps in an env step (1).
     pub substeps: u32,
-    /// Acceleration downwards, in metres per second squared (1).
+    /// Downward acceleration, in meters per second squared (1).
     pub gravity: f64,
-    /// Viscous drag of a point, in newtons per metre per second (1).
+    /// Viscous drag of a point, in newtons per meter per second (1).
     pub drag: f64,
-    /// Stiffness of a main edge owned by rigid voxels alone, in newtons per metre (3).
+    /// Stiffness of a main edge between rigid voxels only, in newtons per meter (3).
     pub rigid_stiffness: f64,
-    /// Stiffness of an active voxel's main edges, in newtons per metre (3).
+    /// Stiffness of an active voxel's main edges, in newtons per meter (3).
     pub active_stiffness: f64,
-    /// Stiffness of a soft voxel's main edges, in newtons per metre (3).
+    /// Stiffness of a soft voxel's main edges, in newtons per meter (3).
     pub soft_stiffness: f64,
-    /// A rigid voxel's diagonals, as a share of its main stiffness (3).
+    /// A rigid voxel's diagonals, as a fraction of its main stiffness (3).
     pub rigid_diagonal: f64,
     /// An active voxel's diagonals, likewise (3).
     pub active_diagonal: f64,
     /// A soft voxel's diagonals, likewise (3).
     pub soft_diagonal: f64,
-    /// Least width that can be asked of a voxel, as a share of its width at rest (4).
+    /// Smallest target width of a voxel, as a fraction of its rest width (4).
     pub least_target: f64,
-    /// Greatest width that can be asked of a voxel, likewise (4).
+    /// Largest target width of a voxel, as a fraction of its rest width (4).
     pub greatest_target: f64,
-    /// Share of the way to its goal that an edge's working rest length goes in one substep (5).
+    /// Fraction of the distance to its goal by which an edge's working rest length moves in one substep (5).
     pub approach: f64,
-    /// Stiffness of the plane under the ground, in newtons per metre (6).
+    /// Stiffness of the plane under the ground, in newtons per meter (6).
     pub plane_stiffness: f64,
-    /// Friction force of the plane at high speed, as a share of the normal force (6).
+    /// Friction force of the plane at high speed, as a fraction of the normal force (6).
     pub plane_friction: f64,
     /// Steepness of the plane's friction: the factor of N·v in the hyperbolic tangent (6).
     pub plane_slope: f64,
-    /// Determinant below which two edges count as parallel, in square metres (7).
+    /// Determinant below which two edges count as parallel, in square meters (7).
     pub parallel: f64,
-    /// Edge length below which an edge has no direction, in metres (7).
+    /// Edge length below which an edge has no direction, in meters (7).
     pub shortest: f64,
-    /// Distance from an edge without direction, in metres (7).
+    /// Distance from an edge without direction, in meters (7).
     pub nowhere: f64,
-    /// Contact stiffness, in newtons per metre (7).
+    /// Contact stiffness, in newtons per meter (7).
     pub contact_stiffness: f64,
-    /// Depth added to every contact, in metres (7).
+    /// Depth added to every contact, in meters (7).
     pub contact_depth: f64,
-    /// Damping of the point along the normal, in newtons per metre per second (7).
+    /// Damping of the point along the normal, in newtons per meter per second (7).
     pub point_damping: f64,
     /// Damping of each end of the edge along the normal, likewise (7).
     pub edge_damping: f64,
-    /// Slope of friction against tangential speed, in newtons per metre per second (7).
+    /// Slope of friction against tangential speed, in newtons per meter per second (7).
     pub friction: f64,
-    /// Speed at which friction saturates, per newton of normal force, in metres per second per newton (7).
+    /// Speed at which friction saturates, per newton of normal force, in meters per second per newton (7).
     pub friction_range: f64,
-    /// Longest an edge may be, as a share of its built length (8).
+    /// Longest length of an edge, as a fraction of its built length (8).
     pub longest: f64,
-    /// Shortest an edge may be, as a share of its built length (8).
+    /// Shortest length of an edge, as a fraction of its built length (8).
     pub tightest: f64,
-    /// Share of an excess that is taken back in a substep (8).
+    /// Fraction of an excess that is corrected in a substep (8).
     pub correction: f64,
-    /// Longest an edge of a rigid voxel may be, as a share of its built length (8).
+    /// Longest length of an edge of a rigid voxel, as a fraction of its built length (8).
     pub rigid_longest: f64,
     /// Shortest an edge of a rigid voxel may be, likewise (8).
     pub rigid_tightest: f64,
-    /// Share of a rigid voxel's excess that is taken back in a substep (8).
+    /// Fraction of a rigid voxel's excess that is corrected in a substep (8).
     pub rigid_correction: f64,
 }
 
@@ -109,7 +110,7 @@ impl Default for Constants {
 }
 
 impl Constants {
-    /// Newtons on a unit mass as metres a substep squared, the kernel's unit of force.
+    /// Newtons on a unit mass in meters per substep squared, the kernel's unit of force.
     pub fn per_substep_squared(&self) -> f64 {
         self.substep * self.substep
     }

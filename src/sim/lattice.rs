@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use crate::model::{Body, MaterialKind};
 use crate::sim::constants::Constants;
 
-/// Corners and sides of a voxel are numbered clockwise: corner 0 top left, 1 top right, 2 bottom right, 3 bottom left; side 0 top,
-/// 1 right, 2 bottom, 3 left, so that side `i` runs from corner `i` to corner `i + 1`.
+/// Corners and sides of a voxel are numbered clockwise: corner 0 top left, 1 top right, 2 bottom right, 3 bottom left;
+/// side 0 top, 1 right, 2 bottom, 3 left. So side `i` runs from corner `i` to corner `i + 1`.
 pub const CORNERS: usize = 4;
 
 /// The points, edges and voxels of a body.
@@ -28,7 +28,8 @@ pub struct LatticePoint {
     pub column: usize,
     /// Rows from the top edge of the body's box.
     pub row: usize,
-    /// Where two voxels meet only diagonally each has its own point here: false for the upper, true for the lower voxel's.
+    /// If two voxels touch only diagonally, each has its own point here: false for the upper, true for the lower
+    /// voxel's.
     pub twin: bool,
 }
 
@@ -39,9 +40,9 @@ pub struct Edge {
     pub a: usize,
     /// The other end.
     pub b: usize,
-    /// Built length in metres.
+    /// Built length in meters.
     pub rest: f64,
-    /// Stiffness in newtons per metre.
+    /// Stiffness in newtons per meter.
     pub stiffness: f64,
 }
 
@@ -58,7 +59,7 @@ pub struct Voxel {
     pub rigid: bool,
     /// Its points: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
-    /// Which sides are surface: top, right, bottom, left.
+    /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
 }
 
@@ -121,7 +122,8 @@ impl Lattice {
         self.active
     }
 
-    /// The surface as directed edges between points, the body on the right of each, voxel by voxel in reading order.
+    /// The surface as directed edges between points, with the body to the right of each, voxel by voxel in reading
+    /// order.
     pub fn surface_edges(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.voxels.iter().flat_map(|voxel| {
             (0..CORNERS)
@@ -130,8 +132,8 @@ impl Lattice {
         })
     }
 
-    /// Where point `point` starts, in metres, for a body whose left column stands on ground column `start`, rounded as
-    /// docs/physics.md 2 says.
+    /// The start position of point `point`, in meters, for a body whose left column is on ground column `start`,
+    /// rounded as in docs/physics.md 2.
     pub fn start(&self, point: usize, start: usize, constants: &Constants) -> [f64; 2] {
         let LatticePoint { column, row, .. } = self.points[point];
         let cell = constants.cell;
@@ -148,7 +150,7 @@ const CREATION: [usize; CORNERS] = [0, 1, 3, 2];
 /// The neighbour across each side: columns, rows.
 const ACROSS: [(isize, isize); CORNERS] = [(0, -1), (1, 0), (0, 1), (-1, 0)];
 
-/// What a lattice is built from.
+/// A lattice under construction.
 struct Builder<'a> {
     body: &'a Body,
     constants: &'a Constants,
@@ -222,8 +224,8 @@ impl Builder<'_> {
         (points, voxels)
     }
 
-    /// The edges under the places and numbers of their ends. A later voxel in reading order overwrites the stiffness of a shared main
-    /// edge unless it is rigid (docs/physics.md 3).
+    /// The edges under the places and numbers of their ends. A later voxel in reading order overwrites the stiffness of
+    /// a shared main edge unless it is rigid (docs/physics.md 3).
     fn drafts(&self, points: &[LatticePoint], voxels: &[Voxel]) -> BTreeMap<(End, End), Draft> {
         let mut drafts: BTreeMap<(End, End), Draft> = BTreeMap::new();
         let side = self.constants.cell;
@@ -255,7 +257,7 @@ impl Builder<'_> {
         drafts
     }
 
-    /// Stiffness of a voxel's main edges, and its diagonals' share of that.
+    /// Stiffness of a voxel's main edges, and the fraction of it for its diagonals.
     fn stiffness(&self, code: u8) -> (f64, f64) {
         let constants = self.constants;
         match self.body.palette().kind(code) {

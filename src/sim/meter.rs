@@ -1,4 +1,5 @@
-//! Where a simulation's time goes. The physics reads no clock of its own: a caller who wants to know hands in a [`Meter`] with one.
+//! The time of each part of a simulation. The physics reads no clock of its own; a caller provides a [`Meter`] with
+//! one.
 
 use std::fmt;
 use std::sync::Arc;
@@ -49,7 +50,7 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// A meter at zero. The clock counts nanoseconds from any beginning and never goes back.
+    /// A meter at zero. The clock counts nanoseconds from any start and never runs backwards.
     pub fn new(clock: impl Fn() -> u64 + Send + Sync + 'static) -> Self {
         Self { clock: Box::new(clock), nanoseconds: Default::default(), lane_substeps: AtomicU64::new(0) }
     }
@@ -76,7 +77,7 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// A watch that has counted nothing.
+    /// A watch at zero.
     pub fn new(meter: &Arc<Meter>) -> Self {
         Self { meter: Arc::clone(meter), last: (meter.clock)(), times: Times::default() }
     }
@@ -86,7 +87,8 @@ impl Stopwatch {
         self.last = (self.meter.clock)();
     }
 
-    /// Counts the time since the last call as `part`. The end of the length limits is the end of a substep of `lanes` robots.
+    /// Counts the time since the last call as `part`. The end of the length limits is the end of a substep of `lanes`
+    /// robots.
     pub fn lap(&mut self, part: Part, lanes: usize) {
         let now = (self.meter.clock)();
         self.times.nanoseconds[part as usize] += now.saturating_sub(self.last);
@@ -98,7 +100,7 @@ impl Stopwatch {
         }
     }
 
-    /// Adds what was counted to the meter.
+    /// Adds the counted times to the meter.
     fn report(&mut self) {
         let Times { nanoseconds, lane_substeps } = std::mem::take(&mut self.times);
         for (total, time) in self.meter.nanoseconds.iter().zip(nanoseconds) {

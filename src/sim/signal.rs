@@ -1,4 +1,4 @@
-//! What each material asks of its voxels in each env step (docs/physics.md 4 and 10).
+//! The target width of each material in each env step (docs/physics.md 4 and 10).
 
 use std::f64::consts::PI;
 
@@ -8,11 +8,11 @@ use crate::sim::constants::Constants;
 /// The target widths of a palette's materials over time.
 #[derive(Clone, Debug)]
 pub struct Signals {
-    /// Indexed by material code; code 0 asks for nothing.
+    /// Indexed by material code; code 0 has no target.
     signals: Vec<Signal>,
 }
 
-/// One material's target, as a share of the width at rest.
+/// The target of a material, as a fraction of the rest width.
 #[derive(Clone, Debug)]
 enum Signal {
     /// The material is passive.
@@ -29,7 +29,7 @@ impl Signals {
         let clip = |target: f64| target.clamp(constants.least_target, constants.greatest_target);
         let signal = |kind| match kind {
             MaterialKind::Rigid | MaterialKind::Soft => Signal::Still,
-            // Sampled when asked for: a period may be as long as a run.
+            // Computed on demand, because a period may be as long as a run.
             MaterialKind::Actuator(drive) => {
                 Signal::Periodic { drive, clip: [constants.least_target, constants.greatest_target] }
             }

@@ -6,7 +6,7 @@ use crate::model::{Body, Setting, Trajectory, Trial};
 use crate::sim::backend::lanes::LaneBackend;
 use crate::sim::backend::{Backend, Flock};
 
-/// How to simulate. The default is the fastest kernel of this processor; results do not depend on the back end.
+/// The back end of simulations. The default is the fastest kernel of this processor; results do not depend on it.
 #[derive(Clone, Debug)]
 pub struct Simulator {
     backend: Arc<dyn Backend>,

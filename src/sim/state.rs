@@ -1,4 +1,4 @@
-//! Where a body's points are and how they move: all that a simulation remembers between env steps.
+//! Positions and velocities of a body's points: the state of a simulation between env steps.
 
 use crate::sim::constants::Constants;
 use crate::sim::lattice::Lattice;
@@ -6,11 +6,11 @@ use crate::sim::lattice::Lattice;
 /// The moving part of one simulation, in order of the lattice's points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// Where each point is, in metres.
+    /// The position of each point, in meters.
     pub position: Vec<[f64; 2]>,
-    /// Where each point was a substep ago, in metres; the difference is the true velocity of docs/physics.md 5.
+    /// The position of each point one substep ago, in meters; the difference is the true velocity of docs/physics.md 5.
     pub previous: Vec<[f64; 2]>,
-    /// The integrator's velocity, in metres a substep.
+    /// The integrator's velocity, in meters per substep.
     pub velocity: Vec<[f64; 2]>,
 }
 

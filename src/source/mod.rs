@@ -1,4 +1,5 @@
-//! Source text: files, spans, and the [`SourceWorld`] that reads files for the core, which itself does no input or output.
+//! Source text: files, spans, and the [`SourceWorld`] that reads files for the core, which itself does no input or
+//! output.
 
 mod file;
 mod span;

@@ -1,4 +1,5 @@
-//! Who reads files: the core asks a [`SourceWorld`]. The command line gives it the disk, tests and other doors give it memory.
+//! Who reads files: the core asks a [`SourceWorld`]. The command line gives it the disk, tests and other doors give it
+//! memory.
 
 use std::collections::{BTreeMap, BTreeSet};
 

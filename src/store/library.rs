@@ -63,8 +63,8 @@ fn unreadable(folder: &str, error: &FileError) -> Diagnostic {
     Diagnostic::without_place(Code::Unreadable, format!("cannot read the library `{folder}`: {why}"))
 }
 
-/// A library of robots in order of their functions' bits, and within a function the most reliable first, then the shortest clock, then
-/// the greatest margin.
+/// A library of robots in order of their functions' bits, and within a function the most reliable first, then the
+/// shortest clock, then the greatest margin.
 pub fn best_first(mut robots: Vec<Robot>) -> Library {
     robots.sort_by(|a, b| {
         (a.function().cmp(&b.function())).then(a.character.compare(&b.character)).then(a.name.cmp(&b.name))

@@ -1,5 +1,5 @@
-//! Files: the disk as a [`crate::source::SourceWorld`], atomic writes, robot files, checkpoints, the built-in library. The
-//! only user of YAML.
+//! Files: the disk as a [`crate::source::SourceWorld`], atomic writes, robot files, checkpoints, the built-in library.
+//! The only user of YAML.
 
 #[cfg(feature = "disk")]
 mod atomic;

@@ -1,11 +1,11 @@
-//! What the outputs of a swarm did while its inputs were held: a simulation, which asks for nothing, is told so.
+//! The activity of a swarm's outputs in a simulation, which has no expected outputs.
 
 use serde::Serialize;
 
 use crate::model::{Column, Simulation, Value};
 use crate::swarm::{SwarmTrace, WeakRobot};
 
-/// What a simulation came to.
+/// The result of a simulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SimulationResult {
     /// The file of the simulation.
@@ -20,13 +20,13 @@ pub struct SimulationResult {
     pub inputs: Vec<Column>,
     /// The output ports.
     pub outputs: Vec<Column>,
-    /// Robots of the swarm that make errors or have a thin margin.
+    /// Robots of the swarm with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
     /// The rows of the schedule in order.
     pub rows: Vec<RowActivity>,
 }
 
-/// What happened during one row of a schedule.
+/// The activity during one row of a schedule.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RowActivity {
     /// Its number among the rows of the schedule, from 1.
@@ -39,15 +39,14 @@ pub struct RowActivity {
     pub cycles: usize,
     /// The values of the output ports at the end.
     pub observed: Vec<Value>,
-    /// How often the value of each output port changed from one cycle to the next.
+    /// The number of changes of each output port from one cycle to the next.
     pub changes: Vec<usize>,
-    /// The last cycle of the simulation, from 1, in which the value of each output port was another than in the cycle before; none where
-    /// it never changed during the row.
+    /// The last cycle of the simulation, from 1, in which each output port changed; `None` if it did not change during
+    /// the row.
     pub last_change: Vec<Option<usize>>,
 }
 
-/// What the outputs did, row by row.
-/// A trace that is shorter than the schedule has the rows that were held to their end.
+/// The activity of the outputs, row by row. If the trace ends early, only complete rows are included.
 pub fn activity(simulation: &Simulation, trace: &SwarmTrace) -> Vec<RowActivity> {
     let mut start = 0;
     let row = |(at, spell): (usize, &crate::model::InputSpell)| {

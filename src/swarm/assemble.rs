@@ -1,4 +1,4 @@
-//! From a mapped netlist and a library to a swarm: a robot for each cell, and what each robot senses.
+//! From a mapped netlist and a library to a swarm: a robot for each cell, and the sources of its stimuli.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::circuit::{Logic, NetId, Netlist, Node};
 use crate::model::{Column, Function, Library, Robot};
 use crate::swarm::cells::choose;
 
-/// Where a stimulus or an output port gets its bit.
+/// The source of a stimulus or of an output port's bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StimulusSource {
@@ -27,7 +27,7 @@ pub struct Member {
     pub net: String,
     /// The robot that drives it.
     pub robot: Robot,
-    /// What it senses as stimulus 1 and stimulus 2.
+    /// The sources of stimulus 1 and stimulus 2.
     pub senses: [StimulusSource; 2],
     /// Its output before the first cycle.
     pub start: bool,
@@ -44,7 +44,7 @@ pub struct Assembly {
     pub members: Vec<Member>,
     /// The output ports.
     pub outputs: Vec<Column>,
-    /// What each bit of the output ports shows.
+    /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
 }
 
@@ -59,12 +59,13 @@ pub enum AssembleError {
     },
 }
 
-/// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are wired.
+/// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are
+/// wired.
 ///
-/// The first robot of the library that computes a cell's function plays it; failing that, one that computes it with exchanged
-/// inputs. A cell of one input is sensed on the side its robot listens to; the other stimulus stays absent. Robots without a start value
-/// begin as if the circuit had been at rest with all inputs 0: two robots that hold a bit would else both be driven, and could
-/// chase each other for ever.
+/// A cell is assigned the first robot of the library that computes its function, or else one that computes it with
+/// exchanged inputs. A cell of one input is connected to the stimulus that its robot depends on; the other stimulus
+/// stays absent. Robots without a start value start as if the circuit had settled with all inputs 0. Otherwise both
+/// robots of a memory element would be driven, and could keep switching each other forever.
 ///
 /// # Errors
 /// [`AssembleError::MissingFunction`] when no robot fits a cell.

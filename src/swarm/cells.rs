@@ -1,9 +1,9 @@
-//! A robot library as the compiler sees it: which functions there are, and how long each robot takes.
+//! A robot library as a cell library for the compiler: the available functions, and the delay of each robot.
 
 use crate::circuit::{CellKind, CellLibrary};
 use crate::model::{Function, Library, Pattern, Robot};
 
-/// The cells of a library: for each function its first robot, or, failing one, the first that computes it with exchanged inputs.
+/// The cells of a library: for each function its first robot, or else the first that computes it with exchanged inputs.
 /// [`super::assemble`] makes the same choice.
 pub fn cells(library: &Library) -> CellLibrary {
     Function::all().filter_map(|function| Some((function, kind(library, function)?))).collect()

@@ -11,9 +11,9 @@ use crate::swarm::holds::{HoldPlan, PatternHold, holds};
 const SEED: u64 = 0x6e62_6373;
 /// Clocks tried, from the shortest on, in cycles.
 const CLOCKS: std::ops::RangeInclusive<u32> = 1..=8;
-/// Cycles that a hold of a random sequence may be longer than the clock: the output must stay right, not only get there.
+/// Cycles by which a hold of a random sequence may exceed the clock, because the output must also stay correct.
 const SLACK: u32 = 3;
-/// Ground columns by which starts differ: each gives other roundings in the first contacts (docs/physics.md 12).
+/// Ground columns by which starts differ: each has other roundings in the first contacts (docs/physics.md 12).
 const STARTS: [usize; 2] = [0, 1];
 /// Random sequences from each start.
 const LANES: usize = 8;
@@ -21,19 +21,21 @@ const LANES: usize = 8;
 const SWITCHES: usize = 64;
 /// Switches of the cheaper sequences that come first.
 const FIRST_SWITCHES: usize = 8;
-/// Cycles before a switch whose settle time is measured; several, so that a switch comes at several moments.
+/// Cycles before a switch whose settle time is measured; there are several, so that a switch happens at different
+/// moments.
 const SETTLE_BEFORE: [u32; 2] = [6, 9];
-/// Cycles after it. A settle time of one more means that the output was wrong to the end.
+/// Cycles after it. A settle time of one more means that the output was wrong until the end.
 const SETTLE_AFTER: u32 = 12;
 /// Ground voxels: room to walk for the longest sequence in both directions.
 const WORLD: usize = 4000;
-/// A body whose height in a pattern falls below this share of what it was at its first hold has toppled.
+/// A body whose height in a pattern falls below this fraction of its height in its first hold has toppled.
 const TOPPLED: f64 = 0.7;
 
-/// Measures how a body does as a gate with that behavior.
+/// Measures the character of a body as a gate with this behavior.
 ///
-/// The clock is the least number of cycles (of 1 to 8) such that in 1,024 random switches, held for that many to three cycles more, no
-/// output was wrong from that cycle of a hold on; when there is none, the one with the smallest share of wrong holds.
+/// The clock is the smallest number of cycles (from 1 to 8) such that in 1,024 random switches, held for that many to
+/// three cycles more, no output was wrong from that cycle of a hold on. If there is none, it is the one with the fewest
+/// wrong holds.
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
@@ -52,7 +54,7 @@ pub fn characterise(simulator: &Simulator, body: &Body, behavior: Behavior) -> R
     })
 }
 
-/// The least clock of at most `most` cycles whose first, cheap sequences are free of errors, with the margin they show.
+/// The smallest clock of at most `most` cycles whose first, cheap sequences have no errors, with their margin.
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
@@ -67,7 +69,7 @@ pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32)
     Ok(None)
 }
 
-/// A body being asked.
+/// A body under test.
 struct Probe<'a> {
     simulator: &'a Simulator,
     setting: Setting,
@@ -75,16 +77,16 @@ struct Probe<'a> {
     behavior: Behavior,
 }
 
-/// What random sequences at one clock gave.
+/// The results of random sequences at one clock.
 #[derive(Clone, Debug, PartialEq)]
 struct Tally {
     clock: u32,
     switches: u32,
     /// Holds after a switch with a wrong output in the clock's cycle or later.
     wrong: u32,
-    /// Cycles of holds whose right output is that of the hold before.
+    /// Cycles of holds whose correct output is the same as in the previous hold.
     quiet: u32,
-    /// Wrong ones among them.
+    /// The wrong ones among them.
     glitches: u32,
     margin: f64,
     toppled: bool,
@@ -133,8 +135,8 @@ impl<'a> Probe<'a> {
         Ok(found)
     }
 
-    /// Random sequences at the least clock without errors, or at that with the fewest. A clock that fails in short sequences is not
-    /// tried in long ones unless all fail.
+    /// Random sequences at the smallest clock without errors, or at the one with the fewest errors. A clock that fails
+    /// in short sequences is not tried in long ones unless all fail.
     fn best_clock(&self) -> Result<Tally, Fault> {
         let mut best: Option<Tally> = None;
         for clock in CLOCKS {
@@ -186,7 +188,7 @@ impl<'a> Probe<'a> {
         Ok((pairs.iter().enumerate().map(transition).collect(), runs.iter().any(|holds| has_toppled(holds))))
     }
 
-    /// The cycle from which on the output is right.
+    /// The cycle from which on the output is correct.
     fn settled(&self, hold: &PatternHold) -> u32 {
         let right = self.behavior.direction(hold.pattern);
         let last_wrong = hold.cycles.iter().rposition(|&displacement| Direction::of(displacement) != right);
@@ -194,7 +196,7 @@ impl<'a> Probe<'a> {
     }
 }
 
-/// Whether the last hold of some pattern finds the body far lower than its first hold did.
+/// Whether the body is much lower in the last hold of some pattern than in its first.
 fn has_toppled(holds: &[PatternHold]) -> bool {
     Pattern::PAIRS.iter().any(|&pattern| {
         let mut heights = holds.iter().filter(|hold| hold.pattern == pattern).map(|hold| hold.height);
@@ -260,7 +262,7 @@ mod tests {
             &[Trial { body: body.clone(), schedule: Schedule::constant(Pattern::PAIRS[0], 840) }],
         );
         let walks_right = Direction::of(fixed[0].com_x[840] - fixed[0].com_x[0]) == Direction::Right;
-        // Asked for the other direction always, it is never right.
+        // With the opposite direction, the output is never correct.
         let contrary: Behavior = if walks_right { "LLLL" } else { "RRRR" }.parse().unwrap();
         let (settle, _) = Probe::new(&simulator, &body, contrary).settle().unwrap();
         let pairs: std::collections::BTreeSet<_> =

@@ -6,7 +6,7 @@ use crate::model::{Behavior, Direction, Pattern, Schedule, SearchObjective, Sett
 use crate::sim::Simulator;
 use crate::swarm::{Work, gate};
 
-/// Brings a search one generation further: asks, evaluates in parallel, tells.
+/// Advances a search by one generation: asks, evaluates in parallel, tells.
 pub fn evolve_generation(search: &mut Search) -> Work {
     let candidates = search.ask();
     let (outcomes, work) = evaluate(&Simulator::default(), search, &candidates);
@@ -14,7 +14,7 @@ pub fn evolve_generation(search: &mut Search) -> Work {
     work
 }
 
-/// The outcome of each candidate, judged against the archive as it is now.
+/// The result of each candidate for the current archive.
 pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
     match search.evolution().objective {
         SearchObjective::Distance => distance(simulator, search, candidates),
@@ -22,7 +22,7 @@ pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]
     }
 }
 
-/// Displacements under the four constant patterns, in voxels, or what ended a simulation early.
+/// Displacements under the four constant patterns, in voxels, or the fault of a simulation.
 ///
 /// # Errors
 /// The first fault.
@@ -38,7 +38,8 @@ pub fn fixed_trials(body: &crate::model::Body, steps: u32) -> [Trial; 4] {
     Pattern::PAIRS.map(|pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, steps) })
 }
 
-/// The paper's two objectives: four fixed simulations, then the variable one for those whose fixed fitness can still win a niche.
+/// The paper's two fitnesses: four fixed simulations, then the variable one for candidates whose fixed fitness can
+/// still win a niche.
 fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
     let evolution = search.evolution();
     let setting = Setting::default();
@@ -71,7 +72,7 @@ fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) ->
     (outcomes, work)
 }
 
-/// The scores as far as the fixed simulations give them, with a first fitness that nothing exceeds.
+/// The scores after the fixed simulations, with an upper bound for the first fitness.
 fn fixed_scores(search: &Search, candidate: &Candidate, four: &[Trajectory]) -> Result<Scores, CandidateOutcome> {
     let four = four.first_chunk::<4>().expect("four trials for each candidate");
     let displacement = fixed_displacements(four).map_err(CandidateOutcome::Faulty)?;
@@ -80,7 +81,8 @@ fn fixed_scores(search: &Search, candidate: &Candidate, four: &[Trajectory]) -> 
     if search.could_take(&candidate.body, &scores) { Ok(scores) } else { Err(CandidateOutcome::Surpassed) }
 }
 
-/// What the variable simulation adds: the sum of distances, and whether each spell's direction is that of the fixed simulations.
+/// The result after the variable simulation: the sum of distances, if each spell's direction is that of the fixed
+/// simulations.
 fn variable_outcome(schedule: &Schedule, scores: Scores, trajectory: &Trajectory) -> CandidateOutcome {
     if let Some(fault) = trajectory.fault {
         return CandidateOutcome::Faulty(fault);
@@ -102,7 +104,7 @@ fn displacement(com_x: &[f64], from: usize, to: usize) -> f64 {
     com_x[to] - com_x[from]
 }
 
-/// Env steps that trials take.
+/// The number of env steps of trials.
 pub(crate) fn steps(trials: &[Trial]) -> u64 {
     trials.iter().map(|trial| u64::from(trial.schedule.steps())).sum()
 }

@@ -1,5 +1,5 @@
-//! The objective of gates: being right after any switch of the inputs, soon, and without a wrong cycle where the output ought not
-//! to change (docs/evolution.md, The gate objective).
+//! The objective of gates: the correct output soon after any switch of the inputs, and no wrong cycle while the output
+//! should not change (docs/evolution.md, The gate objective).
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -12,20 +12,20 @@ use crate::swarm::holds::{HoldPlan, PatternHold};
 
 /// Cycles of each hold of the walks.
 const HOLD: usize = 4;
-/// The cycles of a hold from which on the output is asked to be right; each is scored by itself.
+/// The cycles of a hold from which on the output must be correct; each is scored separately.
 const CLOCKS: [usize; 3] = [2, 3, 4];
-/// Four walks from four fresh starts that make each of the twelve switches once.
+/// Four walks from four fresh starts, which together contain each of the twelve switches once.
 const WALKS: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1, 3, 0]];
 /// Random sequences that follow the walks, and the cycles of each.
 const RANDOM_LANES: usize = 4;
 const RANDOM_CYCLES: usize = 36;
-/// The seed of the random sequences: the same for every candidate, other than that of `characterise`.
+/// The seed of the random sequences: the same for every candidate, and different from that of `characterise`.
 const RANDOM_SEED: u64 = 0x6761_7465;
-/// The margin, in voxels a cycle, that is worth half of what an endless one is.
+/// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.
 const HALF_MARGIN: f64 = 0.05;
-/// A first fitness below this is given up at once, even where the niche is empty.
+/// A candidate with a first fitness below this is dropped at once, even if its niche is empty.
 const HOPELESS: f64 = 0.25;
-/// Cycles of a fresh start after which a body that goes both ways can be told.
+/// Cycles after a fresh start until bodies that walk both ways can be recognized.
 const FIRST_LOOK: usize = 3;
 
 /// The patterns of one simulation, cycle by cycle.
@@ -47,8 +47,8 @@ fn random_sequences() -> Vec<Lane> {
     (0..RANDOM_LANES).map(|_| lane()).collect()
 }
 
-/// The outcome of each candidate by the gate objective: the walks, then the random sequences. After each cycle those are dropped that
-/// no niche could take any more; their scores can only fall.
+/// The result of each candidate for the gate objective: the walks, then the random sequences. After each cycle,
+/// candidates that can no longer enter a niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     search: &Search,
@@ -65,7 +65,7 @@ pub(crate) fn evaluate(
     (attempts.into_iter().map(Attempt::end).collect(), work)
 }
 
-/// Carries the attempts that are still open through some lanes, whose holds are kept from place `first` on.
+/// Simulates the remaining attempts in some lanes, whose holds are stored from index `first` on.
 fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], lanes: &[Lane], first: usize) -> Work {
     let all = (attempts.len() * lanes.len()) as u64;
     let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
@@ -93,7 +93,7 @@ fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], l
     work
 }
 
-/// A candidate on its way.
+/// A candidate during its evaluation.
 struct Attempt<'a> {
     candidate: &'a Candidate,
     /// The holds of each lane so far.
@@ -108,7 +108,7 @@ impl<'a> Attempt<'a> {
         Self { candidate, holds: Vec::new(), scores, outcome: None }
     }
 
-    /// Notes what a lane did in one more cycle.
+    /// Records one more cycle of a lane.
     fn push(&mut self, lane: usize, pattern: Pattern, displacement: f64) {
         let holds = &mut self.holds[lane];
         let before = holds.last().map(|hold| hold.pattern);
@@ -124,7 +124,7 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Scores what is known, and decides whether to go on.
+    /// Computes the scores so far, and decides whether to continue.
     fn look(&mut self, search: &Search) {
         let cycles = self.holds[0][0].cycles.len();
         if self.outcome.is_some() || cycles < FIRST_LOOK {
@@ -147,7 +147,8 @@ impl<'a> Attempt<'a> {
     }
 }
 
-/// Displacement under each pattern at the fresh starts of the walks, without the first cycle, in which the body finds its shape.
+/// Displacement under each pattern at the fresh starts of the walks, without the first cycle, in which the body finds
+/// its shape.
 fn settled_displacement(walks: &[Vec<PatternHold>]) -> [f64; 4] {
     let mut displacement = [0.0; 4];
     for hold in walks.iter().filter_map(|holds| holds.first()) {
@@ -156,15 +157,15 @@ fn settled_displacement(walks: &[Vec<PatternHold>]) -> [f64; 4] {
     displacement
 }
 
-/// Two fitnesses between 0 and 1, one half where the worst cycle stands still: how right the output is from the second, third and
-/// fourth cycle of a hold on, and how right it is in every cycle of holds that ought not to change it.
+/// Two fitnesses between 0 and 1, where one half means that the worst cycle stands still: the output from the second,
+/// third and fourth cycle of a hold on, and the output in every cycle of holds that should not change it.
 fn fitness<'a>(behavior: Behavior, holds: impl Iterator<Item = &'a PatternHold> + Clone) -> [f64; 2] {
     let from = |clock: usize| holds.clone().flat_map(move |hold| hold.rightward(behavior).skip(clock - 1));
     let settled = CLOCKS.map(|clock| worth(least(from(clock))));
     let is_static = |hold: &&PatternHold| {
         hold.before.is_none_or(|before| behavior.direction(before) == behavior.direction(hold.pattern))
     };
-    // A fresh start is no switch: its first cycle counts for nothing.
+    // A fresh start is not a switch, so its first cycle is not counted.
     let cycles = |hold: &'a PatternHold| hold.rightward(behavior).skip(usize::from(hold.before.is_none()));
     [settled.iter().sum::<f64>() / CLOCKS.len() as f64, worth(least(holds.clone().filter(is_static).flat_map(cycles)))]
 }

@@ -1,4 +1,4 @@
-//! Holds: patterns kept for whole cycles one after another, and what a robot did in each.
+//! Holds: patterns kept for whole cycles one after another, and the robot's motion in each.
 
 use std::ops::RangeInclusive;
 
@@ -6,12 +6,12 @@ use rand::{Rng, RngExt};
 
 use crate::model::{Behavior, CYCLE_STEPS, Direction, Pattern, Schedule, Spell, Trajectory};
 
-/// Patterns and for how many cycles each is held.
+/// Patterns with the number of cycles of each hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct HoldPlan(pub Vec<(Pattern, u32)>);
 
 impl HoldPlan {
-    /// `count` holds of random patterns, each another than the one before, for a random number of cycles.
+    /// `count` holds of random patterns, each different from the previous one, for a random number of cycles.
     pub(crate) fn random<R: Rng>(count: usize, cycles: RangeInclusive<u32>, rng: &mut R) -> Self {
         let mut pattern = rng.random_range(0..4u32);
         let mut plan = Vec::with_capacity(count);
@@ -29,7 +29,7 @@ impl HoldPlan {
     }
 }
 
-/// One hold as it went.
+/// One hold and the motion in it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PatternHold {
     /// The pattern before; `None` at a fresh start.
@@ -43,14 +43,14 @@ pub(crate) struct PatternHold {
 }
 
 impl PatternHold {
-    /// Displacement of each cycle in the direction that is right for a behavior; negative where the output is wrong.
+    /// Displacement of each cycle in the correct direction for a behavior; negative if the output is wrong.
     pub(crate) fn rightward(&self, behavior: Behavior) -> impl Iterator<Item = f64> + '_ {
         let sign = if behavior.direction(self.pattern) == Direction::Right { 1.0 } else { -1.0 };
         self.cycles.iter().map(move |displacement| sign * displacement)
     }
 }
 
-/// The holds of a trajectory that ran to its end.
+/// The holds of a complete trajectory.
 pub(crate) fn holds(plan: &HoldPlan, trajectory: &Trajectory) -> Vec<PatternHold> {
     let cycle = CYCLE_STEPS as usize;
     let mut at = 0;

@@ -1,4 +1,4 @@
-//! Whether a circuit did what a test asks, row by row, and which robot failed where it did not.
+//! Judges whether a circuit passes a test, row by row, and which robots were wrong if it failed.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::swarm::{Lapse, RowVerdict, START_CYCLES, SwarmTrace};
 /// Cycles over which an output must have had its value when its row ends.
 const STEADY_CYCLES: usize = 2;
 
-/// How long a test's row is held.
+/// The hold of a test's row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Demand {
     /// Cycles for which the row is held.
@@ -18,7 +18,8 @@ pub struct Demand {
     pub needed: usize,
 }
 
-/// Judges a row by the outputs at its end, and by which of them had their value for good. Every row of every test is judged here.
+/// Judges a row by the outputs at its end, and by which of them had their value for good. Every row of every test is
+/// judged here.
 fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
     let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
         expected.is_none_or(|expected| expected == output && steady)
@@ -44,8 +45,8 @@ fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool
     }
 }
 
-/// Judges the rows of a test at the level of logic: each is held until nothing changes. A circuit that never comes to rest fails where
-/// the row asks for an output that goes on changing.
+/// Judges the rows of a test at the level of logic: each is held until nothing changes. A circuit that oscillates fails
+/// if the row checks an output that keeps changing.
 pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> Vec<RowVerdict> {
     let mut logic = Logic::new(netlist);
     let judge = |row: &TestRow| {
@@ -58,8 +59,8 @@ pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> V
     rows.iter().map(judge).collect()
 }
 
-/// Judges a trace whose cycles are the rows of a test one after another, held as demanded; `clocks[k]` is the clock of robot `k` in
-/// cycles. Of a trace that is shorter than its rows, the rows that were held to their end are judged.
+/// Judges a trace whose cycles are the rows of a test one after another, with the given holds; `clocks[k]` is the clock
+/// of robot `k` in cycles. If the trace ends early, only complete rows are judged.
 ///
 /// # Panics
 /// When a row has no cycle.
@@ -96,7 +97,8 @@ fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>) -> Vec<bool> {
     last.iter().enumerate().map(|(bit, value)| end.iter().all(|cycle| cycle.outputs[bit] == *value)).collect()
 }
 
-/// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had settled.
+/// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had been stable long
+/// enough.
 fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse, bool)> {
     let robots = || trace.robots.iter().zip(clocks).enumerate();
     let of_cycle = |cycle: usize| {
@@ -111,7 +113,8 @@ fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse
     cycles.flat_map(of_cycle).collect()
 }
 
-/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended; after its fresh start a robot has more time.
+/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended; after its fresh start a robot has
+/// more time.
 fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
     let sensed = trace.cycles[cycle].sensed[k];
     cycle + 1 >= clock.max(START_CYCLES)

@@ -1,5 +1,5 @@
-//! A swarm in full physics that is simulated a cycle at a time: every robot in its own simulation, hearing in each cycle what the others
-//! did in the cycle before.
+//! A swarm in full physics that is simulated cycle by cycle. Every robot has its own simulation and senses in each
+//! cycle the outputs of the others in the previous cycle.
 
 use std::collections::BTreeSet;
 
@@ -11,31 +11,32 @@ use crate::swarm::{Assembly, CycleTrace, Member, Recording, RobotTrace, Room, St
 const SAMPLES_PER_CYCLE: u32 = 12;
 /// Env steps from sample to sample.
 const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SAMPLES_PER_CYCLE;
-/// Ground voxels of a swarm's world where no more are needed.
+/// The smallest world of a swarm, in ground voxels.
 const LEAST_WORLD: usize = 1 << 15;
 
-/// The world of a swarm's robots for so many cycles: the paper's, with more ground.
+/// The world of a swarm's robots for this many cycles: the paper's, with more ground.
 ///
-/// In the paper's 500 voxels a robot that holds its output comes to the end of the ground within some hundred cycles and falls off it. No
-/// robot walks its own width in a cycle, so there is ground for that much both ways, by powers of two so that most tests of a circuit
-/// have the same world.
+/// In the paper's 500 voxels, a robot that holds its output reaches the end of the ground within some hundred cycles
+/// and falls off. No robot walks its own width in a cycle, so there is ground for that distance both ways, rounded to
+/// powers of two so that most tests of a circuit have the same world.
 pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
     let widest = assembly.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
     let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_WORLD);
     Setting { world_width, ..Setting::default() }
 }
 
-/// Cycles in which robots find their feet after their fresh start. Their motion means nothing before the last of them is over, so that
-/// the others hear their start values until then: a latch would else forget what it begins with (docs/physics.md 14).
+/// Cycles in which robots settle into their shape after their fresh start. Their motion is ignored until the last of
+/// them is over, and the others sense their start values until then; otherwise a latch would lose its start value
+/// (docs/physics.md 14).
 pub const START_CYCLES: usize = 2;
 
-/// A swarm on its way.
+/// A swarm during its simulation.
 #[derive(Debug)]
 pub struct LiveSwarm {
     flock: Box<dyn Flock>,
-    /// Cycles over which a displacement is taken; its sign is the output.
+    /// Cycles over which a displacement is measured; its sign is the output.
     window: usize,
-    /// Each robot's output as the others hear it.
+    /// Each robot's output as sensed by the others.
     heard: Vec<bool>,
     /// Env steps of a cycle at whose end something is read, in order.
     stops: BTreeSet<u32>,
@@ -53,8 +54,8 @@ pub struct SwarmSnapshot {
 }
 
 impl LiveSwarm {
-    /// A swarm at its start, in a world that is wide enough for so many `cycles`. An output is the sign of the displacement over the last
-    /// `window` cycles. Poses are recorded if there is room for them.
+    /// A swarm at its start, in a world that is wide enough for `cycles`. An output is the sign of the displacement
+    /// over the last `window` cycles. Poses are recorded if there is room for them.
     ///
     /// # Panics
     /// When the window is empty.
@@ -80,8 +81,8 @@ impl LiveSwarm {
 
     /// Simulates a cycle with these bits on the input ports.
     ///
-    /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0; that bit is the stimulus of
-    /// the robots it feeds during the next cycle (paper, section 4), from the end of [`START_CYCLES`] on.
+    /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0. From the
+    /// end of [`START_CYCLES`] on, this bit is the stimulus of its receivers during the next cycle (paper, section 4).
     ///
     /// # Panics
     /// When there are not as many bits as the input ports have.
@@ -103,12 +104,12 @@ impl LiveSwarm {
         &self.trace.cycles[self.trace.cycles.len() - 1]
     }
 
-    /// What it did so far.
+    /// The trace so far.
     pub fn trace(&self) -> &SwarmTrace {
         &self.trace
     }
 
-    /// What it did.
+    /// The final trace.
     pub fn into_trace(self) -> SwarmTrace {
         self.trace
     }
@@ -188,7 +189,7 @@ fn begin(assembly: &Assembly, flock: &dyn Flock) -> SwarmTrace {
     }
 }
 
-/// Begins the recording of the robots for which there is room, the most interesting first. Gives its stride.
+/// Starts a recording of the robots for which there is room, the most interesting first. Returns its stride.
 fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles: usize) -> u32 {
     let order = trace.by_interest();
     let points: Vec<usize> = order.iter().map(|&robot| flock.lattice(robot).points().len()).collect();
@@ -199,7 +200,7 @@ fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles
     stride
 }
 
-/// Whether a robot moved in +x over its last `window` cycles, or over all of them while there are fewer.
+/// Whether a robot moved in +x over its last `window` cycles, or over all of them if there are fewer.
 fn moved_right(robot: &RobotTrace, window: usize) -> bool {
     let last = robot.com_x.len() - 1;
     let before = last.saturating_sub(window * SAMPLES_PER_CYCLE as usize);

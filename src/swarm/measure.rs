@@ -1,4 +1,4 @@
-//! Everything that a robot file says of a body's motion, measured.
+//! All measurements of a body for its robot file.
 
 use crate::model::{Behavior, Body, CYCLE_STEPS, Character, Fault, Setting};
 use crate::sim::Simulator;
@@ -8,14 +8,14 @@ use crate::swarm::evaluate::{fixed_displacements, fixed_trials};
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
 const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
 
-/// What was measured of a body.
+/// The measurements of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     /// Displacement in voxels over the paper's fixed simulations, patterns 00, 01, 10, 11.
     pub displacement: [f64; 4],
-    /// Which way it walks in them.
+    /// Its behavior in them.
     pub behavior: Behavior,
-    /// How it does as a gate of that behavior.
+    /// Its character as a gate with this behavior.
     pub character: Character,
 }
 

@@ -1,4 +1,4 @@
-//! Robots as gates, alone and wired together: what drives a swarm, what it did, and whether it did what was asked.
+//! Robots as gates, alone and in swarms: evaluation, characterization, assembly, simulation and verdicts.
 
 mod activity;
 mod assemble;

@@ -1,4 +1,5 @@
-//! Recordings: poses of robots over time as small numbers, for pages that play them. They are made while the robots are simulated.
+//! Recordings: poses of robots over time as small numbers, for pages that play them. They are made while the robots are
+//! simulated.
 
 use crate::model::CYCLE_STEPS;
 use crate::sim::Flock;
@@ -15,7 +16,7 @@ pub struct Room {
 impl Room {
     /// For a swarm: better a jerky film than one without all robots.
     pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
-    /// For gaits of elites: better some of them than jerky ones.
+    /// For gaits of elites: some smooth ones are better than many jerky ones.
     pub const GAITS: Self = Self { bytes: 2_400_000, strides: &[7, 12, 14] };
 
     /// The stride, and the number of robots, for which there is room; `points` are those of each robot.
@@ -49,11 +50,11 @@ pub struct Recorded {
     pub robot: usize,
     /// Each voxel's points, by their numbers, and its material code.
     pub voxels: Vec<([usize; 4], u8)>,
-    /// How many points there are.
+    /// The number of points.
     pub points: usize,
-    /// Hundredths of a voxel: x from where the robot started and height above the ground, point by point, frame by frame.
+    /// Hundredths of a voxel: x from the robot's start and height above the ground, point by point, frame by frame.
     pub frames: Vec<i16>,
-    /// Where its x begins: its leftmost point at the start.
+    /// The origin of its x: its leftmost point at the start.
     start: f64,
 }
 
@@ -64,7 +65,7 @@ impl Recording {
         Self { frames_per_cycle: CYCLE_STEPS / stride, robots }
     }
 
-    /// Adds a frame: the robots where they are now.
+    /// Adds a frame with the current positions of the robots.
     pub fn record(&mut self, flock: &dyn Flock) {
         for recorded in &mut self.robots {
             let (points, start) = (flock.points(recorded.robot), recorded.start);
@@ -86,7 +87,7 @@ impl Recorded {
     }
 }
 
-/// Hundredths; what is too far or not a number stays at the edge.
+/// Hundredths; a value that is out of range or not a number is clamped.
 fn hundredths(voxels: f64) -> i16 {
     (voxels * 100.0).round() as i16
 }

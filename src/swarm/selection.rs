@@ -1,4 +1,5 @@
-//! The best robot of a behavior among the elites of evolution runs: many are screened in short sequences, few measured at length.
+//! Selects the best robot of a behavior among the elites of evolution runs: many are screened in short sequences, few
+//! measured in full.
 
 use std::cmp::Ordering;
 
@@ -7,23 +8,23 @@ use crate::model::{Behavior, Fault, Provenance, Robot};
 use crate::sim::Simulator;
 use crate::swarm::{Measurement, measure, screen};
 
-/// The longest clock that makes a gate worth a long measurement, in cycles.
+/// The longest clock of a gate that is measured in full, in cycles.
 const LONGEST_CLOCK: u32 = 4;
-/// What a measurement costs, in screenings.
+/// The cost of a full measurement, in screenings.
 const MEASUREMENT_COST: u64 = 4;
 
-/// How thorough a selection is, and what it accepts.
+/// The effort of a selection and the accepted errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Selection {
     /// Elites of a behavior that are screened, the fittest first.
     pub tries: usize,
-    /// Of these, how many are measured at length.
+    /// The number of these that are measured in full.
     pub finalists: usize,
-    /// The largest accepted share of wrong outputs.
+    /// The highest accepted error rate.
     pub max_error: f64,
 }
 
-/// An elite with the run it comes from.
+/// An elite with its run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nominee {
     /// The elite.
@@ -32,18 +33,18 @@ pub struct Nominee {
     pub provenance: Provenance,
 }
 
-/// What was found for a behavior.
+/// The result for a behavior.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Selected {
     /// The best robot.
     Robot(Box<Robot>),
-    /// A robot that makes more errors than are accepted.
+    /// A robot with more errors than accepted.
     Erring(Box<Robot>),
     /// The best elite walks otherwise in the paper's fixed simulations.
     Other(Behavior),
-    /// The simulation of the best elite could not go on.
+    /// The simulation of the best elite failed.
     Faulty(Fault),
-    /// There is no elite of this behavior.
+    /// There is no elite with this behavior.
     Missing,
 }
 
@@ -60,12 +61,13 @@ impl Selection {
         chosen
     }
 
-    /// How much work it is to select among that many nominees, in the unit that [`Selection::select`] reports.
+    /// The amount of work for this many nominees, in the unit reported by [`Selection::select`].
     pub fn cost(&self, nominees: usize) -> u64 {
         nominees as u64 + MEASUREMENT_COST * nominees.min(self.finalists) as u64
     }
 
-    /// Screens the nominees, measures the best of them, and takes the best of those; tells `observe` how much work is done.
+    /// Screens the nominees, measures the best of them, and takes the best of those; reports the work done to
+    /// `observe`.
     pub fn select(
         &self,
         simulator: &Simulator,
@@ -119,7 +121,7 @@ impl Selected {
     }
 }
 
-/// How a nominee did in short sequences: its clock and margin, or its fitness where no clock was free of errors.
+/// The result of a nominee in short sequences: its clock and margin, or its fitness if no clock was without errors.
 struct Rank {
     clock: u32,
     margin: f64,
@@ -129,7 +131,7 @@ impl Rank {
     fn of(simulator: &Simulator, behavior: Behavior, nominee: &Nominee) -> Self {
         match screen(simulator, &nominee.elite.body, behavior, LONGEST_CLOCK) {
             Ok(Some((clock, margin))) => Self { clock, margin },
-            // A fault or errors at every clock: behind all others.
+            // A fault or errors at every clock: ranked last.
             Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&nominee.elite) },
         }
     }
@@ -139,7 +141,7 @@ impl Rank {
     }
 }
 
-/// What elites are ranked by before they are screened: both fitnesses count alike.
+/// The rank of elites before screening: both fitnesses have equal weight.
 fn worth(elite: &Elite) -> f64 {
     elite.fitness[0] + elite.fitness[1]
 }

@@ -1,14 +1,16 @@
-//! How long a swarm takes to settle after its inputs switch, whatever each robot does on the way: ternary simulation with bounded delays.
+//! How long a swarm takes to settle after its inputs switch, whatever each robot does on the way: ternary simulation
+//! with bounded delays.
 //!
-//! A robot is right once it has sensed the same for as many cycles as its clock. Until then it may do either, unless it does not
-//! glitch and was right before with the same answer. A net that robots may still make either is unknown, and what follows from it is
-//! too, as far as functions let it through. A row has settled when nothing is unknown and nothing changes (docs/compiler.md, "Time").
-//! Seger & Bryant, "Modeling of circuit delays in symbolic simulation" (1989).
+//! A robot is right once it has sensed the same for as many cycles as its clock. Until then it may do either, unless it
+//! does not glitch and was right before with the same answer. A net that robots may still make either is unknown, and
+//! what follows from it is too, as far as functions let it through. A row has settled when nothing is unknown and
+//! nothing changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic simulation"
+//! (1989).
 
 use crate::model::Function;
 use crate::swarm::{Assembly, Member, START_CYCLES, StimulusSource};
 
-/// What is known of a bit; nothing where it may be either.
+/// The known value of a bit; `None` if it may be either.
 type Known = Option<bool>;
 
 /// A swarm on its way through the rows of a test, as far as clocks alone tell what it does.
@@ -17,7 +19,7 @@ pub struct Settling<'a> {
     members: &'a [Member],
     /// Cycles after which each robot is right, at the output's window.
     clocks: Vec<usize>,
-    /// What each robot senses, and for how many cycles it has been the same and known.
+    /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
     sensed: Vec<([Known; 2], usize)>,
     bits: Vec<Known>,
     cycles: usize,
@@ -37,8 +39,8 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// The cycles of these inputs after which every robot's output is right for as long as they last; none if that is not certain after
-    /// `most` cycles. The swarm stays where it is.
+    /// The number of cycles of these inputs after which every robot's output is correct and stays correct; `None` if
+    /// that is not certain after `most` cycles. The swarm is not changed.
     pub fn cycles_to_settle(&self, inputs: &[bool], most: usize) -> Option<usize> {
         let mut ahead = self.clone();
         let mut settled = 1;
@@ -60,7 +62,7 @@ impl<'a> Settling<'a> {
         (0..cycles).for_each(|_| self.advance(inputs));
     }
 
-    /// What is known of each robot's output at the end of the last cycle.
+    /// The known output of each robot at the end of the last cycle.
     pub fn bits(&self) -> &[Option<bool>] {
         &self.bits
     }
@@ -86,18 +88,19 @@ impl<'a> Settling<'a> {
         self.cycles += 1;
     }
 
-    /// What is known of a robot's output at the end of a cycle.
+    /// The known output of a robot at the end of a cycle.
     fn output(&self, robot: usize, pattern: [Known; 2], held: usize) -> Known {
         let member = &self.members[robot];
         let answer = answer(member.robot.function(), pattern);
         let clock = self.clocks[robot];
         let keeps = self.bits[robot] == answer && member.robot.character.glitch_rate == 0.0;
-        // In one cycle a robot answers to what it senses in that cycle, whatever it sensed before.
+        // In one cycle a robot may react to its stimuli of that cycle, whatever it sensed before.
         let is_right = held >= clock || clock == 1 || keeps;
         if self.cycles + 1 < START_CYCLES || !is_right { None } else { answer }
     }
 
-    /// Whether every robot has sensed the same for as long as it needs. If its outputs were the same in the cycle before, they stay.
+    /// Whether every robot has sensed the same for as long as it needs. If its outputs were the same in the cycle
+    /// before, they stay.
     fn is_at_rest(&self) -> bool {
         self.cycles > START_CYCLES && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
     }
@@ -111,7 +114,7 @@ fn read(signal: StimulusSource, inputs: &[bool], heard: &[Known]) -> Known {
     }
 }
 
-/// What a function makes of bits that may be unknown.
+/// A function of bits that may be unknown.
 fn answer(function: Function, [a, b]: [Known; 2]) -> Known {
     let either = |bit: Known| bit.map_or([false, true], |bit| [bit; 2]);
     let mut outputs = either(a).into_iter().flat_map(|a| either(b).map(|b| function.output(a, b)));

@@ -3,19 +3,19 @@
 use crate::sim::Simulator;
 use crate::swarm::{Assembly, LiveSwarm, Room, SwarmTrace};
 
-/// What a swarm is exposed to, and how its motion is read.
+/// The conditions of a simulation: inputs, schedule, and how motion is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exposure {
     /// The input ports' bits in each cycle.
     pub inputs: Vec<Vec<bool>>,
-    /// Cycles over which a displacement is taken; its sign is the output. The paper's is one.
+    /// Cycles over which a displacement is measured; its sign is the output. The paper's is one.
     pub window: usize,
     /// The room for a recording of poses, if one is made.
     pub poses: Option<Room>,
 }
 
-/// Simulates a swarm in its [`setting`](crate::swarm::setting) through an exposure, calling `observe` with the number of finished cycles
-/// after each.
+/// Simulates a swarm in its [`setting`](crate::swarm::setting) through an exposure, calling `observe` with the number
+/// of finished cycles after each.
 ///
 /// # Panics
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.

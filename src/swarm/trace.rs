@@ -1,4 +1,4 @@
-//! What a swarm did: every robot's path, and every net's bit in every cycle.
+//! The trace of a swarm: every robot's path, and every net's bit in every cycle.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ pub struct SwarmTrace {
     pub inputs: Vec<Column>,
     /// The output ports.
     pub outputs: Vec<Column>,
-    /// What each bit of the output ports shows.
+    /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
     /// Samples of the robots' paths in one cycle.
     pub samples_per_cycle: usize,
@@ -22,7 +22,7 @@ pub struct SwarmTrace {
     pub robots: Vec<RobotTrace>,
     /// The cycles, first to last.
     pub cycles: Vec<CycleTrace>,
-    /// Poses of its robots, as far as they were asked for.
+    /// The recorded poses of its robots, if requested.
     #[serde(skip)]
     pub recording: Recording,
 }
@@ -37,13 +37,13 @@ pub struct RobotTrace {
     pub function: Function,
     /// The robot's name in its library.
     pub robot: String,
-    /// What it senses as stimulus 1 and stimulus 2.
+    /// The sources of stimulus 1 and stimulus 2.
     pub senses: [StimulusSource; 2],
     /// The names of the nets it senses, likewise.
     pub sensed_nets: [String; 2],
     /// Horizontal place of the center of mass in voxels: the start, then `samples_per_cycle` samples a cycle.
     pub com_x: Vec<f64>,
-    /// What stopped it, if anything did; from then on it stands still.
+    /// The fault that stopped it, if any; from then on it stands still.
     pub fault: Option<Fault>,
 }
 
@@ -52,7 +52,7 @@ pub struct RobotTrace {
 pub struct CycleTrace {
     /// The bits of the input ports during the cycle.
     pub inputs: Vec<bool>,
-    /// What each robot sensed during the cycle, stimulus 1 first.
+    /// The stimuli of each robot during the cycle, stimulus 1 first.
     pub sensed: Vec<[bool; 2]>,
     /// Each robot's output at the cycle's end.
     pub bits: Vec<bool>,
@@ -72,8 +72,8 @@ impl SwarmTrace {
         path[(cycle + 1) * self.samples_per_cycle] - path[cycle * self.samples_per_cycle]
     }
 
-    /// All robots, the most interesting first: those that outputs show, those of named nets, the outer before the inner ones of what a
-    /// circuit uses, then the others.
+    /// All robots, the most interesting first: those shown by outputs, those of named nets (outer ones before those
+    /// inside circuits), then the others.
     pub fn by_interest(&self) -> Vec<usize> {
         let rank = |robot: usize| {
             let net = &self.robots[robot].net;
@@ -91,7 +91,7 @@ impl SwarmTrace {
     }
 }
 
-/// Whether a net has the name that a compiler gives to what has none: `n` and a number.
+/// Whether a net has a compiler-made name: `n` and a number.
 fn is_unnamed(net: &str) -> bool {
     net.strip_prefix('n').is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit()))
 }

@@ -1,11 +1,11 @@
-//! What a test came to, as plain data that text, JSON and pages read: at the level of logic and in physics alike.
+//! The verdict of a test as plain data for text, JSON and pages, at the level of logic and in physics.
 
 use serde::Serialize;
 
 use crate::model::{Column, Value};
 use crate::swarm::WeakRobot;
 
-/// What a test is run on.
+/// The level of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
@@ -25,7 +25,7 @@ impl Level {
     }
 }
 
-/// What a test came to.
+/// The verdict of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TestVerdict {
     /// The file of the test.
@@ -34,11 +34,11 @@ pub struct TestVerdict {
     pub line: usize,
     /// The circuit under test.
     pub circuit: String,
-    /// The test's title; empty where it has none.
+    /// The test's title; empty if it has none.
     pub title: String,
     /// The declared swarm, if it is one.
     pub swarm: Option<String>,
-    /// What it was run on.
+    /// The level.
     pub level: Level,
     /// Whether all rows passed.
     pub passed: bool,
@@ -46,13 +46,13 @@ pub struct TestVerdict {
     pub inputs: Vec<Column>,
     /// The output ports.
     pub outputs: Vec<Column>,
-    /// Robots of the swarm that make errors or have a thin margin.
+    /// Robots of the swarm with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
     /// The rows in order.
     pub rows: Vec<RowVerdict>,
 }
 
-/// What a test's row came to.
+/// The verdict of a test's row.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RowVerdict {
     /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
@@ -61,35 +61,37 @@ pub struct RowVerdict {
     pub line: usize,
     /// The values of the input ports.
     pub inputs: Vec<Value>,
-    /// The values of the output ports that the row asks for.
+    /// The expected values of the output ports.
     pub expected: Vec<Value>,
     /// The values of the output ports at the end of the row.
     pub observed: Vec<Value>,
-    /// For each output port whether it had that value for good: over the last two cycles, or for ever at the level of logic.
+    /// For each output port whether it had that value for good: over the last two cycles, or for ever at the level of
+    /// logic.
     pub steady: Vec<bool>,
     /// Cycles for which the row was held; none at the level of logic.
     pub cycles: Option<usize>,
     /// Cycles for which static timing would have it held; none at the level of logic.
     pub needed: Option<usize>,
-    /// Whether every output that is asked for had its value for good.
+    /// Whether every checked output had its expected value and kept it.
     pub passed: bool,
-    /// Robots that were wrong in the row although their stimuli had not changed for as long as their clock, where it failed.
+    /// If the row failed: robots that were wrong although their stimuli had been stable for at least their clock.
     pub lapses: Vec<Lapse>,
-    /// Robots that were wrong in the row's last cycle and had not had as long as their clock, where it failed.
+    /// If the row failed: robots that were wrong in its last cycle and whose stimuli had been stable for less than
+    /// their clock.
     pub late: Vec<Lapse>,
 }
 
-/// A robot that gave another output than its function does of its stimuli.
+/// A robot whose output was not its function of its stimuli.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Lapse {
-    /// The net whose bit was wrong.
+    /// The net with the wrong bit.
     pub net: String,
     /// The robot's name.
     pub robot: String,
     /// The cycle, from 0 at the test's start.
     pub cycle: usize,
-    /// What it sensed.
+    /// Its stimuli.
     pub sensed: [bool; 2],
-    /// What it output.
+    /// Its output.
     pub output: bool,
 }

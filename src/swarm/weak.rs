@@ -4,24 +4,25 @@ use serde::Serialize;
 
 use crate::swarm::Assembly;
 
-/// A margin below this, in voxels a cycle, is thin: small differences of the ground or the materials may turn the output.
+/// A margin below this, in voxels a cycle, is thin: small differences of the ground or the materials may turn the
+/// output.
 pub const THIN_MARGIN: f64 = 0.02;
 
-/// A robot of a swarm that makes errors or has a thin margin.
+/// A robot of a swarm with errors or a thin margin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WeakRobot {
     /// Its name in the library.
     pub robot: String,
     /// The nets that it drives.
     pub nets: Vec<String>,
-    /// Wrong outputs as a share of the switches that were measured.
+    /// The share of measured switches with a wrong output.
     pub error_rate: f64,
     /// Its margin in voxels a cycle.
     pub margin: f64,
 }
 
 impl WeakRobot {
-    /// What is wrong with it: `wrong in 4.2 % of its measured switches`.
+    /// The weakness in words: `wrong in 4.2 % of its measured switches`.
     pub fn complaint(&self) -> String {
         match self.error_rate {
             rate if rate > 0.0 => format!("wrong in {:.1} % of its measured switches", rate * 100.0),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// How much was simulated, and how much a full evaluation of everything would have taken on top.
+/// The env steps of an evaluation, and those saved compared with a full evaluation of everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
     /// Env steps simulated.

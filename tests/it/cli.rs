@@ -416,13 +416,18 @@ fn timings_do_not_change_results() {
     let stages: Vec<&str> = seconds.keys().copied().collect();
     assert_eq!(stages, ["bookkeeping", "contact", "limits", "output", "springs"], "{}", timed.err);
     assert!(seconds["springs"] > seconds["bookkeeping"], "{}", timed.err);
-    assert!(timed.err.contains("lane-substeps a second and thread"), "{}", timed.err);
+    assert!(timed.err.contains("lane-substeps per second and thread"), "{}", timed.err);
 }
 
 #[test]
 fn timings_of_an_evolution_include_archive_and_development() {
     let bench = Bench::new();
-    bench.file("small.nb", "schedule once(s1, s2) {\n 0 0 for 1 cycles\n 0 1 for 1 cycles\n 1 0 for 1 cycles\n 1 1 for 1 cycles\n}\nevolution small {\n    box: 3 x 2\n    variable: once\n    fixed: 1 cycles\n    batch: 4\n    generations: 2\n    seed: 1\n}\n");
+    bench.file(
+        "small.nb",
+        "schedule once(s1, s2) {\n 0 0 for 1 cycles\n 0 1 for 1 cycles\n 1 0 for 1 cycles\n 1 1 \
+        for 1 cycles\n}\nevolution small {\n    box: 3 x 2\n    variable: once\n    fixed: 1 cycles\n    batch: \
+        4\n    generations: 2\n    seed: 1\n}\n",
+    );
     let ran = bench.run(&["evolve", "small.nb", "--timings"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let seconds = timings(&ran.err);

@@ -1,4 +1,5 @@
-//! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no name.
+//! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no
+//! name.
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};

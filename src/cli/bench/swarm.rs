@@ -54,7 +54,8 @@ impl SwarmFigures {
         let Self { robots, one_core, different, all_threads, threads } = self;
         let (share, thousand) = (100.0 * one_core / different, 1e3);
         format!(
-            "\na swarm of {robots} robots: {:.0}k lane-substeps a second on one core, {share:.0} % of different bodies side by side \
+            "\na swarm of {robots} robots: {:.0}k lane-substeps per second on one core, {share:.0} % of different \
+             bodies side by side \
              ({:.0}k); {:.0}k on {threads} threads\n",
             one_core / thousand,
             different / thousand,
@@ -79,7 +80,8 @@ fn assembly() -> Assembly {
     Assembly { circuit: "counter".to_owned(), inputs: inputs.into(), members, outputs, shown }
 }
 
-/// Lane-substeps a second by that clock, or by the one on the wall where it tells nothing. Poses are recorded as for a page.
+/// Lane-substeps a second by that clock, or by the one on the wall where it tells nothing. Poses are recorded as for a
+/// page.
 fn speed(assembly: &Assembly, kernel: Kernel, clock: impl Fn() -> Option<f64>) -> f64 {
     let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
     let mut swarm = LiveSwarm::new(&simulator, assembly, CYCLES, 1, Some(Room::SWARM));

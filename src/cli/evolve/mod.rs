@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::run::{Ended, EvolutionRun};
-use crate::cli::timings::{Timer, Timings};
+use crate::cli::timings::Timer;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};

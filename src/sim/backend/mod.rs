@@ -1,4 +1,4 @@
-//! Back ends: ways to carry out the physics. All give the same bits; `lanes` is this processor's.
+//! Back ends: implementations of the physics. All give the same bits; `lanes` runs on this processor.
 
 pub mod lanes;
 
@@ -8,19 +8,19 @@ use crate::model::{Body, Fault, Pattern, Setting, Trajectory, Trial};
 use crate::sim::lattice::Lattice;
 use crate::sim::state::State;
 
-/// A way to carry out the physics.
+/// An implementation of the physics.
 pub trait Backend: Debug + Send + Sync {
     /// Opens a world with a robot for each body, at rest at the setting's start column, its clock at zero.
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock>;
 
-    /// Simulates each trial from a fresh start; result `i` belongs to trial `i`. The results do not depend on threads or on what is
-    /// simulated together.
+    /// Simulates each trial from a fresh start; result `i` is that of trial `i`. The results do not depend on threads
+    /// or on the grouping of trials.
     fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory>;
 }
 
-/// Robots side by side, each alone in its own simulation with its own stimuli.
+/// Several robots, each alone in its own simulation with its own stimuli.
 pub trait Flock: Debug + Send {
-    /// How many robots.
+    /// The number of robots.
     fn len(&self) -> usize;
 
     /// Whether there are none.
@@ -28,14 +28,14 @@ pub trait Flock: Debug + Send {
         self.len() == 0
     }
 
-    /// Simulates `env_steps` more env steps, robot `i` under `patterns[i]`. The actuation clock runs on from call to call. A robot with a
-    /// fault stays where it was at the end of its last whole env step.
+    /// Simulates `env_steps` more env steps, with robot `i` under `patterns[i]`. The actuation clock continues from
+    /// call to call. A robot with a fault stays in its state after its last complete env step.
     ///
     /// # Panics
     /// When there is not one pattern for each robot.
     fn advance(&mut self, patterns: &[Pattern], env_steps: u32);
 
-    /// Keeps robot `i` where `keep[i]` is true, in their order, and drops the others.
+    /// Keeps robot `i` if `keep[i]` is true, in the same order, and drops the others.
     ///
     /// # Panics
     /// When there is not one entry for each robot.
@@ -44,7 +44,7 @@ pub trait Flock: Debug + Send {
     /// The center of mass of robot `i`, in voxels: x and y.
     fn center(&self, i: usize) -> [f64; 2];
 
-    /// The fault that ended the simulation of robot `i`, if there was one.
+    /// The fault that ended the simulation of robot `i`, if any.
     fn fault(&self, i: usize) -> Option<Fault>;
 
     /// Env steps that robot `i` has done.
@@ -72,6 +72,6 @@ pub struct Snapshot {
     pub center: [f64; 2],
     /// Env steps done.
     pub clock: u32,
-    /// What ended it, if anything did.
+    /// The fault that ended it, if any.
     pub fault: Option<Fault>,
 }

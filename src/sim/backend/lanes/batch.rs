@@ -1,8 +1,8 @@
-//! The kernel's workspace: several robots side by side, laid out for the sweep of `step`.
+//! The kernel's workspace: several robots in lanes, laid out for the pass of `step`.
 //!
-//! The robots may differ. The batch holds the union of their points and of their springs, keyed by places in the box; a spring that a
-//! lane has not is one of stiffness zero, and a point that a lane has not lies far away, weightless. Both add exact zeros, so a lane
-//! computes what it would compute alone.
+//! The robots may differ. The batch has the union of their points and of their springs, keyed by position in the box. A
+//! spring that a lane does not have has stiffness zero, and a point that a lane does not have is far away and
+//! weightless. Both add exact zeros, so a lane gives the same results as alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -16,14 +16,14 @@ use crate::sim::lattice::{CORNERS, DrivenEdge, Edge, Lattice, LatticePoint, Voxe
 use crate::sim::meter::{Part, Stopwatch};
 use crate::sim::state::State;
 
-/// Where a lane keeps the points it has not: in meters above the ground, at rest.
+/// Height in meters of the points that a lane does not have, at rest.
 const AWAY: f64 = 1000.0;
 
-/// The aims of springs that nothing drives: of main edges, of diagonals.
+/// The goals of springs that are not driven: of main edges, of diagonals.
 pub const MAIN: usize = 0;
 pub const DIAGONAL: usize = 1;
 
-/// The four springs that a voxel does not leave to others: top, left, falling diagonal, rising diagonal.
+/// The four springs of a voxel in its frame: top, left, falling diagonal, rising diagonal.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// Its masses: top left, top right, bottom right, bottom left.
@@ -41,7 +41,7 @@ impl Frame {
     }
 }
 
-/// A bottom or right side without a voxel beyond that has it as its top or left.
+/// A bottom or right side without a voxel beyond it, which would have it as its top or left side.
 #[derive(Clone, Copy, Debug)]
 pub struct Rim {
     /// The earlier mass.
@@ -55,12 +55,12 @@ pub struct Rim {
 /// The springs' places in a frame: between which corners each runs, the earlier mass first.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
-/// Rigid voxels whose limits are looked after together: in each lane one at most, the next in reading order.
+/// Rigid voxels whose limits are processed together: at most one in each lane, the next in reading order.
 #[derive(Clone, Debug)]
 pub struct Round<R: Real> {
     /// Lanes that have one.
     pub lanes: R::Mask,
-    /// The voxels' masses, top left, top right, bottom right, bottom left, and whose they are.
+    /// The voxels' masses, top left, top right, bottom right, bottom left, and their lanes.
     pub voxels: Vec<([usize; CORNERS], R::Mask)>,
 }
 
@@ -101,25 +101,25 @@ pub struct SurfaceVoxel {
     pub sides: [bool; CORNERS],
 }
 
-/// Robots side by side, one a lane.
+/// Robots in lanes, one robot each.
 #[derive(Debug)]
 pub struct Batch<R: Real, K: Stiffness<R>> {
     /// The physics' numbers.
     pub constants: Constants,
     /// Ground voxels.
     pub world_width: usize,
-    /// Counts where time goes, where that is wanted.
+    /// Measures the time of each part, if requested.
     pub stopwatch: Option<Stopwatch>,
     /// The masses, in order of their places row by row.
     pub masses: Vec<Mass<R>>,
-    /// Where each mass was a substep ago.
+    /// The position of each mass one substep ago.
     pub before: Vec<Vector<R>>,
-    /// What acts on each mass in all four stages: a place in `loads`.
+    /// The load of each mass in all four stages: an index of `loads`.
     pub load: Vec<u32>,
-    /// Gravity in the lanes that have a mass, for each set of lanes that occurs; then, in this substep, gravity and contact of each mass
-    /// in contact.
+    /// Gravity in the lanes that have a mass, for each set of lanes that occurs; then, in this substep, gravity and
+    /// contact of each mass in contact.
     pub loads: Vec<Vector<R>>,
-    /// How many of `loads` are gravity alone.
+    /// The number of `loads` that are only gravity.
     pub weights: usize,
     /// Masses in contact, with their load before.
     pub loaded: Vec<(usize, u32)>,
@@ -135,7 +135,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub rim_stiffness: Vec<K>,
     /// Their stiffness times frozen rest length.
     pub rim_frozen: Vec<R>,
-    /// Goal lengths times the approach (docs/physics.md 5): of springs that nothing drives, and of each driven one.
+    /// Goal lengths times the approach factor (docs/physics.md 5): of springs that are not driven, and of each driven
+    /// one.
     pub aims: Vec<R>,
     /// The rows of the lattice, upper first.
     pub rows: Vec<Row>,
@@ -143,7 +144,7 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub rigid: Vec<Round<R>>,
     /// The robots.
     pub occupants: Vec<Occupant>,
-    /// What is near what.
+    /// The pairs that are close to each other.
     pub proximity: Proximity<R>,
     /// Lanes that went unstable, as bits.
     pub unstable: u32,
@@ -171,10 +172,10 @@ pub struct Row {
 /// A mass's place in the box: row, column, twin.
 type Key = (usize, usize, bool);
 
-/// What tells voxels of all lanes apart: row and column, masses.
+/// The key of a voxel across lanes: row and column, masses.
 type TileKey = ([usize; 2], [usize; CORNERS]);
 
-/// What tells rims apart: the earlier mass and the later.
+/// The key of a rim: the earlier mass and the later.
 type RimKey = (usize, usize);
 
 /// The places that a lane's edges have found.
@@ -238,7 +239,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         batch
     }
 
-    /// Counts the time since the last part as `part`, where time is counted.
+    /// Adds the time since the last part to `part`, if time is measured.
     #[inline(always)]
     pub fn lap(&mut self, part: Part) {
         if let Some(stopwatch) = &mut self.stopwatch {
@@ -260,7 +261,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.occupants.push(occupant);
     }
 
-    /// Gives each mass its weight in the lanes that have it.
+    /// Sets the weight of each mass in the lanes that have it.
     fn assign_weights(&mut self) {
         let mut lanes = vec![0u32; self.masses.len()];
         for (lane, occupant) in self.occupants.iter().enumerate() {
@@ -282,7 +283,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Lays the union of the robots' springs. Gives each lane's driven springs.
+    /// Builds the union of the robots' springs. Returns each lane's driven springs.
     fn add_springs(&mut self, robots: &[(&Lattice, &State)], maps: &[Vec<usize>], places: &[Key]) -> Vec<Vec<Driven>> {
         let lanes: Vec<Vec<Spring>> =
             robots.iter().zip(maps).map(|((body, _), masses)| springs(body, masses)).collect();
@@ -336,7 +337,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         if kind == MAIN { cell } else { (cell * cell + cell * cell).sqrt() }
     }
 
-    /// Says where each row's masses and frames are.
+    /// Sets the masses and frames of each row.
     fn index_rows(&mut self, places: &[Key]) {
         let (mut mass, mut frame) = (0, 0);
         while mass < places.len() {
@@ -359,14 +360,14 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Takes out where a lane's points were at the last call of [`Batch::save`].
+    /// Reads the positions of a lane's points at the last call of [`Batch::save`].
     pub fn unload_saved(&self, lane: usize, state: &mut State) {
         for (point, &mass) in self.occupants[lane].masses.iter().enumerate() {
             state.position[point] = self.saved[mass].map(|axis| axis.lane(lane));
         }
     }
 
-    /// Remembers where everything is, in case the next env step has to be abandoned.
+    /// Saves all positions, in case the next env step has to be undone.
     pub fn save(&mut self) {
         self.saved.clear();
         self.saved.extend(self.masses.iter().map(|mass| mass.at));
@@ -382,7 +383,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         [mean(0), mean(1)]
     }
 
-    /// Sets what a lane's materials ask for: `targets[code]` as a share of the width at rest (docs/physics.md 4).
+    /// Sets the targets of a lane's materials: `targets[code]` is a fraction of the rest width (docs/physics.md 4).
     pub fn set_targets(&mut self, lane: usize, targets: &[f64]) {
         for driven in &self.occupants[lane].driven {
             let first = targets[usize::from(driven.first)];
@@ -425,7 +426,8 @@ impl<R: Real> Round<R> {
     }
 }
 
-/// Where each edge of a robot goes: into the frame of the voxel whose top, left or diagonal it is, or among the rims.
+/// The place of each edge of a robot: in the frame of the voxel that has it as top, left or diagonal, or among the
+/// rims.
 fn springs(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
     let mut found: BTreeMap<RimKey, Spring> = BTreeMap::new();
     for voxel in body.voxels() {
@@ -458,7 +460,7 @@ impl Occupant {
     }
 }
 
-/// A mass at rest where no robot has it.
+/// The position of a mass that no robot has.
 fn far_away<R: Real>((row, column, _): Key, constants: &Constants) -> Mass<R> {
     let zero = [R::splat(0.0); 2];
     let at = [R::splat(column as f64 * constants.cell), R::splat(AWAY - row as f64 * constants.cell)];

@@ -1,4 +1,5 @@
-//! The geometry of contact: which corners of a voxel are inside which other voxel, and which side they came through (docs/physics.md 7).
+//! The geometry of contact: which corners of a voxel are inside which other voxel, and which side they came through
+//! (docs/physics.md 7).
 //!
 //! Ties at the start of a simulation are decided by the last bit here, so every formula is rounded as written.
 
@@ -8,23 +9,24 @@ use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::constants::Constants;
 use crate::sim::lattice::CORNERS;
 
-/// A point further than this outside the box around a voxel, in metres, is outside the voxel whatever is rounded, ...
+/// A point farther than this outside the bounding box of a voxel, in meters, is outside the voxel for any rounding, ...
 const CLEAR: f64 = 1e-5;
 
-/// ... unless it is so near the line of the falling diagonal: twice the area, in square metres, of the triangle that it makes with it.
+/// ... unless it is this close to the line of the falling diagonal: twice the area, in square meters, of the triangle
+/// of the point and the diagonal.
 const NEAR_DIAGONAL: f64 = 1e-7;
 
-/// No voxel that is larger than this, in metres, is judged by the box around it.
+/// The bounding box is not used for voxels larger than this, in meters.
 const SOUND: f64 = 1.0;
 
-/// A voxel where it is now.
+/// A voxel at its current position.
 #[derive(Clone, Copy, Debug)]
 pub struct Quad {
     /// Top left, top right, bottom right, bottom left.
     pub corners: [Vector2<f64>; CORNERS],
-    /// Which sides are surface: top, right, bottom, left.
+    /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
-    /// Least and greatest coordinates.
+    /// Smallest and largest coordinates.
     pub bounds: [Vector2<f64>; 2],
     /// Bounds outside of which a point is clearly outside.
     reach: [Vector2<f64>; 2],
@@ -35,16 +37,17 @@ pub struct Quad {
 pub struct Hit {
     /// The surface side that it came through.
     pub side: usize,
-    /// How far it is from that side's line, in metres.
+    /// Its distance from the line of that side, in meters.
     pub distance: f64,
     /// Unit normal of that side, outwards.
     pub normal: Vector2<f64>,
 }
 
-/// The two sides that meet in each corner, in the order in which they are tried.
+/// The two sides at each corner, in the order in which they are tested.
 const MEETING: [[usize; 2]; CORNERS] = [[0, 3], [0, 1], [2, 1], [2, 3]];
 
-/// Whether `point` is inside the voxel with these corners: the triangle above its falling diagonal or the one below (docs/physics.md 7.2).
+/// Whether `point` is inside the voxel with these corners: the triangle above its falling diagonal or the one below
+/// (docs/physics.md 7.2).
 #[inline(always)]
 pub fn is_inside<R: Real>(point: [R; 2], corners: [[R; 2]; CORNERS]) -> R::Mask {
     let from = |corner: [R; 2]| [corner[0] - point[0], corner[1] - point[1]];
@@ -64,7 +67,7 @@ impl Quad {
         Self::within([a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d)], corners, surface)
     }
 
-    /// The same where its bounds are known.
+    /// The same for known bounds.
     pub fn within(bounds: [Vector2<f64>; 2], corners: [Vector2<f64>; CORNERS], surface: [bool; CORNERS]) -> Self {
         let [least, greatest] = bounds;
         let is_sound = greatest.x - least.x < SOUND && greatest.y - least.y < SOUND;
@@ -72,7 +75,7 @@ impl Quad {
         Self { corners, surface, bounds, reach: [least - clear, greatest + clear] }
     }
 
-    /// The corners between which a side runs: clockwise on the surface, else left to right or top to bottom (docs/physics.md 3).
+    /// The corners of a side: clockwise on the surface, else left to right or top to bottom (docs/physics.md 3).
     pub fn ends(&self, side: usize) -> [usize; 2] {
         let clockwise = [side, (side + 1) % CORNERS];
         if self.surface[side] || side < 2 { clockwise } else { [clockwise[1], clockwise[0]] }
@@ -82,8 +85,8 @@ impl Quad {
         self.ends(side).map(|corner| self.corners[corner])
     }
 
-    /// Whether a point is so clearly outside that [`Quad::contains`] need not be asked. On the line of the falling diagonal that says
-    /// yes everywhere, even far outside.
+    /// Whether a point is so far outside that [`Quad::contains`] can be skipped. That test is true everywhere on the
+    /// line of the falling diagonal, even far outside.
     #[inline(always)]
     fn is_clear_of(&self, point: Vector2<f64>) -> bool {
         let [least, greatest] = self.reach;
@@ -99,8 +102,8 @@ impl Quad {
         is_inside([point.x, point.y], self.corners.map(|corner| [corner.x, corner.y]))
     }
 
-    /// The contact of corner `corner` of `main` with this voxel, if it is inside and came through a surface side: the nearest of the
-    /// surface sides which are crossed by one of the two sides that meet in the corner (docs/physics.md 7.3 and 7.4).
+    /// The contact of corner `corner` of `main` with this voxel, if it is inside and came through a surface side: the
+    /// nearest of the surface sides crossed by one of the two sides at the corner (docs/physics.md 7.3 and 7.4).
     #[inline(always)]
     pub fn hit_by(&self, main: &Quad, corner: usize, constants: &Constants) -> Option<Hit> {
         let point = main.corners[corner];
@@ -132,7 +135,8 @@ impl Quad {
     }
 }
 
-/// Whether segment `first` (of the main voxel) and segment `second` (of the reference) have a point in common; never when nearly parallel.
+/// Whether segment `first` (of the main voxel) and segment `second` (of the reference) have a point in common; never
+/// when nearly parallel.
 fn crosses(first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], constants: &Constants) -> bool {
     let (d1, d2) = (first[1] - first[0], second[1] - second[0]);
     let q = second[0] - first[0];
@@ -145,7 +149,7 @@ fn crosses(first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], constants: &Cons
     (0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)
 }
 
-/// How far a point is from the line through a segment.
+/// The distance of a point from the line through a segment.
 fn distance(point: Vector2<f64>, [a, b]: [Vector2<f64>; 2], constants: &Constants) -> f64 {
     let e = b - a;
     let length = length(e);

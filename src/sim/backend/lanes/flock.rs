@@ -14,9 +14,9 @@ use crate::sim::lattice::Lattice;
 pub struct LaneFlock {
     world: World,
     squads: Vec<Squad>,
-    /// The squad of each robot, and its place there.
+    /// The squad of each robot, and its index there.
     places: Vec<(usize, usize)>,
-    /// What a substep of all squads costs, in the unit of [`Formation::cost`].
+    /// The cost of a substep of all squads, in the unit of [`Formation::cost`].
     cost: u64,
 }
 

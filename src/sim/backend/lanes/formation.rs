@@ -1,4 +1,4 @@
-//! Which robots of a flock share a batch: the division into squads that costs least. It has no influence on any result.
+//! The cheapest division of a flock into squads, which share batches. It does not affect results.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -20,15 +20,16 @@ pub struct LaneRequest {
 pub struct Formation {
     /// The robots of each squad, the most costly squad first.
     pub squads: Vec<Vec<usize>>,
-    /// What a substep of all squads costs, in the unit of [`Kernel::cost`].
+    /// The cost of a substep of all squads, in the unit of [`Kernel::cost`].
     pub cost: u64,
 }
 
 impl Formation {
     /// The best division into squads of at most `lanes` robots.
     ///
-    /// Robots are put in order, large boxes first, and in a box rare bodies before frequent ones; squads are robots one after another.
-    /// So lanes that large robots leave idle go to those that nobody is like, and equal bodies stay together, which is faster.
+    /// Robots are sorted by box, large ones first, and within a box rare bodies before frequent ones; squads are
+    /// consecutive robots. So lanes next to large robots go to unique bodies, and equal bodies stay together, which is
+    /// faster.
     pub fn of(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> Self {
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for robot in robots {
@@ -48,8 +49,7 @@ impl Formation {
     }
 }
 
-/// The cheapest way to cut a row of robots into squads, and what it costs: the best way for each number of first robots, from those for
-/// fewer.
+/// The cheapest division of a sequence of robots into squads, and its cost, by dynamic programming over prefixes.
 fn divide(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> (Vec<Range<usize>>, u64) {
     let mut best: Vec<(u64, usize)> = vec![(0, 0)];
     for end in 1..=robots.len() {
@@ -66,7 +66,7 @@ fn divide(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> (Vec<Range<us
     (cuts, best[robots.len()].0)
 }
 
-/// What a substep of these robots costs side by side.
+/// The cost of a substep of these robots in one batch.
 fn cost_of(robots: &[LaneRequest], kernel: Kernel) -> u64 {
     let most = |side: fn(&LaneRequest) -> usize| robots.iter().map(side).max().unwrap_or(0) as u64;
     let alike = robots.windows(2).all(|pair| pair[0].body == pair[1].body);

@@ -1,7 +1,7 @@
 //! The kernels: one step, compiled for each instruction set and number of lanes, chosen when the program runs.
 //!
-//! This is the one file with `unsafe`: vector types of an instruction set, and calls into functions compiled for it. A vector type is
-//! made only inside [`Kernel::batch`], after the processor has been asked whether it has the instructions.
+//! This is the one file with `unsafe`: vector types of an instruction set, and calls of functions compiled for it. A
+//! vector is created only inside [`Kernel::batch`], after checking that the processor has the instructions.
 #![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
 
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::sim::state::State;
 /// A set of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
-    /// What every processor of the target has: SSE2 on x86-64, NEON on ARM.
+    /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM.
     Baseline,
     /// AVX2.
     Avx2,
@@ -28,7 +28,7 @@ pub enum InstructionSet {
     Avx512,
 }
 
-/// A way to run the step: an instruction set, and how many simulations run side by side at most. Every kernel gives the same bits.
+/// An instruction set, and the number of lanes. Every kernel gives the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kernel {
     set: InstructionSet,
@@ -80,7 +80,7 @@ impl InstructionSet {
 }
 
 impl Kernel {
-    /// The numbers of lanes that there are kernels for.
+    /// The supported numbers of lanes.
     pub const WIDTHS: [usize; 3] = [1, 4, 8];
 
     /// One simulation at a time.
@@ -106,8 +106,8 @@ impl Kernel {
         Self { set, lanes }
     }
 
-    /// What a substep of so many robots side by side costs for each voxel of their box: 100 for eight different bodies with AVX-512
-    /// (docs/performance.md). `alike` says that all have the same body.
+    /// The cost of a substep of this many robots per voxel of their box: 100 for eight different bodies with AVX-512
+    /// (docs/performance.md). `alike` means that all have the same body.
     pub(crate) fn cost(self, robots: usize, alike: bool) -> u64 {
         let (different, same) = match (self.set, robots) {
             (_, 1) => (51, 51),
@@ -120,7 +120,7 @@ impl Kernel {
         if alike { same } else { different }
     }
 
-    /// Simulations side by side at most.
+    /// The number of lanes.
     pub fn lanes(self) -> usize {
         self.lanes
     }
@@ -130,7 +130,8 @@ impl Kernel {
         self.set
     }
 
-    /// Lays out at most [`Kernel::lanes`] robots, in no more lanes than they need. `alike` says that all have the same body.
+    /// Lays out at most [`Kernel::lanes`] robots, in no more lanes than needed. `alike` means that all have the same
+    /// body.
     pub(crate) fn batch(self, robots: &[(&Lattice, &State)], alike: bool, ground: Ground<'_>) -> Box<dyn LaneBatch> {
         assert!(robots.len() <= self.lanes, "a robot for each lane at most");
         match (self.set, robots.len(), alike) {
@@ -155,14 +156,14 @@ impl Kernel {
     }
 }
 
-/// What a batch needs to know besides its robots.
+/// The parameters of a batch besides its robots.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {
     /// The numbers of the physics.
     pub constants: &'a Constants,
     /// Ground voxels in a row.
     pub width: usize,
-    /// Counts where time goes, where that is wanted.
+    /// Measures the time of each part, if requested.
     pub meter: Option<&'a Arc<Meter>>,
 }
 
@@ -204,15 +205,15 @@ mod x86 {
     #[repr(transparent)]
     pub struct Avx2(__m256d);
 
-    /// Four lanes' answers: all bits of a lane set, or none.
+    /// The comparison results of four lanes: all bits of a lane set, or none.
     #[derive(Clone, Copy, Debug)]
     pub struct Avx2Mask(__m256d);
 
-    /// Two vectors as one.
+    /// Two vectors used as one.
     #[derive(Clone, Copy, Debug)]
     pub struct Pair<T>(T, T);
 
-    /// Eight lanes with the instructions of AVX-512, which must be there.
+    /// Eight lanes with AVX-512 instructions, which must be available.
     pub fn avx512_8<K: Stiffness<Avx512>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
         fn step<K: Stiffness<Avx512>>(batch: &mut Batch<Avx512, K>) {
@@ -222,7 +223,7 @@ mod x86 {
         layout::<Avx512, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
-    /// Four lanes with the instructions of AVX2, which must be there.
+    /// Four lanes with AVX2 instructions, which must be available.
     pub fn avx2_4<K: Stiffness<Avx2>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx2")]
         fn step<K: Stiffness<Avx2>>(batch: &mut Batch<Avx2, K>) {
@@ -232,7 +233,7 @@ mod x86 {
         layout::<Avx2, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
-    /// Eight lanes with the instructions of AVX2, which must be there.
+    /// Eight lanes with AVX2 instructions, which must be available.
     pub fn avx2_8<K: Stiffness<Pair<Avx2>>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx2")]
         fn step<K: Stiffness<Pair<Avx2>>>(batch: &mut Batch<Pair<Avx2>, K>) {
@@ -291,13 +292,13 @@ mod x86 {
     arithmetic!(Avx512, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd);
     arithmetic!(Avx2, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd);
 
-    /// One lane of a vector, read or written where it lies.
+    /// One lane of a vector, accessed in place.
     macro_rules! lane_access {
         () => {
             #[inline(always)]
             fn lane(&self, lane: usize) -> f64 {
                 assert!(lane < Self::LANES, "the lane exists");
-                // SAFETY: a vector is so many doubles one after another, and the lane is one of them.
+                // SAFETY: a vector is an array of doubles, and the lane is one of them.
                 unsafe { *(&raw const self.0).cast::<f64>().add(lane) }
             }
 

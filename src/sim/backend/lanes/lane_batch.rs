@@ -1,4 +1,4 @@
-//! A batch in the hands of a kernel, whatever its numbers are.
+//! A batch of a kernel, independent of its number type.
 
 use std::fmt::Debug;
 
@@ -22,19 +22,19 @@ pub trait LaneBatch: Debug + Send {
     /// Lanes that became unstable, as bits.
     fn unstable(&self) -> u32;
 
-    /// Saves all positions, in case the next env step has to be abandoned.
+    /// Saves all positions, in case the next env step has to be undone.
     fn save(&mut self);
 
     /// Reads a lane's points.
     fn unload(&self, lane: usize, state: &mut State);
 
-    /// Reads where a lane's points were at the last [`LaneBatch::save`].
+    /// Reads the positions of a lane's points at the last [`LaneBatch::save`].
     fn unload_saved(&self, lane: usize, state: &mut State);
 
-    /// Leaves out the time since the last call, where time is counted.
+    /// Ignores the time since the last call, if time is measured.
     fn resume(&mut self);
 
-    /// Counts the time since the last call, where time is counted.
+    /// Adds the time since the last call, if time is measured.
     fn lap(&mut self, part: Part);
 }
 

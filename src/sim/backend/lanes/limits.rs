@@ -1,4 +1,4 @@
-//! Length limits: after the integrator, edges that are too long or too short are moved back a part of the way (docs/physics.md 8).
+//! Length limits: after the integrator, edges that are too long or too short are partly corrected (docs/physics.md 8).
 
 use crate::sim::backend::lanes::batch::{Batch, DIAGONAL, FRAME, MAIN, Round, Row};
 use crate::sim::backend::lanes::mass::{Mass, Vector, between, square};
@@ -8,10 +8,10 @@ use crate::sim::constants::Constants;
 use crate::sim::lattice::CORNERS;
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
-    /// First pass, all edges at once: an edge of length d beyond its bound moves its ends by 0.8 r excess / (2 d). A row's masses move
-    /// when the springs of the row are done, because then all edges at them have been measured.
+    /// First pass, all edges at once: an edge of length d beyond its bound moves its ends by 0.8 r excess / (2 d). A
+    /// row's masses move when the springs of the row are done, because then all edges at them have been measured.
     ///
-    /// Squares of lengths are compared, so that a root is needed only where a limit bites.
+    /// Squared lengths are compared, so a root is needed only if a limit is exceeded.
     #[inline(always)]
     pub fn limit_lengths(&mut self) {
         let main = Bounds::<R>::new(self.rest(MAIN), &self.constants);
@@ -57,7 +57,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     /// Second pass, the sides of rigid voxels one after another: an edge of length d beyond its bound moves its ends by
-    /// 0.5 r excess / (2 d) before the next edge is looked at.
+    /// 0.5 r excess / (2 d) before the next edge is processed.
     #[inline(always)]
     pub fn limit_rigid(&mut self) {
         let bounds = Rigid::<R>::new(&self.constants);
@@ -103,7 +103,7 @@ fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask
     }
 }
 
-/// How long a side of a rigid voxel may be.
+/// The allowed lengths of a side of a rigid voxel.
 #[derive(Clone, Copy)]
 struct Rigid<R> {
     bounds: Bounds<R>,
@@ -117,7 +117,7 @@ impl<R: Real> Rigid<R> {
         Self { bounds: Bounds::between(least, most), share: constants.rigid_correction }
     }
 
-    /// Moves the ends of a side back where it is at a bound or beyond. Whether it was anywhere.
+    /// Corrects the ends of a side that is at or beyond a bound; returns whether it was in any lane.
     #[inline(always)]
     fn pull_back<const FROM: usize, const TO: usize>(self, at: &mut [Vector<R>; CORNERS], lanes: R::Mask) -> bool {
         let r = between(at[FROM], at[TO]);
@@ -136,7 +136,7 @@ impl<R: Real> Rigid<R> {
     }
 }
 
-/// How long a spring may be.
+/// The allowed lengths of a spring.
 #[derive(Clone, Copy)]
 struct Bounds<R> {
     most: R,
@@ -164,7 +164,7 @@ impl<R: Real> Bounds<R> {
     }
 }
 
-/// Notes how far a spring's ends are to be moved where its length is beyond its bounds.
+/// Computes the corrections of a spring's ends if its length is beyond its bounds.
 #[inline(always)]
 fn pull_back<R: Real>(masses: &mut [Mass<R>], ends: [usize; 2], bounds: &Bounds<R>, bites: R::Mask, share: f64) {
     let r = between(masses[ends[0]].at, masses[ends[1]].at);
@@ -177,7 +177,7 @@ fn pull_back<R: Real>(masses: &mut [Mass<R>], ends: [usize; 2], bounds: &Bounds<
     }
 }
 
-/// The factor by which an edge's vector moves its ends where a limit bites: share (d - bound) / (2 d), from d².
+/// The factor by which an edge's vector moves its ends if a limit is exceeded: share (d - bound) / (2 d), from d².
 #[inline(always)]
 fn correction<R: Real>(square: R, bound: R, share: f64, bites: R::Mask) -> R {
     let inverse = square.recip_sqrt();

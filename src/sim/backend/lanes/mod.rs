@@ -1,4 +1,4 @@
-//! This processor's back end: several robots side by side in the lanes of its vector instructions, on all its threads.
+//! This processor's back end: several robots in the lanes of its vector instructions, on all its threads.
 #![allow(clippy::needless_range_loop, reason = "an axis or a corner indexes several arrays at once")]
 
 mod batch;
@@ -40,7 +40,7 @@ pub struct LaneBackend {
     pub constants: Constants,
     /// The kernel: an instruction set and a number of lanes.
     pub kernel: Kernel,
-    /// Counts where time goes, at the cost of some per cent of speed.
+    /// Measures the time of each part, at the cost of a few percent of speed.
     pub meter: Option<Arc<Meter>>,
 }
 

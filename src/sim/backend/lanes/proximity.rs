@@ -1,15 +1,16 @@
-//! What is near what: the broad phase of contact and of the instability test (docs/physics.md 7 and 9).
+//! Pairs that are close to each other: the broad phase of contact and of the instability test (docs/physics.md 7 and
+//! 9).
 //!
-//! Boxes of voxels and points are compared only now and then. What was further apart than a margin is left alone until some point has
-//! moved by half the margin since; what was nearer is looked at in every substep. So nothing is ever missed, and when lists are renewed
-//! has no influence on any result.
+//! Bounding boxes and points are compared only now and then. Pairs farther apart than a margin are skipped until some
+//! point has moved by half the margin since then; closer pairs are checked in every substep. So no contact is missed,
+//! and the times at which the lists are rebuilt do not affect results.
 
 use crate::sim::backend::lanes::contact::is_inside;
 use crate::sim::backend::lanes::mass::{Mass, Vector};
 use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::lattice::CORNERS;
 
-/// Boxes nearer than this, in meters, are looked at in every substep.
+/// Boxes closer than this, in meters, are checked in every substep.
 const MARGIN: f64 = 0.03;
 
 /// Slack for rounding, in meters.
@@ -26,20 +27,20 @@ pub struct Tile {
     pub surface: u32,
 }
 
-/// The lists of what is near.
+/// The lists of close pairs.
 #[derive(Clone, Debug)]
 pub struct Proximity<R: Real> {
     /// Surface voxels of all lanes, in reading order.
     tiles: Vec<Tile>,
     /// Their masses.
     pub points: Vec<usize>,
-    /// Where those were when the lists were made; infinitely far before the first time.
+    /// The positions when the lists were built; infinitely far before the first time.
     reference: Vec<Vector<R>>,
     /// Points near a tile that is not theirs.
     near_points: Vec<NearPoint>,
     /// Pairs of tiles near each other but not neighbors.
     near_tiles: Vec<NearTiles>,
-    /// Lanes with so many near pairs that they might be unstable, as bits.
+    /// Lanes with so many close pairs that they might be unstable, as bits.
     suspects: u32,
 }
 
@@ -56,12 +57,12 @@ struct NearTiles {
     lanes: u32,
 }
 
-/// What a look at the points told.
+/// The result of checking the points.
 #[derive(Clone, Copy, Debug)]
 pub struct Survey {
     /// Whether a point has moved so far that the lists have to be renewed.
     pub is_stale: bool,
-    /// Lanes with a point that is not above the height asked for, as bits.
+    /// Lanes with a point at or below the given height, as bits.
     pub lowest: u32,
 }
 
@@ -92,7 +93,7 @@ impl<R: Real> Proximity<R> {
         Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
     }
 
-    /// Looks where the points are: notes for each in which lanes it is not above `height`.
+    /// Checks the points, and records the lanes in which each is at or below `height`.
     #[inline(always)]
     pub fn survey(&self, masses: &[Mass<R>], height: f64, low: &mut Vec<u32>) -> Survey {
         low.resize(self.points.len(), 0);
@@ -108,7 +109,8 @@ impl<R: Real> Proximity<R> {
         Survey { is_stale: R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any(), lowest }
     }
 
-    /// Makes the lists from current positions. `surface[lane]` counts a lane's surface voxels, zero where it cannot be unstable.
+    /// Builds the lists from current positions. `surface[lane]` is the number of a lane's surface voxels, or zero if it
+    /// cannot be unstable.
     #[inline(always)]
     pub fn renew(&mut self, masses: &[Mass<R>], surface: &[u32]) {
         self.reference.clear();
@@ -162,8 +164,8 @@ impl<R: Real> Proximity<R> {
         }
     }
 
-    /// The instability test of docs/physics.md 9 on current positions: lanes in which more ordered pairs of surface voxels that are no
-    /// neighbors have overlapping boxes than there are surface voxels.
+    /// The instability test of docs/physics.md 9 on current positions: lanes in which the ordered pairs of non-adjacent
+    /// surface voxels with overlapping boxes outnumber the surface voxels.
     #[inline(always)]
     pub fn unstable(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
         if self.suspects == 0 { 0 } else { self.count_overlaps(masses, surface) }
@@ -179,7 +181,7 @@ impl<R: Real> Proximity<R> {
     }
 }
 
-/// How often each lane's bit is set.
+/// Counts the set bits of each lane.
 fn tally(bits: impl Iterator<Item = u32>, lanes: usize) -> Vec<u32> {
     let mut counts = vec![0; lanes];
     for bits in bits {
@@ -190,7 +192,7 @@ fn tally(bits: impl Iterator<Item = u32>, lanes: usize) -> Vec<u32> {
     counts
 }
 
-/// Lanes where twice the pairs are more than the surface voxels.
+/// Lanes in which twice the number of pairs exceeds the number of surface voxels.
 fn overfull(pairs: &[u32], surface: &[u32]) -> u32 {
     let lanes = pairs.iter().zip(surface).enumerate();
     lanes
@@ -203,7 +205,7 @@ fn are_apart(a: &Tile, b: &Tile) -> bool {
     a.cell[0].abs_diff(b.cell[0]) > 1 || a.cell[1].abs_diff(b.cell[1]) > 1
 }
 
-/// Least and greatest coordinates of a tile.
+/// Smallest and largest coordinates of a tile.
 #[inline(always)]
 fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
     let [a, b, c, d] = [0, 1, 2, 3].map(|corner| masses[tile.corners[corner]].at);
@@ -212,7 +214,7 @@ fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
     [[least(0), least(1)], [greatest(0), greatest(1)]]
 }
 
-/// How far two boxes are apart along the axis where they are furthest apart; negative where they overlap.
+/// The distance of two boxes along the axis where it is largest; negative if they overlap.
 #[inline(always)]
 fn gap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R {
     let along = |axis: usize| (a[0][axis] - b[1][axis]).max(b[0][axis] - a[1][axis]);

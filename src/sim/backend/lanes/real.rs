@@ -1,9 +1,9 @@
-//! What the kernel computes with: one number, or one number for each of several simulations side by side.
+//! The number types of the kernel: one number, or one for each of several simulations.
 
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
-/// A number of the kernel. Every operation acts on each lane alone and rounds as IEEE double does, without fused multiply-add, so a lane
-/// has the same bits whatever runs beside it.
+/// A number of the kernel. Every operation acts on each lane separately and rounds like IEEE double, without fused
+/// multiply-add, so a lane has the same bits whatever is in the other lanes.
 pub trait Real:
     Copy
     + Send
@@ -16,10 +16,10 @@ pub trait Real:
     + std::fmt::Debug
     + 'static
 {
-    /// The simulations side by side.
+    /// The number of simulations.
     const LANES: usize;
 
-    /// What a comparison gives: yes or no in each lane.
+    /// The result of a comparison: yes or no in each lane.
     type Mask: Mask;
 
     /// The same value in every lane.
@@ -31,13 +31,13 @@ pub trait Real:
     /// Changes the value in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
 
-    /// The sign taken off.
+    /// The absolute value.
     fn abs(self) -> Self;
 
-    /// `self` where it is greater, else (not-a-number included) `other`.
+    /// `self` if it is greater, else `other` (also for not-a-number).
     fn max(self, other: Self) -> Self;
 
-    /// `self` where it is less, else (not-a-number included) `other`.
+    /// `self` if it is less, else `other` (also for not-a-number).
     fn min(self, other: Self) -> Self;
 
     /// Whether `self < other`.
@@ -46,14 +46,14 @@ pub trait Real:
     /// Whether `self <= other`.
     fn at_most(self, other: Self) -> Self::Mask;
 
-    /// `yes` where the mask says so, else `no`.
+    /// `yes` in lanes where the mask is set, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     /// 1/sqrt(x) for positive x of single precision's range, root and quotient rounded to single precision.
     fn recip_sqrt_seed(self) -> Self;
 
-    /// 1/sqrt(x) to a unit in the last place from its seed, by one cubic step: y + y e (1/2 + 3/8 e) with e = 1 - x y². Every step is
-    /// exactly rounded, so the bits are the same on every machine.
+    /// 1/sqrt(x) to a unit in the last place from its seed, by one cubic step: y + y e (1/2 + 3/8 e) with e = 1 - x y².
+    /// Every step is exactly rounded, so the bits are the same on every machine.
     #[inline(always)]
     fn recip_sqrt_from(self, seed: Self) -> Self {
         let error = Self::splat(1.0) - self * (seed * seed);
@@ -81,7 +81,7 @@ pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Both.
     fn and(self, other: Self) -> Self;
 
-    /// Whether any lane says yes.
+    /// Whether the mask is set in any lane.
     #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0

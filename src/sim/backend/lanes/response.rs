@@ -43,7 +43,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.loads.truncate(self.weights);
     }
 
-    /// Contact between each robot's low voxels and the ground, each way once. `low` has the lanes in which each surface mass is low.
+    /// Contact between each robot's low voxels and the ground, once each way. `low` has the lanes in which each surface
+    /// mass is low.
     #[inline(never)]
     fn collide_with_ground(&mut self, low: &[u32]) {
         for lane in 0..self.occupants.len() {
@@ -91,7 +92,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Contact of robots with themselves. Each pair is evaluated in both orders, and each time both ways, so each way counts twice.
+    /// Contact of robots with themselves. Each pair is evaluated twice in both orders, so the forces are doubled.
     #[inline(never)]
     fn collide_with_itself(&mut self, insides: &[Inside]) {
         for inside in insides {
@@ -117,8 +118,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// The forces of one hit, so many times: on the point F - 140 (n·w) n and friction; on each end of the side half of F and of friction
-    /// the other way, and its own damping. The ground takes no force.
+    /// The forces of a contact, multiplied: on the point F - 140 (n·w) n and friction; on each end of the side half of
+    /// F and of friction in the opposite direction, and its own damping. No force acts on the ground.
     fn push(&mut self, lane: usize, hit: &Hit, point: Option<usize>, ends: Option<[usize; 2]>, times: f64) {
         let constants = self.constants;
         let normal = hit.normal;
@@ -155,21 +156,21 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.masses[mass].force = *load;
     }
 
-    /// The velocity over the last substep, corrections included, in metres per second (docs/physics.md 5).
+    /// The velocity over the last substep, including corrections, in meters per second (docs/physics.md 5).
     fn true_velocity(&self, lane: usize, mass: usize) -> Vector2<f64> {
         let (now, before) = (&self.masses[mass].at, &self.before[mass]);
         let speed = |axis: usize| (now[axis].lane(lane) - before[axis].lane(lane)) / self.constants.substep;
         Vector2::new(speed(0), speed(1))
     }
 
-    /// A lane's surface voxel where it is, and its masses.
+    /// A lane's surface voxel at its current position, and its masses.
     fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
         let voxel = self.occupants[lane].surface[voxel];
         let place = |mass: usize| Vector2::new(self.masses[mass].at[0].lane(lane), self.masses[mass].at[1].lane(lane));
         (Quad::new(voxel.corners.map(place), voxel.sides), voxel.corners)
     }
 
-    /// Ground voxel `column`, rounded as docs/physics.md 2 says.
+    /// Ground voxel `column`, rounded as in docs/physics.md 2.
     fn ground(&self, column: usize) -> Quad {
         let cell = self.constants.cell;
         let (left, right) = (column as f64 * cell, (column + 1) as f64 * cell);

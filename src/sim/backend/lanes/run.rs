@@ -19,19 +19,19 @@ pub struct Run {
     pub body: usize,
     /// The target widths of its materials.
     pub signals: Arc<Signals>,
-    /// Its points. While the run is in a lane, the batch has them, and these are those of the last time it was not.
+    /// Its points. While the run is in a lane the batch has them, and these are outdated.
     pub state: State,
     /// Its center of mass at the end of the last whole env step, in voxels.
     pub center: [f64; 2],
     /// Env steps done.
     pub clock: u32,
-    /// What ended it, if anything did.
+    /// The fault that ended it, if any.
     pub fault: Option<Fault>,
     /// Spells ahead, the next one last.
     spells: Vec<(Pattern, u32)>,
 }
 
-/// What runs of equal bodies share.
+/// The data shared by runs of equal bodies.
 #[derive(Clone)]
 struct Build {
     body: usize,
@@ -40,7 +40,7 @@ struct Build {
 }
 
 impl Run {
-    /// A body at its start, with nothing to do.
+    /// A body at its start, without a schedule.
     fn new(build: &Build, start: usize, constants: &Constants) -> Self {
         let Build { body, lattice, signals } = build.clone();
         let state = State::start(&lattice, start, constants);
@@ -48,14 +48,14 @@ impl Run {
         Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
     }
 
-    /// Gives it a schedule.
+    /// Sets its schedule.
     pub fn assign(&mut self, schedule: &Schedule) {
         let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
         self.spells.clear();
         self.spells.extend(spells.map(|spell| (spell.pattern, spell.steps)));
     }
 
-    /// Whether there is nothing left to do.
+    /// Whether its schedule is done.
     pub fn is_done(&self) -> bool {
         self.fault.is_some() || self.spells.is_empty()
     }
@@ -90,7 +90,7 @@ impl Run {
         }
     }
 
-    /// Goes back to a snapshot, with nothing to do.
+    /// Restores a snapshot, without a schedule.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         assert_eq!(snapshot.state.position.len(), self.lattice.points().len(), "a snapshot is of the same body");
         let Snapshot { state, center, clock, fault } = snapshot.clone();
@@ -99,7 +99,8 @@ impl Run {
     }
 }
 
-/// A run for each body, at its start, with nothing to do; equal bodies share their lattice, equal palettes their signals.
+/// A run for each body, at its start, without a schedule. Equal bodies share their lattice, equal palettes their
+/// signals.
 pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
     let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
     let mut builds: BTreeMap<&Body, Build> = BTreeMap::new();

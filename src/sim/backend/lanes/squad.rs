@@ -1,5 +1,5 @@
-//! Runs side by side in the lanes of one batch. The batch is kept from call to call, because laying it out costs as much as some
-//! env steps.
+//! Runs in the lanes of one batch. The batch is kept between calls, because laying it out costs as much as some env
+//! steps.
 
 use crate::sim::backend::lanes::kernel::Ground;
 use crate::sim::backend::lanes::lane_batch::LaneBatch;
@@ -8,7 +8,7 @@ use crate::sim::backend::lanes::world::World;
 use crate::sim::meter::Part;
 use crate::sim::state::State;
 
-/// Runs side by side, no more than the kernel has lanes.
+/// Runs that share a batch, at most as many as the kernel has lanes.
 #[derive(Debug, Default)]
 pub struct Squad {
     runs: Vec<Run>,
@@ -25,12 +25,12 @@ impl Squad {
         Self { runs, ..Self::default() }
     }
 
-    /// The runs. Points of those in a lane are read by [`Squad::state`].
+    /// The runs. The points of those in a lane are read with [`Squad::state`].
     pub fn runs(&self) -> &[Run] {
         &self.runs
     }
 
-    /// The runs, to give them something to do.
+    /// The runs, for setting schedules.
     pub fn runs_mut(&mut self) -> &mut [Run] {
         &mut self.runs
     }
@@ -57,7 +57,8 @@ impl Squad {
         }
     }
 
-    /// Simulates until the first of the runs that had something to do is done, calling `record` with each of them after each of its env steps.
+    /// Simulates until the first of the runs that had something to do is done, calling `record` with each of them after
+    /// each of its env steps.
     pub fn advance(&mut self, world: &World, mut record: impl FnMut(usize, &Run)) {
         self.load(world);
         let Some(batch) = &mut self.batch else { return };
@@ -87,7 +88,7 @@ impl Squad {
         }
     }
 
-    /// Puts the runs that have something to do into lanes, unless they are there.
+    /// Puts runs with a schedule into lanes, unless they are already there.
     fn load(&mut self, world: &World) {
         let is_loaded = self.batch.is_some() && self.lanes.iter().all(|&run| !self.runs[run].is_done());
         if is_loaded {
@@ -102,7 +103,7 @@ impl Squad {
         self.batch = Some(world.kernel.batch(&robots, self.lanes.iter().all(is_first), ground));
     }
 
-    /// Takes the points out of the lanes, those of a run with a fault as they were at the end of its last whole env step.
+    /// Moves the points out of the lanes; those of a run with a fault as they were after its last complete env step.
     pub fn unload(&mut self) {
         let Some(batch) = self.batch.take() else { return };
         for (lane, run) in self.lanes.drain(..).enumerate() {

@@ -1,8 +1,9 @@
-//! One substep, written once for one robot and for many side by side (docs/physics.md 5 and 6).
+//! A substep, written once for one robot and for several in lanes (docs/physics.md 5 and 6).
 //!
-//! Each voxel's frame of four springs is computed together. The rims come first; when the frames of a row are done all force on its masses is known,
-//! they can be advanced to the next Runge-Kutta stage at once, and their old positions are not needed any more. Frames are measured one
-//! ahead of where their forces are needed, so that the long chain of root and quotient has been computed by then.
+//! Each voxel's frame of four springs is computed together, after the rims. When the frames of a row are done, all
+//! forces on its masses are known: the masses advance to the next Runge-Kutta stage at once, and their old positions
+//! are no longer needed. Lengths are computed one frame ahead of the forces, so that the long chain of root and
+//! quotient overlaps with other work.
 
 use std::ops::Range;
 
@@ -31,7 +32,8 @@ pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
     }
 }
 
-/// A spring's vector from its later to its earlier end, its length squared, and a first estimate of one over its length.
+/// A spring's vector from its later to its earlier end, its length squared, and a first estimate of one over its
+/// length.
 #[derive(Clone, Copy)]
 struct Measure<R> {
     r: Vector<R>,
@@ -126,8 +128,9 @@ impl<R: Real> Law<R> {
 
     /// The force of a spring on its later end.
     ///
-    /// It is r f with f = (d - l) k / d and the frozen rest length l (docs/physics.md 6). In the first stage d is also the length from
-    /// which l = d + 0.006 (goal - d) comes, so there f is k (0.006 - 0.006 goal / d), and k l is kept for the other stages.
+    /// The force is r f with f = (d - l) k / d and the frozen rest length l (docs/physics.md 6). In the first stage d
+    /// is also the length from which l = d + 0.006 (goal - d) is computed, so there f is k (0.006 - 0.006 goal / d),
+    /// and k l is kept for the other stages.
     #[inline(always)]
     fn pull<const STAGE: u8>(self, measure: Measure<R>, stiffness: R, aim: R, frozen: &mut R) -> Vector<R> {
         let Measure { r, square, seed } = measure;
@@ -182,11 +185,12 @@ impl<R: Real> Mass<R> {
         if STAGE == 1 { self.velocity } else { self.stage_velocity }
     }
 
-    /// Goes on to the next stage, the acceleration in this one being known.
+    /// Advances to the next stage, with the acceleration of this one.
     ///
-    /// With u the velocity, a_s the acceleration and u_s the velocity in stage s, all counted in substeps, the classical scheme is
-    /// x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2, u_4 = u + a_3, and ends with
-    /// x + (u + 2 u_2 + 2 u_3 + u_4)/6 and u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 + a_3) + a_4)/6.
+    /// With u the velocity, a_s the acceleration and u_s the velocity in stage s, all counted in substeps, the
+    /// classical scheme is x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2, u_4 = u
+    /// + a_3, and ends with x + (u + 2 u_2 + 2 u_3 + u_4)/6 and u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 +
+    /// a_3) + a_4)/6.
     #[inline(always)]
     fn advance<const STAGE: u8>(&mut self, acceleration: Vector<R>, before: &mut Vector<R>) {
         let (half, two, sixth) = (R::splat(0.5), R::splat(2.0), R::splat(1.0 / 6.0));

@@ -1,4 +1,4 @@
-//! How a batch keeps its springs' stiffness: one number where all lanes have the same body, else one a lane.
+//! The stiffness of a batch's springs: one number if all lanes have the same body, else one per lane.
 
 use crate::sim::backend::lanes::real::{Mask, Real};
 
@@ -10,10 +10,10 @@ pub trait Stiffness<R: Real>: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// The stiffness in every lane.
     fn value(&self) -> R;
 
-    /// Gives a lane the spring.
+    /// Adds the spring to a lane.
     fn set_lane(&mut self, lane: usize, stiffness: f64);
 
-    /// The mask taken back from lanes without the spring.
+    /// Clears a mask in lanes without the spring.
     fn mask(&self, mask: R::Mask) -> R::Mask;
 }
 

@@ -3,7 +3,7 @@
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// Fewer runs than this side by side leave a kernel's lanes idle; threads do not split them further.
+/// With fewer runs than this in a batch, lanes of the kernel would be idle, so threads do not split them further.
 const LEAST_LANES: usize = 4;
 
 /// How many threads work side by side.

@@ -14,7 +14,7 @@ struct Waiting<'a> {
     trajectory: &'a mut Trajectory,
 }
 
-/// Simulates each trial from a fresh start; result `i` belongs to trial `i`.
+/// Simulates each trial from a fresh start; result `i` is that of trial `i`.
 pub fn run_trials(world: &World, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
     let mut trajectories = vec![Trajectory::default(); trials.len()];
     let runs = runs(&world.constants, setting, trials.iter().map(|trial| &trial.body));
@@ -62,7 +62,7 @@ fn run_box(waiting: Vec<Waiting<'_>>, world: &World) {
     });
 }
 
-/// The runs that are not done, with their trajectories; those that are done leave their fault.
+/// The unfinished runs with their trajectories; finished ones leave their fault.
 fn keep_going(runs: Vec<Run>, trajectories: Vec<&mut Trajectory>) -> (Vec<Run>, Vec<&mut Trajectory>) {
     let mut going = (Vec::with_capacity(runs.len()), Vec::with_capacity(runs.len()));
     for (run, trajectory) in runs.into_iter().zip(trajectories) {

@@ -1,11 +1,11 @@
-//! Lanes as plain arrays: the portable form, which compilers turn into whatever vectors the target has.
+//! Lanes as plain arrays: the portable form, which compilers translate to the vectors of the target.
 
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 use crate::sim::backend::lanes::real::{Mask, Real};
 
-/// `N` numbers side by side.
+/// An array of `N` numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub struct Lanes<const N: usize>([f64; N]);

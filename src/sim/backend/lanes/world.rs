@@ -1,4 +1,4 @@
-//! What the simulations of one setting share.
+//! The data shared by simulations with the same setting.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use crate::sim::backend::lanes::kernel::Kernel;
 use crate::sim::constants::Constants;
 use crate::sim::meter::Meter;
 
-/// What the simulations of one setting share.
+/// The data shared by simulations with the same setting.
 #[derive(Clone, Debug)]
 pub struct World {
     /// The numbers of the physics.
@@ -15,6 +15,6 @@ pub struct World {
     pub kernel: Kernel,
     /// Ground voxels in a row.
     pub width: usize,
-    /// Counts where time goes, where that is wanted.
+    /// Measures the time of each part, if requested.
     pub meter: Option<Arc<Meter>>,
 }
