@@ -117,7 +117,8 @@ pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
     let home = |item: &Item| {
         let mut item = item.clone();
         // A re-exported item may be re-exported again; a circle of these would not compile.
-        while let Some(at) = (1..=item.len()).rev().find(|&at| exported.contains_key(&item[..at])) {
+        let is_exported = |path: &[String]| exported.contains_key(path) && !index.contains_key(&path.to_vec());
+        while let Some(at) = (1..=item.len()).rev().find(|&at| is_exported(&item[..at])) {
             item = [exported[&item[..at]].clone(), item[at..].to_vec()].concat();
         }
         (0..=item.len()).rev().find_map(|at| index.get(&item[..at].to_vec()).copied())
