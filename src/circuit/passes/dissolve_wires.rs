@@ -10,14 +10,6 @@ use crate::circuit::{NetId, Netlist, NetlistError, Node};
 pub struct DissolveWires;
 
 impl Pass for DissolveWires {
-    fn name(&self) -> &'static str {
-        "dissolve-wires"
-    }
-
-    fn description(&self) -> &'static str {
-        "replace wires by their drivers, which take over names and start values"
-    }
-
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         self.run_on(netlist)
     }

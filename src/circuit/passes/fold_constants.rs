@@ -18,14 +18,6 @@ enum Folded {
 }
 
 impl Pass for FoldConstants {
-    fn name(&self) -> &'static str {
-        "fold-constants"
-    }
-
-    fn description(&self) -> &'static str {
-        "simplify cells whose pins are constant, equal or ignored, and double inversion, outside guarded memory"
-    }
-
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         let mut guarded = Guarded::of(netlist);
         for id in guarded.memory().order().to_vec() {

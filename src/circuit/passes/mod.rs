@@ -14,12 +14,6 @@ use crate::circuit::{Netlist, NetlistError};
 
 /// A transformation that preserves the function of a netlist.
 pub trait Pass: Sync {
-    /// The name, in kebab case.
-    fn name(&self) -> &'static str;
-
-    /// A description of one line.
-    fn description(&self) -> &'static str;
-
     /// Changes the netlist.
     ///
     /// # Errors
@@ -44,19 +38,4 @@ pub const ORDER: &[&dyn Pass] = &[
 /// When the netlist is not well formed.
 pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
     ORDER.iter().try_for_each(|pass| pass.run(netlist))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_in_kebab_case_and_all_different() {
-        let mut names: Vec<_> = ORDER.iter().map(|pass| pass.name()).collect();
-        assert!(names.iter().all(|name| name.chars().all(|c| c.is_ascii_lowercase() || c == '-')));
-        assert!(ORDER.iter().all(|pass| !pass.description().contains('\n')));
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), ORDER.len());
-    }
 }

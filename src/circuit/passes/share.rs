@@ -12,14 +12,6 @@ use crate::model::Function;
 pub struct Share;
 
 impl Pass for Share {
-    fn name(&self) -> &'static str {
-        "share"
-    }
-
-    fn description(&self) -> &'static str {
-        "merge cells that compute the same function of the same nets, outside memory"
-    }
-
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         let loops = Loops::memory(netlist);
         let mut known = BTreeMap::new();

@@ -10,14 +10,6 @@ use crate::circuit::{Netlist, NetlistError, Node};
 pub struct Sweep;
 
 impl Pass for Sweep {
-    fn name(&self) -> &'static str {
-        "sweep"
-    }
-
-    fn description(&self) -> &'static str {
-        "remove cells that no output depends on"
-    }
-
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         let mut used: BTreeSet<_> = netlist.outputs().iter().copied().collect();
         let mut pending = netlist.outputs().to_vec();
