@@ -145,7 +145,8 @@ pub(crate) fn beside(file: &str, path: &str) -> String {
     }
 }
 
-/// A path without `.`, and without `..` where this does not depend on links.
+/// A path without `.`, and without `..` where this does not depend on links. Paths of a [`SourceWorld`] have slashes on
+/// every system, unlike those that `path-clean` cleans.
 fn normal(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split('/') {

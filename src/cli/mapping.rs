@@ -10,25 +10,25 @@ use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
 use crate::{store, swarm};
 
-/// Which cells there are, and what to make of them.
+/// The available cells and the options of mapping.
 #[derive(Args)]
 pub(super) struct MappingArguments {
-    /// The functions of the cells, such as `nand,not`, or `all`; by default those of the robots in the program
+    /// The functions of the cells, such as `nand,not`, or `all`; by default those of the built-in robots
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
     cells: Vec<String>,
-    /// A robot file, or a folder of them, to take the cells from
+    /// A robot file, or a folder of them, whose functions are the cells
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
-    /// What to make least of
+    /// What to minimize
     #[arg(long, value_enum, default_value_t)]
     objective: ObjectiveWord,
-    /// How much work to put into it
+    /// The amount of search
     #[arg(long, value_enum, default_value_t)]
     effort: EffortWord,
 }
 
 impl MappingArguments {
-    /// The library that the user chose, else that of the robots in the program.
+    /// The library that the user chose, else that of the built-in robots.
     pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
         Ok(self.chosen()?.unwrap_or_else(|| swarm::cells(&store::shipped_library())))
     }

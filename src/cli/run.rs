@@ -1,4 +1,4 @@
-//! `nbc run`: compile a file's circuits, test and simulate their swarms, and draw what happened.
+//! `nbc run`: compiles a file's circuits, tests and simulates their swarms, and draws the results.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ pub(super) enum Ran {
     Simulation(SimulationRun),
 }
 
-/// What is drawn of a run.
+/// The drawings of a run.
 struct Drawn<'a> {
     ran: &'a Ran,
     spacetime: Svg,
@@ -85,7 +85,7 @@ impl Ran {
 }
 
 impl RunArguments {
-    /// Runs the file's tests and simulations, and writes what came of them.
+    /// Runs the file's tests and simulations, and writes the results.
     ///
     /// # Errors
     /// When the file has errors, or results cannot be written.
@@ -212,8 +212,8 @@ pub(super) fn run_simulation(
     Ok(session.simulate(file, simulation, options, &mut observer)?)
 }
 
-/// The names of the runs' files: the circuit's, with the swarm's where a test runs as several, and a number where a
-/// name comes again.
+/// The names of the runs' files: the circuit's, with the swarm's if a test has several, and a number for repeated
+/// names.
 fn stems(runs: &[Ran]) -> Vec<String> {
     let mut swarms: BTreeMap<(&str, usize), usize> = BTreeMap::new();
     for run in runs {
@@ -297,7 +297,7 @@ fn describe(drawn: &Drawn<'_>) -> String {
     format!("{}: {swarm}\n\n{outcome}\n{files}{timing}", trace.circuit)
 }
 
-/// What a file holds, in a word.
+/// The kind of a file, in a word.
 fn word_of(file: &str) -> &'static str {
     match file.rsplit('.').next() {
         Some("vcd") => "waves",

@@ -37,10 +37,10 @@ pub struct SimulateArguments {
     world_width: usize,
 }
 
-/// What programs are told.
+/// The output for programs.
 #[derive(Serialize)]
 struct Outcome<'a> {
-    /// Voxels walked in each entry of the schedule; null where the simulation did not come to the entry's end.
+    /// Voxels walked in each entry of the schedule; null if the simulation ended before the entry did.
     displacement: Vec<Option<f64>>,
     /// Place of the center of mass in voxels, at the start and after each env step.
     com_x: &'a [f64],
@@ -76,7 +76,7 @@ fn read_schedule(text: &str) -> Result<Schedule, Failure> {
     schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
 }
 
-/// Whether the body stands on the ground of the world.
+/// Checks that the body stands on the ground of the world.
 fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
     let bad = |message: String| Err(Diagnostic::without_place(Code::BadValue, message));
     let (world, width) = (setting.world_width, body.width());
@@ -98,8 +98,7 @@ fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// What is to be said of a robot that did not stay on its ground: from then on it falls, or creeps along the plane
-/// below.
+/// The warning for a robot that left its ground: from then on it falls, or creeps along the plane below.
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
     let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;

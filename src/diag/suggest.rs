@@ -75,7 +75,8 @@ fn letters(text: &str) -> impl Iterator<Item = char> {
     text.chars().flat_map(char::to_lowercase).take(LETTERS)
 }
 
-/// Measures the distance of names from a word.
+/// Measures the distance of names from a word. Unlike `strsim` it stops at the limit, because a misspelled word is
+/// compared with every name of a program.
 struct Measure {
     word: Vec<char>,
     limit: usize,

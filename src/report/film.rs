@@ -20,7 +20,7 @@ pub const STRIDE: u32 = CYCLE_STEPS / 12;
 /// Hundredths of a second for which a frame is shown: a cycle takes about half a second, half the robots' own pace.
 const DELAY: u16 = 4;
 
-/// The most lanes one below the other; more stand in further columns.
+/// The most lanes in a column; more lanes form further columns.
 const MAX_ROWS: usize = 8;
 const LABELS: f64 = 108.0;
 const HEAD: f64 = 34.0;
@@ -31,7 +31,7 @@ const FOOT: f64 = 14.0;
 pub struct Film {
     /// The title.
     pub title: String,
-    /// A line for each robot, beside its lane.
+    /// The label of each robot, beside its lane.
     pub lanes: Vec<String>,
     /// The colors of the materials.
     pub scheme: Scheme,
@@ -42,7 +42,7 @@ pub struct Film {
 /// A film being drawn.
 struct Painter<'a> {
     film: &'a Film,
-    /// What never changes: title, names, ground.
+    /// The fixed part of the picture: title, names, ground.
     backdrop: Pixmap,
     looks: Looks,
     swatches: Swatches,
@@ -74,7 +74,7 @@ impl<'a> Painter<'a> {
         (self.backdrop.width(), self.backdrop.height())
     }
 
-    /// Draws a moment and gives what has changed since the one before.
+    /// Draws a moment and returns the changes from the previous one.
     fn paint(&mut self, moment: &Moment, share: f64) -> Patch {
         self.frame.data_mut().copy_from_slice(self.backdrop.data());
         self.follow(moment);
@@ -163,12 +163,12 @@ impl Film {
         ((self.largest as f64 * 1.25 + 0.5) * self.scale()).round() + 26.0
     }
 
-    /// Where a lane begins.
+    /// The left edge of a lane.
     fn left(&self, lane: usize) -> f64 {
         (lane / self.rows()) as f64 * self.lane_width()
     }
 
-    /// Where the ground's face is in a lane.
+    /// The face of the ground in a lane.
     fn ground(&self, lane: usize) -> f64 {
         HEAD + ((lane % self.rows()) as f64 + 1.0) * self.lane_height() - 16.0
     }
@@ -205,7 +205,7 @@ fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, co
     }
 }
 
-/// Paints the voxels of one material after those of another, each material as one shape and one outline.
+/// Paints the voxels of each material as one shape and one outline, one material after another.
 fn paint_pose(frame: &mut Pixmap, pose: &Pose, looks: &Looks, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
     let mut shapes: BTreeMap<u8, PathBuilder> = BTreeMap::new();
     for (corners, code) in &pose.voxels {
@@ -217,7 +217,7 @@ fn paint_pose(frame: &mut Pixmap, pose: &Pose, looks: &Looks, to_pixel: impl Fn(
         path.close();
     }
     for (code, shape) in shapes {
-        // Voxels whose corners are no numbers have no path.
+        // Voxels whose corners are not finite have no path.
         let Some(path) = shape.finish() else { continue };
         let Look { color, mark } = looks.look(&pose.palette, code);
         frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
@@ -241,8 +241,8 @@ fn fill_polygon(frame: &mut Pixmap, points: &[(f64, f64)], color: Color) {
     }
 }
 
-/// The smallest rectangle that holds every pixel that differs, one pixel where none does; those in it that do not
-/// differ are [`UNCHANGED`], which makes long runs that take no room in a file.
+/// The smallest rectangle that contains every changed pixel, or one pixel if none changed. Unchanged pixels in it are
+/// [`UNCHANGED`], which makes long runs that compress well.
 fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
     if old.len() != fresh.len() {
         return Patch { left: 0, top: 0, width, height, pixels: fresh.to_vec() };
@@ -255,7 +255,7 @@ fn patch(old: &[u8], fresh: &[u8], width: u32, height: u32) -> Patch {
     Patch { left: left as u32, top: top as u32, width: wide, height: high, pixels }
 }
 
-/// Left, top, right and bottom of what differs.
+/// Left, top, right and bottom of the changes.
 fn changed(old: &[u8], fresh: &[u8], row: usize) -> Option<[usize; 4]> {
     let rows = old.chunks(row).zip(fresh.chunks(row)).enumerate();
     let differing = rows.filter(|(_, (old, fresh))| old != fresh);

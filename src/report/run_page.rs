@@ -1,5 +1,5 @@
-//! The report of a run as one HTML page that needs nothing else: the verdict, the schematic, and a player in step with
-//! the waveform.
+//! The report of a run as one self-contained HTML page: the verdict, the schematic, and a player in step with the
+//! waveform.
 
 use serde_json::{Value as Json, json};
 
@@ -16,7 +16,7 @@ use crate::swarm::{
 
 const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
 
-/// What a test or a simulation came to.
+/// The result of a test or a simulation.
 #[derive(Clone, Copy)]
 pub enum SwarmOutcome<'a> {
     /// Of a test.
@@ -27,9 +27,9 @@ pub enum SwarmOutcome<'a> {
 
 /// One swarm on the page, tested or simulated.
 pub struct PageSwarm<'a> {
-    /// What it came to.
+    /// The verdict.
     pub outcome: SwarmOutcome<'a>,
-    /// What the swarm did, with the recording that is played.
+    /// The trace of the swarm, with the recording for the player.
     pub trace: &'a SwarmTrace,
     /// The swarm's robots.
     pub assembly: &'a Assembly,
@@ -161,7 +161,7 @@ fn truth_row(row: &RowVerdict) -> String {
     )
 }
 
-/// What the outputs of a simulation did.
+/// The activity of a simulation's outputs.
 fn activity_table(result: &SimulationResult) -> String {
     let (inputs, outputs) = (result.inputs.len(), result.outputs.len());
     let row = |row: &RowActivity| {
@@ -181,7 +181,7 @@ fn activity_table(result: &SimulationResult) -> String {
     )
 }
 
-/// The heading of so many columns; a circuit without inputs has none.
+/// The heading of a group of columns; a circuit without inputs has none.
 fn group_head(columns: usize, name: &str) -> String {
     if columns == 0 { String::new() } else { format!("<th colspan=\"{columns}\">{name}</th>") }
 }
@@ -194,7 +194,7 @@ fn cells(values: &[impl ToString]) -> String {
     values.iter().map(|value| format!("<td>{}</td>", escape(&value.to_string()))).collect()
 }
 
-/// What the player needs of one swarm.
+/// The data of one swarm for the player.
 fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
     let trace = swarm.trace;
     let pairs = trace.cycles.windows(2).enumerate();
@@ -250,8 +250,8 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
     })
 }
 
-/// The rows of the waveform: inputs, the recorded robots, outputs. An output changes at the end of its cycle. The row of
-/// a bit is a text of digits, that of a bus a list of values.
+/// The rows of the waveform: inputs, the recorded robots, outputs. An output changes at the end of its cycle. The row
+/// of a bit is a text of digits, that of a bus a list of values.
 fn waves(trace: &SwarmTrace) -> Vec<Json> {
     let cycles = 0..trace.cycles.len();
     let row = |name: &str, color: &str, shift: usize, values: Json| json!({ "name": name, "color": color, "shift": shift, "values": values });

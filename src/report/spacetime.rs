@@ -1,5 +1,5 @@
-//! Spacetime diagrams (paper, figures 3 and 6): time downwards in cycles, position across in voxels, and beside each
-//! path the bits that the robot sensed and the bit that it put out.
+//! Spacetime diagrams (paper, figures 3 and 6): time runs downwards in cycles, position across in voxels. Beside each
+//! path are the bits that the robot sensed and the bit that it output.
 
 use std::collections::BTreeSet;
 
@@ -16,12 +16,12 @@ const MARGIN: f64 = 56.0;
 const HEADING: f64 = 74.0;
 const FOOT: f64 = 46.0;
 const MAX_COLUMNS: usize = 6;
-/// The most robots, and the most outputs, of a swarm's diagram where nobody chooses.
+/// The most robots, and the most outputs, in the default diagram of a swarm.
 const MAX_PANELS: usize = 36;
 /// The most points of one path: more than its panel has pixels from top to bottom.
 const MAX_POINTS: usize = 800;
 
-/// A path over time with the bits beside it: what one panel shows.
+/// A path over time with the bits beside it: the contents of a panel.
 #[derive(Clone, Debug)]
 pub struct Track {
     /// The panel's title.
@@ -30,11 +30,11 @@ pub struct Track {
     pub subtitle: String,
     /// Positions in voxels, evenly spaced over the cycles, both ends included.
     pub path: Vec<f64>,
-    /// How long the path is, in cycles.
+    /// The length of the path in cycles.
     pub cycles: f64,
     /// Bits left of the path.
     pub sensed: Vec<Strip>,
-    /// Bits right of the path.
+    /// The bits to the right of the path.
     pub output: Option<Strip>,
     /// When the simulation was given up, in cycles.
     pub fault: Option<f64>,
@@ -47,11 +47,11 @@ pub struct Strip {
     pub name: String,
     /// Its color.
     pub color: Color,
-    /// What it says.
+    /// Its text.
     pub spells: Spells,
 }
 
-/// Spells of one value: where each ends, in cycles, and the value.
+/// Spells of one value: the end of each in cycles, and the value.
 #[derive(Clone, Debug)]
 pub enum Spells {
     /// Of a bit.
@@ -111,8 +111,7 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
 
-/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`; those of spells that were not simulated to their end are
-/// left out.
+/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`, without incomplete spells.
 fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
     let mut start = 0;
     let mut told = Vec::new();
@@ -205,7 +204,7 @@ fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
     }
 }
 
-/// The robot that an output port shows, with the circuit's inputs beside it; `None` where the port shows no robot.
+/// The robot shown by an output port, with the circuit's inputs beside it; `None` if the port shows no robot.
 fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
     let StimulusSource::Robot(k) = trace.shown[output] else { return None };
     let robot = &trace.robots[k];
@@ -220,7 +219,7 @@ fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
     })
 }
 
-/// The inputs of the swarm, as many as there is room for.
+/// The inputs of the swarm, as many as fit.
 fn input_strips(trace: &SwarmTrace) -> Vec<Strip> {
     let color = |i: usize| Color::series(if i < 2 { [0, 4][i] } else { i + 3 });
     (0..trace.inputs.len().min(8)).map(|port| Strip::of_input(trace, port, color(port))).collect()
@@ -239,7 +238,7 @@ fn bare_track(trace: &SwarmTrace, robot: &RobotTrace) -> Track {
     }
 }
 
-/// Panels side by side, with one heading.
+/// Panels side by side with one heading.
 struct Row<'a> {
     heading: Option<String>,
     tracks: Vec<Track>,
@@ -250,7 +249,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Width of the bits left of the paths: that of the panel which has the most.
+    /// Width of the bits to the left of the paths: that of the widest panel.
     fn strips(&self) -> f64 {
         let most = self.tracks.iter().map(|track| track.sensed.len()).max().unwrap_or(0);
         most as f64 * (STRIP_WIDTH + STRIP_GAP)
@@ -353,7 +352,7 @@ fn draw_strip(svg: &mut Svg, strip: &Strip, panel: &Panel, left: f64) {
     }
 }
 
-/// A bus as a box for each value, with the value in it where there is room.
+/// A bus as a box for each value, with the value in it if it fits.
 fn draw_values(svg: &mut Svg, color: Color, spells: &[(f64, String)], panel: &Panel, left: f64) {
     let mut from = panel.y.at(0.0);
     for run in spells.chunk_by(|one, next| one.1 == next.1) {
@@ -385,7 +384,7 @@ fn draw_bits(svg: &mut Svg, color: Color, spells: &[(f64, bool)], panel: &Panel,
     svg.polyline(&steps, Paint::stroke(color, 1.6));
 }
 
-/// The path itself, and a cross where the simulation was given up.
+/// The path itself, and a cross at a fault.
 fn draw_path(svg: &mut Svg, track: &Track, panel: &Panel) {
     let Some(&start) = track.path.first() else { return };
     let last = track.path.len() - 1;

@@ -7,14 +7,14 @@ use crate::report::sprite::Pose;
 use crate::sim::{Flock, Simulator};
 use crate::swarm::{self, Assembly, Recording, SwarmTrace};
 
-/// Robots on their way through their stimuli.
+/// Robots during their simulation.
 pub struct Stage {
     flock: Box<dyn Flock>,
-    /// What the codes of each robot mean.
+    /// The materials of each robot's codes.
     palettes: Vec<Arc<Palette>>,
-    /// Spells one after another: env steps, and each robot's stimuli.
+    /// Consecutive spells: env steps, and each robot's stimuli.
     spells: Vec<(u32, Vec<Pattern>)>,
-    /// The spell under way, and env steps left of it.
+    /// The current spell, and its remaining env steps.
     spell: usize,
     left: u32,
     /// Env steps from frame to frame.
@@ -32,7 +32,7 @@ pub struct Moment {
     pub poses: Vec<Pose>,
     /// Each robot's center of mass, in voxels.
     pub centers: Vec<[f64; 2]>,
-    /// What each robot senses.
+    /// The stimuli of each robot.
     pub patterns: Vec<Pattern>,
     /// Whether each robot's simulation has been given up.
     pub faults: Vec<bool>,
@@ -44,7 +44,7 @@ impl Stage {
         Self::of_trials(setting, std::slice::from_ref(body), schedule, stride)
     }
 
-    /// Bodies side by side under one schedule.
+    /// Several bodies under one schedule.
     pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
         let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
         Self::new(setting, bodies, spells, stride)
@@ -71,7 +71,7 @@ impl Stage {
         Self { flock, palettes, spells, spell: 0, left, stride, step: 0, started: false }
     }
 
-    /// How many robots there are.
+    /// The number of robots.
     pub fn robots(&self) -> usize {
         self.flock.len()
     }
@@ -81,17 +81,17 @@ impl Stage {
         self.spells.iter().map(|spell| spell.0).sum()
     }
 
-    /// How many moments there are: the start, and one after each whole stride.
+    /// The number of moments: the start, and one after each complete stride.
     pub fn moments(&self) -> usize {
         (self.steps() / self.stride) as usize + 1
     }
 
-    /// What the codes of each robot mean.
+    /// The materials of each robot's codes.
     pub fn palettes(&self) -> &[Arc<Palette>] {
         &self.palettes
     }
 
-    /// How many points robot `i` has.
+    /// The number of points of robot `i`.
     pub fn points(&self, i: usize) -> usize {
         self.flock.lattice(i).points().len()
     }
@@ -105,7 +105,7 @@ impl Stage {
         recording
     }
 
-    /// Goes on to the next moment, the first time to the start; false at the end.
+    /// Advances to the next moment, the first time to the start; returns false at the end.
     fn turn(&mut self) -> bool {
         let first = !self.started;
         self.started = true;
@@ -132,7 +132,7 @@ impl Stage {
         Pose { voxels, palette: Arc::clone(&self.palettes[i]) }
     }
 
-    /// Goes on by one stride; false where less is left.
+    /// Advances by one stride; returns false if less is left.
     fn advance(&mut self) -> bool {
         if self.steps() - self.step < self.stride {
             return false;

@@ -17,9 +17,9 @@ struct Wave {
 }
 
 enum Values {
-    /// Values of so many bits, as digits, with the times from which they hold.
+    /// Values of this many bits, as digits, with their start times.
     Bits(usize, Vec<(u64, String)>),
-    /// Numbers with the times from which they hold.
+    /// Numbers with their start times.
     Reals(Vec<(u64, f64)>),
 }
 
@@ -29,8 +29,9 @@ struct Scope {
     waves: Vec<Wave>,
 }
 
-/// A trace as a value change dump. Inputs and stimuli hold from a cycle's start, outputs from the end of the cycle that
-/// made them; the places of the robots are those at the start and at the end of each cycle, in voxels to the hundredth.
+/// A trace as a value change dump. Inputs and stimuli change at the start of a cycle, outputs at the end of the cycle
+/// that produced them. Positions of robots are given at the start and at the end of each cycle, in voxels to the
+/// hundredth.
 pub fn vcd(trace: &SwarmTrace) -> String {
     let scopes = scopes(trace);
     let mut text = String::from("$version nbc $end\n$timescale 1 us $end\n");
@@ -105,7 +106,7 @@ fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
     text.push_str("$upscope $end\n$enddefinitions $end\n");
 }
 
-/// The moments at which a signal changes, with the lines that say so; before its first value it is unknown.
+/// The moments at which a signal changes, with their lines; before its first value it is unknown.
 fn changes_of(wave: &Wave, number: usize) -> Vec<(u64, usize, String)> {
     let code = code(number);
     match &wave.values {
@@ -137,8 +138,8 @@ fn code(mut number: usize) -> String {
     }
 }
 
-/// Names that readers of dumps take: letters, digits and underscores. A name that is one already stays as it is;
-/// different names are told apart by a number.
+/// Valid names for readers of dumps: letters, digits and underscores. A valid name stays as it is; equal names are
+/// numbered.
 fn identifiers<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Vec<String> {
     let mut taken: BTreeSet<String> =
         names.clone().filter(|name| identifier(name) == **name).map(str::to_owned).collect();
@@ -157,7 +158,7 @@ fn identifiers<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Vec<String> 
     names.map(&mut unique).collect()
 }
 
-/// A name without what is no letter, digit or underscore: `a[3]` is `a_3`.
+/// A name with other characters replaced: `a[3]` is `a_3`.
 fn identifier(name: &str) -> String {
     let name = name.strip_suffix(']').unwrap_or(name);
     let plain: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();

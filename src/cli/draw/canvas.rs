@@ -1,4 +1,4 @@
-//! Where a picture goes: a file whose name says how it is written.
+//! The file of a picture; its extension selects the format.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

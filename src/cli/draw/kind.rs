@@ -1,4 +1,4 @@
-//! Kinds of pictures, and the files that hold them.
+//! Kinds of pictures, and their file extensions.
 
 use clap::ValueEnum;
 

@@ -25,7 +25,7 @@ use robot::Subject;
 pub(super) use arguments::DrawArguments;
 pub(super) use run::{is_run, page as run_page, read as read_run};
 
-/// The stimuli of robots where none are given: every pattern as long as in the paper.
+/// The default schedule of robots: every pattern as long as in the paper.
 const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
 
 impl DrawArguments {

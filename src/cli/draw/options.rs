@@ -1,10 +1,10 @@
-//! Options of `nbc draw` that cannot apply to what is drawn: they are refused, not ignored.
+//! Options of `nbc draw` that cannot apply are rejected, not ignored.
 
 use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::kind::Kind;
 use crate::diag::{Code, Diagnostic};
 
-/// What is drawn.
+/// The kinds of subjects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Drawn {
     Library,
@@ -14,7 +14,7 @@ pub(super) enum Drawn {
 }
 
 impl DrawArguments {
-    /// Refuses the first option that would not change the picture, whatever its value.
+    /// Rejects the first option that cannot change the picture.
     ///
     /// # Errors
     /// A diagnostic that says what the option is for.

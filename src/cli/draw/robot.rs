@@ -9,7 +9,7 @@ use crate::model::{Body, CYCLE_STEPS, Robot, Schedule, Setting, Trial};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
 use crate::sim::Simulator;
 
-/// A body with what is written above its pictures.
+/// A body with its title.
 pub(super) struct Subject {
     pub(super) title: String,
     pub(super) body: Body,

@@ -18,7 +18,7 @@ use crate::report::{self, EvolutionResults, History, Plate, Scheme, SeedRun, Svg
 use crate::source::Sources;
 use crate::store::Declared;
 
-/// Whether a folder is that of a run: a seed's, or one with seeds.
+/// Whether a folder is that of a run: of one seed, or of several.
 pub(in crate::cli) fn is_run(folder: &Path) -> bool {
     !seeds(folder).is_empty()
 }
@@ -42,7 +42,7 @@ fn seeds(folder: &Path) -> Vec<PathBuf> {
     seeds.into_iter().map(|(_, checkpoint)| checkpoint).collect()
 }
 
-/// What the runs in a folder found.
+/// The results of the runs in a folder.
 pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<EvolutionResults, Failure> {
     let mut results: Option<EvolutionResults> = None;
     for path in seeds(folder) {
@@ -101,7 +101,7 @@ impl DrawArguments {
         Ok(Subject { title, body: elite.body.clone() })
     }
 
-    /// The places of the two axes that are asked for; the first two where none are.
+    /// The indices of the two requested axes; by default the first two.
     fn chosen_axes(&self, results: &EvolutionResults) -> Result<[usize; 2], Failure> {
         let words: Vec<&str> = results.axes.iter().map(|&axis| axis_word(axis)).collect();
         let bad = |message: String| {

@@ -10,7 +10,7 @@ use crate::model::{Behavior, Body, CYCLE_STEPS, Library, Schedule, Setting, Tria
 use crate::report::{self, Champions, Film, Portrait, STRIDE, Stage, Svg};
 use crate::sim::Simulator;
 
-/// Robots with what is written above their pictures.
+/// Robots with a title.
 pub(super) struct Several {
     pub(super) title: String,
     pub(super) robots: Vec<One>,

@@ -27,7 +27,7 @@ impl DrawArguments {
         }
     }
 
-    /// What needs no simulation.
+    /// Pictures that need no simulation.
     fn draw_circuit(&self, canvas: &Canvas, compiled: &Compiled) -> Result<(), Failure> {
         match self.kind {
             Kind::Dot => canvas.bytes(dot::write(&compiled.mapping.netlist).as_bytes()),
@@ -80,7 +80,7 @@ impl DrawArguments {
         Ok(session.compile(&file, &circuit, &options)?)
     }
 
-    /// The chosen test, run in full physics: the first one, or the first simulation where the file has no test.
+    /// The chosen test, run in physics: the first one, or the first simulation if the file has no test.
     fn ran(&self) -> Result<Ran, Failure> {
         let mut session = Session::new(DiskWorld);
         if self.kind == Kind::Report {
@@ -136,7 +136,7 @@ fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, 
     })
 }
 
-/// The places of the robots that drive a net, or all nets that begin with what stands before a final `*`.
+/// The indices of the robots that drive a net, or all nets that begin with the text before a final `*`.
 fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
     let robots = &trace.robots;
     let is_meant = |driven: &str| match net.strip_suffix('*') {

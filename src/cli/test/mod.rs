@@ -106,7 +106,7 @@ fn run_cases(
     context: &mut Context,
 ) -> Result<Vec<TestVerdict>, Failure> {
     let bar = Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum());
-    // What the swarm did is large and nobody asks for it.
+    // The trace is dropped, because it is large and not needed.
     let run = |(file, case): &Numbered<'_>| {
         let run = session.run_case(case.clone(), &mut bar.part());
         (*file, run.verdict, run.warnings)
