@@ -131,11 +131,13 @@ pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
 
 /// The items of `pub use` and of other `use` declarations.
 fn uses(code: &str) -> (Vec<Item>, Vec<Item>) {
-    let declaration = Regex::new(r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap();
+    let declaration = Regex::new(r"(?m)^( *)(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap();
     let (mut public, mut private) = (Vec::new(), Vec::new());
     for found in declaration.captures_iter(code) {
-        let list = if found.get(1).is_some() { &mut public } else { &mut private };
-        expand(&found[2], &[], list);
+        let list = if found.get(2).is_some() { &mut public } else { &mut private };
+        // In a module within the file, `super` is the file.
+        let tree = if found[1].is_empty() { found[3].to_owned() } else { found[3].replacen("super", "self", 1) };
+        expand(&tree, &[], list);
     }
     (public, private)
 }
