@@ -254,7 +254,6 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
 /// of a bit is a text of digits, that of a bus a list of values.
 fn waves(trace: &SwarmTrace) -> Vec<Json> {
     let cycles = 0..trace.cycles.len();
-    let row = |name: &str, color: &str, shift: usize, values: Json| json!({ "name": name, "color": color, "shift": shift, "values": values });
     let words = |port: &Column, value: &dyn Fn(usize) -> Value| {
         let words: Vec<String> = cycles.clone().map(|cycle| value(cycle).to_string()).collect();
         if port.width == 1 { json!(words.concat()) } else { json!(words) }
@@ -271,4 +270,9 @@ fn waves(trace: &SwarmTrace) -> Vec<Json> {
     let inputs = trace.inputs.iter().enumerate().map(input);
     let robots = trace.recording.robots.iter().map(robot);
     inputs.chain(robots).chain(trace.outputs.iter().enumerate().map(output)).collect()
+}
+
+/// A row of the waveform, whose values apply `shift` cycles later.
+fn row(name: &str, color: &str, shift: usize, values: Json) -> Json {
+    json!({ "name": name, "color": color, "shift": shift, "values": values })
 }
