@@ -1,8 +1,8 @@
 //! Strongly connected components, found without recursion: a chain of cells may be as long as the netlist is large
 //! (Tarjan, Depth-first search and linear graph algorithms).
 //!
-//! petgraph's `tarjan_scc` recurses, so a chain of a million cells would overflow the stack. Its `kosaraju_scc` takes no
-//! start nodes and no filter, and results depend on the order in which components are found.
+//! petgraph's `tarjan_scc` recurses, so a chain of a million cells would overflow the stack. Its `kosaraju_scc` takes
+//! no start nodes and no filter, and results depend on the order in which components are found.
 
 use petgraph::Direction::Outgoing;
 use petgraph::visit::NodeIndexable;
