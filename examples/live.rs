@@ -1,4 +1,5 @@
-//! A door in a few lines: the latch, from a source in memory, a cycle at a time under bits that are typed on standard input.
+//! A door in a few lines: the latch, from a source in memory, a cycle at a time under bits that are typed on standard
+//! input.
 //!
 //!     cargo run --release --no-default-features --example live
 //!

@@ -9,9 +9,10 @@
 //! # Ok::<(), nbc::Diagnostics>(())
 //! ```
 //!
-//! The names below are the library, each with an example. A [`Session`] goes from source text to a swarm: [`Session::open`],
-//! [`Session::compile`], [`Session::test`], [`Session::simulate`] and [`Session::swarm`]. Everything that can be wrong with a source
-//! is [`Diagnostics`]. Robots can be simulated without a circuit by a [`Simulator`], and evolved by a [`Search`].
+//! The names below are the library, each with an example. A [`Session`] goes from source text to a swarm:
+//! [`Session::open`], [`Session::compile`], [`Session::test`], [`Session::simulate`] and [`Session::swarm`]. Everything
+//! that can be wrong with a source is [`Diagnostics`]. Robots can be simulated without a circuit by a [`Simulator`],
+//! and evolved by a [`Search`].
 //!
 //! # Features
 //!

@@ -1,4 +1,5 @@
-//! A session as a door that is not the command line sees it: sources in memory, swarms that are stepped, work that is cancelled.
+//! A session as a door that is not the command line sees it: sources in memory, swarms that are stepped, work that is
+//! cancelled.
 
 use nbc::session::RunEnd;
 use nbc::{CompileOptions, Level, MemoryWorld, Observer, Session, TestOptions, TestRun};
