@@ -188,9 +188,9 @@ impl<R: Real> Mass<R> {
     /// Advances to the next stage, with the acceleration of this one.
     ///
     /// With u the velocity, a_s the acceleration and u_s the velocity in stage s, all counted in substeps, the
-    /// classical scheme is x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2, u_4 = u
-    /// + a_3, and ends with x + (u + 2 u_2 + 2 u_3 + u_4)/6 and u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 +
-    /// a_3) + a_4)/6.
+    /// classical scheme is x_2 = x + u/2, x_3 = x + u_2/2, x_4 = x + u_3 and u_2 = u + a_1/2, u_3 = u + a_2/2,
+    /// u_4 = u + a_3. It ends with x + (u + 2 u_2 + 2 u_3 + u_4)/6 and with
+    /// u + (a_1 + 2 a_2 + 2 a_3 + a_4)/6 = (2 (u_2 + 2 u_3 + a_3) + a_4)/6.
     #[inline(always)]
     fn advance<const STAGE: u8>(&mut self, acceleration: Vector<R>, before: &mut Vector<R>) {
         let (half, two, sixth) = (R::splat(0.5), R::splat(2.0), R::splat(1.0 / 6.0));
