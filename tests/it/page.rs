@@ -6,11 +6,11 @@ use std::process::Command;
 use nbc::model::{Base, Body, Character, CircuitTest, Function, Provenance, Robot, Stimulation, TestRow};
 use nbc::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
 use nbc::source::{FileId, Span};
-use nbc::swarm::{Assembly, Demand, Level, Member, SwarmTrace, TestVerdict, judge_swarm};
+use nbc::swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
 use crate::cli::Bench;
-use crate::pictures::{latch, latch_netlist};
+use crate::pictures::{large, latch, latch_netlist};
 
 pub fn robot(name: &str, function: Function) -> Robot {
     let rows = ["66666", "46666", "44444", "44404", "44005"];
@@ -97,13 +97,18 @@ pub fn assembly(trace: &SwarmTrace) -> Assembly {
 fn page() -> String {
     let mut trace = latch(&[(false, true), (true, true), (true, false)], 8);
     trace.recording = Stage::of_swarm(&assembly(&trace), &trace, 7).record(5);
-    let (assembly, verdict) = (assembly(&trace), verdict(&trace));
+    page_of(&trace)
+}
+
+/// The page of a trace, twice on one page.
+fn page_of(trace: &SwarmTrace) -> String {
+    let (assembly, verdict) = (assembly(trace), verdict(trace));
     let robots: Vec<&Robot> = assembly.members.iter().map(|member| &member.robot).collect();
     let schematic = report::draw_schematic(&latch_netlist(), &robots, &[], Scheme::Paper);
-    let spacetime = report::draw_swarm(&trace);
+    let spacetime = report::draw_swarm(trace);
     let test = || PageSwarm {
         outcome: SwarmOutcome::Test(&verdict),
-        trace: &trace,
+        trace,
         assembly: &assembly,
         schematic: &schematic,
         spacetime: &spacetime,
@@ -138,6 +143,24 @@ fn the_page_is_self_contained() {
     let frames = test["robots"][0]["frames"].as_str().unwrap().len() / 4 * 3 / 2;
     let points = test["robots"][0]["corners"].as_u64().unwrap() as usize;
     assert_eq!(frames / (points * 2), 24 * 12 + 1);
+}
+
+#[test]
+fn the_page_of_a_large_swarm_is_small() {
+    let mut trace = large();
+    let recorded = |robot: usize| {
+        let mut recorded = Recorded::default();
+        (recorded.robot, recorded.points) = (robot, 36);
+        recorded.frames = vec![0; 36 * 2 * (1000 * 2 + 1)];
+        recorded
+    };
+    trace.recording = Recording { frames_per_cycle: 2, robots: [1, 4].map(recorded).into() };
+    let page = page_of(&trace);
+    assert!(page.len() < 2 * 2_500_000, "{} bytes for two swarms", page.len());
+    let swarm = &data(&page)["swarms"][0];
+    let cells: Vec<_> = swarm["robots"].as_array().unwrap().iter().map(|robot| robot["cell"].as_u64()).collect();
+    assert_eq!(cells, [Some(1), Some(4)], "a robot of the player knows its cell of the schematic");
+    assert_eq!(swarm["waves"].as_array().unwrap().len(), 2 + 2 + 2, "inputs, recorded robots, outputs");
 }
 
 fn chromium() -> Option<PathBuf> {
