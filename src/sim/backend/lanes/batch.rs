@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use crate::sim::backend::lanes::mass::{Mass, Vector};
-use crate::sim::backend::lanes::proximity::{Inside, Proximity, Tile};
+use crate::sim::backend::lanes::proximity::{Inside, LowPoint, Proximity, Tile};
 use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::constants::Constants;
@@ -150,8 +150,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub unstable: u32,
     /// Surface voxels of each lane, zero in lanes that cannot be unstable.
     pub countable: Vec<u32>,
-    /// Scratch: lanes in which each surface mass is not above the ground's face, as bits.
-    pub low: Vec<u32>,
+    /// Scratch: surface masses at or below the surface of the ground.
+    pub low: Vec<LowPoint>,
     /// Scratch: masses inside voxels.
     pub inside: Vec<Inside>,
     /// Scratch: voxels of one lane.

@@ -33,7 +33,7 @@ pub struct Proximity<R: Real> {
     /// Surface voxels of all lanes, in reading order.
     tiles: Vec<Tile>,
     /// Their masses.
-    pub points: Vec<usize>,
+    points: Vec<usize>,
     /// The positions when the lists were built; infinitely far before the first time.
     reference: Vec<Vector<R>>,
     /// Points near a tile that is not theirs.
@@ -57,13 +57,13 @@ struct NearTiles {
     lanes: u32,
 }
 
-/// The result of checking the points.
+/// A point at or below some height.
 #[derive(Clone, Copy, Debug)]
-pub struct Survey {
-    /// Whether a point has moved so far that the lists have to be renewed.
-    pub is_stale: bool,
-    /// Lanes with a point at or below the given height, as bits.
-    pub lowest: u32,
+pub struct LowPoint {
+    /// Its mass.
+    pub mass: usize,
+    /// In which lanes, as bits.
+    pub lanes: u32,
 }
 
 /// A point found inside a tile.
@@ -93,20 +93,22 @@ impl<R: Real> Proximity<R> {
         Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
     }
 
-    /// Checks the points, and records the lanes in which each is at or below `height`.
+    /// Lists the points at or below `height`. Returns whether a point has moved so far that the other lists have to be
+    /// renewed.
     #[inline(always)]
-    pub fn survey(&self, masses: &[Mass<R>], height: f64, low: &mut Vec<u32>) -> Survey {
-        low.resize(self.points.len(), 0);
+    pub fn survey(&self, masses: &[Mass<R>], height: f64, low: &mut Vec<LowPoint>) -> bool {
         let height = R::splat(height);
-        let (mut moved, mut lowest) = (R::splat(0.0), 0);
-        for ((&point, reference), low) in self.points.iter().zip(&self.reference).zip(low) {
+        let mut moved = R::splat(0.0);
+        for (&point, reference) in self.points.iter().zip(&self.reference) {
             let at = masses[point].at;
             moved = (at[0] - reference[0]).abs().max(moved);
             moved = (at[1] - reference[1]).abs().max(moved);
-            *low = at[1].at_most(height).bits();
-            lowest |= *low;
+            let lanes = at[1].at_most(height).bits();
+            if lanes != 0 {
+                low.push(LowPoint { mass: point, lanes });
+            }
         }
-        Survey { is_stale: R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any(), lowest }
+        R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any()
     }
 
     /// Builds the lists from current positions. `surface[lane]` is the number of a lane's surface voxels, or zero if it
@@ -118,7 +120,10 @@ impl<R: Real> Proximity<R> {
         self.near_points.clear();
         self.near_tiles.clear();
         let margin = R::splat(MARGIN);
-        let boxes: Vec<[Vector<R>; 2]> = self.tiles.iter().map(|tile| bounds(masses, tile)).collect();
+        let mut boxes: Vec<[Vector<R>; 2]> = Vec::with_capacity(self.tiles.len());
+        for tile in &self.tiles {
+            boxes.push(bounds(masses, tile));
+        }
         for (n, tile) in self.tiles.iter().enumerate() {
             for &point in &self.points {
                 let at = masses[point].at;
@@ -137,8 +142,11 @@ impl<R: Real> Proximity<R> {
                 }
             }
         }
-        let pairs = tally(self.near_tiles.iter().map(|near| near.lanes), surface.len());
-        self.suspects = overfull(&pairs, surface);
+        let mut pairs = Tally::default();
+        for near in &self.near_tiles {
+            pairs.add(near.lanes);
+        }
+        self.suspects = pairs.overfull(surface);
     }
 
     /// Points inside tiles that are not theirs, by tile and then by point.
@@ -157,7 +165,7 @@ impl<R: Real> Proximity<R> {
             if gap(&reach, &[at, at]).at_most(slack).bits() & near.lanes == 0 {
                 continue;
             }
-            let lanes = is_inside(at, tile.corners.map(|corner| masses[corner].at)).bits() & near.lanes;
+            let lanes = is_inside(at, corners(masses, tile)).bits() & near.lanes;
             if lanes != 0 {
                 found.push(Inside { corners: tile.corners, point: near.point, lanes });
             }
@@ -173,31 +181,42 @@ impl<R: Real> Proximity<R> {
 
     #[inline(always)]
     fn count_overlaps(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
-        let overlaps = self.near_tiles.iter().map(|near| {
-            let [a, b] = near.tiles.map(|n| bounds(masses, &self.tiles[n]));
-            overlap(&a, &b).bits() & near.lanes
-        });
-        overfull(&tally(overlaps, surface.len()), surface)
+        let mut pairs = Tally::default();
+        let mut last = usize::MAX;
+        let mut first = [[R::splat(0.0); 2]; 2];
+        for near in self.near_tiles.iter().filter(|near| near.lanes & self.suspects != 0) {
+            let [a, b] = near.tiles;
+            if a != last {
+                first = bounds(masses, &self.tiles[a]);
+                last = a;
+            }
+            pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
+        }
+        pairs.overfull(surface)
     }
 }
 
-/// Counts the set bits of each lane.
-fn tally(bits: impl Iterator<Item = u32>, lanes: usize) -> Vec<u32> {
-    let mut counts = vec![0; lanes];
-    for bits in bits {
-        for (lane, count) in counts.iter_mut().enumerate() {
-            *count += bits >> lane & 1;
+/// Counts something in each lane.
+#[derive(Default)]
+struct Tally([u32; u32::BITS as usize]);
+
+impl Tally {
+    /// Counts one in the lanes whose bit is set.
+    #[inline(always)]
+    fn add(&mut self, mut lanes: u32) {
+        while lanes != 0 {
+            self.0[lanes.trailing_zeros() as usize] += 1;
+            lanes &= lanes - 1;
         }
     }
-    counts
-}
 
-/// Lanes in which twice the number of pairs exceeds the number of surface voxels.
-fn overfull(pairs: &[u32], surface: &[u32]) -> u32 {
-    let lanes = pairs.iter().zip(surface).enumerate();
-    lanes
-        .filter(|(_, (pairs, surface))| **surface > 0 && 2 * **pairs > **surface)
-        .fold(0, |bits, (lane, _)| bits | 1 << lane)
+    /// Lanes where twice the pairs are more than the surface voxels, as bits.
+    fn overfull(&self, surface: &[u32]) -> u32 {
+        let lanes = self.0.iter().zip(surface).enumerate();
+        lanes
+            .filter(|(_, (pairs, surface))| **surface > 0 && 2 * **pairs > **surface)
+            .fold(0, |bits, (lane, _)| bits | 1 << lane)
+    }
 }
 
 /// Whether two voxels' cells differ by more than one row or column.
@@ -205,25 +224,38 @@ fn are_apart(a: &Tile, b: &Tile) -> bool {
     a.cell[0].abs_diff(b.cell[0]) > 1 || a.cell[1].abs_diff(b.cell[1]) > 1
 }
 
-/// Smallest and largest coordinates of a tile.
+// The functions below use no closures and iterators on vectors: these would be compiled without the vector instructions
+// of the kernel, and called with every vector in memory.
+
+/// Where the masses of a tile are.
+#[inline(always)]
+fn corners<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; CORNERS] {
+    let [a, b, c, d] = tile.corners;
+    [masses[a].at, masses[b].at, masses[c].at, masses[d].at]
+}
+
+/// Least and greatest coordinates of a tile.
 #[inline(always)]
 fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
-    let [a, b, c, d] = [0, 1, 2, 3].map(|corner| masses[tile.corners[corner]].at);
-    let least = |axis: usize| a[axis].min(b[axis]).min(c[axis].min(d[axis]));
-    let greatest = |axis: usize| a[axis].max(b[axis]).max(c[axis].max(d[axis]));
-    [[least(0), least(1)], [greatest(0), greatest(1)]]
+    let [a, b, c, d] = corners(masses, tile);
+    [
+        [a[0].min(b[0]).min(c[0].min(d[0])), a[1].min(b[1]).min(c[1].min(d[1]))],
+        [a[0].max(b[0]).max(c[0].max(d[0])), a[1].max(b[1]).max(c[1].max(d[1]))],
+    ]
 }
 
 /// The distance of two boxes along the axis where it is largest; negative if they overlap.
 #[inline(always)]
 fn gap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R {
-    let along = |axis: usize| (a[0][axis] - b[1][axis]).max(b[0][axis] - a[1][axis]);
-    along(0).max(along(1))
+    let x = (a[0][0] - b[1][0]).max(b[0][0] - a[1][0]);
+    let y = (a[0][1] - b[1][1]).max(b[0][1] - a[1][1]);
+    x.max(y)
 }
 
 /// Whether two boxes overlap or touch.
 #[inline(always)]
 fn overlap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R::Mask {
-    let along = |axis: usize| a[0][axis].at_most(b[1][axis]).and(b[0][axis].at_most(a[1][axis]));
-    along(0).and(along(1))
+    let x = a[0][0].at_most(b[1][0]).and(b[0][0].at_most(a[1][0]));
+    let y = a[0][1].at_most(b[1][1]).and(b[0][1].at_most(a[1][1]));
+    x.and(y)
 }

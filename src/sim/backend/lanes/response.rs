@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use crate::sim::backend::lanes::batch::Batch;
 use crate::sim::backend::lanes::contact::{Hit, Quad};
-use crate::sim::backend::lanes::proximity::{Inside, Survey};
+use crate::sim::backend::lanes::proximity::{Inside, LowPoint};
 use crate::sim::backend::lanes::real::Real;
 use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::lattice::CORNERS;
@@ -16,18 +16,18 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.clear_contacts();
         let mut low = std::mem::take(&mut self.low);
         let mut inside = std::mem::take(&mut self.inside);
-        let Survey { is_stale, lowest } = self.proximity.survey(&self.masses, self.constants.cell, &mut low);
-        if is_stale {
+        if self.proximity.survey(&self.masses, self.constants.cell, &mut low) {
             self.proximity.renew(&self.masses, &self.countable);
         }
         self.proximity.insides(&self.masses, &mut inside);
         self.unstable |= self.proximity.unstable(&self.masses, &self.countable);
-        if lowest != 0 {
+        if !low.is_empty() {
             self.collide_with_ground(&low);
         }
         if !inside.is_empty() {
             self.collide_with_itself(&inside);
         }
+        low.clear();
         inside.clear();
         self.low = low;
         self.inside = inside;
@@ -43,14 +43,13 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.loads.truncate(self.weights);
     }
 
-    /// Contact between each robot's low voxels and the ground, once each way. `low` has the lanes in which each surface
-    /// mass is low.
+    /// Contact between each robot's low voxels and the ground, each way once.
     #[inline(never)]
-    fn collide_with_ground(&mut self, low: &[u32]) {
+    fn collide_with_ground(&mut self, low: &[LowPoint]) {
         for lane in 0..self.occupants.len() {
             let mut voxels = std::mem::take(&mut self.voxels);
-            for (&mass, _) in self.proximity.points.iter().zip(low).filter(|(_, lanes)| *lanes >> lane & 1 == 1) {
-                voxels.extend(self.occupants[lane].at_mass[mass].iter().map(|&(voxel, _)| voxel));
+            for point in low.iter().filter(|point| point.lanes >> lane & 1 == 1) {
+                voxels.extend(self.occupants[lane].at_mass[point.mass].iter().map(|&(voxel, _)| voxel));
             }
             voxels.sort_unstable();
             voxels.dedup();
