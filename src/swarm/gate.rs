@@ -19,7 +19,7 @@ const WALKS: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1,
 /// Random sequences that follow the walks, and the cycles of each.
 const RANDOM_LANES: usize = 4;
 const RANDOM_CYCLES: usize = 36;
-/// The seed of the random sequences: the same for every candidate, and different from that of `characterise`.
+/// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 /// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.
 const HALF_MARGIN: f64 = 0.05;

@@ -2,7 +2,7 @@
 
 use crate::model::{Behavior, Body, CYCLE_STEPS, Character, Fault, Setting};
 use crate::sim::Simulator;
-use crate::swarm::characterise::characterise;
+use crate::swarm::characterize::characterize;
 use crate::swarm::evaluate::{fixed_displacements, fixed_trials};
 
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
@@ -28,5 +28,5 @@ pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault>
     let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
     let displacement = fixed_displacements(four)?;
     let behavior = Behavior::of(&displacement);
-    Ok(Measurement { displacement, behavior, character: characterise(simulator, body, behavior)? })
+    Ok(Measurement { displacement, behavior, character: characterize(simulator, body, behavior)? })
 }

@@ -3,7 +3,7 @@
 mod activity;
 mod assemble;
 mod cells;
-mod characterise;
+mod characterize;
 mod evaluate;
 mod gate;
 mod holds;
@@ -22,7 +22,7 @@ mod work;
 pub use activity::{RowActivity, SimulationResult, activity};
 pub use assemble::{AssembleError, Assembly, Member, StimulusSource, assemble};
 pub use cells::cells;
-pub use characterise::{characterise, screen};
+pub use characterize::{characterize, screen};
 pub use evaluate::{evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, judge_logic, judge_swarm};
 pub use live::{LiveSwarm, START_CYCLES, SwarmSnapshot, setting};

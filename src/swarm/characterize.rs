@@ -39,7 +39,7 @@ const TOPPLED: f64 = 0.7;
 ///
 /// # Errors
 /// The fault of a simulation that could not go on.
-pub fn characterise(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
+pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
     let probe = Probe::new(simulator, body, behavior);
     let tally = probe.best_clock()?;
     let (settle, toppled) = probe.settle()?;
