@@ -204,7 +204,7 @@ pub use session::{TestOptions, TestRun};
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 /// # let checked = session.open("a.nb")?;
 /// let simulation = &checked.program.simulations[0];
-/// let mut observe = |done, all| println!("{done} of {all}");
+/// let mut observe = |done: u64, all: u64| println!("{done} of {all}");
 /// let options = nbc::CompileOptions::default();
 /// let run: nbc::SimulationRun = session.simulate(&checked, simulation, &options, &mut observe)?;
 /// println!("{:?}", run.result.rows);
