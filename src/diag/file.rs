@@ -20,13 +20,22 @@ impl Diagnostic {
 }
 
 /// Why a file cannot be read, in plain words.
-pub fn file_error(error: &FileError) -> String {
+fn file_error(error: &FileError) -> String {
     match error {
         FileError::NotFound => "there is no such file".to_owned(),
         FileError::NotRegular(kind) => format!("expected a regular file, found {kind}"),
         FileError::TooLarge { limit } => format!("file is larger than the limit of {}", size(*limit)),
         FileError::NotText { offset } => format!("file is not valid UTF-8 (byte {offset})"),
         FileError::Io(words) => words.clone(),
+    }
+}
+
+/// Why a folder cannot be listed, in plain words.
+pub fn folder_error(error: &FileError) -> &str {
+    match error {
+        FileError::NotFound => "there is no such folder",
+        FileError::Io(words) => words,
+        FileError::NotRegular(_) | FileError::TooLarge { .. } | FileError::NotText { .. } => "it is not a folder",
     }
 }
 

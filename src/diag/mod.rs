@@ -19,7 +19,7 @@ pub use code::Code;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related};
 pub use diagnostics::Diagnostics;
-pub use file::{file_error, io_words};
+pub use file::{folder_error, io_words};
 pub use fix::{Edit, Fix};
 pub use json::json;
 pub use severity::Severity;

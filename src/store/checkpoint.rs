@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::evolve::{Search, SearchState};
 use crate::model::Evolution;
 use crate::store::declared::Declared;
 use crate::store::first_checkpoint::FirstRecord;
 use crate::store::search_state::SearchRecord as StateRecord;
+use crate::store::wording::{CheckpointError, StateError};
 
 /// The checkpoint version that this program writes; it also reads earlier ones.
 const FORMAT: &str = "2";
@@ -59,27 +60,27 @@ impl Checkpoint {
     /// # Errors
     /// A diagnostic for what is no checkpoint, of another format, damaged, or no search.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, Diagnostic> {
-        let fault = |code, text: &str| Diagnostic::without_place(code, format!("`{name}` {text}"));
-        let none = || fault(Code::Checkpoint, "is no checkpoint of an evolution run");
-        let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n').ok_or_else(none)?;
-        let (header, rest) = (std::str::from_utf8(&bytes[..end]).map_err(|_| none())?, &bytes[end + 1..]);
+        Self::read_bytes(bytes).map_err(|error| error.of(name))
+    }
+
+    fn read_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
+        let none = CheckpointError::NotACheckpoint;
+        let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n');
+        let Some((header, rest)) = end.map(|end| (&bytes[..end], &bytes[end + 1..])) else { return Err(none) };
+        let Ok(header) = std::str::from_utf8(header) else { return Err(none) };
         let words: Vec<&str> = header.split(' ').collect();
-        let [MAGIC, format, checksum, length] = words[..] else { return Err(none()) };
+        let [MAGIC, format, checksum, length] = words[..] else { return Err(none) };
         let read = match format {
             "1" => read_first,
             FORMAT => read_record,
-            _ => {
-                let text = format!("is a checkpoint of format {format}, expected format {FORMAT}");
-                return Err(fault(Code::ForeignFormat, &text).with_help("resume it with the version that wrote it"));
-            }
+            _ => return Err(CheckpointError::Format { found: format.to_owned(), expected: FORMAT }),
         };
-        let damaged =
-            || fault(Code::Checkpoint, "is damaged: its checksum does not fit").with_help("start the run afresh");
-        let text = length.parse().ok().and_then(|length: usize| rest.get(..length)).ok_or_else(damaged)?;
+        let text = length.parse().ok().and_then(|length: usize| rest.get(..length));
+        let text = text.ok_or(CheckpointError::Damaged)?;
         if rest[text.len()..] != *b"\n" || format!("{:08x}", crc32fast::hash(text)) != checksum {
-            return Err(damaged());
+            return Err(CheckpointError::Damaged);
         }
-        read(text).map_err(|message| fault(Code::Checkpoint, &format!("cannot be read: {message}")))
+        read(text).map_err(CheckpointError::Unreadable)
     }
 
     /// The search as it was, for the declaration it was made by.
@@ -87,20 +88,17 @@ impl Checkpoint {
     /// # Errors
     /// A diagnostic when the declaration or the seed is another, or its bodies are none of that declaration.
     pub fn resume(self, name: &str, evolution: &Evolution, seed: u64) -> Result<Search, Diagnostic> {
-        let fault = |text: String| {
-            let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{name}` {text}"));
-            fault.with_help("give the run another name, or start it afresh without `--resume`")
+        let declared = || evolution.name.clone();
+        let error = if self.state.seed != seed {
+            CheckpointError::OtherSeed { found: self.state.seed, expected: seed }
+        } else if !self.declared.fits(evolution) {
+            CheckpointError::Changed { evolution: declared() }
+        } else if !self.state.fits(evolution) {
+            CheckpointError::OtherEvolution { evolution: declared() }
+        } else {
+            return Ok(Search::resume(evolution, self.state));
         };
-        if self.state.seed != seed {
-            return Err(fault(format!("is of seed {}, expected seed {seed}", self.state.seed)));
-        }
-        if !self.declared.fits(evolution) {
-            return Err(fault(format!("was made by another declaration than `{}` is now", evolution.name)));
-        }
-        if !self.state.fits(evolution) {
-            return Err(fault(format!("does not belong to evolution `{}`", evolution.name)));
-        }
-        Ok(Search::resume(evolution, self.state))
+        Err(error.of(name))
     }
 }
 
@@ -108,18 +106,17 @@ impl Checkpoint {
 const MAX_HEADER: usize = 100;
 
 /// Reads the part after the header of format 1.
-fn read_first(text: &[u8]) -> Result<Checkpoint, String> {
-    let record: FirstRecord = serde_json::from_slice(text).map_err(|error| error.to_string())?;
-    let declared = record.declared().ok_or("its declaration has no materials")?;
+fn read_first(text: &[u8]) -> Result<Checkpoint, StateError> {
+    let record: FirstRecord = serde_json::from_slice(text)?;
+    let declared = record.declared().ok_or(StateError::NoMaterials)?;
     let FirstRecord { version, state, env_steps, left_out, .. } = record;
     let state = state.into_state(&declared)?;
     Ok(Checkpoint { version, declared, state, env_steps, left_out })
 }
 
 /// Reads the part after the header of format 2.
-fn read_record(text: &[u8]) -> Result<Checkpoint, String> {
-    let Record { version, evolution, state, env_steps, left_out } =
-        serde_json::from_slice(text).map_err(|error| error.to_string())?;
+fn read_record(text: &[u8]) -> Result<Checkpoint, StateError> {
+    let Record { version, evolution, state, env_steps, left_out } = serde_json::from_slice(text)?;
     let declared = Declared::of(evolution);
     let state = state.into_state(&declared)?;
     Ok(Checkpoint { version, declared, state, env_steps, left_out })
@@ -198,7 +195,7 @@ mod tests {
         };
         assert_eq!(refused(&evolution(), 2), "`a` is of seed 1, expected seed 2");
         let wider = Evolution { width: 5, ..evolution() };
-        assert_eq!(refused(&wider, 1), "`a` was made by another declaration than `small` is now");
+        assert_eq!(refused(&wider, 1), "`a` was made by a different declaration of `small`");
         let mut forged = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
         forged.state.niches[0].1[0].genotype.links.clear();
         let message = forged.resume("a", &evolution(), 1).unwrap_err().message;
@@ -207,7 +204,10 @@ mod tests {
         let later = text.replacen("nbc-checkpoint 2", "nbc-checkpoint 9", 1);
         let message = Checkpoint::read("a", later.as_bytes()).unwrap_err().message;
         assert_eq!(message, "`a` is a checkpoint of format 9, expected format 2");
-        assert_eq!(Checkpoint::read("a", b"hello\n").unwrap_err().message, "`a` is no checkpoint of an evolution run");
+        assert_eq!(
+            Checkpoint::read("a", b"hello\n").unwrap_err().message,
+            "`a` is not a checkpoint of an evolution run"
+        );
     }
 
     #[test]

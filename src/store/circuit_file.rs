@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use crate::circuit::formats::{CircuitFormat, Design, aiger, bench, blif};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileError, Sources};
+use crate::store::wording::StoreError;
 use crate::store::{disk, yosys};
 use crate::syntax;
 
@@ -28,13 +29,7 @@ pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnost
             let flat = yosys::flatten(path, text(path)?)?;
             parse(format!("{} (as BLIF)", path.display()), flat, |text, file| blif::read(text, file, clock))
         }
-        _ => {
-            let message = format!(
-                "unrecognized circuit format of `{}`; expected .blif, .aig, .aag, .bench or .v",
-                path.display()
-            );
-            Err(Diagnostic::without_place(Code::BadValue, message).into())
-        }
+        _ => Err(Diagnostic::from(StoreError::CircuitFormat { file: path.display().to_string() }).into()),
     }
 }
 
@@ -53,9 +48,7 @@ pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>,
 /// A program of ours as the formatter writes it, unless it is too large to be read again.
 fn canonical(text: String) -> Result<String, Diagnostic> {
     if text.len() as u64 > syntax::MAX_SOURCE_BYTES {
-        let message = format!("the circuit takes {} bytes as a .nb file", text.len());
-        let help = format!("a .nb file has at most {} bytes; write BLIF", syntax::MAX_SOURCE_BYTES);
-        return Err(Diagnostic::without_place(Code::TooLarge, message).with_help(help));
+        return Err(StoreError::NbTooLarge { bytes: text.len(), most: syntax::MAX_SOURCE_BYTES }.into());
     }
     let mut sources = Sources::default();
     let file = sources.add("the circuit as a .nb file", text);

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use include_dir::{Dir, include_dir};
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::model::{Library, Robot};
-use crate::source::{FileError, SourceWorld, Sources};
+use crate::source::{SourceWorld, Sources};
 use crate::store::read_robot;
+use crate::store::wording::StoreError;
 
 const FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
 
@@ -34,7 +35,8 @@ pub fn shipped_library() -> Library {
 /// # Errors
 /// What is wrong with the folder or its files; several faults where several files are wrong.
 pub fn read_library(world: &dyn SourceWorld, folder: &str) -> Result<Library, Vec<Diagnostic>> {
-    let mut names = world.list(folder).map_err(|error| vec![unreadable(folder, &error)])?;
+    let mut names =
+        world.list(folder).map_err(|error| vec![StoreError::Library { folder: folder.to_owned(), error }.into()])?;
     names.retain(|name| name.ends_with(ENDING));
     let (mut robots, mut faults) = (Vec::new(), Vec::new());
     for name in names {
@@ -52,15 +54,6 @@ fn read_member(world: &dyn SourceWorld, path: &str) -> Result<Robot, Diagnostic>
     let id = sources.add(path, text);
     // The caller has other texts, so a place in this one would mean nothing to it.
     read_robot(sources.file(id)).map_err(|fault| Diagnostic { labels: Vec::new(), ..fault })
-}
-
-fn unreadable(folder: &str, error: &FileError) -> Diagnostic {
-    let why = match error {
-        FileError::NotFound => "there is no such folder",
-        FileError::Io(words) => words.as_str(),
-        FileError::NotRegular(_) | FileError::TooLarge { .. } | FileError::NotText { .. } => "it is not a folder",
-    };
-    Diagnostic::without_place(Code::Unreadable, format!("cannot read the library `{folder}`: {why}"))
 }
 
 /// A library of robots in order of their functions' bits, and within a function the most reliable first, then the

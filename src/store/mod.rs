@@ -23,6 +23,7 @@ mod robot;
 mod search_state;
 mod shape;
 mod soundness;
+mod wording;
 mod yaml;
 #[cfg(feature = "disk")]
 mod yosys;

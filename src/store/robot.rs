@@ -6,9 +6,10 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error};
 use serde_yaml::Value;
 use serde_yaml::with::singleton_map_recursive;
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::model::{Behavior, Body, Character, Genotype, Palette, Provenance, Robot};
 use crate::source::SourceFile;
+use crate::store::wording::RobotFileError;
 use crate::store::{shape, soundness, yaml};
 
 /// The robot file version that this program writes; it also reads earlier ones.
@@ -80,7 +81,8 @@ pub fn own_materials(body: &Body) -> Option<Arc<Palette>> {
 pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     let version: Version = yaml::read(file)?;
     if !(1..=FORMAT).contains(&version.format) {
-        return Err(foreign(file, version.format));
+        let error = RobotFileError::Format { found: version.format, expected: FORMAT };
+        return Err(error.of(&file.name, yaml::key_span(file, "format")));
     }
     let read: RobotRecord = yaml::read(file)?;
     let palette = read.materials.unwrap_or_else(Palette::paper);
@@ -118,14 +120,10 @@ fn untagged(value: Value) -> Value {
     }
 }
 
-fn foreign(file: &SourceFile, format: u32) -> Diagnostic {
-    let message = format!("`{}` is a robot file of format {format}, expected format {FORMAT}", file.name);
-    Diagnostic::new(Code::ForeignFormat, message, yaml::key_span(file, "format"), "written by another version of nbc")
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::diag::Code;
     use crate::model::{Drive, Material, MaterialKind, Pattern, Response, Transition};
     use crate::source::Sources;
 

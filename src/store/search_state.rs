@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::evolve::{Counts, Elite, NicheKey, SearchState};
 use crate::model::{Axis, Behavior, Body, Genotype, Palette};
 use crate::store::declared::Declared;
+use crate::store::wording::StateError;
 
 /// The most bins of an axis that can be declared.
 const MAX_BINS: usize = 1000;
@@ -47,23 +48,23 @@ impl SearchRecord {
     ///
     /// # Errors
     /// Says which niche or body cannot be of it.
-    pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, String> {
+    pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, StateError> {
         let Self { seed, generation, counts, mirrors, niches } = self;
         let bins = declared
             .axes
             .iter()
             .filter_map(|axis| if let Axis::Count { bins, .. } = *axis { Some(bins) } else { None });
         if let Some(bins) = bins.into_iter().find(|bins| !(1..=MAX_BINS).contains(bins)) {
-            return Err(format!("an axis of {bins} bins, expected 1 to {MAX_BINS}"));
+            return Err(StateError::Bins { bins, most: MAX_BINS });
         }
         let niche = |(key, elites): (NicheKey, Vec<EliteRecord>)| {
             if !declared.axes.is_empty() && !is_niche(&key, &declared.axes) {
-                return Err(format!("the archive has no niche {:?}", key.0));
+                return Err(StateError::NoNiche { bins: key.0 });
             }
             let elites = elites.into_iter().map(|elite| elite.into_elite(&declared.palette));
             Ok((key, elites.collect::<Result<Vec<_>, _>>()?))
         };
-        let niches = niches.into_iter().map(niche).collect::<Result<_, String>>()?;
+        let niches = niches.into_iter().map(niche).collect::<Result<_, StateError>>()?;
         Ok(SearchState { seed, generation, counts, mirrors, niches })
     }
 }
@@ -80,9 +81,9 @@ impl EliteRecord {
         Self { fitness, behavior, displacement, body: body.rows(), genotype, generation, evaluations }
     }
 
-    fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, String> {
+    fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, StateError> {
         let Self { fitness, behavior, displacement, body, genotype, generation, evaluations } = self;
-        let body = Body::parse(&body, palette).map_err(|error| format!("an elite has no body: {error}"))?;
+        let body = Body::parse(&body, palette).map_err(StateError::Body)?;
         Ok(Elite { fitness, behavior, displacement, body, genotype, generation, evaluations })
     }
 }

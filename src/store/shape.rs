@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::model::{Body, BodyError, Palette};
 use crate::source::{SourceFile, Span};
+use crate::store::wording::{RobotFileError, with_body_example};
 use crate::store::yaml;
 
 /// Anything with a body.
@@ -65,8 +66,7 @@ impl Row {
 /// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials, or
 /// not in one piece.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
-    let Embodied { body, materials } = yaml::read(file)
-        .map_err(|fault| fault.with_help("give the body's rows, top row first: `body: [\"00345\", \"33333\"]`"))?;
+    let Embodied { body, materials } = yaml::read(file).map_err(with_body_example)?;
     self::body(file, &body.into_text(), &materials.unwrap_or_else(Palette::paper))
 }
 
@@ -75,19 +75,17 @@ pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
 /// # Errors
 /// As [`read_body`].
 pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -> Result<Body, Diagnostic> {
-    let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, &error))?;
+    let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, error))?;
     if body.is_connected() {
         return Ok(body);
     }
-    let message = format!("`{}` holds a body that is not in one piece", file.name);
-    let fault = Diagnostic::new(Code::RobotFile, message, yaml::key_span(file, "body"), "this body");
-    Err(fault.with_help("the voxels of a robot are connected by their sides"))
+    Err(RobotFileError::TwoPieces.of(&file.name, yaml::key_span(file, "body")))
 }
 
 /// The error of a body, at its row if the row can be found in the text.
-fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
+fn fault(file: &SourceFile, rows: &[String], error: BodyError) -> Diagnostic {
     let body = yaml::key_span(file, "body");
-    let span = match *error {
+    let span = match error {
         BodyError::Empty | BodyError::TooLarge { .. } => body,
         BodyError::Ragged { row, .. } => row_span(file, body, rows, row - 1).unwrap_or(body),
         BodyError::UnknownCode { row, column, .. } => row_span(file, body, rows, row - 1).map_or(body, |span| {
@@ -96,8 +94,7 @@ fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
             Span::new(file.id, at(column - 1), at(column))
         }),
     };
-    Diagnostic::new(Code::RobotFile, format!("`{}` holds no body: {error}", file.name), span, "here")
-        .with_help("a body is a rectangle of material codes, top row first, 0 for empty")
+    RobotFileError::Body(error).of(&file.name, span)
 }
 
 /// The place of row `wanted` in the text, found by walking from row to row after the key; `None` for other notations of

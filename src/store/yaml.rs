@@ -3,8 +3,9 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::source::{FileId, SourceFile, Span};
+use crate::store::wording::RobotFileError;
 
 /// The largest robot file, in bytes; the largest body takes a tenth of it.
 pub const MAX_ROBOT_BYTES: u64 = 1 << 20;
@@ -22,12 +23,10 @@ const RESERVED: [&str; 13] =
 /// A diagnostic with its place.
 pub(super) fn read<T: DeserializeOwned>(file: &SourceFile) -> Result<T, Diagnostic> {
     if file.text.len() as u64 > MAX_ROBOT_BYTES {
-        let message = format!("`{}` is not a robot file: larger than {MAX_ROBOT_BYTES} bytes", file.name);
-        return Err(Diagnostic::without_place(Code::RobotFile, message));
+        return Err(RobotFileError::TooLarge { most: MAX_ROBOT_BYTES }.of(&file.name, None));
     }
     if let Some(at) = too_deep(&file.text) {
-        let message = format!("`{}` is not a robot file: more than {MAX_DEPTH} brackets inside each other", file.name);
-        return Err(Diagnostic::new(Code::RobotFile, message, Span::new(file.id, at, at + 1), "one too many"));
+        return Err(RobotFileError::TooDeep { most: MAX_DEPTH }.of(&file.name, span(file.id, at, 1)));
     }
     serde_yaml::from_str(&file.text).map_err(|error| fault(file, &error))
 }
@@ -87,7 +86,7 @@ fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
         Some(place) => span_at(file, place.line(), place.column()),
         None => quoted_span(file, &message),
     };
-    Diagnostic::new(Code::RobotFile, format!("`{}` is no robot file: {message}", file.name), span, "here")
+    RobotFileError::Shape(message).of(&file.name, span)
 }
 
 /// The place of the first word in backticks that occurs in the text, for errors without a place.

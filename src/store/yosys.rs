@@ -7,8 +7,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::diag::{Code, Diagnostic, Diagnostics, io_words};
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{Sources, Span};
+use crate::store::wording::StoreError;
 
 /// The names in the temporary folder.
 const SOURCE: &str = "source.v";
@@ -27,22 +28,14 @@ const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -au
 /// # Errors
 /// When Yosys is missing or refuses the source.
 pub(super) fn flatten(path: &Path, source: String) -> Result<String, Diagnostics> {
-    let folder = prepare(path, &source).map_err(|error| {
-        let message = format!("cannot write a temporary folder: {}", io_words(&error));
-        Diagnostic::without_place(Code::Unwritable, message)
-    })?;
+    let folder = prepare(path, &source).map_err(|error| Diagnostic::from(StoreError::TemporaryFolder(error)))?;
     let output = Command::new("yosys").args(["-q", "-p", SCRIPT]).current_dir(folder.path()).output();
-    let output = output.map_err(|_| {
-        Diagnostic::without_place(Code::Unreadable, "Verilog is read through Yosys, which is not installed")
-            .with_help("install it, on Debian with `apt-get install yosys`, or give a BLIF file")
-    })?;
+    let output = output.map_err(|_| Diagnostic::from(StoreError::YosysMissing))?;
     if !output.status.success() {
         return Err(fault(path, source, &String::from_utf8_lossy(&output.stderr)));
     }
-    fs::read_to_string(folder.path().join(FLAT)).map_err(|_| {
-        let message = format!("yosys made no BLIF of `{}`", path.display());
-        Diagnostic::without_place(Code::CircuitFile, message).into()
-    })
+    fs::read_to_string(folder.path().join(FLAT))
+        .map_err(|_| Diagnostic::from(StoreError::YosysSilent { file: path.display().to_string() }).into())
 }
 
 /// A folder with the source and a link to its includes.
@@ -67,22 +60,22 @@ fn link(folder: &Path, at: &Path) -> std::io::Result<()> {
 /// The error message of Yosys, at the line of the user's file.
 fn fault(path: &Path, source: String, said: &str) -> Diagnostics {
     let line = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
-    let message = format!("yosys cannot read `{}`", path.display());
+    let name = path.display().to_string();
     let mut sources = Sources::default();
-    let file = sources.add(path.display().to_string(), source);
-    let diagnostic = match place(line) {
+    let file = sources.add(name.as_str(), source);
+    let (reason, place) = match place(line) {
         Some((number, reason)) => {
             let text = &sources.file(file).text;
             let start = text.split_inclusive('\n').take(number.saturating_sub(1)).map(str::len).sum::<usize>();
             let width = text[start..].lines().next().map_or(0, |line| line.trim_end().len());
-            Diagnostic::new(Code::CircuitFile, message, Span::new(file, start, start + width), reason)
+            (reason.to_owned(), Some(Span::new(file, start, start + width)))
         }
         None => {
             let parent = path.parent().unwrap_or(Path::new("")).join("").display().to_string();
-            let line = line.replace(&format!("{INCLUDED}/"), &parent);
-            Diagnostic::without_place(Code::CircuitFile, format!("{message}: {line}"))
+            (line.replace(&format!("{INCLUDED}/"), &parent), None)
         }
     };
+    let diagnostic = StoreError::Yosys { file: name, reason, place }.into();
     Diagnostics { list: vec![diagnostic], sources }
 }
 

@@ -95,7 +95,7 @@ fn missing_pictures_of_a_run_are_reported() {
     draw(&bench, "out/tiny --as vcd -o a.vcd").expect_fault(&["expected a source file"]);
     draw(&bench, "out/none --as heatmap -o a.svg").expect_fault(&["out/none"]);
     fs::write(bench.path().join("out/tiny/seed-2/checkpoint.nbc"), "nothing\n").unwrap();
-    draw(&bench, "out/tiny --as heatmap -o a.svg").expect_fault(&["is no checkpoint"]);
+    draw(&bench, "out/tiny --as heatmap -o a.svg").expect_fault(&["is not a checkpoint"]);
     assert!(!bench.path().join("a.svg").exists());
 }
 

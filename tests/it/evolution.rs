@@ -134,17 +134,17 @@ fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
     let resume = [&first[..], &["--resume"]].concat();
     let mut damaged = whole.clone();
     damaged[whole.len() / 2] ^= 4;
-    check(&damaged, &resume, "is damaged: its checksum does not fit");
-    check(&whole[..whole.len() / 2], &resume, "is damaged: its checksum does not fit");
-    check(b"", &resume, "is no checkpoint");
-    check(b"PK\x03\x04 something else\n", &resume, "is no checkpoint");
+    check(&damaged, &resume, "is damaged: its checksum does not match");
+    check(&whole[..whole.len() / 2], &resume, "is damaged: its checksum does not match");
+    check(b"", &resume, "is not a checkpoint");
+    check(b"PK\x03\x04 something else\n", &resume, "is not a checkpoint");
     for format in ["0", "3"] {
         let header = format!("nbc-checkpoint {format} ");
         let other = String::from_utf8(whole.clone()).unwrap().replacen("nbc-checkpoint 2 ", &header, 1);
         check(other.as_bytes(), &resume, &format!("is a checkpoint of format {format}, expected format 2"));
     }
     bench.file("runs.nb", RUNS.replace("batch:       6", "batch:       7"));
-    check(&whole, &resume, "was made by another declaration than `walks` is now");
+    check(&whole, &resume, "was made by a different declaration of `walks`");
     bench.file("runs.nb", RUNS);
     let other = bench.path().join("out/walks/seed-4");
     fs::create_dir_all(&other).unwrap();

@@ -46,7 +46,7 @@ fn a_checkpoint_of_format_1_is_compared_with_its_declaration() {
     let own = fs::read_to_string(bench.path().join("own.nb")).unwrap();
     bench.file("own.nb", own.replace("0.98..1.02", "0.98..1.03"));
     let ran = bench.run(&["evolve", "own.nb", "--resume"]);
-    ran.expect_fault(&["was made by another declaration than `hearts` is now"]);
+    ran.expect_fault(&["was made by a different declaration of `hearts`"]);
 }
 
 #[test]

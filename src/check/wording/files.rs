@@ -1,6 +1,6 @@
 //! Files: those of the program, and folders of robots.
 
-use crate::diag::{Code, Diagnostic, file_error};
+use crate::diag::{Code, Diagnostic, folder_error};
 use crate::source::{FileError, Span};
 
 /// A file or folder that a program cannot use.
@@ -54,11 +54,7 @@ impl LoadError {
             }
             Self::TooManyFiles { most } => too_large(format!("program has more than {most} files"), span),
             Self::TooLarge { megabytes } => too_large(format!("program is larger than {megabytes} MB"), span),
-            Self::UnreadableLibrary { folder, error } => match error {
-                FileError::NotFound => library(&folder, "there is no such folder", span),
-                FileError::Io(_) => library(&folder, &file_error(&error), span),
-                _ => library(&folder, "it is not a folder", span),
-            },
+            Self::UnreadableLibrary { folder, error } => library(&folder, folder_error(&error), span),
             Self::EmptyLibrary { folder } => library(&folder, "it contains no robot files (.yaml)", span),
         }
     }
