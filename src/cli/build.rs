@@ -11,8 +11,8 @@ use crate::circuit::timing::fan_out;
 use crate::circuit::{CellLibrary, Delays, MapOptions, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::{Code, Diagnostic};
 use crate::report::{Document, Schema};
 use crate::session::{CompileOptions, Mapping, Session};
 use crate::store::{self, DiskWorld};
@@ -88,10 +88,7 @@ impl BuildArguments {
             (None, OutputFormat::Text) => Ok(Emit::Netlist),
             (None | Some(Emit::Json), OutputFormat::Json) => Ok(Emit::Json),
             (Some(emit), OutputFormat::Text) => Ok(emit),
-            (Some(_), OutputFormat::Json) => {
-                let message = "`--format json` and `--emit` ask for two formats";
-                Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message).with_help("leave out one")))
-            }
+            (Some(_), OutputFormat::Json) => Err(UsageError::TwoFormats { option: "--emit" }.into()),
         }
     }
 }

@@ -3,8 +3,8 @@
 use clap::Args;
 use clap_complete::Shell;
 
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::{Code, Diagnostic};
 
 /// Print a completion script for a shell
 #[derive(Args)]
@@ -22,8 +22,7 @@ impl CompletionsArguments {
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
-            let fault = Diagnostic::without_place(Code::BadValue, "a completion script cannot be JSON");
-            return Err(Failure::plain(fault.with_help("leave out `--format json`")));
+            return Err(UsageError::CompletionsJson.into());
         }
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut (context.command)(), "nbc", &mut script);

@@ -5,8 +5,9 @@ use include_dir::{Dir, include_dir};
 use serde_json::json;
 
 use crate::check::PRELUDE;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::{Code, Diagnostic, suggest};
+use crate::diag::{Code, Suggestion};
 use crate::report::Schema;
 
 /// The pages, one for each code.
@@ -42,11 +43,8 @@ impl ExplainArguments {
             return Ok(Status::Done);
         }
         let Some(code) = Code::ALL.iter().find(|code| code.word() == word) else {
-            let fault = Diagnostic::without_place(Code::BadValue, format!("no message has the code `{word}`"));
-            let near = suggest::nearest(&word, Code::ALL.iter().map(|code| code.word()));
-            let help = near
-                .map_or_else(|| "`nbc explain` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
-            return Err(Failure::plain(fault.with_help(help)));
+            let meant = Suggestion::near(&word, Code::ALL.iter().map(|code| code.word()));
+            return Err(UsageError::UnknownCode { word, meant }.into());
         };
         let page = page(*code);
         match context.format {

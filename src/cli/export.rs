@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
-use crate::diag::{Code, Diagnostic};
 use crate::model::Library;
 use crate::report::{Document, Elites, Schema, robots_csv};
 use crate::store::{self, RobotRecord};
@@ -91,9 +91,7 @@ impl ExportArguments {
         let found =
             if self.what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(&self.what))? };
         if found.robots.is_empty() {
-            let message = format!("`{}` has neither a run nor robots", self.what);
-            let help = "name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`";
-            return Err(Failure::plain(Diagnostic::without_place(Code::Empty, message).with_help(help)));
+            return Err(UsageError::NothingToExport { path: self.what.clone() }.into());
         }
         Ok(found)
     }
@@ -109,8 +107,7 @@ impl ExportArguments {
         let by_format = (format == OutputFormat::Json && self.output.is_none()).then_some(Target::Json);
         match (self.to, by_format.or(by_name)) {
             (Some(Target::Csv), Some(Target::Json)) if by_format.is_some() => {
-                let message = "`--format json` and `--to csv` ask for two formats";
-                Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message).with_help("leave out one")))
+                Err(UsageError::TwoFormats { option: "--to csv" }.into())
             }
             (Some(target), _) | (None, Some(target)) => Ok(target),
             (None, None) => Ok(Target::Csv),

@@ -3,7 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use crate::diag::{Code, Diagnostic, Diagnostics, io_words};
+use crate::cli::wording::{DrawError, UsageError};
+use crate::diag::{Diagnostic, Diagnostics, io_words};
 use crate::source::Sources;
 
 /// Why a command could not be carried out.
@@ -28,8 +29,7 @@ impl Failure {
 
     /// A file or folder that cannot be read.
     pub fn unreadable(path: &Path, error: &io::Error) -> Self {
-        let message = format!("cannot read `{}`: {}", path.display(), error.to_string().to_lowercase());
-        Self::plain(Diagnostic::without_place(Code::Unreadable, message))
+        UsageError::Unreadable { path: path.display().to_string(), reason: io_words(error) }.into()
     }
 
     /// A file or folder that cannot be written.
@@ -40,13 +40,24 @@ impl Failure {
 
 /// Standard output that cannot be written.
 pub(super) fn unprintable(error: &io::Error) -> Diagnostic {
-    let message = format!("cannot write the output: {}", io_words(error));
-    Diagnostic::without_place(Code::Unwritable, message)
+    UsageError::Output { reason: io_words(error) }.into()
 }
 
 impl From<Diagnostics> for Failure {
     fn from(found: Diagnostics) -> Self {
         Self::Input(found)
+    }
+}
+
+impl From<UsageError> for Failure {
+    fn from(error: UsageError) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+impl From<DrawError> for Failure {
+    fn from(error: DrawError) -> Self {
+        Self::plain(error.into())
     }
 }
 

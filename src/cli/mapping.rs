@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
+use crate::cli::wording::UsageError;
 use crate::cli::{Failure, robots};
-use crate::diag::{Code, Diagnostic};
 use crate::model::Function;
 use crate::{store, swarm};
 
@@ -97,9 +97,8 @@ impl From<EffortWord> for Effort {
 pub(super) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
     let parse = |name: &String| {
         Function::parse(name.trim()).ok_or_else(|| {
-            let names: Vec<_> = Function::all().map(Function::name).collect();
-            let fault = Diagnostic::without_place(Code::BadValue, format!("`{name}` is no function of two inputs"));
-            Failure::plain(fault.with_help(format!("the functions are {}", names.join(", "))))
+            UsageError::UnknownFunction { name: name.clone(), known: Function::all().map(Function::name).collect() }
+                .into()
         })
     };
     names.iter().map(parse).collect()

@@ -29,6 +29,7 @@ mod synth;
 mod test;
 mod threads;
 mod timings;
+mod wording;
 mod workers;
 
 use std::ffi::OsString;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
-use crate::diag::{Code, Diagnostic};
+use crate::cli::wording::UsageError;
+use crate::diag::Diagnostic;
 use crate::model::{Body, Function, Library, Robot};
 use crate::source::{FileError, Sources};
 use crate::store;
@@ -27,13 +28,7 @@ pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
 pub(super) fn find<'a>(library: &'a Library, name: &str) -> Result<&'a Robot, Failure> {
     let named = library.robots.iter().find(|robot| robot.name == name);
     let best = || Function::parse(name).and_then(|function| library.robots_for(function).next());
-    named.or_else(best).ok_or_else(|| {
-        let message = format!("no robot of the library is called `{name}`");
-        let fault = Diagnostic::without_place(Code::UnknownRobot, message);
-        Failure::plain(
-            fault.with_help("`nbc library list` lists the robots; a function such as `nand` names its best one"),
-        )
-    })
+    named.or_else(best).ok_or_else(|| UsageError::UnknownRobot { name: name.to_owned() }.into())
 }
 
 /// The robots of a file, or of every robot file of a folder.

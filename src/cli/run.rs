@@ -7,8 +7,9 @@ use clap::Args;
 
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::model::{CircuitTest, Robot, Simulation};
 use crate::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
@@ -121,7 +122,7 @@ impl RunArguments {
             None => (file.program.tests.iter().collect(), file.program.simulations.iter().collect()),
         };
         if tests.is_empty() && simulations.is_empty() {
-            return Err(Failure::plain(nothing_to_run(file, only)));
+            return Err(nothing_to_run(file, only).into());
         }
         Ok((tests, simulations))
     }
@@ -166,12 +167,9 @@ impl RunArguments {
     }
 }
 
-fn nothing_to_run(file: &Checked, only: Option<&str>) -> Diagnostic {
+fn nothing_to_run(file: &Checked, only: Option<&str>) -> UsageError {
     let Some(name) = only else {
-        let message = format!("`{}` declares no test and no simulation, so there is nothing to run", file.path);
-        let help =
-            "declare a test: `test my_circuit { a b | q` and a row for each input pattern; `nbc check` only checks";
-        return Diagnostic::without_place(Code::Empty, message).with_help(help);
+        return UsageError::NothingToRun { file: file.path.clone() };
     };
     let program = &file.program;
     let mut names: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
@@ -179,9 +177,7 @@ fn nothing_to_run(file: &Checked, only: Option<&str>) -> Diagnostic {
     names.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
     names.sort();
     names.dedup();
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    let message = format!("no test and no simulation of `{}` is called `{name}`", file.path);
-    Diagnostic::without_place(Code::Unknown, message).with_help(format!("there are {}", names.join(", ")))
+    UsageError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known: names }
 }
 
 /// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::cli::Failure;
-use crate::diag::{Code, Diagnostic, Severity};
+use crate::diag::Diagnostic;
 use crate::source::FileError;
 use crate::store::{self, Checkpoint, MAX_CHECKPOINT_BYTES, MAX_PROGRESS_BYTES};
 
@@ -29,10 +29,4 @@ pub(super) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
         Err(FileError::NotFound) => Ok(Vec::new()),
         Err(error) => Err(Failure::plain(Diagnostic::unreadable(&path.display().to_string(), &error))),
     }
-}
-
-/// A warning of a file of progress that lacks what the checkpoint beside it has done.
-pub(super) fn damaged(path: &Path, damage: &str, help: &str) -> Diagnostic {
-    let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{}` {damage}", path.display()));
-    Diagnostic { severity: Severity::Warning, ..fault.with_help(help) }
 }

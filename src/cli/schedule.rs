@@ -1,13 +1,12 @@
 //! Schedules of a single robot as written on the command line: `00*10 01*56steps`.
 
-use crate::diag::{Code, Diagnostic};
+use crate::cli::wording::ScheduleError;
+use crate::diag::Diagnostic;
 use crate::model::{CYCLE_STEPS, Pattern, Schedule, Spell};
 use crate::source::{SourceFile, Span};
 
 /// The most env steps of a schedule.
 const MAX_STEPS: u64 = 10_000_000;
-
-const HELP: &str = "an entry is the stimuli and how long: `01*10` is ten cycles, `01*56steps` is 56 env steps";
 
 /// Reads a schedule of two stimuli: entries parted by blanks, each two stimulus bits, `*`, and cycles or env steps.
 ///
@@ -23,12 +22,11 @@ pub(super) fn parse(file: &SourceFile) -> Result<Schedule, Vec<Diagnostic>> {
     }
     let whole = Span::new(file.id, 0, file.text.len());
     if spells.is_empty() && faults.is_empty() {
-        faults.push(fault("the schedule is empty", whole, "expected an entry such as `01*10`"));
+        faults.push(ScheduleError::Empty.at(whole));
     }
     let steps: u64 = spells.iter().map(|spell| u64::from(spell.steps)).sum();
     if steps > MAX_STEPS {
-        let message = format!("the schedule has {steps} env steps, expected at most {MAX_STEPS}");
-        faults.push(fault(&message, whole, "too long"));
+        faults.push(ScheduleError::TooLong { steps, most: MAX_STEPS }.at(whole));
     }
     if faults.is_empty() { Ok(Schedule { spells }) } else { Err(faults) }
 }
@@ -43,7 +41,7 @@ fn parse_entry(file: &SourceFile, span: Span) -> Result<Spell, Diagnostic> {
     let entry = &file.text[span.range()];
     let start = span.range().start;
     let Some((bits, length)) = entry.split_once('*') else {
-        return Err(fault(&format!("`{entry}` does not say how long"), span, "expected `*` and a number"));
+        return Err(ScheduleError::NoDuration { entry: entry.to_owned() }.at(span));
     };
     let bits_span = Span::new(file.id, start, start + bits.len());
     let length_span = Span::new(file.id, start + bits.len() + 1, span.range().end);
@@ -52,16 +50,11 @@ fn parse_entry(file: &SourceFile, span: Span) -> Result<Spell, Diagnostic> {
 
 fn parse_bits(bits: &str, span: Span) -> Result<Pattern, Diagnostic> {
     let found = Pattern::PAIRS.into_iter().find(|pattern| pattern.to_string() == bits);
-    found.ok_or_else(|| {
-        fault(
-            &format!("`{bits}` are no stimuli, expected 00, 01, 10 or 11"),
-            span,
-            "two bits, 0 or 1 for each stimulus",
-        )
-    })
+    found.ok_or_else(|| ScheduleError::Pattern { found: bits.to_owned() }.at(span))
 }
 
 fn parse_length(length: &str, span: Span) -> Result<u32, Diagnostic> {
+    let found = length.to_owned();
     let (number, unit) = match length.find(|c: char| !c.is_ascii_digit()) {
         Some(at) => length.split_at(at),
         None => (length, "cycles"),
@@ -69,26 +62,15 @@ fn parse_length(length: &str, span: Span) -> Result<u32, Diagnostic> {
     let steps_each = match unit {
         "cycle" | "cycles" => u64::from(CYCLE_STEPS),
         "step" | "steps" => 1,
-        _ => {
-            return Err(fault(
-                &format!("`{length}` is no length"),
-                span,
-                "expected a number of cycles, or one with `steps`",
-            ));
-        }
+        _ => return Err(ScheduleError::NotADuration { found }.at(span)),
     };
     // What is too long for a number is too long for a schedule.
     let count = number.parse::<u64>().unwrap_or(if number.is_empty() { 0 } else { u64::MAX });
-    let steps = count.saturating_mul(steps_each);
-    match steps {
-        0 => Err(fault(&format!("`{length}` is no time at all, expected at least 1"), span, "at least 1")),
-        1..=MAX_STEPS => Ok(u32::try_from(steps).expect("the limit fits")),
-        _ => Err(fault(&format!("`{length}` is too long, expected at most {MAX_STEPS} env steps"), span, "too long")),
+    match count.saturating_mul(steps_each) {
+        0 => Err(ScheduleError::NoTime { found }.at(span)),
+        steps @ 1..=MAX_STEPS => Ok(u32::try_from(steps).expect("the limit fits")),
+        _ => Err(ScheduleError::LongEntry { found, most: MAX_STEPS }.at(span)),
     }
-}
-
-fn fault(message: &str, span: Span, label: &str) -> Diagnostic {
-    Diagnostic::new(Code::BadSchedule, message, span, label).with_help(HELP)
 }
 
 #[cfg(test)]
@@ -125,22 +107,18 @@ mod tests {
 
     #[test]
     fn errors_have_places() {
-        check_fault("00*10 02*10", "`02` are no stimuli, expected 00, 01, 10 or 11", "02");
-        check_fault("00*0", "`0` is no time at all, expected at least 1", "0");
-        check_fault("00*0steps", "`0steps` is no time at all, expected at least 1", "0steps");
-        check_fault("00", "`00` does not say how long", "00");
-        check_fault("00*", "`` is no time at all, expected at least 1", "");
-        check_fault("00*-1", "`-1` is no length", "-1");
-        check_fault("00*10s", "`10s` is no length", "10s");
+        check_fault("00*10 02*10", "invalid stimulus pattern `02`", "02");
+        check_fault("00*0", "the duration `0` is too short", "0");
+        check_fault("00*0steps", "the duration `0steps` is too short", "0steps");
+        check_fault("00", "missing duration after `00`", "00");
+        check_fault("00*", "the duration `` is too short", "");
+        check_fault("00*-1", "`-1` is not a duration", "-1");
+        check_fault("00*10s", "`10s` is not a duration", "10s");
         check_fault("", "the schedule is empty", "");
-        check_fault("0*1", "`0` are no stimuli, expected 00, 01, 10 or 11", "0");
-        check_fault("é*1", "`é` are no stimuli, expected 00, 01, 10 or 11", "é");
+        check_fault("0*1", "invalid stimulus pattern `0`", "0");
+        check_fault("é*1", "invalid stimulus pattern `é`", "é");
         let long = "9".repeat(40);
-        check_fault(
-            &format!("00*{long}"),
-            &format!("`{long}` is too long, expected at most 10000000 env steps"),
-            &long,
-        );
+        check_fault(&format!("00*{long}"), &format!("the duration `{long}` is too long"), &long);
     }
 
     #[test]
@@ -151,6 +129,6 @@ mod tests {
     #[test]
     fn the_total_length_is_limited() {
         let text = "00*100000 ".repeat(2);
-        assert_eq!(read(&text).unwrap_err()[0].0, "the schedule has 16800000 env steps, expected at most 10000000");
+        assert_eq!(read(&text).unwrap_err()[0].0, "the schedule of 16800000 env steps is too long");
     }
 }

@@ -4,8 +4,9 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::robots::read_body;
+use crate::cli::wording::{RunWarning, UsageError};
 use crate::cli::{Context, Failure, OutputFormat, Status, schedule};
-use crate::diag::{Code, Diagnostic, counted};
+use crate::diag::{Diagnostic, counted};
 use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Schema, TextTable};
 use crate::sim::Simulator;
@@ -57,7 +58,7 @@ impl SimulateArguments {
         let schedule = read_schedule(&self.schedule)?;
         let setting = Setting { world_width: self.world_width, start_x: self.start_x };
         let body = read_body(&self.robot)?;
-        check_place(&setting, &body).map_err(Failure::plain)?;
+        check_place(&setting, &body)?;
         let trajectory =
             Simulator::default().run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
@@ -77,23 +78,17 @@ fn read_schedule(text: &str) -> Result<Schedule, Failure> {
 }
 
 /// Checks that the body stands on the ground of the world.
-fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
-    let bad = |message: String| Err(Diagnostic::without_place(Code::BadValue, message));
+fn check_place(setting: &Setting, body: &Body) -> Result<(), UsageError> {
     let (world, width) = (setting.world_width, body.width());
     if world > MAX_WORLD_WIDTH {
-        return bad(format!("`--world-width {world}` is too wide, expected at most {MAX_WORLD_WIDTH}"));
+        return Err(UsageError::WideWorld { width: world, most: MAX_WORLD_WIDTH });
     }
     if world < width {
-        return bad(format!("`--world-width {world}` is too narrow for a body of {}", counted(width, "column")));
+        return Err(UsageError::NarrowWorld { width: world, columns: width });
     }
     let start = setting.start_column(width);
     if start > world - width {
-        let last = world - width;
-        return bad(format!(
-            "`--start-x {start}` is off the ground, expected at most {last} for {} on {}",
-            counted(width, "column"),
-            counted(world, "voxel")
-        ));
+        return Err(UsageError::OffGround { start, most: world - width, columns: width, width: world });
     }
     Ok(())
 }
@@ -102,9 +97,7 @@ fn check_place(setting: &Setting, body: &Body) -> Result<(), Diagnostic> {
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
     let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;
-    let message = format!("the robot walked off the end of its ground at env step {step}");
-    let help = format!("give it more than {} voxels with `--world-width`", setting.world_width);
-    Some(Diagnostic::without_place(Code::GroundEnds, message).with_help(help))
+    Some(RunWarning::GroundEnds { step, width: setting.world_width }.into())
 }
 
 impl<'a> Outcome<'a> {

@@ -10,8 +10,8 @@ use serde::Serialize;
 use crate::circuit::formats::Design;
 use crate::circuit::{self, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::{Code, Diagnostic};
 use crate::report::Schema;
 use crate::session::synthesize;
 use crate::store;
@@ -145,9 +145,6 @@ impl Report {
 /// The format for a file's extension.
 fn format(path: &Path) -> Result<circuit::formats::CircuitFormat, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    circuit::formats::CircuitFormat::of_ending(&ending).ok_or_else(|| {
-        let message =
-            format!("unrecognized circuit format of `{}`; expected .blif, .aig, .aag, .v, .dot or .nb", path.display());
-        Failure::plain(Diagnostic::without_place(Code::BadValue, message))
-    })
+    circuit::formats::CircuitFormat::of_ending(&ending)
+        .ok_or_else(|| UsageError::CircuitFormat { path: path.display().to_string() }.into())
 }

@@ -7,8 +7,8 @@ use std::thread::{self, JoinHandle};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure};
-use crate::diag::{Code, Diagnostic};
 
 /// The environment variable with the number of threads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
@@ -58,11 +58,7 @@ fn wanted(value: Option<&str>) -> Result<usize, Failure> {
             // A number too long to be read asks for more than the most, too.
             number => Ok(number.min(MOST)),
         },
-        Some(other) => {
-            let message = format!("the environment variable `{VARIABLE}` is `{other}`, expected a number of threads");
-            let fault = Diagnostic::without_place(Code::BadValue, message);
-            Err(Failure::plain(fault.with_help("unset it to use every core")))
-        }
+        Some(other) => Err(UsageError::Threads { variable: VARIABLE, found: other.to_owned() }.into()),
     }
 }
 

@@ -44,46 +44,43 @@ macro_rules! codes {
 }
 
 codes! {
-    Ambiguous = "ambiguous", Error: "Operators side by side that may be read in more than one way.";
-    BadSchedule = "bad-schedule", Error: "A schedule on the command line that is none.";
-    BadValue = "bad-value", Error: "An option's value that makes no sense.";
-    Checkpoint = "checkpoint", Error: "A checkpoint that is damaged, none, or of another run.";
-    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) that is damaged, or says what \
-        cannot be built.";
+    Ambiguous = "ambiguous", Error: "Operators side by side that can be read in two ways.";
+    BadSchedule = "bad-schedule", Error: "A schedule on the command line that cannot be read.";
+    BadValue = "bad-value", Error: "An option with an invalid value.";
+    Checkpoint = "checkpoint", Error: "A checkpoint that is damaged, or belongs to another run.";
+    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) with an error.";
     CircularUse = "circular-use", Error: "Files that use each other in a circle.";
     Duplicate = "duplicate", Error: "A name that is declared twice.";
-    Empty = "empty", Error: "A file that declares nothing.";
+    Empty = "empty", Error: "A file, test or schedule without content.";
     ForeignFormat = "foreign-format", Error: "A file of another version of the program.";
     GroundEnds = "ground-ends", Warning: "A robot that walks off the end of its ground.";
     HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the slowest path needs.";
-    IncompleteLibrary = "incomplete-library", Error: "A cell library that does not hold enough functions.";
+    IncompleteLibrary = "incomplete-library", Error: "A cell library with too few functions.";
     LoopWithoutStart = "loop-without-start", Warning: "A feedback loop without a start value.";
-    MissingField = "missing-field", Error: "A declaration without a field that it needs.";
+    MissingField = "missing-field", Error: "A declaration without a required field.";
     MultipleDrivers = "multiple-drivers", Error: "A net driven more than once.";
-    Nesting = "nesting", Error: "Text that is nested too deep.";
+    Nesting = "nesting", Error: "Text that is nested too deeply.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
-    OutOfRange = "out-of-range", Error: "A number outside the range that makes sense.";
-    Recursion = "recursion", Error: "A circuit that contains itself, or an evolution that takes its fields from \
-        itself.";
-    RobotFile = "robot-file", Error: "A robot file that is damaged, or none.";
+    OutOfRange = "out-of-range", Error: "A number out of range.";
+    Recursion = "recursion", Error: "A circuit that contains itself, or an evolution that takes its fields from itself.";
+    RobotFile = "robot-file", Error: "A robot file with an error.";
     RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";
-    Syntax = "syntax", Error: "The text does not follow the grammar.";
-    TableIncomplete = "table-incomplete", Error: "A truth table that leaves a pattern out.";
+    Syntax = "syntax", Error: "Text that does not follow the grammar.";
+    TableIncomplete = "table-incomplete", Error: "A truth table without a row for some pattern.";
     TableOverlap = "table-overlap", Error: "A truth table with two rows for one pattern.";
-    TooLarge = "too-large", Error: "A circuit with more cells than can be built, or a program with more text than is \
-        read.";
+    TooLarge = "too-large", Error: "A circuit, a table or a program above a limit.";
     Undriven = "undriven", Error: "A net that nothing drives.";
-    Unit = "unit", Error: "A quantity with a wrong unit, or without the unit it needs.";
-    Unknown = "unknown", Error: "A name that nothing declares.";
+    Unit = "unit", Error: "A quantity with a wrong unit, or without a unit.";
+    Unknown = "unknown", Error: "A name that is not declared.";
     UnknownField = "unknown-field", Error: "A field that the declaration does not have.";
-    UnknownRobot = "unknown-robot", Error: "A name that no robot of the library has.";
-    UnknownWidth = "unknown-width", Error: "A width that cannot be told from the circuit.";
-    Unreadable = "unreadable", Error: "A file that cannot be read as source text.";
-    Unused = "unused", Warning: "An input or a net that nothing listens to.";
+    UnknownRobot = "unknown-robot", Error: "A robot that the library does not have.";
+    UnknownWidth = "unknown-width", Error: "A net, constant or parameter of unknown width.";
+    Unreadable = "unreadable", Error: "A file that cannot be read.";
+    Unused = "unused", Warning: "An input or a net that is never used.";
     Unwritable = "unwritable", Error: "A file or folder that cannot be written.";
-    Value = "value", Error: "A value of another kind than the field takes.";
-    WeakRobot = "weak-robot", Warning: "A circuit that uses a robot which makes errors, or hardly moves.";
-    Width = "width", Error: "Two widths that ought to be equal.";
+    Value = "value", Error: "A value of the wrong kind.";
+    WeakRobot = "weak-robot", Warning: "A circuit that uses a robot that makes errors or hardly moves.";
+    Width = "width", Error: "Two different widths where they must be equal.";
 }
 
 impl fmt::Display for Code {

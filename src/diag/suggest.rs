@@ -43,15 +43,6 @@ impl Suggestion {
     }
 }
 
-/// A help line for an unknown name: the nearest name, or all of them where they are few.
-pub fn help<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    match Suggestion::of(word, known) {
-        Suggestion::None => None,
-        Suggestion::Near(near) => Some(format!("did you mean `{near}`?")),
-        Suggestion::Known(names) => Some(format!("known here: {}", alternatives(&names, "and"))),
-    }
-}
-
 /// Words in backticks as a list: "`a`, `b` or `c`".
 pub fn alternatives<S: AsRef<str>>(words: &[S], last: &str) -> String {
     let quoted: Vec<_> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();

@@ -1,9 +1,10 @@
 //! Finds the circuit and the test that a user's words refer to.
 
 use crate::circuit::is_same_instance;
-use crate::diag::{Code, Diagnostic, Diagnostics, suggest};
+use crate::diag::{Diagnostic, Diagnostics, Suggestion};
 use crate::model::{CircuitTest, Instance, Program, Simulation, Swarm};
 use crate::session::checked::Checked;
+use crate::session::wording::ChoiceError;
 
 /// A choice of a circuit; the source decides what is left open.
 #[derive(Clone, Debug, Default)]
@@ -63,8 +64,7 @@ impl Checked {
     fn last_circuit(&self) -> Result<Instance, Diagnostic> {
         let program = &self.program;
         let Some(last) = program.circuits.iter().rfind(|circuit| Some(circuit.span.file) == self.file) else {
-            let help = "choose one that it uses: `--circuit NAME`";
-            return Err(Diagnostic::without_place(Code::Empty, "the file declares no circuit").with_help(help));
+            return Err(ChoiceError::NoCircuit.into());
         };
         if last.parameters.iter().all(|parameter| parameter.default.is_some()) {
             return Ok(last.name.as_str().into());
@@ -86,10 +86,7 @@ pub fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p Swarm>
 /// When there is none.
 pub(super) fn declared_swarm<'p>(program: &'p Program, name: &str) -> Result<&'p Swarm, Diagnostic> {
     program.swarm(name).ok_or_else(|| {
-        let fault = Diagnostic::without_place(Code::Unknown, format!("no swarm is called `{name}`"));
-        match suggest::help(name, program.swarms.iter().map(|swarm| swarm.name.as_str())) {
-            Some(help) => fault.with_help(help),
-            None => fault,
-        }
+        let meant = Suggestion::of(name, program.swarms.iter().map(|swarm| swarm.name.as_str()));
+        ChoiceError::UnknownSwarm { name: name.to_owned(), meant }.into()
     })
 }

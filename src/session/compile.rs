@@ -1,10 +1,11 @@
 //! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
 
 use crate::circuit::timing::Delays;
-use crate::circuit::{CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, map_with, prove};
-use crate::diag::{Code, Diagnostic};
+use crate::circuit::{CellLibrary, MapOptions, Netlist, Proof, Timing, elaborate, map_with, prove};
+use crate::diag::Diagnostic;
 use crate::model::{Instance, Program};
 use crate::session::plan::Plan;
+use crate::session::wording::{ChoiceError, RunError, for_circuit};
 use crate::source::Span;
 use crate::swarm::{self, Assembly, WeakRobot};
 
@@ -46,21 +47,11 @@ pub struct Compiled {
 /// # Panics
 /// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
 pub fn synthesize(source: Netlist, cells: &CellLibrary, options: MapOptions) -> Result<Mapping, Diagnostic> {
-    let netlist = map_with(&source, cells, options).map_err(|error| unmapped(&error))?;
+    let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
     match prove(&source, &netlist) {
         Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof }),
         Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
     }
-}
-
-fn unmapped(error: &MapError) -> Diagnostic {
-    let code = match error {
-        MapError::Netlist(_) => Code::CircuitFile,
-        MapError::TooLarge { .. } => Code::TooLarge,
-        MapError::Incomplete { .. } => Code::IncompleteLibrary,
-    };
-    let fault = Diagnostic::without_place(code, error.to_string());
-    error.help().into_iter().fold(fault, Diagnostic::with_help)
 }
 
 /// Elaborates a circuit of a program without errors, and maps it as requested at `place`.
@@ -75,7 +66,7 @@ pub(super) fn map(
     place: Span,
 ) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate(program, circuit)?;
-    synthesize(source, cells, options).map_err(|fault| vec![fault.with_label(place, "for this circuit")])
+    synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
 }
 
 /// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
@@ -97,7 +88,5 @@ pub(super) fn compile(
 }
 
 fn warn_of(weak: &WeakRobot, plan: &Plan, place: Span) -> Diagnostic {
-    let message = format!("`{}` uses the robot `{}`, {}", plan.circuit, weak.robot, weak.complaint());
-    let help = format!("it drives {}; a library without it, or a longer hold, may do better", weak.nets.join(", "));
-    Diagnostic::new(Code::WeakRobot, message, place, "for this circuit").with_help(help)
+    RunError::Weak { circuit: plan.circuit.to_string(), robot: weak.clone() }.at(place)
 }

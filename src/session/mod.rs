@@ -15,6 +15,7 @@ mod robots;
 mod simulation;
 mod swarm_run;
 mod test;
+mod wording;
 
 use std::sync::{Arc, OnceLock};
 

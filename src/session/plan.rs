@@ -1,11 +1,12 @@
 //! The plan of a circuit's swarm: the declared swarm with its robots, hold and window.
 
 use crate::check::DEFAULT_LIBRARY;
-use crate::diag::{Code, Diagnostic};
+use crate::diag::Diagnostic;
 use crate::model::{Hold, Instance, Library, Program, Swarm};
 use crate::session::choice::{declared_swarm, swarms_of};
 use crate::session::options::CompileOptions;
 use crate::session::robots::Supply;
+use crate::session::wording::ChoiceError;
 
 /// A circuit with everything that its swarm declares.
 #[derive(Clone, Debug)]
@@ -55,9 +56,8 @@ pub(super) fn plan(
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
     if let (None, [first, second, ..]) = (&options.swarm, &swarms_of(program, circuit)[..]) {
-        let message = format!("several swarms are declared for `{circuit}`");
-        let help = format!("choose one, for example `--swarm {}` or `--swarm {}`", first.name, second.name);
-        return Err(vec![Diagnostic::without_place(Code::BadValue, message).with_help(help)]);
+        let (circuit, swarms) = (circuit.to_string(), [first.name.clone(), second.name.clone()]);
+        return Err(vec![ChoiceError::SeveralSwarms { circuit, swarms }.into()]);
     }
     Ok(plans(supply, program, circuit, options)?.remove(0))
 }
@@ -99,6 +99,6 @@ fn chosen<'p>(
     if swarms.iter().any(|one| one.name == swarm.name) {
         return Ok(swarm);
     }
-    let message = format!("the swarm `{name}` is of `{}`, not of `{circuit}`", swarm.circuit);
-    Err(Diagnostic::without_place(Code::BadValue, message))
+    let (own, circuit) = (swarm.circuit.to_string(), circuit.to_string());
+    Err(ChoiceError::OtherCircuit { swarm: name.to_owned(), own, circuit }.into())
 }

@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use crate::diag::Diagnostic;
 use crate::model::{Library, LibrarySource, Origin};
+use crate::session::wording::of_library;
 use crate::source::SourceWorld;
 use crate::store;
 
@@ -44,10 +45,7 @@ impl<'a> Supply<'a> {
     }
 
     fn folder(self, folder: &str, declared: &LibrarySource, help: Option<&str>) -> Result<Library, Vec<Diagnostic>> {
-        let placed = |fault: Diagnostic| {
-            let fault = fault.with_label(declared.span, "the robots of this library");
-            help.into_iter().fold(fault, Diagnostic::with_help)
-        };
+        let placed = |fault: Diagnostic| of_library(fault, declared.span, help);
         store::read_library(self.world, folder).map_err(|faults| faults.into_iter().map(placed).collect())
     }
 }

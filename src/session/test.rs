@@ -1,7 +1,7 @@
 //! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
 use crate::circuit::{Logic, Netlist, Timing, elaborate, elaborate_reference};
-use crate::diag::{Code, Diagnostic, counted};
+use crate::diag::Diagnostic;
 use crate::model::{Base, CircuitTest, Hold, Program, Stimulation, TestRow};
 use crate::session::compile::{Compiled, compile};
 use crate::session::observer::Observer;
@@ -9,6 +9,7 @@ use crate::session::options::CompileOptions;
 use crate::session::plan::plans;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
+use crate::session::wording::RunError;
 use crate::swarm::{self, Demand, Level, START_CYCLES, Settling, TestVerdict};
 
 /// The most input bits of a test that tries all patterns.
@@ -177,9 +178,8 @@ fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagn
     };
     let bits: usize = test.inputs.iter().map(|port| port.width).sum();
     if bits > MAX_EXHAUSTIVE_BITS {
-        let message =
-            format!("{bits} input bits are too many to try all patterns, expected at most {MAX_EXHAUSTIVE_BITS}");
-        return Err(vec![Diagnostic::new(Code::BadValue, message, test.span, "in this test")]);
+        let error = RunError::TooManyInputs { bits, most: MAX_EXHAUSTIVE_BITS };
+        return Err(vec![error.at(test.span)]);
     }
     let mut logic = Logic::new(&elaborate_reference(program, reference)?);
     let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(|port| Base::of_width(port.width)).collect();
@@ -221,8 +221,6 @@ fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled
     let is_short = |(_, demand): &(&TestRow, &Demand)| demand.hold + STEADY_EXTRA < demand.needed;
     let (row, demand) = rows.iter().zip(demands).find(is_short)?;
     let needed = demand.needed - STEADY_EXTRA;
-    let message = format!("a hold of {} is too short, expected {needed} at least", counted(demand.hold, "cycle"));
     let place = if row.hold.is_some() { row.span } else { test.span };
-    let warning = Diagnostic::new(Code::HoldTooShort, message, place, "held here");
-    Some(warning.with_help(format!("the slowest path is {}; `hold: auto` waits for it", path.join(" -> "))))
+    Some(RunError::ShortHold { hold: demand.hold, needed, path }.at(place))
 }

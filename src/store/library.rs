@@ -8,7 +8,7 @@ use crate::diag::Diagnostic;
 use crate::model::{Library, Robot};
 use crate::source::{SourceWorld, Sources};
 use crate::store::read_robot;
-use crate::store::wording::StoreError;
+use crate::store::wording::LibraryError;
 
 const FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
 
@@ -36,7 +36,7 @@ pub fn shipped_library() -> Library {
 /// What is wrong with the folder or its files; several faults where several files are wrong.
 pub fn read_library(world: &dyn SourceWorld, folder: &str) -> Result<Library, Vec<Diagnostic>> {
     let mut names =
-        world.list(folder).map_err(|error| vec![StoreError::Library { folder: folder.to_owned(), error }.into()])?;
+        world.list(folder).map_err(|error| vec![LibraryError { folder: folder.to_owned(), error }.into()])?;
     names.retain(|name| name.ends_with(ENDING));
     let (mut robots, mut faults) = (Vec::new(), Vec::new());
     for name in names {

@@ -139,11 +139,11 @@ fn an_unstable_body_is_a_result_and_not_an_error() {
 
 #[test]
 fn errors_in_schedules_have_their_place() {
-    check_schedule("00*10 02*10", &["bad-schedule", "`02` are no stimuli", "--schedule:1:7"]);
-    check_schedule("00*0", &["`0` is no time at all", "--schedule:1:4"]);
+    check_schedule("00*10 02*10", &["bad-schedule", "invalid stimulus pattern `02`", "--schedule:1:7"]);
+    check_schedule("00*0", &["the duration `0` is too short", "--schedule:1:4"]);
     check_schedule("", &["the schedule is empty"]);
     check_schedule("00*99999999999999999999", &["is too long"]);
-    check_schedule("00*10 é*3 10*x", &["`é` are no stimuli", "`x` is no length"]);
+    check_schedule("00*10 é*3 10*x", &["invalid stimulus pattern `é`", "`x` is not a duration"]);
 }
 
 #[test]

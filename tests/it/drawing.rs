@@ -88,7 +88,7 @@ fn every_picture_of_a_run_is_drawn() {
 fn missing_pictures_of_a_run_are_reported() {
     let bench = evolved();
     draw(&bench, "out/tiny --as heatmap --axes voxels,depth -o a.svg")
-        .expect_fault(&["`depth` is no axis", "`voxels`, `active`, `sensory`, `behavior`"]);
+        .expect_fault(&["`depth` is not an axis", "`voxels`, `active`, `sensory`, `behavior`"]);
     draw(&bench, "out/tiny --as heatmap --axes active,active -o a.svg").expect_fault(&["both axes are `active`"]);
     draw(&bench, "out/tiny --as heatmap --axes active -o a.svg").expect_fault(&["expected two"]);
     draw(&bench, "out/tiny --as strip -o a.svg").expect_fault(&["`out/tiny` is a run", "`--behavior`"]);

@@ -200,7 +200,7 @@ fn the_same_run_is_not_counted_twice() {
     fs::create_dir_all(&copy).unwrap();
     fs::copy(own.join("checkpoint.nbc"), copy.join("checkpoint.nbc")).unwrap();
     let ran = bench.run(&["draw", "out/walks", "--as", "comparison", "-o", "a.svg"]);
-    ran.expect_fault(&["`out/walks/seed-4/checkpoint.nbc` is of seed 3, as another run of the folder is"]);
+    ran.expect_fault(&["`out/walks/seed-4/checkpoint.nbc` is of seed 3, as is another run in the folder"]);
 }
 
 #[test]

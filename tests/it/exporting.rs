@@ -86,7 +86,7 @@ fn impossible_exports_are_reported() {
     let bench = Bench::new();
     bench.run(&["export", "none"]).expect_fault(&["none"]);
     fs::create_dir(bench.path().join("empty")).unwrap();
-    bench.run(&["export", "empty"]).expect_fault(&["`empty` has neither a run nor robots"]);
+    bench.run(&["export", "empty"]).expect_fault(&["`empty` contains neither a run nor robots"]);
     let both = bench.run(&["export", "shipped", "--to", "csv", "--format", "json"]);
     assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
 }

@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::cli::draw::kind::Kind;
+use crate::cli::wording::DrawError;
 use crate::cli::{Failure, Progress};
-use crate::diag::{Code, Diagnostic};
 use crate::report::{self, Film, Stage, Svg};
 use crate::store;
 
@@ -18,19 +18,13 @@ pub(super) struct Canvas {
 
 impl Canvas {
     /// The file, if its name fits the kind of picture.
-    pub(super) fn new(path: &Path, kind: Kind) -> Result<Self, Diagnostic> {
+    pub(super) fn new(path: &Path, kind: Kind) -> Result<Self, DrawError> {
         let extension = path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         if kind.extensions().contains(&extension.as_str()) {
             return Ok(Self { path: path.to_owned(), extension, kind });
         }
-        let wanted: Vec<String> = kind.extensions().iter().map(|extension| format!("`.{extension}`")).collect();
-        let message = format!(
-            "cannot tell the kind of file of `{}`, expected a name that ends in {} for `--as {}`",
-            path.display(),
-            wanted.join(" or "),
-            kind.word()
-        );
-        Err(Diagnostic::without_place(Code::BadValue, message))
+        let expected = kind.extensions().iter().map(|extension| format!("`.{extension}`")).collect();
+        Err(DrawError::Extension { path: path.display().to_string(), expected, kind: kind.word() })
     }
 
     pub(super) fn picture(&self, svg: &Svg) -> Result<(), Failure> {

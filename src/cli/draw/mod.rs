@@ -12,12 +12,12 @@ mod swarm;
 use std::path::Path;
 
 use crate::cli::{Context, Failure, OutputFormat, Status, robots, schedule};
-use crate::diag::{Code, Diagnostic};
 use crate::model::{Behavior, Schedule};
 use crate::report::{Schema, Scheme};
 use crate::source::Sources;
 use crate::store;
 
+use crate::cli::wording::DrawError;
 use canvas::Canvas;
 use options::Drawn;
 use robot::Subject;
@@ -34,9 +34,9 @@ impl DrawArguments {
     /// # Errors
     /// When the subject is invalid, has no such picture, or the file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let canvas = Canvas::new(&self.output, self.kind).map_err(Failure::plain)?;
+        let canvas = Canvas::new(&self.output, self.kind)?;
         let drawn = self.drawn();
-        self.check_options(drawn).map_err(Failure::plain)?;
+        self.check_options(drawn)?;
         match drawn {
             Drawn::Program => self.draw_program(&canvas)?,
             Drawn::Run => {
@@ -91,8 +91,7 @@ impl DrawArguments {
     }
 
     fn none_of(&self, behavior: Behavior) -> Failure {
-        let message = format!("`{}` has no robot of the behavior `{behavior}`", self.what);
-        Failure::plain(Diagnostic::without_place(Code::Unknown, message))
+        DrawError::UnknownBehavior { what: self.what.clone(), behavior }.into()
     }
 
     fn scheme(&self) -> Scheme {
@@ -106,8 +105,7 @@ impl DrawArguments {
     }
 
     /// The error for a picture that this subject does not have.
-    fn not_of(&self, given: &str, wanted: &str) -> Failure {
-        let message = format!("`{}` is {given}, expected {wanted} for `--as {}`", self.what, self.kind.word());
-        Failure::plain(Diagnostic::without_place(Code::BadValue, message))
+    fn not_of(&self, given: &'static str, wanted: &'static str) -> Failure {
+        DrawError::Kind { what: self.what.clone(), given, expected: wanted, kind: self.kind.word() }.into()
     }
 }

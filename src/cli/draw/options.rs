@@ -2,7 +2,7 @@
 
 use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::kind::Kind;
-use crate::diag::{Code, Diagnostic};
+use crate::cli::wording::DrawError;
 
 /// The kinds of subjects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ impl DrawArguments {
     ///
     /// # Errors
     /// A diagnostic that says what the option is for.
-    pub(super) fn check_options(&self, drawn: Drawn) -> Result<(), Diagnostic> {
+    pub(super) fn check_options(&self, drawn: Drawn) -> Result<(), DrawError> {
         let kind = self.kind;
         let is_film = matches!(kind, Kind::Apng | Kind::Gif);
         let shows_bodies =
@@ -44,7 +44,6 @@ impl DrawArguments {
         let Some((option, .., wanted)) = options.into_iter().find(|(_, given, applies, _)| *given && !applies) else {
             return Ok(());
         };
-        let message = format!("`{option}` does not apply to `{}` drawn as `{}`", self.what, kind.word());
-        Err(Diagnostic::without_place(Code::BadValue, message).with_help(format!("it is for {wanted}")))
+        Err(DrawError::Option { what: self.what.clone(), option, kind: kind.word(), applies_to: wanted })
     }
 }

@@ -4,7 +4,7 @@ use crate::cli::Failure;
 use crate::cli::draw::arguments::DrawArguments;
 use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
-use crate::diag::{Code, Diagnostic};
+use crate::cli::wording::DrawError;
 use crate::model::{Body, CYCLE_STEPS, Robot, Schedule, Setting, Trial};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
 use crate::sim::Simulator;
@@ -54,9 +54,7 @@ impl DrawArguments {
         if step <= f64::from(end) {
             return Ok(step as u32);
         }
-        let cycles = f64::from(end) / f64::from(CYCLE_STEPS);
-        let message = format!("`--at {cycle}` is after the end of the schedule at cycle {cycles}");
-        Err(Failure::plain(Diagnostic::without_place(Code::BadValue, message)))
+        Err(DrawError::AfterEnd { at: cycle, end: f64::from(end) / f64::from(CYCLE_STEPS) }.into())
     }
 }
 

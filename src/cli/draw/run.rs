@@ -9,9 +9,9 @@ use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::robot::Subject;
 use crate::cli::draw::several::{One, Several, champions};
-use crate::cli::run_folder::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
+use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
+use crate::cli::wording::{DrawError, RunWarning};
 use crate::cli::{Context, Failure};
-use crate::diag::{Code, Diagnostic};
 use crate::evolve::NicheKey;
 use crate::model::{Behavior, CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
 use crate::report::{self, EvolutionResults, History, Plate, Scheme, SeedRun, Svg, Terrain, axis_word};
@@ -51,30 +51,27 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
         let bytes = read_progress(&progress)?;
         let text = String::from_utf8_lossy(&bytes);
         let history = History::read(&text, checkpoint.state.generation);
-        let damage = history.damage().map(|damage| damaged(&progress, &damage, "curves over time leave it out"));
+        let damage = history.damage().map(|damage| {
+            let path = progress.display().to_string();
+            RunWarning::GapsInCurves { path, damage }.into()
+        });
         context.tell(&Vec::from_iter(damage), &Sources::default());
         let run = SeedRun { niches: checkpoint.state.niches, progress: history.lines().collect() };
+        let place = path.display().to_string();
         if checkpoint.declared.axes.is_empty() {
-            return Err(unusable(&path, "does not say the axes of its archive", "`nbc evolve --resume` writes them"));
+            return Err(DrawError::NoAxes { path: place }.into());
         }
         let Declared { name, axes, objective, .. } = checkpoint.declared;
         let results =
             results.get_or_insert(EvolutionResults { name, axes: axes.clone(), objective, runs: BTreeMap::new() });
         if results.axes != axes || results.objective != objective {
-            let help = "draw the folder of one seed";
-            return Err(unusable(&path, "was made by another declaration than those before it", help));
+            return Err(DrawError::OtherDeclaration { path: place }.into());
         }
         if results.runs.insert(seed, run).is_some() {
-            let help = "a run counts once: move the copy out of the folder";
-            return Err(unusable(&path, &format!("is of seed {seed}, as another run of the folder is"), help));
+            return Err(DrawError::SameSeed { path: place, seed }.into());
         }
     }
-    results.ok_or_else(|| unusable(folder, "holds no run", "name the folder of a run, such as `out/gates`"))
-}
-
-fn unusable(path: &Path, what: &str, help: &str) -> Failure {
-    let message = format!("`{}` {what}", path.display());
-    Failure::plain(Diagnostic::without_place(Code::Checkpoint, message).with_help(help))
+    results.ok_or_else(|| DrawError::NoRunInFolder { folder: folder.display().to_string() }.into())
 }
 
 impl DrawArguments {
@@ -103,25 +100,19 @@ impl DrawArguments {
 
     /// The indices of the two requested axes; by default the first two.
     fn chosen_axes(&self, results: &EvolutionResults) -> Result<[usize; 2], Failure> {
-        let words: Vec<&str> = results.axes.iter().map(|&axis| axis_word(axis)).collect();
-        let bad = |message: String| {
-            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-            let fault = Diagnostic::without_place(Code::BadValue, message);
-            Failure::plain(fault.with_help(format!("the archive has the axes {}", words.join(", "))))
-        };
+        let axes: Vec<String> = results.axes.iter().map(|&axis| axis_word(axis).to_owned()).collect();
         if self.axes.is_empty() {
-            let second = usize::from(words.len() > 1);
-            return Ok([0, second]);
+            return Ok([0, usize::from(axes.len() > 1)]);
         }
         let [x, y] = &self.axes[..] else {
-            return Err(bad(format!("{} axes were given, expected two such as `voxels,active`", self.axes.len())));
+            return Err(DrawError::AxisCount { found: self.axes.len(), axes }.into());
         };
-        let place = |word: &str| {
-            let found = words.iter().position(|known| *known == word);
-            found.ok_or_else(|| bad(format!("`{word}` is no axis of this archive")))
+        let place = |word: &String| {
+            let unknown = || DrawError::UnknownAxis { name: word.clone(), axes: axes.clone() };
+            axes.iter().position(|known| known == word).ok_or_else(unknown)
         };
         match [place(x)?, place(y)?] {
-            [x, y] if x == y => Err(bad(format!("both axes are `{}`, expected two different ones", words[x]))),
+            [x, y] if x == y => Err(DrawError::SameAxis { name: axes[x].clone(), axes }.into()),
             places => Ok(places),
         }
     }

@@ -8,8 +8,8 @@ use crate::cli::draw::canvas::Canvas;
 use crate::cli::draw::kind::Kind;
 use crate::cli::draw::several::{One, Several};
 use crate::cli::run::{Ran, run_page, run_simulation, run_test};
-use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitTest, Instance, Robot, Swarm};
+use crate::cli::wording::DrawError;
+use crate::model::{CircuitTest, Instance, Robot};
 use crate::report::{self, Film, STRIDE, Stage, Svg};
 use crate::session::{self, Checked, CompileOptions, Compiled, Session, SwarmRun};
 use crate::store::DiskWorld;
@@ -101,7 +101,8 @@ impl DrawArguments {
         if let Some(test) = test {
             let swarms = session::swarms_of(program, &test.circuit);
             if swarms.len() > 1 && options.swarm.is_none() {
-                return Err(Failure::plain(several_swarms(&test.circuit, &swarms)));
+                let swarms = swarms.iter().map(|swarm| swarm.name.clone()).collect();
+                return Err(DrawError::SeveralSwarms { circuit: test.circuit.to_string(), swarms }.into());
             }
             return Ok(Ran::Test(run_test(&session, &file, test, &options)?.remove(0)));
         }
@@ -113,27 +114,17 @@ impl DrawArguments {
         match simulation {
             Some(simulation) => Ok(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?)),
             None => {
-                let what = chosen.map_or_else(|| format!("`{}`", self.what), |circuit| format!("`{circuit}`"));
-                let message = format!("{what} has no test and no simulation, so there is no run to draw");
-                let help = "`--as schematic` and `--as dot` need none";
-                Err(Failure::plain(Diagnostic::without_place(Code::Empty, message).with_help(help)))
+                let what = chosen.map_or_else(|| self.what.clone(), |circuit| circuit.to_string());
+                Err(DrawError::NoRun { what }.into())
             }
         }
     }
 }
 
-fn several_swarms(circuit: &Instance, swarms: &[&Swarm]) -> Diagnostic {
-    let swarms: Vec<String> = swarms.iter().map(|swarm| format!("`--swarm {}`", swarm.name)).collect();
-    let message = format!("several swarms are declared for `{circuit}`");
-    Diagnostic::without_place(Code::BadValue, message).with_help(format!("choose one: {}", swarms.join(" or ")))
-}
-
 /// The first test of that title or circuit.
 fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, Failure> {
-    file.tests(name).next().ok_or_else(|| {
-        let message = format!("no test of `{}` is called `{name}`", file.path);
-        Failure::plain(Diagnostic::without_place(Code::Unknown, message))
-    })
+    let unknown = || DrawError::UnknownTest { file: file.path.clone(), name: name.to_owned() };
+    file.tests(name).next().ok_or_else(|| unknown().into())
 }
 
 /// The indices of the robots that drive a net, or all nets that begin with the text before a final `*`.
@@ -145,9 +136,8 @@ fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
     };
     let meant: Vec<usize> = (0..robots.len()).filter(|&k| is_meant(&robots[k].net)).collect();
     if meant.is_empty() {
-        let known: Vec<String> = robots.iter().map(|robot| format!("`{}`", robot.net)).collect();
-        let fault = Diagnostic::without_place(Code::Unknown, format!("no robot drives `{net}`"));
-        return Err(Failure::plain(fault.with_help(format!("the robots drive {}", known.join(", ")))));
+        let known = robots.iter().map(|robot| robot.net.clone()).collect();
+        return Err(DrawError::UnknownNet { net: net.to_owned(), known }.into());
     }
     Ok(meant)
 }

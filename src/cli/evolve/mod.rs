@@ -12,8 +12,8 @@ use serde::Serialize;
 use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::run::{Ended, EvolutionRun};
 use crate::cli::timings::Timer;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use crate::diag::{Code, Diagnostic};
 use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, SearchObjective};
 use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
@@ -182,21 +182,17 @@ impl EvolveArguments {
         let all = checked.program.evolutions.clone();
         let own: Vec<Evolution> = all.iter().filter(|evolution| !prelude.contains(evolution)).cloned().collect();
         if own.is_empty() && self.run.is_none() {
-            let message = format!("`{}` declares no evolution", path.display());
-            let help = "without a file, the prelude's `gates` is run";
-            return Err(Failure::plain(Diagnostic::without_place(Code::Unknown, message).with_help(help)));
+            return Err(UsageError::NoEvolution { file: path.display().to_string() }.into());
         }
         self.named(own, all)
     }
 
     fn named(&self, usual: Vec<Evolution>, all: Vec<Evolution>) -> Result<Vec<Evolution>, Failure> {
         let Some(name) = &self.run else { return Ok(usual) };
-        let names: Vec<String> = all.iter().map(|evolution| format!("`{}`", evolution.name)).collect();
+        let names: Vec<String> = all.iter().map(|evolution| evolution.name.clone()).collect();
         let found: Vec<Evolution> = all.into_iter().filter(|evolution| evolution.name == *name).collect();
         if found.is_empty() {
-            let message = format!("no evolution is called `{name}`");
-            let help = format!("there are {}", names.join(", "));
-            return Err(Failure::plain(Diagnostic::without_place(Code::Unknown, message).with_help(help)));
+            return Err(UsageError::UnknownEvolution { name: name.clone(), known: names }.into());
         }
         Ok(found)
     }

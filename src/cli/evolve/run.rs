@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::cli::evolve::arguments::EvolveArguments;
-use crate::cli::run_folder::{CHECKPOINT, PROGRESS, damaged, read_checkpoint, read_progress};
+use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::timings::{Chore, Timer};
+use crate::cli::wording::{RunWarning, UsageError};
 use crate::cli::{Context, Failure, Interrupt, Progress};
-use crate::diag::{Code, Diagnostic};
 use crate::evolve::{ArchiveStats, Search};
 use crate::model::Evolution;
 use crate::report::{EvolutionLine, History, evolution_table};
@@ -143,12 +143,12 @@ impl<'a> EvolutionRun<'a> {
         let history = History::read(&text, self.search.generation());
         if let Some(damage) = history.damage() {
             let aside = path.with_extension("jsonl.damaged");
-            let mut help = "the run goes on without them".to_owned();
+            let mut kept = None;
             if !bytes.is_empty() {
                 write(&aside, &bytes)?;
-                help += &format!("; the file as it was is kept as `{}`", aside.display());
+                kept = Some(aside.display().to_string());
             }
-            let warning = damaged(&path, &damage, &help);
+            let warning = RunWarning::GapsInRun { path: path.display().to_string(), damage, aside: kept }.into();
             context.tell(&[warning], &Sources::default());
         }
         write(&path, history.print().as_bytes())
@@ -208,19 +208,12 @@ fn searching(timer: &Timer) -> f64 {
 }
 
 fn not_ours(folder: &Path, fault: LockFault) -> Failure {
-    let folder_name = folder.display();
-    let who = match fault {
-        LockFault::Held { process: Some(process) } => format!("process {process}"),
-        LockFault::Held { process: None } => "another process".to_owned(),
-        LockFault::Io(error) => return Failure::unwritable(&folder.join("lock"), &error),
-    };
-    let message = format!("`{folder_name}` is in use by {who}");
-    let help = "wait until it has ended, or choose another folder with `--out`";
-    Failure::plain(Diagnostic::without_place(Code::Unwritable, message).with_help(help))
+    match fault {
+        LockFault::Held { process } => UsageError::Held { folder: folder.display().to_string(), process }.into(),
+        LockFault::Io(error) => Failure::unwritable(&folder.join("lock"), &error),
+    }
 }
 
 fn would_overwrite(path: &Path) -> Failure {
-    let message = format!("`{}` holds a run already", path.display());
-    let help = "`--resume` goes on with it; another `--out` starts afresh";
-    Failure::plain(Diagnostic::without_place(Code::Checkpoint, message).with_help(help))
+    UsageError::HasRun { folder: path.display().to_string() }.into()
 }

@@ -7,8 +7,8 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::run_folder::{CHECKPOINT, read_checkpoint};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
-use crate::diag::{Code, Diagnostic};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Provenance, Robot};
 use crate::report::{Answer, Schema};
@@ -145,7 +145,5 @@ fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {
 }
 
 fn missing(path: &Path) -> Failure {
-    let message = format!("there is no checkpoint `{}`", path.display());
-    let help = "name the folder of a run, such as `out/gates/seed-1`";
-    Failure::plain(Diagnostic::without_place(Code::Checkpoint, message).with_help(help))
+    UsageError::NoCheckpoint { path: path.display().to_string() }.into()
 }

@@ -7,8 +7,9 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::cli::program::RunsArguments;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
-use crate::diag::{Code, Diagnostic, counted};
+use crate::diag::{Diagnostic, counted};
 use crate::report::{self, Schema};
 use crate::session::{Checked, Session, TestCase, TestOptions};
 use crate::store::DiskWorld;
@@ -91,9 +92,7 @@ impl TestArguments {
 fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
     let file = session.open(&path.to_string_lossy())?;
     if file.program.tests.is_empty() {
-        let fault = Diagnostic::without_place(Code::Empty, format!("`{}` declares no test", file.path));
-        let help = "declare one: `test my_circuit { a b | q` and a row for each input pattern";
-        return Err(Failure::plain(fault.with_help(help)));
+        return Err(UsageError::NoTest { file: file.path.clone() }.into());
     }
     Ok(file)
 }

@@ -1,0 +1,341 @@
+//! What can be wrong with a command line, as data, and how it is worded.
+
+use crate::diag::{Code, Diagnostic, Severity, Suggestion, counted};
+use crate::model::Behavior;
+use crate::source::Span;
+
+/// A command that cannot be carried out as it was given; `path`, `file` and `folder` are as the user wrote them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::cli) enum UsageError {
+    /// Standard output that cannot be written.
+    Output { reason: String },
+    /// A folder that cannot be listed.
+    Unreadable { path: String, reason: String },
+    /// Two options that ask for different formats.
+    TwoFormats { option: &'static str },
+    /// JSON of a script.
+    CompletionsJson,
+    /// A name that ends as no circuit file's does.
+    CircuitFormat { path: String },
+    /// A code that no message has.
+    UnknownCode { word: String, meant: Suggestion },
+    /// A function that has no name.
+    UnknownFunction { name: String, known: Vec<&'static str> },
+    /// A robot that the library does not have.
+    UnknownRobot { name: String },
+    /// A number of threads that is not a number.
+    Threads { variable: &'static str, found: String },
+    /// A path without a run and without robots.
+    NothingToExport { path: String },
+    /// A file without tests.
+    NoTest { file: String },
+    /// A file without tests and simulations.
+    NothingToRun { file: String },
+    /// A test or simulation that the file does not have.
+    UnknownRun { file: String, name: String, known: Vec<String> },
+    /// A file without evolutions.
+    NoEvolution { file: String },
+    /// An evolution that the file does not have.
+    UnknownEvolution { name: String, known: Vec<String> },
+    /// A folder that another process writes.
+    Held { folder: String, process: Option<u32> },
+    /// A folder with a run in it.
+    HasRun { folder: String },
+    /// A folder without a checkpoint.
+    NoCheckpoint { path: String },
+    /// A ground wider than the physics takes.
+    WideWorld { width: usize, most: usize },
+    /// A ground narrower than the body.
+    NarrowWorld { width: usize, columns: usize },
+    /// A start beyond the ground.
+    OffGround { start: usize, most: usize, columns: usize, width: usize },
+}
+
+impl From<UsageError> for Diagnostic {
+    fn from(error: UsageError) -> Self {
+        let bad = |message: String| Self::without_place(Code::BadValue, message);
+        match error {
+            UsageError::Output { reason } => {
+                Self::without_place(Code::Unwritable, format!("cannot write the output: {reason}"))
+            }
+            UsageError::Unreadable { path, reason } => {
+                Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {reason}"))
+            }
+            UsageError::TwoFormats { option } => {
+                bad(format!("`--format json` and `{option}` ask for two formats")).with_help("leave out one")
+            }
+            UsageError::CompletionsJson => {
+                bad("a completion script cannot be JSON".to_owned()).with_help("leave out `--format json`")
+            }
+            UsageError::CircuitFormat { path } => {
+                bad(format!("unrecognized circuit format of `{path}`; expected .blif, .aig, .aag, .v, .dot or .nb"))
+            }
+            UsageError::UnknownCode { word, meant } => {
+                let error = bad(format!("no message has the code `{word}`"));
+                match meant {
+                    Suggestion::Near(_) => error.with_suggestion(None, &meant),
+                    _ => error.with_help("`nbc explain` lists the codes"),
+                }
+            }
+            UsageError::UnknownFunction { name, known } => bad(format!("`{name}` is not a function of two inputs"))
+                .with_help(format!("the functions are {}", known.join(", "))),
+            UsageError::UnknownRobot { name } => {
+                Self::without_place(Code::UnknownRobot, format!("no robot of the library is called `{name}`"))
+                    .with_help("`nbc library list` lists the robots; a function such as `nand` means its best one")
+            }
+            UsageError::Threads { variable, found } => {
+                bad(format!("the environment variable `{variable}` is `{found}`, expected a number of threads"))
+                    .with_help("unset it to use every core")
+            }
+            UsageError::WideWorld { width, most } => {
+                bad(format!("`--world-width {width}` is too wide, expected at most {most}"))
+            }
+            UsageError::NarrowWorld { width, columns } => {
+                bad(format!("`--world-width {width}` is too narrow for a body of {}", counted(columns, "column")))
+            }
+            UsageError::OffGround { start, most, columns, width } => bad(format!(
+                "`--start-x {start}` is off the ground, expected at most {most} for {} on {}",
+                counted(columns, "column"),
+                counted(width, "voxel")
+            )),
+            other => other.of_files(),
+        }
+    }
+}
+
+impl UsageError {
+    /// Errors of what files and folders contain.
+    fn of_files(self) -> Diagnostic {
+        let fault = Diagnostic::without_place;
+        match self {
+            Self::NothingToExport { path } => fault(Code::Empty, format!("`{path}` contains neither a run nor robots"))
+                .with_help("name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`"),
+            Self::NoTest { file } => fault(Code::Empty, format!("`{file}` declares no test"))
+                .with_help("declare one: `test my_circuit { a b | q` and a row for each input pattern"),
+            Self::NothingToRun { file } => {
+                let message = format!("`{file}` declares no test and no simulation, so there is nothing to run");
+                let help = "declare a test: `test my_circuit { a b | q` and a row for each input pattern; \
+                            `nbc check` only checks";
+                fault(Code::Empty, message).with_help(help)
+            }
+            Self::UnknownRun { file, name, known } => {
+                let message = format!("no test and no simulation of `{file}` is called `{name}`");
+                fault(Code::Unknown, message).with_help(format!("there are {}", quoted(&known)))
+            }
+            Self::NoEvolution { file } => fault(Code::Unknown, format!("`{file}` declares no evolution"))
+                .with_help("without a file, the prelude's `gates` is run"),
+            Self::UnknownEvolution { name, known } => fault(Code::Unknown, format!("no evolution is called `{name}`"))
+                .with_help(format!("there are {}", quoted(&known))),
+            Self::Held { folder, process } => {
+                let who = process.map_or_else(|| "another process".to_owned(), |process| format!("process {process}"));
+                fault(Code::Unwritable, format!("`{folder}` is in use by {who}"))
+                    .with_help("wait until it has ended, or choose another folder with `--out`")
+            }
+            Self::HasRun { folder } => fault(Code::Checkpoint, format!("`{folder}` already contains a run"))
+                .with_help("continue it with `--resume`, or choose another folder with `--out`"),
+            Self::NoCheckpoint { path } => fault(Code::Checkpoint, format!("there is no checkpoint `{path}`"))
+                .with_help("name the folder of a run, such as `out/gates/seed-1`"),
+            _ => unreachable!("the others have their words already"),
+        }
+    }
+}
+
+/// Names in backticks, with commas.
+fn quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// A run of which something is not as it ought to be, and which goes on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::cli) enum RunWarning {
+    /// A file of progress without lines of past generations, when curves are drawn.
+    GapsInCurves { path: String, damage: String },
+    /// The same when the run is resumed; `aside` is where the file is kept.
+    GapsInRun { path: String, damage: String, aside: Option<String> },
+    /// A robot that left its ground at that env step.
+    GroundEnds { step: usize, width: usize },
+}
+
+impl From<RunWarning> for Diagnostic {
+    fn from(warning: RunWarning) -> Self {
+        let (code, message, help) = match warning {
+            RunWarning::GapsInCurves { path, damage } => {
+                (Code::Checkpoint, format!("`{path}` {damage}"), "curves over time leave them out".to_owned())
+            }
+            RunWarning::GapsInRun { path, damage, aside } => {
+                let kept = aside.map_or_else(String::new, |aside| format!("; the damaged file is kept as `{aside}`"));
+                (Code::Checkpoint, format!("`{path}` {damage}"), format!("the run continues without them{kept}"))
+            }
+            RunWarning::GroundEnds { step, width } => (
+                Code::GroundEnds,
+                format!("the robot walked off the end of its ground at env step {step}"),
+                format!("give it more than {width} voxels with `--world-width`"),
+            ),
+        };
+        Self { severity: Severity::Warning, ..Self::without_place(code, message).with_help(help) }
+    }
+}
+
+/// A schedule of stimuli on the command line that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::cli) enum ScheduleError {
+    /// No entries.
+    Empty,
+    /// More env steps in all than are simulated.
+    TooLong { steps: u64, most: u64 },
+    /// An entry without `*`.
+    NoDuration { entry: String },
+    /// Another pattern than those of two stimuli.
+    Pattern { found: String },
+    /// Something else than a number with its unit.
+    NotADuration { found: String },
+    /// A duration of zero.
+    NoTime { found: String },
+    /// One entry longer than a schedule.
+    LongEntry { found: String, most: u64 },
+}
+
+impl ScheduleError {
+    /// The error at its place in the option.
+    pub(in crate::cli) fn at(self, span: Span) -> Diagnostic {
+        let (message, label) = match self {
+            Self::Empty => ("the schedule is empty".to_owned(), "expected an entry such as `01*10`".to_owned()),
+            Self::TooLong { steps, most } => {
+                (format!("the schedule of {steps} env steps is too long"), format!("expected at most {most}"))
+            }
+            Self::NoDuration { entry } => (
+                format!("missing duration after `{entry}`"),
+                format!("expected `*` and a number, for example `{entry}*10`"),
+            ),
+            Self::Pattern { found } => {
+                (format!("invalid stimulus pattern `{found}`"), "expected 00, 01, 10 or 11".to_owned())
+            }
+            Self::NotADuration { found } => (
+                format!("`{found}` is not a duration"),
+                "expected a number of cycles, or of env steps as in `56steps`".to_owned(),
+            ),
+            Self::NoTime { found } => {
+                (format!("the duration `{found}` is too short"), "expected at least 1".to_owned())
+            }
+            Self::LongEntry { found, most } => {
+                (format!("the duration `{found}` is too long"), format!("expected at most {most} env steps"))
+            }
+        };
+        Diagnostic::new(Code::BadSchedule, message, span, label)
+            .with_help("write stimuli, `*` and a duration: `01*10` is ten cycles, `01*56steps` is 56 env steps")
+    }
+}
+
+/// A picture that cannot be drawn as asked for; `what` is what the user named.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::cli) enum DrawError {
+    /// A file name that does not end as the pictures of that kind do.
+    Extension { path: String, expected: Vec<String>, kind: String },
+    /// A kind of picture that the subject does not have.
+    Kind { what: String, given: &'static str, expected: &'static str, kind: String },
+    /// An option that would change nothing.
+    Option { what: String, option: &'static str, kind: String, applies_to: &'static str },
+    /// A moment after the end of the schedule.
+    AfterEnd { at: f64, end: f64 },
+    /// A behavior that no robot has.
+    UnknownBehavior { what: String, behavior: Behavior },
+    /// A file or circuit without tests and simulations.
+    NoRun { what: String },
+    /// A circuit with several swarms.
+    SeveralSwarms { circuit: String, swarms: Vec<String> },
+    /// A test that the file does not have.
+    UnknownTest { file: String, name: String },
+    /// A net that no robot drives.
+    UnknownNet { net: String, known: Vec<String> },
+    /// A folder without a run.
+    NoRunInFolder { folder: String },
+    /// A checkpoint of an old version, without its axes.
+    NoAxes { path: String },
+    /// A checkpoint of another declaration than those before it.
+    OtherDeclaration { path: String },
+    /// A second checkpoint of a seed.
+    SameSeed { path: String, seed: u64 },
+    /// More or fewer axes than two.
+    AxisCount { found: usize, axes: Vec<String> },
+    /// An axis that the archive does not have.
+    UnknownAxis { name: String, axes: Vec<String> },
+    /// The same axis twice.
+    SameAxis { name: String, axes: Vec<String> },
+}
+
+impl From<DrawError> for Diagnostic {
+    fn from(error: DrawError) -> Self {
+        let bad = |message: String| Self::without_place(Code::BadValue, message);
+        let unknown = |message: String| Self::without_place(Code::Unknown, message);
+        match error {
+            DrawError::Extension { path, expected, kind } => bad(format!(
+                "unrecognized picture format of `{path}`; expected a name that ends in {} for `--as {kind}`",
+                expected.join(" or ")
+            )),
+            DrawError::Kind { what, given, expected, kind } => {
+                bad(format!("`{what}` is {given}, expected {expected} for `--as {kind}`"))
+            }
+            DrawError::Option { what, option, kind, applies_to } => {
+                bad(format!("`{option}` does not apply to `{what}` drawn as `{kind}`"))
+                    .with_help(format!("it is for {applies_to}"))
+            }
+            DrawError::AfterEnd { at, end } => {
+                bad(format!("`--at {at}` is after the end of the schedule at cycle {end}"))
+            }
+            DrawError::UnknownBehavior { what, behavior } => {
+                unknown(format!("`{what}` has no robot of the behavior `{behavior}`"))
+            }
+            DrawError::NoRun { what } => {
+                let message = format!("`{what}` has no test and no simulation, so there is no run to draw");
+                Self::without_place(Code::Empty, message).with_help("`--as schematic` and `--as dot` need none")
+            }
+            DrawError::SeveralSwarms { circuit, swarms } => {
+                let options: Vec<_> = swarms.iter().map(|swarm| format!("`--swarm {swarm}`")).collect();
+                bad(format!("several swarms are declared for `{circuit}`"))
+                    .with_help(format!("choose one: {}", options.join(" or ")))
+            }
+            DrawError::UnknownTest { file, name } => unknown(format!("no test of `{file}` is called `{name}`")),
+            DrawError::UnknownNet { net, known } => {
+                unknown(format!("no robot drives `{net}`")).with_help(format!("the robots drive {}", quoted(&known)))
+            }
+            DrawError::AxisCount { found, axes } => {
+                with_axes(bad(format!("{found} axes were given, expected two such as `voxels,active`")), &axes)
+            }
+            DrawError::UnknownAxis { name, axes } => {
+                with_axes(bad(format!("`{name}` is not an axis of this archive")), &axes)
+            }
+            DrawError::SameAxis { name, axes } => {
+                with_axes(bad(format!("both axes are `{name}`, expected two different ones")), &axes)
+            }
+            checkpoint => checkpoint.of_checkpoint(),
+        }
+    }
+}
+
+fn with_axes(error: Diagnostic, axes: &[String]) -> Diagnostic {
+    error.with_help(format!("the archive has the axes {}", quoted(axes)))
+}
+
+impl DrawError {
+    /// Errors of the checkpoints in a folder.
+    fn of_checkpoint(self) -> Diagnostic {
+        let (message, help) = match self {
+            Self::NoRunInFolder { folder } => {
+                (format!("`{folder}` contains no run"), "name the folder of a run, such as `out/gates`")
+            }
+            Self::NoAxes { path } => {
+                (format!("`{path}` does not say the axes of its archive"), "`nbc evolve --resume` writes them")
+            }
+            Self::OtherDeclaration { path } => (
+                format!("`{path}` was made by a different declaration than the runs beside it"),
+                "draw the folder of one seed",
+            ),
+            Self::SameSeed { path, seed } => (
+                format!("`{path}` is of seed {seed}, as is another run in the folder"),
+                "each run counts once; move the copy out of the folder",
+            ),
+            _ => unreachable!("the others have their words already"),
+        };
+        Diagnostic::without_place(Code::Checkpoint, message).with_help(help)
+    }
+}

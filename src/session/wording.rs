@@ -1,0 +1,96 @@
+//! What can be wrong with compiling and running a program without errors, as data, and how it is worded.
+
+use crate::circuit::MapError;
+use crate::diag::{Code, Diagnostic, Suggestion, counted};
+use crate::source::Span;
+use crate::swarm::WeakRobot;
+
+/// A choice of circuit, swarm or library that cannot be met; none has a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ChoiceError {
+    /// A source without circuits of its own.
+    NoCircuit,
+    /// A swarm that nothing declares.
+    UnknownSwarm { name: String, meant: Suggestion },
+    /// A circuit with several swarms, of which none was chosen.
+    SeveralSwarms { circuit: String, swarms: [String; 2] },
+    /// A swarm of another circuit.
+    OtherCircuit { swarm: String, own: String, circuit: String },
+    /// A circuit that cannot be made of the library's cells.
+    Unmapped(MapError),
+}
+
+impl From<ChoiceError> for Diagnostic {
+    fn from(error: ChoiceError) -> Self {
+        match error {
+            ChoiceError::NoCircuit => Self::without_place(Code::Empty, "the file declares no circuit")
+                .with_help("choose one that it uses: `--circuit NAME`"),
+            ChoiceError::UnknownSwarm { name, meant } => {
+                Self::without_place(Code::Unknown, format!("no swarm is called `{name}`")).with_suggestion(None, &meant)
+            }
+            ChoiceError::SeveralSwarms { circuit, swarms: [first, second] } => {
+                Self::without_place(Code::BadValue, format!("several swarms are declared for `{circuit}`"))
+                    .with_help(format!("choose one, for example `--swarm {first}` or `--swarm {second}`"))
+            }
+            ChoiceError::OtherCircuit { swarm, own, circuit } => {
+                Self::without_place(Code::BadValue, format!("the swarm `{swarm}` is of `{own}`, not of `{circuit}`"))
+            }
+            ChoiceError::Unmapped(error) => {
+                let code = match error {
+                    MapError::Netlist(_) => Code::CircuitFile,
+                    MapError::TooLarge { .. } => Code::TooLarge,
+                    MapError::Incomplete { .. } => Code::IncompleteLibrary,
+                };
+                let fault = Self::without_place(code, error.to_string());
+                error.help().into_iter().fold(fault, Self::with_help)
+            }
+        }
+    }
+}
+
+/// Shows an error of a circuit's mapping at the place that asks for the circuit.
+pub(super) fn for_circuit(error: Diagnostic, place: Span) -> Diagnostic {
+    error.with_label(place, "for this circuit")
+}
+
+/// Shows an error of a robot file at the library that has it; `command` makes the robots.
+pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>) -> Diagnostic {
+    let error = error.with_label(library, "the robots of this library");
+    command.into_iter().fold(error, Diagnostic::with_help)
+}
+
+/// What is noticed at a test or its circuit.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum RunError {
+    /// More input bits than all patterns are tried of.
+    TooManyInputs { bits: usize, most: usize },
+    /// A robot of the swarm that makes errors or hardly moves.
+    Weak { circuit: String, robot: WeakRobot },
+    /// A row that is held for less time than the slowest path needs.
+    ShortHold { hold: usize, needed: usize, path: Vec<String> },
+}
+
+impl RunError {
+    /// The error or warning at the test, its row or its circuit.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::TooManyInputs { bits, most } => {
+                let message = format!("too many patterns to test: {bits} input bits");
+                Diagnostic::new(Code::BadValue, message, span, format!("expected at most {most} bits"))
+            }
+            Self::Weak { circuit, robot } => {
+                let message = format!("`{circuit}` uses the robot `{}`, {}", robot.robot, robot.complaint());
+                let help = format!(
+                    "it drives {}; a library without it, or a longer hold, may do better",
+                    robot.nets.join(", ")
+                );
+                Diagnostic::new(Code::WeakRobot, message, span, "for this circuit").with_help(help)
+            }
+            Self::ShortHold { hold, needed, path } => {
+                let message = format!("a hold of {} is too short, expected at least {needed}", counted(hold, "cycle"));
+                Diagnostic::new(Code::HoldTooShort, message, span, "held here")
+                    .with_help(format!("the slowest path is {}; `hold: auto` waits for it", path.join(" -> ")))
+            }
+        }
+    }
+}
