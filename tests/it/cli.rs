@@ -152,7 +152,7 @@ fn errors_in_robot_files_have_their_place() {
     check_body(b"body: []", &["the body has no voxels"]);
     check_body(b"body: [\"39\"]", &["`9` is no material", "walker.yaml:1:10"]);
     check_body(b"", &["walker.yaml"]);
-    check_body(b"\xff\xfe\x00", &["not UTF-8"]);
+    check_body(b"\xff\xfe\x00", &["not valid UTF-8"]);
     check_body(b"body: [", &["walker.yaml"]);
     let long = [b"body: [\"", &b"3".repeat(500_000)[..], b"\"]"].concat();
     check_body(&long, &["500000 x 1, expected at most 100 x 100"]);
