@@ -268,8 +268,8 @@ impl Slip {
             Self::NotSign { .. } => "write `not`".to_owned(),
             Self::OperatorSign { operator, .. } => format!("write `{operator}`"),
             Self::BaseOfComputed { .. } => "write `'d(…)`".to_owned(),
-            Self::ParametersOfNet => "a bit is `a[3]`, a slice is `a[7..4]`; the parameters of a circuit stand before \
-                                      its operands: `add[8](a, b)`"
+            Self::ParametersOfNet => "a bit is `a[3]`, a slice is `a[7..4]`; the parameters of a circuit stand \
+                                      before its operands: `add[8](a, b)`"
                 .to_owned(),
             Self::SliceOfCircuit => "separate parameters with commas: `register[4, 0](d, clk)`".to_owned(),
         })
