@@ -247,8 +247,8 @@ fn a_ring_without_inputs_is_tested_and_simulated() {
 fn a_failed_test_lists_its_rows_in_their_notation() {
     let bench = Bench::new();
     let program = "circuit add_four(a[4], b[4]) -> (sum[4], odd) {\n    sum = a + b\n    odd = sum[0]\n}\n\n\
-                   // rows are counted as they stand\ntest add_four \"adds\" {\n    a     b    | sum   odd\n    4'd3
-                   // 0001 | 4'd4  0\n\n    4'd5  0100 | 4'd8  -\n    4'hf  0000 | 1111  0\n}\n";
+                   // rows are counted as they stand\ntest add_four \"adds\" {\n    a     b    | sum   odd\n    \
+                   4'd3  0001 | 4'd4  0\n\n    4'd5  0100 | 4'd8  -\n    4'hf  0000 | 1111  0\n}\n";
     bench.file("a.nb", program);
     let ran = run(&bench, "test a.nb --logic");
     assert_eq!(ran.status, 1);

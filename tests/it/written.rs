@@ -147,5 +147,5 @@ fn a_model_without_outputs_is_not_a_program() {
     let mut logic = Netlist::new("silent");
     logic.add_input("a");
     let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, CircuitFormat::Nb).unwrap_err();
-    assert_eq!(fault.message, "`silent` has no outputs, and a circuit of a .nb file needs one");
+    assert_eq!(fault.message, "`silent` has no outputs, but a circuit of a .nb file needs one");
 }
