@@ -1,6 +1,7 @@
 //! Simulation of a netlist at the level of logic: every cell takes one time step, and inputs are held until nothing
 //! changes.
 
+use crate::circuit::Oscillation;
 use crate::circuit::netlist::{NetId, Netlist, Node};
 use crate::model::Function;
 
@@ -20,11 +21,6 @@ struct Gate {
     pins: [u32; 2],
     slot: u32,
 }
-
-/// Inputs for which the outputs keep changing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the circuit does not come to rest")]
-pub struct Oscillation;
 
 impl Logic {
     /// A netlist before its first cycle. Cells with a start value have it. The others have the values that follow from

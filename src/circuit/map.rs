@@ -12,55 +12,8 @@ use crate::circuit::passes::{self, DissolveWires, Pass, Sweep};
 use crate::circuit::proof::core_names;
 use crate::circuit::recipes::{Operand, Recipe, Recipes};
 use crate::circuit::synth::reduce;
-use crate::circuit::{NetId, Netlist, NetlistError, Node};
+use crate::circuit::{MapError, NetId, Netlist, Node};
 use crate::model::Function;
-
-/// A netlist that cannot be mapped.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum MapError {
-    /// The netlist is not well formed.
-    #[error(transparent)]
-    Netlist(#[from] NetlistError),
-    /// More cells than are mapped.
-    #[error("the circuit has {cells} cells, and at most {MAX_CELLS} are mapped")]
-    TooLarge {
-        /// Their number.
-        cells: usize,
-    },
-    /// The library cannot make a function of the circuit.
-    #[error("`{}` cannot be made of {}", .missing.name(), list(.held, "no cells", " and "))]
-    Incomplete {
-        /// The function that is missing.
-        missing: Function,
-        /// The functions of the library.
-        held: Vec<Function>,
-        /// The functions each of which alone would complete the library; empty if none does.
-        completions: Vec<Function>,
-    },
-}
-
-impl MapError {
-    /// A suggestion, if there is one.
-    pub fn help(&self) -> Option<String> {
-        let Self::Incomplete { completions, .. } = self else {
-            return None;
-        };
-        Some(match completions[..] {
-            [] => "`nand` alone makes a library complete".to_owned(),
-            _ => format!("any one of {} would complete the library", list(completions, "", " or ")),
-        })
-    }
-}
-
-/// The names of functions in backticks.
-fn list(functions: &[Function], none: &str, joint: &str) -> String {
-    let names: Vec<_> = functions.iter().map(|function| format!("`{}`", function.name())).collect();
-    match names.split_last() {
-        None => none.to_owned(),
-        Some((last, [])) => last.clone(),
-        Some((last, rest)) => format!("{}{joint}{last}", rest.join(", ")),
-    }
-}
 
 /// Maps a netlist onto a library for few robots, at normal effort.
 ///
@@ -78,7 +31,7 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
     let cells = netlist.cells().count();
     if cells as u64 > MAX_CELLS {
-        return Err(MapError::TooLarge { cells });
+        return Err(MapError::TooLarge { cells, most: MAX_CELLS });
     }
     let mut source = netlist.clone();
     passes::run(&mut source)?;
@@ -221,8 +174,8 @@ impl<'a> Mapper<'a> {
     }
 
     fn missing(&self, function: Function) -> MapError {
-        let held = self.library.functions().collect();
-        MapError::Incomplete { missing: function, held, completions: self.library.completions() }
+        let known = self.library.functions().collect();
+        MapError::Incomplete { missing: function, known, completions: self.library.completions() }
     }
 
     fn operand(&mut self, operand: Operand, pins: &[NetId], nets: &[NetId]) -> NetId {
@@ -295,10 +248,9 @@ mod tests {
         assert_eq!(
             error.help().unwrap(),
             "any one of `nor`, `nota_and_b`, `a_and_notb`, `nand`, `and`, `nota_or_b`, `a_or_notb` or `or` would \
-             complete \
-             the library"
+             complete the library"
         );
-        assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made of no cells");
+        assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made without cells");
     }
 
     /// A chain of exclusive ors with twenty inputs in turn.
@@ -322,7 +274,7 @@ mod tests {
     #[test]
     fn too_many_cells_are_rejected_with_their_number() {
         let error = map(&chain(1_000_001), &library("nand")).unwrap_err();
-        assert_eq!(error.to_string(), "the circuit has 1000001 cells, and at most 1000000 are mapped");
+        assert_eq!(error.to_string(), "the circuit has 1000001 cells, expected at most 1000000");
     }
 
     #[test]

@@ -39,7 +39,6 @@ pub enum Node {
     /// A name for a net that is driven elsewhere, perhaps later: this makes feedback possible. Its one pin is the
     /// driver.
     Wire {
-        /// The name.
         name: String,
         /// The start value declared with `init`.
         start: Option<bool>,
@@ -48,17 +47,6 @@ pub enum Node {
     },
     /// A gate.
     Cell(Cell),
-}
-
-/// A netlist that is not well formed.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NetlistError {
-    /// A pin without a driver.
-    #[error("`{0}` has no driver")]
-    Undriven(String),
-    /// Wires that only drive each other.
-    #[error("`{0}` is driven by itself alone")]
-    WireLoop(String),
 }
 
 /// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.

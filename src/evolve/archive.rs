@@ -40,7 +40,6 @@ pub enum AddStatus {
 /// The best of a behavior.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Champion {
-    /// The behavior.
     pub behavior: Behavior,
     /// The two fitnesses of the elite whose first fitness is highest.
     pub fitness: [f64; 2],

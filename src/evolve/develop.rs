@@ -2,25 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::evolve::cppn;
+use crate::evolve::{Undeveloped, cppn};
 use crate::model::{Body, Genotype, MaterialKind, Palette, Rules};
 
 /// Actuators that a body must have.
 pub const LEAST_ACTUATORS: usize = 3;
-
-/// The reason why a network has no valid body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Undeveloped {
-    /// Too few actuators to walk with.
-    #[error("the body has {found} actuators, expected at least {LEAST_ACTUATORS}")]
-    FewActuators {
-        /// Actuators found.
-        found: usize,
-    },
-    /// Voxels that do not hang together by their sides.
-    #[error("the body falls apart")]
-    Apart,
-}
 
 /// The body of a network: at each place the code with the highest score, the first of equals.
 ///
@@ -43,12 +29,12 @@ pub fn phenotype(genotype: &Genotype, palette: &Arc<Palette>, rules: Rules, widt
 /// Whether a body is valid: at least three actuators, and in one piece.
 ///
 /// # Errors
-/// Says what is missing.
+/// The reason why it is invalid.
 pub fn validate(body: &Body) -> Result<(), Undeveloped> {
     let is_actuator = |code: &&u8| matches!(body.palette().kind(**code), Some(MaterialKind::Actuator(_)));
     let found = body.codes().iter().filter(is_actuator).count();
     if found < LEAST_ACTUATORS {
-        Err(Undeveloped::FewActuators { found })
+        Err(Undeveloped::FewActuators { found, least: LEAST_ACTUATORS })
     } else if !body.is_connected() {
         Err(Undeveloped::Apart)
     } else {
@@ -59,7 +45,7 @@ pub fn validate(body: &Body) -> Result<(), Undeveloped> {
 /// Develops a network into a body that can be tried.
 ///
 /// # Errors
-/// Says why its body cannot.
+/// The reason why its body is invalid.
 pub fn develop(
     genotype: &Genotype,
     palette: &Arc<Palette>,
@@ -88,7 +74,7 @@ mod tests {
     #[test]
     fn a_body_needs_three_actuators_in_one_piece() {
         check(&["333"], Ok(()));
-        check(&["341", "200"], Err(Undeveloped::FewActuators { found: 2 }));
+        check(&["341", "200"], Err(Undeveloped::FewActuators { found: 2, least: 3 }));
         check(&["330", "003"], Err(Undeveloped::Apart));
     }
 
@@ -112,7 +98,7 @@ mod tests {
             let actuators = body.codes().iter().filter(|&&code| code == 3 || code == 4).count();
             match develop(&genotype, &palette, rules, 6, 4) {
                 Ok(developed) => prop_assert!(developed == body && body.is_connected() && actuators >= 3),
-                Err(Undeveloped::FewActuators { found }) => prop_assert!(found == actuators && found < 3),
+                Err(Undeveloped::FewActuators { found, .. }) => prop_assert!(found == actuators && found < 3),
                 Err(Undeveloped::Apart) => prop_assert!(!body.is_connected()),
             }
         }

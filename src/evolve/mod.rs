@@ -9,11 +9,13 @@ mod mutate;
 mod outcome;
 mod search;
 mod symmetry;
+mod wording;
 
 pub use archive::{AddStatus, Archive, ArchiveStats, Champion, Elite};
 pub use descriptor::{Descriptor, NicheKey};
-pub use develop::{LEAST_ACTUATORS, Undeveloped, develop, phenotype, validate};
+pub use develop::{LEAST_ACTUATORS, develop, phenotype, validate};
 pub use mutate::mutate;
 pub use outcome::{CandidateOutcome, Counts, Scores};
 pub use search::{Candidate, CandidateOrigin, Search, SearchState};
 pub use symmetry::{Recoding, mirrored, recodings};
+pub use wording::Undeveloped;

@@ -10,7 +10,6 @@ pub struct Scores {
     /// The two fitnesses, higher is better: the distance in the variable simulation and the smallest distance in the
     /// fixed ones, or the two of gates.
     pub fitness: [f64; 2],
-    /// Its behavior.
     pub behavior: Behavior,
     /// Displacement in voxels over the fixed simulations, patterns 00, 01, 10, 11.
     pub displacement: [f64; 4],

@@ -30,7 +30,6 @@ pub enum CandidateOrigin {
 pub struct Candidate {
     /// Its place in the generation.
     pub index: u32,
-    /// Its origin.
     pub origin: CandidateOrigin,
     /// Its network.
     pub genotype: Genotype,

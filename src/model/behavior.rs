@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Pattern};
+use super::{BehaviorError, Function, Pattern};
 
 /// The direction in which a robot walks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -66,11 +66,6 @@ impl fmt::Display for Behavior {
         f.pad(&letters)
     }
 }
-
-/// A word that is not a behavior.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no behavior, expected four letters L or R such as `RRRL`")]
-pub struct BehaviorError(String);
 
 impl FromStr for Behavior {
     type Err = BehaviorError;

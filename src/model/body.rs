@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Material, Palette};
+use super::{BodyError, Material, Palette};
 
 /// A body: `height` rows of `width` material codes, row 0 on top, and the palette that defines the codes; code 0 is
 /// empty (docs/physics.md 1).
@@ -13,44 +13,6 @@ pub struct Body {
     codes: Vec<u8>,
     // Compared last, because bodies in one batch usually share it.
     palette: Arc<Palette>,
-}
-
-/// The reason why rows of text are not a body.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum BodyError {
-    /// No rows, or rows without columns.
-    #[error("the body has no voxels")]
-    Empty,
-    /// Rows of different width.
-    #[error("row {row} has {found} voxels, expected {expected} as in row 1")]
-    Ragged {
-        /// The row, from 1.
-        row: usize,
-        /// Its width.
-        found: usize,
-        /// The first row's width.
-        expected: usize,
-    },
-    /// A character that is not a material code of the palette.
-    #[error("row {row}, column {column}: `{digit}` is no material, expected a code from 0 to {highest}")]
-    UnknownCode {
-        /// The row, from 1.
-        row: usize,
-        /// The column, from 1.
-        column: usize,
-        /// The character found.
-        digit: char,
-        /// The highest valid code.
-        highest: char,
-    },
-    /// More rows or columns than allowed.
-    #[error("the body is {width} x {height}, expected at most {limit} x {limit}", limit = Body::MAX_SIDE)]
-    TooLarge {
-        /// Columns.
-        width: usize,
-        /// Rows.
-        height: usize,
-    },
 }
 
 impl Body {
@@ -87,7 +49,7 @@ impl Body {
             return Err(BodyError::Empty);
         }
         if expected > Self::MAX_SIDE || rows.len() > Self::MAX_SIDE {
-            return Err(BodyError::TooLarge { width: expected, height: rows.len() });
+            return Err(BodyError::TooLarge { width: expected, height: rows.len(), most: Self::MAX_SIDE });
         }
         let mut codes = Vec::with_capacity(expected * rows.len());
         for (r, row) in rows.iter().enumerate() {
@@ -211,7 +173,7 @@ mod tests {
         check(&[], Err("the body has no voxels"));
         check(&["000", "000"], Err("the body has no voxels"));
         check(&["33", "3"], Err("row 2 has 1 voxels, expected 2 as in row 1"));
-        check(&["39"], Err("row 1, column 2: `9` is no material, expected a code from 0 to 8"));
+        check(&["39"], Err("row 1, column 2: `9` is not a material code; expected 0 to 8"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Pattern;
+use super::{MaterialError, MaterialNumber, Pattern};
 
 /// A declared material: a name and a response.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,39 +109,6 @@ enum Word {
     Sensor,
 }
 
-/// Why a mapping is not a material.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum MaterialError {
-    /// A field that the kind needs is missing.
-    #[error("the material `{material}` lacks the field `{field}`")]
-    Missing {
-        /// The material's name.
-        material: String,
-        /// The field.
-        field: &'static str,
-    },
-    /// A field that this kind does not have.
-    #[error("the material `{material}` cannot have the field `{field}`, as its kind has none")]
-    Foreign {
-        /// The material's name.
-        material: String,
-        /// The field.
-        field: &'static str,
-    },
-    /// A number that no material can have.
-    #[error("the material `{material}` has `{field}: {found}`, expected {expected}")]
-    OutOfRange {
-        /// The material's name.
-        material: String,
-        /// The field.
-        field: &'static str,
-        /// Its value.
-        found: String,
-        /// The valid kinds.
-        expected: &'static str,
-    },
-}
-
 impl From<Material> for Record {
     fn from(material: Material) -> Self {
         let mut record = Self {
@@ -199,7 +166,7 @@ impl Record {
         value.ok_or_else(|| MaterialError::Missing { material: self.name.clone(), field })
     }
 
-    /// Refuses the fields of other kinds.
+    /// Rejects the fields of other kinds.
     fn refuse_foreign(&self) -> Result<(), MaterialError> {
         let (drives, senses) = (matches!(self.kind, Word::Actuator), matches!(self.kind, Word::Sensor));
         let fields = [
@@ -216,27 +183,27 @@ impl Record {
         }
     }
 
-    /// Refuses numbers that the language would refuse.
+    /// Rejects numbers that the language would reject.
     fn check_numbers(&self) -> Result<(), MaterialError> {
         let bad = |field, found: String, expected| {
             Err(MaterialError::OutOfRange { material: self.name.clone(), field, found, expected })
         };
         if let Some(period) = self.period.filter(|period| !(1..=MAX_PERIOD).contains(period)) {
-            return bad("period", period.to_string(), "1 to 100000000 env steps");
+            return bad("period", period.to_string(), MaterialNumber::Period { most: MAX_PERIOD });
         }
         if let Some(phase) = self.phase.filter(|phase| !phase.is_finite()) {
-            return bad("phase", phase.to_string(), "a finite number of degrees");
+            return bad("phase", phase.to_string(), MaterialNumber::Phase);
         }
         if let Some([low, high]) = self.range.filter(|[low, high]| !(is_width(*low) && is_width(*high) && low <= high))
         {
-            return bad("range", format!("[{low:?}, {high:?}]"), "widths from 0.6 to 1.6, the least first");
+            return bad("range", format!("[{low:?}, {high:?}]"), MaterialNumber::Widths);
         }
         if let Some(stimulus) = self.stimulus.filter(|stimulus| !(1..=Pattern::MAX_STIMULI).contains(stimulus)) {
-            return bad("stimulus", stimulus.to_string(), "1 to 32");
+            return bad("stimulus", stimulus.to_string(), MaterialNumber::Stimulus { most: Pattern::MAX_STIMULI });
         }
         for (field, width) in [("absent", self.absent), ("present", self.present)] {
             if let Some(width) = width.filter(|width| !is_width(*width)) {
-                return bad(field, format!("{width:?}"), "a width from 0.6 to 1.6");
+                return bad(field, format!("{width:?}"), MaterialNumber::Width);
             }
         }
         Ok(())

@@ -17,9 +17,10 @@ mod stimulus;
 mod test;
 mod trial;
 mod value;
+mod wording;
 
 pub use behavior::{Behavior, Direction};
-pub use body::{Body, BodyError};
+pub use body::Body;
 pub use circuit::{
     Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, Parameter,
     Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
@@ -28,15 +29,16 @@ pub use column::Column;
 pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SearchObjective, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
-pub use material::{Drive, Material, MaterialError, MaterialKind, Response};
-pub use palette::{Palette, PaletteError};
+pub use material::{Drive, Material, MaterialKind, Response};
+pub use palette::Palette;
 pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Program, Simulation, Swarm};
 pub use robot::{Character, Library, Provenance, Robot, Transition};
 pub use schedule::{Schedule, Spell};
-pub use stimulus::{Pattern, PatternError};
+pub use stimulus::Pattern;
 pub use test::{CircuitTest, Reference, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
+pub use wording::{BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

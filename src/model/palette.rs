@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Material, MaterialKind, Response};
+use super::{Drive, Material, MaterialKind, PaletteError, Response};
 
 /// The materials of a body: code 0 is empty, code `k` is the `k`-th material.
 ///
@@ -15,20 +15,6 @@ use super::{Drive, Material, MaterialKind, Response};
 #[serde(try_from = "Vec<Material>", into = "Vec<Material>")]
 pub struct Palette {
     materials: Vec<Material>,
-}
-
-/// Why materials are not a palette.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PaletteError {
-    /// No materials, or more than codes can name.
-    #[error("{0} materials, expected 1 to {limit}", limit = Palette::MAX_MATERIALS)]
-    Size(usize),
-    /// Two materials of one name.
-    #[error("two materials are called `{0}`")]
-    Twice(String),
-    /// A name that the language could not write.
-    #[error("`{0}` is not the name of a material; expected a letter, then letters, digits and `_`")]
-    Name(String),
 }
 
 impl Palette {
@@ -111,7 +97,7 @@ impl TryFrom<Vec<Material>> for Palette {
 
     fn try_from(materials: Vec<Material>) -> Result<Self, PaletteError> {
         if materials.is_empty() || materials.len() > Self::MAX_MATERIALS {
-            return Err(PaletteError::Size(materials.len()));
+            return Err(PaletteError::Size { found: materials.len(), most: Self::MAX_MATERIALS });
         }
         for (i, Material { name, .. }) in materials.iter().enumerate() {
             if !is_name(name) {

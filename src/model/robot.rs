@@ -82,7 +82,6 @@ pub struct Transition {
 pub struct Provenance {
     /// The program that made it.
     pub program: String,
-    /// Its version.
     pub version: String,
     /// The evolution declaration's name.
     pub evolution: String,
@@ -112,7 +111,7 @@ impl Library {
 mod pair {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
-    use crate::model::Pattern;
+    use crate::model::{Pattern, PatternError};
 
     pub fn serialize<S: Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&pattern.to_string())
@@ -123,6 +122,6 @@ mod pair {
         Pattern::PAIRS
             .into_iter()
             .find(|pattern| pattern.to_string() == word)
-            .ok_or_else(|| D::Error::custom(format!("`{word}` is no pattern, expected 00, 01, 10 or 11")))
+            .ok_or_else(|| D::Error::custom(PatternError::Pair { found: word }))
     }
 }

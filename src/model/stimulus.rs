@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::PatternError;
+
 /// The stimuli that are present: bit `i` is stimulus `i`, counted from 0 in the order of declaration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -41,18 +43,13 @@ impl Pattern {
     }
 }
 
-/// Text which is not a pattern.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a pattern; expected a digit 0 or 1 for each of at most 32 stimuli, such as `01`")]
-pub struct PatternError(String);
-
 impl TryFrom<String> for Pattern {
     type Error = PatternError;
 
     fn try_from(digits: String) -> Result<Self, PatternError> {
         let sized = (1..=Self::MAX_STIMULI).contains(&digits.len());
         if !sized || digits.contains(|digit| !matches!(digit, '0' | '1')) {
-            return Err(PatternError(digits));
+            return Err(PatternError::Digits { found: digits, most: Self::MAX_STIMULI });
         }
         Ok(Self::new(&digits.chars().map(|digit| digit == '1').collect::<Vec<_>>()))
     }

@@ -76,8 +76,8 @@ pub fn own_materials(body: &Body) -> Option<Arc<Palette>> {
 /// Reads a robot file.
 ///
 /// # Errors
-/// A diagnostic with its place for text that is no YAML, for missing, unknown or wrong fields, for a body that is none,
-/// for numbers that cannot be a robot's, and for the file of another version.
+/// A diagnostic with its place for text that is not YAML, for missing, unknown or invalid fields, for an invalid body,
+/// for numbers that a robot cannot have, and for a file of another version.
 pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     let version: Version = yaml::read(file)?;
     if !(1..=FORMAT).contains(&version.format) {
@@ -209,7 +209,7 @@ pub(crate) mod tests {
         check("  - 1.02\n", "  - .inf\n", "`heart` has `range: [0.98, inf]`", "-");
         check("name: heart", "name: flesh", "two materials are called `flesh`", "f");
         check("stimulus: 32", "stimulus: 0", "`e5` has `stimulus: 0`, expected 1 to 32", "-");
-        check("- '10945'", "- '1094a'", "`a` is no material, expected a code from 0 to 9", "a");
+        check("- '10945'", "- '1094a'", "`a` is not a material code; expected 0 to 9", "a");
         check("absent: 1.0\n", "absent: 1.0\n  smell: 1\n", "unknown field `smell`", "s");
     }
 
@@ -263,9 +263,9 @@ pub(crate) mod tests {
             assert!(message.contains(expected), "{message:?} does not say {expected:?}");
         };
         check("behavior: RRRL\n", "", "missing field `behavior`");
-        check("behavior: RRRL", "behavior: RRRX", "`RRRX` is no behavior");
+        check("behavior: RRRL", "behavior: RRRX", "`RRRX` is not a behavior");
         check("- '00345'", "- '0034'", "row 2 has 5 voxels, expected 4");
-        check("- '00345'", "- '0034x'", "`x` is no material");
+        check("- '00345'", "- '0034x'", "`x` is not a material code");
         check("format: 2\n", "", "missing field `format`");
         check("name: ", "nom: ", "unknown field `nom`");
         check("clock: 4", "clock: four", "expected u32");

@@ -22,10 +22,7 @@ struct Embodied {
 
 /// A body as people write it.
 #[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "`body` is not what a body is written as, expected rows of codes such as [\"00345\", \"33333\"]"
-)]
+#[serde(untagged, expecting = "invalid `body`; expected rows of codes such as [\"00345\", \"33333\"]")]
 enum Rows {
     Block(String),
     List(Vec<Row>),
@@ -143,7 +140,7 @@ mod tests {
     #[test]
     fn errors_are_shown_at_their_place() {
         check_fault("body: [\"33\", \"333\"]", "row 2 has 3 voxels, expected 2", "333");
-        check_fault("body: [\"33\", \"39\"]", "`9` is no material", "9");
+        check_fault("body: [\"33\", \"39\"]", "`9` is not a material code", "9");
         check_fault("name: x\nbody: []", "the body has no voxels", "body");
         check_fault("body: [\"00\"]", "the body has no voxels", "body");
     }

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::circuit::{Logic, NetId, Netlist, Node};
-use crate::model::{Column, Function, Library, Robot};
+use crate::model::{Column, Library, Robot};
+use crate::swarm::AssembleError;
 use crate::swarm::cells::choose;
 
 /// The source of a stimulus or of an output port's bit.
@@ -46,17 +47,6 @@ pub struct Assembly {
     pub outputs: Vec<Column>,
     /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
-}
-
-/// A netlist that a library cannot play.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum AssembleError {
-    /// No robot computes a cell's function.
-    #[error("the library holds no robot for `{function}`")]
-    MissingFunction {
-        /// The function.
-        function: Function,
-    },
 }
 
 /// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are
@@ -125,7 +115,7 @@ fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, StimulusSource> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Body, Character, Provenance};
+    use crate::model::{Body, Character, Function, Provenance};
 
     fn robot(function: Function) -> Robot {
         Robot {

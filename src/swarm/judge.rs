@@ -7,19 +7,18 @@ use crate::model::{CircuitTest, TestRow};
 use crate::swarm::{Lapse, RowVerdict, START_CYCLES, SwarmTrace};
 
 /// Cycles over which an output must have had its value when its row ends.
-const STEADY_CYCLES: usize = 2;
+pub const STEADY_CYCLES: usize = 2;
 
 /// The hold of a test's row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Demand {
     /// Cycles for which the row is held.
     pub hold: usize,
-    /// Cycles for which static timing would have it held.
+    /// Cycles for which `hold: auto` would hold it.
     pub needed: usize,
 }
 
-/// Judges a row by the outputs at its end, and by which of them had their value for good. Every row of every test is
-/// judged here.
+/// Judges a row by the outputs at its end, and by which of them were steady. Every row of every test is judged here.
 fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
     let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
         expected.is_none_or(|expected| expected == output && steady)
@@ -218,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn an_output_that_is_not_asked_for_is_not_checked() {
+    fn an_output_without_an_expected_value_is_not_checked() {
         check(&[(true, true), (true, true)], None, 1, true, &[]);
     }
 

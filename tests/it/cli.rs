@@ -150,7 +150,7 @@ fn errors_in_schedules_have_their_place() {
 fn errors_in_robot_files_have_their_place() {
     check_body(b"body: [\"33\", \"333\"]", &["robot-file", "row 2 has 3 voxels", "walker.yaml:1:"]);
     check_body(b"body: []", &["the body has no voxels"]);
-    check_body(b"body: [\"39\"]", &["`9` is no material", "walker.yaml:1:10"]);
+    check_body(b"body: [\"39\"]", &["`9` is not a material code", "walker.yaml:1:10"]);
     check_body(b"", &["walker.yaml"]);
     check_body(b"\xff\xfe\x00", &["not valid UTF-8"]);
     check_body(b"body: [", &["walker.yaml"]);

@@ -15,7 +15,7 @@ pub use method::Method;
 
 use crate::circuit::loops::Loops;
 use crate::circuit::network::{Network, View};
-use crate::circuit::{NetId, Netlist, NetlistError, Node, passes};
+use crate::circuit::{NetId, Netlist, Node, ProofError, passes};
 
 /// The most inputs, cuts included, for which every pattern is simulated.
 pub const EXHAUSTIVE_INPUTS: usize = 16;
@@ -29,39 +29,10 @@ pub struct Proof {
     pub cuts: Vec<String>,
 }
 
-/// Why a netlist is not proved equal to its source.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ProofError {
-    /// The source is not well formed.
-    #[error(transparent)]
-    Netlist(#[from] NetlistError),
-    /// The two do not have the same ports.
-    #[error("`{0}` is a port of one netlist only")]
-    Port(String),
-    /// A net on a loop of the source has no namesake in the mapped netlist.
-    #[error("the mapped netlist has no net `{0}`")]
-    MissingCut(String),
-    /// The mapped netlist has a loop that the source does not have.
-    #[error("`{0}` lies on a loop that the source does not have")]
-    NewLoop(String),
-    /// The two differ.
-    #[error("`{output}` differs at {}", pattern(.inputs))]
-    Different {
-        /// The output port, or the net on a loop whose next state differs.
-        output: String,
-        /// The inputs and cut nets with their values.
-        inputs: Vec<(String, bool)>,
-    },
-}
-
-fn pattern(inputs: &[(String, bool)]) -> String {
-    inputs.iter().map(|(name, value)| format!("{name}={}", u8::from(*value))).collect::<Vec<_>>().join(" ")
-}
-
 /// Proves a mapped netlist equal to its source.
 ///
 /// # Errors
-/// What tells them apart.
+/// The first difference that is found.
 pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
     let mut source = source.clone();
     passes::run(&mut source)?;

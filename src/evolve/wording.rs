@@ -1,0 +1,31 @@
+//! What can be wrong with developed bodies, as data, and how it is worded.
+
+use std::error::Error;
+use std::fmt;
+
+/// The reason why a network has no valid body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undeveloped {
+    /// Too few actuators to walk with.
+    FewActuators {
+        /// Actuators found.
+        found: usize,
+        /// The fewest that a body needs.
+        least: usize,
+    },
+    /// Voxels that are not all connected by their sides.
+    Apart,
+}
+
+impl fmt::Display for Undeveloped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FewActuators { found, least } => {
+                write!(f, "the body has {found} actuators, expected at least {least}")
+            }
+            Self::Apart => f.write_str("the body is not in one piece"),
+        }
+    }
+}
+
+impl Error for Undeveloped {}
