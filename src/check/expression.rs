@@ -6,7 +6,7 @@ use std::num::IntErrorKind;
 use crate::check::circuit::{CircuitChecker, Header};
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::check::wording::{CircuitError, NameError};
+use crate::check::wording::{CircuitError, NameError, OperandError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
 use crate::source::Span;
@@ -57,7 +57,7 @@ impl<'a> CircuitChecker<'a> {
             return None;
         }
         let nets = targets.iter().map(|target| target.name.text.clone()).collect();
-        Some(CircuitError::OneValue { nets }.at(span))
+        Some(OperandError::OneValue { nets }.at(span))
     }
 
     fn kind(
@@ -164,8 +164,8 @@ impl<'a> CircuitChecker<'a> {
         };
         if !fits {
             let error = match operator {
-                Operator::Xnor if count > 2 => CircuitError::WideXnor { found: count },
-                _ => CircuitError::OperatorOperands { operator: operator.word(), found: count, expected },
+                Operator::Xnor if count > 2 => OperandError::WideXnor { found: count },
+                _ => OperandError::OperatorOperands { operator: operator.word(), found: count, expected },
             };
             self.diagnostics.push(error.at(span));
         }
@@ -201,9 +201,9 @@ impl<'a> CircuitChecker<'a> {
     fn call_counts(&mut self, name: &tree::NameSyntax, header: &Header, [operands, outputs]: [usize; 2], span: Span) {
         let (circuit, signature) = (name.text.clone(), header.signature());
         let error = if operands != header.inputs.len() {
-            CircuitError::CallOperands { circuit, expected: header.inputs.len(), found: operands, signature }
+            OperandError::CallOperands { circuit, expected: header.inputs.len(), found: operands, signature }
         } else if outputs != header.outputs.len() {
-            CircuitError::CallOutputs { circuit, expected: header.outputs.len(), found: outputs, signature }
+            OperandError::CallOutputs { circuit, expected: header.outputs.len(), found: outputs, signature }
         } else {
             return;
         };
@@ -245,7 +245,7 @@ pub(crate) fn parameter_place(
         None if place < parameters.len() => Ok(place),
         None => {
             let (circuit, parameters) = (circuit.text.clone(), parameters.len());
-            Err(CircuitError::TooManyParameters { circuit, parameters }.at(argument.span))
+            Err(OperandError::TooManyParameters { circuit, parameters }.at(argument.span))
         }
     }
 }

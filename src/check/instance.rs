@@ -3,7 +3,7 @@
 use crate::check::circuit::Headers;
 use crate::check::expression::parameter_place;
 use crate::check::names::{Home, NameTable};
-use crate::check::wording::{CircuitError, NameError, ValueError};
+use crate::check::wording::{NameError, OperandError, ValueError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{Instance, Program};
 use crate::source::{FileId, Sources};
@@ -50,7 +50,7 @@ fn with_numbers(source: &tree::InstanceSyntax, circuit: &str, parameters: &[Stri
         None => {
             let missing = values.iter().position(Option::is_none).unwrap_or_default();
             let parameter = parameters[missing].clone();
-            let error = CircuitError::MissingParameter { circuit: source.name.text.clone(), parameter };
+            let error = OperandError::MissingParameter { circuit: source.name.text.clone(), parameter };
             Err(error.at(source.name.span))
         }
     }

@@ -356,7 +356,7 @@ impl<'a> Assembly<'a> {
             }
         };
         if let Stimulation::All { .. } = stimulation {
-            self.all_inputs(&inputs, source.circuit.name.span);
+            self.all_inputs(&inputs, source.circuit.name.span)?;
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.place(span);
@@ -414,11 +414,14 @@ impl<'a> Assembly<'a> {
         (sound && called).then_some(checked.circuit)
     }
 
-    fn all_inputs(&mut self, inputs: &[Column], span: Span) {
+    /// Rejects a test over all inputs that would have too many rows.
+    fn all_inputs(&mut self, inputs: &[Column], span: Span) -> Option<()> {
         let bits: usize = inputs.iter().map(|column| column.width).sum();
         if bits > MAX_TRIED_BITS {
             self.faults.push(CircuitError::TooManyInputs { bits, most: MAX_TRIED_BITS }.at(span));
+            return None;
         }
+        Some(())
     }
 }
 

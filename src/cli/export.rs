@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
-use crate::cli::wording::UsageError;
+use crate::cli::wording::{SubjectError, UsageError};
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use crate::model::Library;
 use crate::report::{Document, Elites, Schema, robots_csv};
@@ -82,7 +82,7 @@ impl ExportArguments {
             (Target::Json, None) => context.print_json(schema, content),
             (Target::Json, Some(path)) => {
                 let text = serde_json::to_string(&Document::new(schema, content));
-                write(path, text.expect("what is exported has nothing that JSON cannot say") + "\n")
+                write(path, text.expect("an export can be written as JSON") + "\n")
             }
         }
     }
@@ -91,7 +91,7 @@ impl ExportArguments {
         let found =
             if self.what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(&self.what))? };
         if found.robots.is_empty() {
-            return Err(UsageError::NothingToExport { path: self.what.clone() }.into());
+            return Err(SubjectError::NothingToExport { path: self.what.clone() }.into());
         }
         Ok(found)
     }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
-use crate::cli::wording::UsageError;
+use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use crate::diag::Diagnostic;
 use crate::model::{CircuitTest, Robot, Simulation};
@@ -114,7 +114,7 @@ impl RunArguments {
         Ok(status)
     }
 
-    /// The tests and simulations that are asked for.
+    /// The requested tests and simulations.
     fn chosen<'f>(&'f self, file: &'f Checked) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
         let only = self.only.as_deref();
         let (tests, simulations): (Vec<_>, Vec<_>) = match only {
@@ -167,9 +167,9 @@ impl RunArguments {
     }
 }
 
-fn nothing_to_run(file: &Checked, only: Option<&str>) -> UsageError {
+fn nothing_to_run(file: &Checked, only: Option<&str>) -> SubjectError {
     let Some(name) = only else {
-        return UsageError::NothingToRun { file: file.path.clone() };
+        return SubjectError::NothingToRun { file: file.path.clone() };
     };
     let program = &file.program;
     let mut names: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
@@ -177,7 +177,7 @@ fn nothing_to_run(file: &Checked, only: Option<&str>) -> UsageError {
     names.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
     names.sort();
     names.dedup();
-    UsageError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known: names }
+    SubjectError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known: names }
 }
 
 /// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen.

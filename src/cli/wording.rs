@@ -1,10 +1,11 @@
 //! What can be wrong with a command line, as data, and how it is worded.
 
+use crate::diag::suggest::alternatives;
 use crate::diag::{Code, Diagnostic, Severity, Suggestion, counted};
 use crate::model::Behavior;
 use crate::source::Span;
 
-/// A command that cannot be carried out as it was given; `path`, `file` and `folder` are as the user wrote them.
+/// A command line that is invalid, or output that cannot be written; `path` is as the user wrote it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::cli) enum UsageError {
     /// Standard output that cannot be written.
@@ -13,37 +14,19 @@ pub(in crate::cli) enum UsageError {
     Unreadable { path: String, reason: String },
     /// Two options that ask for different formats.
     TwoFormats { option: &'static str },
-    /// JSON of a script.
+    /// A completion script as JSON.
     CompletionsJson,
-    /// A name that ends as no circuit file's does.
+    /// A file name without the extension of a circuit format.
     CircuitFormat { path: String },
-    /// A code that no message has.
+    /// An unknown code.
     UnknownCode { word: String, meant: Suggestion },
-    /// A function that has no name.
+    /// An unknown function.
     UnknownFunction { name: String, known: Vec<&'static str> },
     /// A robot that the library does not have.
     UnknownRobot { name: String },
     /// A number of threads that is not a number.
     Threads { variable: &'static str, found: String },
-    /// A path without a run and without robots.
-    NothingToExport { path: String },
-    /// A file without tests.
-    NoTest { file: String },
-    /// A file without tests and simulations.
-    NothingToRun { file: String },
-    /// A test or simulation that the file does not have.
-    UnknownRun { file: String, name: String, known: Vec<String> },
-    /// A file without evolutions.
-    NoEvolution { file: String },
-    /// An evolution that the file does not have.
-    UnknownEvolution { name: String, known: Vec<String> },
-    /// A folder that another process writes.
-    Held { folder: String, process: Option<u32> },
-    /// A folder with a run in it.
-    HasRun { folder: String },
-    /// A folder without a checkpoint.
-    NoCheckpoint { path: String },
-    /// A ground wider than the physics takes.
+    /// A ground that is too wide.
     WideWorld { width: usize, most: usize },
     /// A ground narrower than the body.
     NarrowWorld { width: usize, columns: usize },
@@ -98,59 +81,78 @@ impl From<UsageError> for Diagnostic {
                 counted(columns, "column"),
                 counted(width, "voxel")
             )),
-            other => other.of_files(),
         }
     }
 }
 
-impl UsageError {
-    /// Errors of what files and folders contain.
-    fn of_files(self) -> Diagnostic {
-        let fault = Diagnostic::without_place;
-        match self {
-            Self::NothingToExport { path } => fault(Code::Empty, format!("`{path}` contains neither a run nor robots"))
-                .with_help("name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`"),
-            Self::NoTest { file } => fault(Code::Empty, format!("`{file}` declares no test"))
+/// A file or folder that a command cannot use; `path`, `file` and `folder` are as the user wrote them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::cli) enum SubjectError {
+    /// A path without a run and without robots.
+    NothingToExport { path: String },
+    /// A file without tests.
+    NoTest { file: String },
+    /// A file without tests and simulations.
+    NothingToRun { file: String },
+    /// A test or simulation that the file does not have.
+    UnknownRun { file: String, name: String, known: Vec<String> },
+    /// A file without evolutions.
+    NoEvolution { file: String },
+    /// An evolution that the file does not have.
+    UnknownEvolution { name: String, known: Vec<String> },
+    /// A folder that another process writes.
+    Held { folder: String, process: Option<u32> },
+    /// A folder with a run in it.
+    HasRun { folder: String },
+    /// A folder without a checkpoint.
+    NoCheckpoint { path: String },
+}
+
+impl From<SubjectError> for Diagnostic {
+    fn from(error: SubjectError) -> Self {
+        let fault = Self::without_place;
+        match error {
+            SubjectError::NothingToExport { path } => {
+                fault(Code::Empty, format!("`{path}` contains neither a run nor robots"))
+                    .with_help("name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`")
+            }
+            SubjectError::NoTest { file } => fault(Code::Empty, format!("`{file}` declares no test"))
                 .with_help("declare one: `test my_circuit { a b | q` and a row for each input pattern"),
-            Self::NothingToRun { file } => {
+            SubjectError::NothingToRun { file } => {
                 let message = format!("`{file}` declares no test and no simulation, so there is nothing to run");
                 let help = "declare a test: `test my_circuit { a b | q` and a row for each input pattern; \
                             `nbc check` only checks";
                 fault(Code::Empty, message).with_help(help)
             }
-            Self::UnknownRun { file, name, known } => {
+            SubjectError::UnknownRun { file, name, known } => {
                 let message = format!("no test and no simulation of `{file}` is called `{name}`");
-                fault(Code::Unknown, message).with_help(format!("there are {}", quoted(&known)))
+                fault(Code::Unknown, message).with_help(format!("there are {}", alternatives(&known, "and")))
             }
-            Self::NoEvolution { file } => fault(Code::Unknown, format!("`{file}` declares no evolution"))
+            SubjectError::NoEvolution { file } => fault(Code::Unknown, format!("`{file}` declares no evolution"))
                 .with_help("without a file, the prelude's `gates` is run"),
-            Self::UnknownEvolution { name, known } => fault(Code::Unknown, format!("no evolution is called `{name}`"))
-                .with_help(format!("there are {}", quoted(&known))),
-            Self::Held { folder, process } => {
+            SubjectError::UnknownEvolution { name, known } => {
+                fault(Code::Unknown, format!("no evolution is called `{name}`"))
+                    .with_help(format!("there are {}", alternatives(&known, "and")))
+            }
+            SubjectError::Held { folder, process } => {
                 let who = process.map_or_else(|| "another process".to_owned(), |process| format!("process {process}"));
                 fault(Code::Unwritable, format!("`{folder}` is in use by {who}"))
                     .with_help("wait until it has ended, or choose another folder with `--out`")
             }
-            Self::HasRun { folder } => fault(Code::Checkpoint, format!("`{folder}` already contains a run"))
+            SubjectError::HasRun { folder } => fault(Code::Checkpoint, format!("`{folder}` already contains a run"))
                 .with_help("continue it with `--resume`, or choose another folder with `--out`"),
-            Self::NoCheckpoint { path } => fault(Code::Checkpoint, format!("there is no checkpoint `{path}`"))
+            SubjectError::NoCheckpoint { path } => fault(Code::Checkpoint, format!("there is no checkpoint `{path}`"))
                 .with_help("name the folder of a run, such as `out/gates/seed-1`"),
-            _ => unreachable!("the others have their words already"),
         }
     }
 }
 
-/// Names in backticks, with commas.
-fn quoted(names: &[String]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-/// A run of which something is not as it ought to be, and which goes on.
+/// A problem of a run that does not stop it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::cli) enum RunWarning {
     /// A file of progress without lines of past generations, when curves are drawn.
     GapsInCurves { path: String, damage: String },
-    /// The same when the run is resumed; `aside` is where the file is kept.
+    /// The same when the run is resumed; `aside` is the path of the damaged file.
     GapsInRun { path: String, damage: String, aside: Option<String> },
     /// A robot that left its ground at that env step.
     GroundEnds { step: usize, width: usize },
@@ -181,17 +183,17 @@ impl From<RunWarning> for Diagnostic {
 pub(in crate::cli) enum ScheduleError {
     /// No entries.
     Empty,
-    /// More env steps in all than are simulated.
+    /// Too many env steps in all.
     TooLong { steps: u64, most: u64 },
     /// An entry without `*`.
     NoDuration { entry: String },
-    /// Another pattern than those of two stimuli.
+    /// A pattern that is not one of two stimuli.
     Pattern { found: String },
-    /// Something else than a number with its unit.
+    /// A duration that is not a number of cycles or env steps.
     NotADuration { found: String },
     /// A duration of zero.
     NoTime { found: String },
-    /// One entry longer than a schedule.
+    /// An entry that is too long.
     LongEntry { found: String, most: u64 },
 }
 
@@ -226,36 +228,34 @@ impl ScheduleError {
     }
 }
 
-/// A picture that cannot be drawn as asked for; `what` is what the user named.
+/// A picture that cannot be drawn as requested; `what` is the subject as the user named it.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::cli) enum DrawError {
-    /// A file name that does not end as the pictures of that kind do.
+    /// A file name without an extension of that kind of picture.
     Extension { path: String, expected: Vec<String>, kind: String },
     /// A kind of picture that the subject does not have.
     Kind { what: String, given: &'static str, expected: &'static str, kind: String },
-    /// An option that would change nothing.
+    /// An option that would have no effect.
     Option { what: String, option: &'static str, kind: String, applies_to: &'static str },
     /// A moment after the end of the schedule.
     AfterEnd { at: f64, end: f64 },
-    /// A behavior that no robot has.
+    /// A behavior without a robot.
     UnknownBehavior { what: String, behavior: Behavior },
     /// A file or circuit without tests and simulations.
     NoRun { what: String },
-    /// A circuit with several swarms.
-    SeveralSwarms { circuit: String, swarms: Vec<String> },
     /// A test that the file does not have.
     UnknownTest { file: String, name: String },
-    /// A net that no robot drives.
+    /// A net that is not driven by a robot.
     UnknownNet { net: String, known: Vec<String> },
     /// A folder without a run.
     NoRunInFolder { folder: String },
     /// A checkpoint of an old version, without its axes.
     NoAxes { path: String },
-    /// A checkpoint of another declaration than those before it.
+    /// A checkpoint of a different declaration than those before it.
     OtherDeclaration { path: String },
     /// A second checkpoint of a seed.
     SameSeed { path: String, seed: u64 },
-    /// More or fewer axes than two.
+    /// A number of axes other than two.
     AxisCount { found: usize, axes: Vec<String> },
     /// An axis that the archive does not have.
     UnknownAxis { name: String, axes: Vec<String> },
@@ -267,6 +267,7 @@ impl From<DrawError> for Diagnostic {
     fn from(error: DrawError) -> Self {
         let bad = |message: String| Self::without_place(Code::BadValue, message);
         let unknown = |message: String| Self::without_place(Code::Unknown, message);
+        let run = |message: String, help: &str| Self::without_place(Code::Checkpoint, message).with_help(help);
         match error {
             DrawError::Extension { path, expected, kind } => bad(format!(
                 "unrecognized picture format of `{path}`; expected a name that ends in {} for `--as {kind}`",
@@ -289,15 +290,9 @@ impl From<DrawError> for Diagnostic {
                 let message = format!("`{what}` has no test and no simulation, so there is no run to draw");
                 Self::without_place(Code::Empty, message).with_help("`--as schematic` and `--as dot` need none")
             }
-            DrawError::SeveralSwarms { circuit, swarms } => {
-                let options: Vec<_> = swarms.iter().map(|swarm| format!("`--swarm {swarm}`")).collect();
-                bad(format!("several swarms are declared for `{circuit}`"))
-                    .with_help(format!("choose one: {}", options.join(" or ")))
-            }
             DrawError::UnknownTest { file, name } => unknown(format!("no test of `{file}` is called `{name}`")),
-            DrawError::UnknownNet { net, known } => {
-                unknown(format!("no robot drives `{net}`")).with_help(format!("the robots drive {}", quoted(&known)))
-            }
+            DrawError::UnknownNet { net, known } => unknown(format!("no robot drives `{net}`"))
+                .with_help(format!("the robots drive {}", alternatives(&known, "and"))),
             DrawError::AxisCount { found, axes } => {
                 with_axes(bad(format!("{found} axes were given, expected two such as `voxels,active`")), &axes)
             }
@@ -307,35 +302,24 @@ impl From<DrawError> for Diagnostic {
             DrawError::SameAxis { name, axes } => {
                 with_axes(bad(format!("both axes are `{name}`, expected two different ones")), &axes)
             }
-            checkpoint => checkpoint.of_checkpoint(),
+            DrawError::NoRunInFolder { folder } => {
+                run(format!("`{folder}` contains no run"), "name the folder of a run, such as `out/gates`")
+            }
+            DrawError::NoAxes { path } => {
+                run(format!("`{path}` does not say the axes of its archive"), "`nbc evolve --resume` writes them")
+            }
+            DrawError::OtherDeclaration { path } => run(
+                format!("`{path}` was made by a different declaration than the runs beside it"),
+                "draw the folder of one seed",
+            ),
+            DrawError::SameSeed { path, seed } => run(
+                format!("`{path}` has seed {seed}, like another run in the folder"),
+                "each run counts once; move the copy out of the folder",
+            ),
         }
     }
 }
 
 fn with_axes(error: Diagnostic, axes: &[String]) -> Diagnostic {
-    error.with_help(format!("the archive has the axes {}", quoted(axes)))
-}
-
-impl DrawError {
-    /// Errors of the checkpoints in a folder.
-    fn of_checkpoint(self) -> Diagnostic {
-        let (message, help) = match self {
-            Self::NoRunInFolder { folder } => {
-                (format!("`{folder}` contains no run"), "name the folder of a run, such as `out/gates`")
-            }
-            Self::NoAxes { path } => {
-                (format!("`{path}` does not say the axes of its archive"), "`nbc evolve --resume` writes them")
-            }
-            Self::OtherDeclaration { path } => (
-                format!("`{path}` was made by a different declaration than the runs beside it"),
-                "draw the folder of one seed",
-            ),
-            Self::SameSeed { path, seed } => (
-                format!("`{path}` is of seed {seed}, as is another run in the folder"),
-                "each run counts once; move the copy out of the folder",
-            ),
-            _ => unreachable!("the others have their words already"),
-        };
-        Diagnostic::without_place(Code::Checkpoint, message).with_help(help)
-    }
+    error.with_help(format!("the archive has the axes {}", alternatives(axes, "and")))
 }

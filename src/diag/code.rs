@@ -54,7 +54,7 @@ codes! {
     Empty = "empty", Error: "A file, test or schedule without content.";
     ForeignFormat = "foreign-format", Error: "A file of another version of the program.";
     GroundEnds = "ground-ends", Warning: "A robot that walks off the end of its ground.";
-    HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the slowest path needs.";
+    HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the robots need to settle.";
     IncompleteLibrary = "incomplete-library", Error: "A cell library with too few functions.";
     LoopWithoutStart = "loop-without-start", Warning: "A feedback loop without a start value.";
     MissingField = "missing-field", Error: "A declaration without a required field.";
@@ -69,7 +69,7 @@ codes! {
     TableIncomplete = "table-incomplete", Error: "A truth table without a row for some pattern.";
     TableOverlap = "table-overlap", Error: "A truth table with two rows for one pattern.";
     TooLarge = "too-large", Error: "A circuit, a table or a program above a limit.";
-    Undriven = "undriven", Error: "A net that nothing drives.";
+    Undriven = "undriven", Error: "A net without a driver.";
     Unit = "unit", Error: "A quantity with a wrong unit, or without a unit.";
     Unknown = "unknown", Error: "A name that is not declared.";
     UnknownField = "unknown-field", Error: "A field that the declaration does not have.";

@@ -76,8 +76,22 @@ impl Checked {
 }
 
 /// The swarms that are declared for a circuit, in order.
-pub fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p Swarm> {
+pub(super) fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p Swarm> {
     program.swarms.iter().filter(|swarm| is_same_instance(program, &swarm.circuit, circuit)).collect()
+}
+
+/// Checks that at most one swarm is declared for a circuit, unless `chosen` names one.
+///
+/// # Errors
+/// When there are several to choose from.
+pub fn check_swarm_is_clear(program: &Program, circuit: &Instance, chosen: Option<&str>) -> Result<(), Diagnostic> {
+    match (chosen, &swarms_of(program, circuit)[..]) {
+        (None, [first, second, ..]) => {
+            let swarms = [first.name.clone(), second.name.clone()];
+            Err(ChoiceError::SeveralSwarms { circuit: circuit.to_string(), swarms }.into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The declared swarm of that name.

@@ -5,7 +5,7 @@ use crate::circuit::{CellLibrary, MapOptions, Netlist, Proof, Timing, elaborate,
 use crate::diag::Diagnostic;
 use crate::model::{Instance, Program};
 use crate::session::plan::Plan;
-use crate::session::wording::{ChoiceError, RunError, for_circuit};
+use crate::session::wording::{ChoiceError, SwarmWarning, for_circuit};
 use crate::source::Span;
 use crate::swarm::{self, Assembly, WeakRobot};
 
@@ -88,5 +88,5 @@ pub(super) fn compile(
 }
 
 fn warn_of(weak: &WeakRobot, plan: &Plan, place: Span) -> Diagnostic {
-    RunError::Weak { circuit: plan.circuit.to_string(), robot: weak.clone() }.at(place)
+    SwarmWarning::Weak { circuit: plan.circuit.to_string(), robot: weak.clone() }.at(place)
 }

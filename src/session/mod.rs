@@ -20,7 +20,7 @@ mod wording;
 use std::sync::{Arc, OnceLock};
 
 pub use checked::{Checked, prelude};
-pub use choice::{Choice, swarms_of};
+pub use choice::{Choice, check_swarm_is_clear};
 pub use compile::{Compiled, Mapping, synthesize};
 pub use formatted::Formatted;
 pub use observer::Observer;
@@ -50,7 +50,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// The cycles for which [`Session::swarm`] has ground, even for a robot that walks its own width in each.
+    /// The cycles for which a swarm has ground, even if a robot walks its own width in each.
     pub const LIVE_CYCLES: usize = 1000;
 
     /// A session over the sources of a world.
@@ -81,16 +81,16 @@ impl Session {
         self.documents.close(path);
     }
 
-    /// The source at `path`, parsed and checked; the same value until something that it was made of changes. A file
+    /// The source at `path`, parsed and checked; the same value until one of its files changes. A file
     /// that cannot be read has a diagnostic that says so.
     pub fn checked(&mut self, path: &str) -> Arc<Checked> {
         self.documents.checked(path)
     }
 
     /// The source at `path`, without errors.
-    /// The built-in robots.
+    ///
     /// # Errors
-    /// Its diagnostics, where one of them is an error.
+    /// All its diagnostics, if one of them is an error.
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
         let checked = self.checked(path);
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
@@ -159,7 +159,7 @@ impl Session {
     /// logic.
     ///
     /// # Errors
-    /// When the circuit cannot be built or compiled, robots cannot be read, or there are too many rows.
+    /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
     pub fn cases<'a>(
         &self,
         checked: &Checked,

@@ -3,7 +3,7 @@
 use crate::check::DEFAULT_LIBRARY;
 use crate::diag::Diagnostic;
 use crate::model::{Hold, Instance, Library, Program, Swarm};
-use crate::session::choice::{declared_swarm, swarms_of};
+use crate::session::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
 use crate::session::options::CompileOptions;
 use crate::session::robots::Supply;
 use crate::session::wording::ChoiceError;
@@ -11,7 +11,6 @@ use crate::session::wording::ChoiceError;
 /// A circuit with everything that its swarm declares.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The circuit.
     pub circuit: Instance,
     /// The declared swarm; `None` if the source declares none for the circuit.
     pub swarm: Option<String>,
@@ -55,10 +54,7 @@ pub(super) fn plan(
     circuit: &Instance,
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    if let (None, [first, second, ..]) = (&options.swarm, &swarms_of(program, circuit)[..]) {
-        let (circuit, swarms) = (circuit.to_string(), [first.name.clone(), second.name.clone()]);
-        return Err(vec![ChoiceError::SeveralSwarms { circuit, swarms }.into()]);
-    }
+    check_swarm_is_clear(program, circuit, options.swarm.as_deref()).map_err(|fault| vec![fault])?;
     Ok(plans(supply, program, circuit, options)?.remove(0))
 }
 

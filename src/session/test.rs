@@ -9,14 +9,12 @@ use crate::session::options::CompileOptions;
 use crate::session::plan::plans;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
-use crate::session::wording::RunError;
-use crate::swarm::{self, Demand, Level, START_CYCLES, Settling, TestVerdict};
+use crate::session::wording::SwarmWarning;
+use crate::swarm::{self, Demand, Level, START_CYCLES, STEADY_CYCLES, Settling, TestVerdict};
 
-/// The most input bits of a test that tries all patterns.
-const MAX_EXHAUSTIVE_BITS: usize = 16;
-
-/// The cycles added to the delay of the slowest path, so that outputs have been correct over two cycles.
-const STEADY_EXTRA: usize = 1;
+/// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
+/// [`STEADY_CYCLES`].
+const STEADY_EXTRA: usize = STEADY_CYCLES - 1;
 
 /// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
@@ -65,7 +63,7 @@ enum Subject {
 /// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
 ///
 /// # Errors
-/// When the circuit cannot be built or compiled, robots cannot be read, or there are too many rows.
+/// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
 pub(super) fn cases<'a>(
     supply: Supply<'_>,
     program: &Program,
@@ -167,20 +165,17 @@ fn verdict(test: &CircuitTest, level: Level, compiled: Option<&Compiled>, rows: 
     }
 }
 
-/// The rows of a test. For a test over all inputs they are computed from its reference.
+/// The rows of a test. For a test over all inputs, of which the checker allows few, they are computed from its
+/// reference.
 ///
 /// # Errors
-/// When there are too many inputs for all patterns, or the reference cannot be built.
+/// When the reference cannot be built.
 fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let reference = match &test.stimulation {
         Stimulation::Rows(rows) => return Ok(rows.clone()),
         Stimulation::All { reference } => reference,
     };
     let bits: usize = test.inputs.iter().map(|port| port.width).sum();
-    if bits > MAX_EXHAUSTIVE_BITS {
-        let error = RunError::TooManyInputs { bits, most: MAX_EXHAUSTIVE_BITS };
-        return Err(vec![error.at(test.span)]);
-    }
     let mut logic = Logic::new(&elaborate_reference(program, reference)?);
     let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(|port| Base::of_width(port.width)).collect();
     let row = |pattern: usize| {
@@ -214,7 +209,7 @@ fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
     rows.iter().enumerate().map(demand).collect()
 }
 
-/// Warns of a row that is held for fewer cycles than its robots need; names the slowest path.
+/// Warns of a row that ends before its robots have settled; names the slowest path of static timing.
 fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Option<Diagnostic> {
     let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
     let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
@@ -222,5 +217,5 @@ fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled
     let (row, demand) = rows.iter().zip(demands).find(is_short)?;
     let needed = demand.needed - STEADY_EXTRA;
     let place = if row.hold.is_some() { row.span } else { test.span };
-    Some(RunError::ShortHold { hold: demand.hold, needed, path }.at(place))
+    Some(SwarmWarning::ShortHold { hold: demand.hold, needed, path }.at(place))
 }

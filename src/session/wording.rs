@@ -5,16 +5,16 @@ use crate::diag::{Code, Diagnostic, Suggestion, counted};
 use crate::source::Span;
 use crate::swarm::WeakRobot;
 
-/// A choice of circuit, swarm or library that cannot be met; none has a place.
+/// An invalid choice of a circuit, swarm or library. These errors have no place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ChoiceError {
     /// A source without circuits of its own.
     NoCircuit,
-    /// A swarm that nothing declares.
+    /// An undeclared swarm.
     UnknownSwarm { name: String, meant: Suggestion },
-    /// A circuit with several swarms, of which none was chosen.
+    /// A circuit with several swarms, without a choice of one.
     SeveralSwarms { circuit: String, swarms: [String; 2] },
-    /// A swarm of another circuit.
+    /// A swarm that is declared for another circuit.
     OtherCircuit { swarm: String, own: String, circuit: String },
     /// A circuit that cannot be made of the library's cells.
     Unmapped(MapError),
@@ -32,9 +32,10 @@ impl From<ChoiceError> for Diagnostic {
                 Self::without_place(Code::BadValue, format!("several swarms are declared for `{circuit}`"))
                     .with_help(format!("choose one, for example `--swarm {first}` or `--swarm {second}`"))
             }
-            ChoiceError::OtherCircuit { swarm, own, circuit } => {
-                Self::without_place(Code::BadValue, format!("the swarm `{swarm}` is of `{own}`, not of `{circuit}`"))
-            }
+            ChoiceError::OtherCircuit { swarm, own, circuit } => Self::without_place(
+                Code::BadValue,
+                format!("the swarm `{swarm}` is declared for `{own}`, not for `{circuit}`"),
+            ),
             ChoiceError::Unmapped(error) => {
                 let code = match error {
                     MapError::Netlist(_) => Code::CircuitFile,
@@ -59,25 +60,19 @@ pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>
     command.into_iter().fold(error, Diagnostic::with_help)
 }
 
-/// What is noticed at a test or its circuit.
+/// A swarm that may give wrong results.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum RunError {
-    /// More input bits than all patterns are tried of.
-    TooManyInputs { bits: usize, most: usize },
+pub(super) enum SwarmWarning {
     /// A robot of the swarm that makes errors or hardly moves.
     Weak { circuit: String, robot: WeakRobot },
-    /// A row that is held for less time than the slowest path needs.
+    /// A row that ends before every robot has settled; `path` is the slowest one by static timing.
     ShortHold { hold: usize, needed: usize, path: Vec<String> },
 }
 
-impl RunError {
-    /// The error or warning at the test, its row or its circuit.
+impl SwarmWarning {
+    /// The warning at the test, its row or its circuit.
     pub(super) fn at(self, span: Span) -> Diagnostic {
         match self {
-            Self::TooManyInputs { bits, most } => {
-                let message = format!("too many patterns to test: {bits} input bits");
-                Diagnostic::new(Code::BadValue, message, span, format!("expected at most {most} bits"))
-            }
             Self::Weak { circuit, robot } => {
                 let message = format!("`{circuit}` uses the robot `{}`, {}", robot.robot, robot.complaint());
                 let help = format!(
@@ -88,8 +83,10 @@ impl RunError {
             }
             Self::ShortHold { hold, needed, path } => {
                 let message = format!("a hold of {} is too short, expected at least {needed}", counted(hold, "cycle"));
-                Diagnostic::new(Code::HoldTooShort, message, span, "held here")
-                    .with_help(format!("the slowest path is {}; `hold: auto` waits for it", path.join(" -> ")))
+                let path = path.join(" -> ");
+                Diagnostic::new(Code::HoldTooShort, message, span, "held here").with_help(format!(
+                    "`hold: auto` holds each row until every robot has settled; the slowest path is {path}"
+                ))
             }
         }
     }

@@ -1,46 +1,32 @@
-//! Circuits: their nets, operands and tables, and what tests and swarms make of them.
+//! Circuits: their nets, operands and tables, and their tests and swarms.
 
 use crate::diag::{Code, Diagnostic, counted, suggest};
 use crate::source::Span;
 
-/// A circuit, or a use of one, that makes no sense.
+/// An invalid circuit, or an invalid use of one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum CircuitError {
     /// An input with a driver inside.
     DrivenInput { net: String, declared: Span },
-    /// A net of which bits are driven and no width is declared.
+    /// A net without a declared width, some of whose bits are driven.
     UnknownWidth { net: String },
     /// A constant of several bits without its width; it needs at least `bits`.
     ConstantWithoutWidth { digits: String, bits: u32 },
-    /// A constant of more bits than are read.
+    /// A constant of too many bits.
     ConstantTooLarge,
-    /// Digits that their base does not have.
+    /// Digits that are not of their base.
     WrongDigits { digits: String, radix: u32 },
-    /// A net or output that nothing drives.
+    /// A net or output without a driver.
     Undriven { what: &'static str, net: String },
-    /// A net or input that nothing uses.
+    /// A net or input that is not used.
     Unused { what: &'static str, net: String },
-    /// A library that no swarm uses.
+    /// A library that is not used by a swarm.
     UnusedLibrary { library: String },
-    /// One value for several nets.
-    OneValue { nets: Vec<String> },
-    /// An operator with too many or too few operands.
-    OperatorOperands { operator: &'static str, found: usize, expected: &'static str },
-    /// `xnor` of more than two operands.
-    WideXnor { found: usize },
-    /// A circuit with too many or too few operands.
-    CallOperands { circuit: String, expected: usize, found: usize, signature: String },
-    /// A circuit of which more or fewer outputs are taken than it has.
-    CallOutputs { circuit: String, expected: usize, found: usize, signature: String },
-    /// One parameter too many.
-    TooManyParameters { circuit: String, parameters: usize },
-    /// A parameter that is left out before one that is given.
-    MissingParameter { circuit: String, parameter: String },
     /// A circuit that contains itself, through others.
     Recursion { circuit: String, through: Vec<String> },
-    /// Circuits that ought to have equal ports; `first` is the other of them.
+    /// A reference whose ports differ from those of the tested circuit, which is named at `first`.
     DifferentPorts { circuits: [String; 2], first: Span },
-    /// More input bits than all patterns are tried of.
+    /// A test over all inputs with too many input bits.
     TooManyInputs { bits: usize, most: usize },
 }
 
@@ -107,12 +93,32 @@ impl CircuitError {
                 Diagnostic::new(Code::Recursion, message, span, "used here, inside itself")
                     .with_help("a swarm has a fixed number of robots; repeat parts with `for i in 0..8 { … }`")
             }
-            counts => counts.count_at(span),
         }
     }
+}
 
-    /// Errors of numbers of operands, outputs and parameters.
-    fn count_at(self, span: Span) -> Diagnostic {
+/// A wrong number of operands, outputs or parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum OperandError {
+    /// One value for several nets.
+    OneValue { nets: Vec<String> },
+    /// An operator with too many or too few operands.
+    OperatorOperands { operator: &'static str, found: usize, expected: &'static str },
+    /// `xnor` of more than two operands.
+    WideXnor { found: usize },
+    /// A call with too many or too few operands.
+    CallOperands { circuit: String, expected: usize, found: usize, signature: String },
+    /// A call with more or fewer targets than the circuit has outputs.
+    CallOutputs { circuit: String, expected: usize, found: usize, signature: String },
+    /// One parameter too many.
+    TooManyParameters { circuit: String, parameters: usize },
+    /// A missing parameter before one that is given.
+    MissingParameter { circuit: String, parameter: String },
+}
+
+impl OperandError {
+    /// The error at the expression or the name.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
         let operands = |message: String, label: String| Diagnostic::new(Code::Operands, message, span, label);
         match self {
             Self::OneValue { nets } => {
@@ -147,7 +153,6 @@ impl CircuitError {
                 format!("missing parameter `{parameter}` of `{circuit}`"),
                 "expected every parameter before the last one given".to_owned(),
             ),
-            _ => unreachable!("the others have their words already"),
         }
     }
 }
@@ -157,9 +162,9 @@ impl CircuitError {
 pub(crate) enum TableError {
     /// A pattern with anything but `0`, `1` and `-`.
     NotAPattern { word: String },
-    /// More rows than are compared.
+    /// A table with too many rows.
     TooManyRows { rows: usize, most: usize },
-    /// A pattern of more bits than a table has.
+    /// A pattern of too many bits.
     TooManyBits { bits: usize, most: usize },
     /// Patterns or outputs of different widths.
     Uneven { what: &'static str, bits: [usize; 2], first: Span },

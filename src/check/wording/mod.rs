@@ -1,4 +1,4 @@
-//! What can be wrong with what a program says, as data, and how it is worded: a file for each subject.
+//! What can be wrong with the declarations of a program, as data, and how it is worded: a file for each subject.
 
 mod circuits;
 mod evolutions;
@@ -7,7 +7,7 @@ mod names;
 mod rows;
 mod values;
 
-pub(crate) use circuits::{CircuitError, TableError};
+pub(crate) use circuits::{CircuitError, OperandError, TableError};
 pub(crate) use evolutions::EvolutionError;
 pub(crate) use files::LoadError;
 pub(crate) use names::NameError;

@@ -2,7 +2,7 @@
 
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::module::{Bit, ModuleId, ModuleSignal, NONE, Site};
-use crate::circuit::elaborate::wording::{ElaborateError, OperandText, Wide, WidthError};
+use crate::circuit::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
 use crate::source::Span;
 
@@ -87,7 +87,7 @@ impl ModuleBuilder<'_, '_> {
         let Some(value) = self.size(start, frame) else { return };
         if value < 0 || (width < 63 && value >= 1 << width) {
             let span = self.circuit.sizes[start.0 as usize].span;
-            self.fault(ElaborateError::StartValue { value, width }.at(span));
+            self.fault(RangeError::StartValue { value, width }.at(span));
             return;
         }
         let bit = |at: u32| at < 63 && value >> at & 1 == 1;
@@ -121,7 +121,7 @@ impl ModuleBuilder<'_, '_> {
             ExpressionKind::Computed { width, value } => {
                 let value = self.size(*value, frame)?;
                 let Ok(value) = u128::try_from(value) else {
-                    self.fault(ElaborateError::NegativeConstant { value }.at(span));
+                    self.fault(RangeError::NegativeConstant { value }.at(span));
                     return None;
                 };
                 self.number(*width, value, frame, span)?
@@ -168,7 +168,7 @@ impl ModuleBuilder<'_, '_> {
     fn number(&mut self, width: SizeId, value: u128, frame: u32, span: Span) -> Option<Vec<Bit>> {
         let width = self.width(width, frame)?;
         if width < 128 && value >> width != 0 {
-            self.fault(ElaborateError::ConstantWidth { value, width }.at(span));
+            self.fault(RangeError::ConstantWidth { value, width }.at(span));
             return None;
         }
         Some((0..width).map(|bit| self.constant(bit < 128 && value >> bit & 1 == 1)).collect())
@@ -189,7 +189,7 @@ impl ModuleBuilder<'_, '_> {
         let times = self.size(count, frame)?;
         if times < 0 || times.saturating_mul(value.len() as i64) > super::MAX_WIDTH {
             let span = self.circuit.sizes[count.0 as usize].span;
-            self.fault(ElaborateError::Repetitions { times, most: super::MAX_WIDTH }.at(span));
+            self.fault(RangeError::Repetitions { times, most: super::MAX_WIDTH }.at(span));
             return None;
         }
         Some(value.repeat(times as usize))

@@ -32,7 +32,7 @@ use module::ModuleId;
 /// The netlist of a circuit.
 ///
 /// # Errors
-/// What is wrong with the circuit or with those it is made of: widths, bits, drivers, size.
+/// The errors of the circuit and of those it contains: widths, bits, drivers, size.
 pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);

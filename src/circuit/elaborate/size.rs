@@ -1,6 +1,6 @@
 //! Integers that are known when a circuit is built.
 
-use crate::circuit::elaborate::wording::ElaborateError;
+use crate::circuit::elaborate::wording::RangeError;
 use crate::diag::Diagnostic;
 use crate::model::{Size, SizeId, SizeKind, SizeOperator};
 
@@ -21,7 +21,7 @@ pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i64]) -> Result<i
             }
             kind => Some(leaf(kind, variables)),
         };
-        done.push(value.ok_or_else(|| ElaborateError::Overflow.at(size.span))?);
+        done.push(value.ok_or_else(|| RangeError::Overflow.at(size.span))?);
     }
     Ok(done.pop().expect("a size has a value"))
 }

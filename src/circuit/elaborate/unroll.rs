@@ -5,7 +5,7 @@ use crate::circuit::elaborate::frame::{Item, Scope};
 use crate::circuit::elaborate::limits::{MAX_STATEMENTS, MAX_WIDTH};
 use crate::circuit::elaborate::module::{ModuleNet, NONE};
 use crate::circuit::elaborate::size;
-use crate::circuit::elaborate::wording::ElaborateError;
+use crate::circuit::elaborate::wording::{ElaborateError, RangeError};
 use crate::model::{Block, NetSlot, SizeId, SizeKind, Statement};
 use crate::source::Span;
 
@@ -108,7 +108,7 @@ impl<'a> ModuleBuilder<'a, '_> {
         if (1..=MAX_WIDTH).contains(&value) {
             return Some(value as u32);
         }
-        let error = ElaborateError::NetWidth { width: value, most: MAX_WIDTH };
+        let error = RangeError::NetWidth { width: value, most: MAX_WIDTH };
         self.fault(error.at(self.circuit.sizes[size.0 as usize].span));
         None
     }
@@ -120,12 +120,12 @@ impl<'a> ModuleBuilder<'a, '_> {
         let (span, net) = (ends[0].span.to(ends[1].span), name.to_owned());
         if high < low {
             let is_literal = ends.iter().all(|end| matches!(end.kind, SizeKind::Literal(_)));
-            self.fault(ElaborateError::AscendingSlice { net, ends: [high, low], is_literal }.at(span));
+            self.fault(RangeError::AscendingSlice { net, ends: [high, low], is_literal }.at(span));
             return None;
         }
         if low < 0 || high >= i64::from(width) {
             let bit = if low < 0 { low } else { high };
-            self.fault(ElaborateError::NoSuchBit { net, bit, width }.at(span));
+            self.fault(RangeError::NoSuchBit { net, bit, width }.at(span));
             return None;
         }
         Some((low as u32, (high - low + 1) as u32))

@@ -10,7 +10,7 @@ fn bits(width: impl Into<u64>) -> String {
     counted(width.into() as usize, "bit")
 }
 
-/// A value as advice speaks of it: a net's own name where it is one.
+/// A value in advice, with its name if it is a net.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct OperandText {
     pub(super) width: u32,
@@ -19,7 +19,7 @@ pub(super) struct OperandText {
 }
 
 impl OperandText {
-    /// How it is made as wide as something else, which is wider.
+    /// How to widen it to `to` bits.
     fn widened(&self, to: u32) -> String {
         let net = self.net.as_deref().unwrap_or("…");
         let zeros = format!("`{{{}'d0, {net}}}`", to - self.width);
@@ -29,7 +29,7 @@ impl OperandText {
         }
     }
 
-    /// How it is made as narrow as something else.
+    /// How to narrow it to `to` bits.
     fn narrowed(&self, to: u32) -> String {
         let bits = if to == 1 { "0".to_owned() } else { format!("{}..0", to.saturating_sub(1)) };
         match &self.net {
@@ -39,7 +39,7 @@ impl OperandText {
     }
 }
 
-/// What has a width that is wrong.
+/// A value that can have a wrong width.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Wide {
     /// The value that drives a net at this place.
@@ -60,10 +60,10 @@ impl fmt::Display for Wide {
     }
 }
 
-/// Values that are not as wide as they ought to be; they have their own places.
+/// Values of a wrong width, with their own places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum WidthError {
-    /// A value that is to be of a certain width.
+    /// A value of another width than expected.
     Wrong { what: Wide, expected: u32, found: OperandText },
     /// Operands of an operator.
     Operands { operator: &'static str, first: OperandText, second: OperandText },
@@ -115,30 +115,14 @@ fn unequal(what: &str, first: &OperandText, second: &OperandText) -> Diagnostic 
         .with_help(help)
 }
 
-/// What cannot be built as it is written.
+/// A circuit that cannot be built as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ElaborateError {
-    /// A number that is too large, or divided by zero.
-    Overflow,
-    /// A width that no net has.
-    NetWidth { width: i64, most: i64 },
-    /// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
-    AscendingSlice { net: String, ends: [i64; 2], is_literal: bool },
-    /// A bit that the net does not have.
-    NoSuchBit { net: String, bit: i64, width: u32 },
-    /// A start value of more bits than its net.
-    StartValue { value: i64, width: u32 },
-    /// A computed constant below zero.
-    NegativeConstant { value: i64 },
-    /// A constant of more bits than are written before it.
-    ConstantWidth { value: u128, width: u32 },
-    /// A value repeated less than never, or to more bits than a net has.
-    Repetitions { times: i64, most: i64 },
     /// A pattern of a table that is not as wide as the table's inputs.
     PatternWidth { found: usize, expected: usize },
-    /// A net of which nothing says how wide it is.
+    /// A net of unknown width.
     UnknownWidth { net: String },
-    /// A parameter of which nothing says what it is.
+    /// A parameter of unknown value.
     UnknownParameter { circuit: String, parameter: String },
     /// A second driver; `first` is the first one's place, if it is another.
     DrivenAgain { net: String, first: Option<Span> },
@@ -148,13 +132,13 @@ pub(super) enum ElaborateError {
     DrivenByItself { net: String },
     /// A feedback loop without a start value.
     NoStart { nets: Vec<String> },
-    /// Circuits of circuits of circuits.
+    /// Circuits that are nested too deeply.
     TooDeep { most: usize },
-    /// More nets than are built, at the one that is too many.
+    /// Too many nets, at the first one above the limit.
     TooManyNets,
-    /// More cells or nets than are built.
+    /// Too many cells or nets.
     TooLarge { circuit: String, count: u64, what: &'static str, most: u64 },
-    /// A `for` of more statements than are built.
+    /// A `for` that makes too many statements.
     TooManyTurns { statements: usize, most: usize },
 }
 
@@ -210,12 +194,34 @@ impl ElaborateError {
                 let message = format!("the loop makes {statements} statements");
                 Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
             }
-            number => number.out_of_range(span),
         }
     }
+}
 
-    /// Numbers that are too small or too large.
-    fn out_of_range(self, span: Span) -> Diagnostic {
+/// A number that is too small or too large.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum RangeError {
+    /// A number that is too large, or divided by zero.
+    Overflow,
+    /// A width of a net that is below 1 or above the limit.
+    NetWidth { width: i64, most: i64 },
+    /// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
+    AscendingSlice { net: String, ends: [i64; 2], is_literal: bool },
+    /// A bit that the net does not have.
+    NoSuchBit { net: String, bit: i64, width: u32 },
+    /// A start value that does not fit into its net.
+    StartValue { value: i64, width: u32 },
+    /// A computed constant below zero.
+    NegativeConstant { value: i64 },
+    /// A constant that does not fit into its width.
+    ConstantWidth { value: u128, width: u32 },
+    /// A value repeated a negative number of times, or to more bits than a net has.
+    Repetitions { times: i64, most: i64 },
+}
+
+impl RangeError {
+    /// The error at its place.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
         let outside = |message: String, label: String| Diagnostic::new(Code::OutOfRange, message, span, label);
         match self {
             Self::Overflow => {
@@ -259,20 +265,19 @@ impl ElaborateError {
                 let label = format!("expected 0 or more, and at most {} in all", bits(most as u64));
                 outside(format!("a value cannot be repeated {times} times"), label)
             }
-            _ => unreachable!("the others have their words already"),
         }
     }
 }
 
-/// A circuit that the program does not declare, named by something else than the program.
+/// An unknown circuit that is named outside of the program.
 pub(super) fn unknown_circuit(name: &str, meant: &Suggestion) -> Diagnostic {
     Diagnostic::without_place(Code::Unknown, format!("no circuit is called `{name}`")).with_suggestion(None, meant)
 }
 
-/// Shows an error at the place where its circuit is used; where it is inside that circuit becomes a remark.
+/// Shows an error at the place where its circuit is used; its place inside that circuit becomes a remark.
 pub(super) fn shown_at(error: &mut Diagnostic, place: Span) {
     let inside = std::mem::replace(&mut error.labels, vec![Label { span: place, text: "used here".to_owned() }]);
     error.related.splice(0..0, inside);
-    // The edits are of a file that the user may not own.
+    // The edits would change the file of that circuit, which the user may not own.
     error.fix = None;
 }

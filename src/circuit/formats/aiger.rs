@@ -19,7 +19,7 @@ pub const MOST_PORTS: usize = 1_000_000;
 /// Reads a file; `clock` names the clock of its latches.
 ///
 /// # Errors
-/// What is wrong with it, with the line or byte.
+/// The first error of the file, with its line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
     Reader { bytes, at: 0, lines: 0, place: AigerPlace::Line(1) }.read(clock)
 }

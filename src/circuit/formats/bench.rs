@@ -3,7 +3,7 @@
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
-use crate::circuit::formats::wording::TextError;
+use crate::circuit::formats::wording::{BenchError, TextError};
 use crate::diag::Diagnostic;
 use crate::model::Function;
 use crate::source::{FileId, Span};
@@ -11,7 +11,7 @@ use crate::source::{FileId, Span};
 /// Reads a file; `clock` names the clock of its flip-flops.
 ///
 /// # Errors
-/// What is wrong with the text, with places.
+/// The errors of the text, with their places.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     let mut draft = Draft::default();
     let mut start = 0;
@@ -25,7 +25,7 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
         start += line.len();
     }
     if draft.outputs.is_empty() && draft.errors.is_empty() {
-        draft.fault(TextError::NoOutput, Span::new(file, 0, 0));
+        draft.fault(BenchError::NoOutput, Span::new(file, 0, 0));
     }
     draft.finish()
 }
@@ -36,13 +36,13 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
         None => (None, line),
     };
     let Some((word, arguments)) = call.strip_suffix(')').and_then(|call| call.split_once('(')) else {
-        return draft.fault(TextError::NotAStatement, span);
+        return draft.fault(BenchError::NotAStatement, span);
     };
     if arguments.split(',').any(|pin| pin.trim().is_empty()) || target == Some("") {
-        return draft.fault(TextError::UnnamedNet, span);
+        return draft.fault(BenchError::UnnamedNet, span);
     }
     if target.is_some_and(|target| target.contains(char::is_whitespace)) || pins_have_blanks(arguments) {
-        return draft.fault(TextError::SpaceInName, span);
+        return draft.fault(BenchError::SpaceInName, span);
     }
     if let Some(long) = target.into_iter().chain(arguments.split(',')).find(|name| name.len() > MOST_NAME_BYTES) {
         let start = Span { end: span.start + 20, ..span };
@@ -65,13 +65,13 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
                 draft.define(output, Definition::Gate(function, inverted, pins.to_vec()), span);
             }
             None => {
-                draft.fault(TextError::UnknownGate { gate: word.to_owned(), nets: pins.len() }, span);
+                draft.fault(BenchError::UnknownGate { gate: word.to_owned(), nets: pins.len() }, span);
             }
         },
         (None, "INPUT" | "OUTPUT", pins) => {
-            draft.fault(TextError::PortNets { word, nets: pins.len() }, span);
+            draft.fault(BenchError::PortNets { word, nets: pins.len() }, span);
         }
-        (None, ..) => draft.fault(TextError::Unassigned { word }, span),
+        (None, ..) => draft.fault(BenchError::Unassigned { word }, span),
     }
 }
 

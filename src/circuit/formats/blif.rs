@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
 use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES};
 use crate::circuit::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
-use crate::circuit::formats::wording::TextError;
+use crate::circuit::formats::wording::{BlifError, ModelError, TextError};
 use crate::circuit::{Logic, Loops, NetId, Netlist, Node};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
@@ -14,7 +14,7 @@ use crate::source::{FileId, Span};
 /// Reads the first model of a file and expands the models it instantiates.
 ///
 /// # Errors
-/// What is wrong with the text, with places.
+/// The errors of the text, with their places.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     let mut models = Models { all: Vec::new(), by_name: BTreeMap::new(), errors: Vec::new() };
     models.read(text, file);
@@ -22,7 +22,7 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
         return Err(models.errors);
     }
     if models.all.is_empty() {
-        return Err(vec![TextError::NoModel.at(Span::new(file, 0, 0))]);
+        return Err(vec![BlifError::NoModel.at(Span::new(file, 0, 0))]);
     }
     let mut extents = vec![None; models.all.len()];
     if let Err((error, span)) = models.extent(0, 0, &mut extents) {
@@ -110,7 +110,7 @@ struct Extent {
 
 impl<'t> Models<'t> {
     /// Measures a model at `depth`, each model once, or returns the place at which the limit is exceeded.
-    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (TextError, Span)> {
+    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (ModelError, Span)> {
         // A model that contains itself is reported at the place of the instance.
         known[model] = Some(Extent::default());
         let mut extent = Extent::default();
@@ -130,19 +130,19 @@ impl<'t> Models<'t> {
             extent.statements = extent.statements.saturating_add(nested.statements);
             extent.bytes = extent.bytes.saturating_add(nested.bytes).saturating_add(names);
             if extent.depth > MOST_DEPTH {
-                return Err((TextError::ModelDepth { most: MOST_DEPTH }, *span));
+                return Err((ModelError::ModelDepth { most: MOST_DEPTH }, *span));
             }
             if extent.bytes > MOST_BYTES {
-                return Err((TextError::ModelSize, *span));
+                return Err((ModelError::ModelSize, *span));
             }
         }
         known[model] = Some(extent);
         Ok(extent)
     }
 
-    fn fault(&mut self, error: TextError, span: Span) {
+    fn fault(&mut self, error: impl Into<TextError>, span: Span) {
         if self.errors.len() < MOST_ERRORS {
-            self.errors.push(error.at(span));
+            self.errors.push(error.into().at(span));
         }
     }
 
@@ -158,7 +158,7 @@ impl<'t> Models<'t> {
             }
             if first.starts_with('.') {
                 if first == ".exdc" {
-                    self.fault(TextError::DontCares, span);
+                    self.fault(BlifError::DontCares, span);
                     return;
                 }
                 self.directive(words);
@@ -174,7 +174,7 @@ impl<'t> Models<'t> {
         if first == ".model" {
             let name = rest.first().map_or("", |&(name, _)| name);
             if self.by_name.insert(name, self.all.len()).is_some() {
-                self.fault(TextError::ModelTwice { model: name.to_owned() }, span);
+                self.fault(BlifError::ModelTwice { model: name.to_owned() }, span);
             }
             let model = Model { name, inputs: vec![], outputs: vec![], clocks: vec![], statements: vec![] };
             self.all.push(model);
@@ -184,7 +184,7 @@ impl<'t> Models<'t> {
             return;
         }
         let Some(model) = self.all.last_mut() else {
-            self.fault(TextError::BeforeModel { directive: first.to_owned() }, span);
+            self.fault(BlifError::BeforeModel { directive: first.to_owned() }, span);
             return;
         };
         match first {
@@ -201,13 +201,13 @@ impl<'t> Models<'t> {
             ".latch" => model.statements.push((Statement::Latch(rest), span)),
             ".subckt" if rest.is_empty() => self.incomplete(".subckt", "expected the name of a model", span),
             ".subckt" => model.statements.push((Statement::Subcircuit(rest), span)),
-            ".gate" | ".mlatch" => self.fault(TextError::LibraryCell { directive: first.to_owned() }, span),
-            _ => self.fault(TextError::UnknownDirective { directive: first.to_owned() }, span),
+            ".gate" | ".mlatch" => self.fault(BlifError::LibraryCell { directive: first.to_owned() }, span),
+            _ => self.fault(BlifError::UnknownDirective { directive: first.to_owned() }, span),
         }
     }
 
     fn incomplete(&mut self, directive: &'static str, expected: &'static str, span: Span) {
-        self.fault(TextError::Incomplete { directive, expected }, span);
+        self.fault(BlifError::Incomplete { directive, expected }, span);
     }
 
     /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
@@ -218,7 +218,7 @@ impl<'t> Models<'t> {
         };
         match value {
             "0" | "1" => *start = Some(value == "1"),
-            _ => self.fault(TextError::NetStart { found: value.to_owned() }, span),
+            _ => self.fault(BlifError::NetStart { found: value.to_owned() }, span),
         }
     }
 
@@ -227,24 +227,24 @@ impl<'t> Models<'t> {
         let Some((Statement::Names { signals, cubes, value, .. }, _)) =
             self.all.last_mut().and_then(|model| model.statements.last_mut())
         else {
-            return self.fault(TextError::NotADirective { found: words[0].0.to_owned() }, span);
+            return self.fault(BlifError::NotADirective { found: words[0].0.to_owned() }, span);
         };
         let wanted = signals.len() - 1;
         let (inputs, output) = match words[..] {
             [(output, _)] if wanted == 0 => ("", output),
             [(inputs, _), (output, _)] => (inputs, output),
-            _ => return self.fault(TextError::MalformedRow, span),
+            _ => return self.fault(BlifError::MalformedRow, span),
         };
         if inputs.len() != wanted || !inputs.bytes().all(|digit| b"01-".contains(&digit)) {
-            return self.fault(TextError::RowWidth { expected: wanted, found: inputs.to_owned() }, span);
+            return self.fault(BlifError::RowWidth { expected: wanted, found: inputs.to_owned() }, span);
         }
         let is = match output {
             "1" => true,
             "0" => false,
-            _ => return self.fault(TextError::RowOutput { found: output.to_owned() }, span),
+            _ => return self.fault(BlifError::RowOutput { found: output.to_owned() }, span),
         };
         if !cubes.is_empty() && *value != is {
-            return self.fault(TextError::MixedRows, span);
+            return self.fault(BlifError::MixedRows, span);
         }
         *value = is;
         cubes.push(inputs.bytes().collect());
@@ -348,7 +348,7 @@ impl<'m, 't> Flat<'m, 't> {
             Some(("0", _)) => Some(false),
             Some(("1", _)) => Some(true),
             Some(&(word, span)) => {
-                return self.draft.fault(TextError::LatchStart { found: word.to_owned() }, span);
+                return self.draft.fault(ModelError::LatchStart { found: word.to_owned() }, span);
             }
         };
         let (kind, clock) = match (words.get(2), words.get(3)) {
@@ -358,7 +358,7 @@ impl<'m, 't> Flat<'m, 't> {
                     "fe" => RegisterKind::Falling,
                     "ah" => RegisterKind::High,
                     "al" => RegisterKind::Low,
-                    _ => return self.draft.fault(TextError::LatchKind { found: (*kind).to_owned() }, span),
+                    _ => return self.draft.fault(ModelError::LatchKind { found: (*kind).to_owned() }, span),
                 };
                 let number = self.net(clock, prefix, ports);
                 (kind, (*clock != "NIL").then(|| self.draft.text(number).to_owned()))
@@ -373,7 +373,7 @@ impl<'m, 't> Flat<'m, 't> {
         let name = self.draft.text(output).to_owned();
         if clock.is_none() {
             let (latch, input) = (name.clone(), words[0].0.to_owned());
-            self.draft.fault(TextError::NoClock { latch, input }, span);
+            self.draft.fault(ModelError::NoClock { latch, input }, span);
         }
         let register = Register { name, kind, clock, start };
         self.draft.registers.push(DraftRegister { register, output, next, span });
@@ -382,31 +382,31 @@ impl<'m, 't> Flat<'m, 't> {
     fn subcircuit(&mut self, words: &Words<'t>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
         let (name, span) = words[0];
         let Some(&model) = self.models.by_name.get(name) else {
-            return self.draft.fault(TextError::MissingModel { model: name.to_owned() }, span);
+            return self.draft.fault(ModelError::MissingModel { model: name.to_owned() }, span);
         };
         if self.path.contains(&model) {
-            return self.draft.fault(TextError::RecursiveModel { model: name.to_owned() }, span);
+            return self.draft.fault(ModelError::RecursiveModel { model: name.to_owned() }, span);
         }
         let mut inner: BTreeMap<&str, String> = BTreeMap::new();
         for &(word, at) in &words[1..] {
             let Some((formal, actual)) = word.split_once('=') else {
-                return self.draft.fault(TextError::NotAConnection { found: word.to_owned() }, at);
+                return self.draft.fault(ModelError::NotAConnection { found: word.to_owned() }, at);
             };
             let known = &self.models.all[model];
             let ports_of_model = known.inputs.iter().chain(&known.outputs).chain(&known.clocks);
             if !ports_of_model.map(|&(name, _)| name).any(|name| name == formal) {
                 let (model, port) = (name.to_owned(), formal.to_owned());
-                return self.draft.fault(TextError::UnknownPort { model, port }, at);
+                return self.draft.fault(ModelError::UnknownPort { model, port }, at);
             }
             let number = self.net(actual, prefix, ports);
             if inner.insert(formal, self.draft.text(number).to_owned()).is_some() {
-                return self.draft.fault(TextError::ConnectedTwice { port: formal.to_owned() }, at);
+                return self.draft.fault(ModelError::ConnectedTwice { port: formal.to_owned() }, at);
             }
         }
         let open = self.models.all[model].inputs.iter().find(|(port, _)| !inner.contains_key(port));
         if let Some((port, _)) = open {
             let (model, port) = (name.to_owned(), (*port).to_owned());
-            return self.draft.fault(TextError::Unconnected { model, port }, span);
+            return self.draft.fault(ModelError::Unconnected { model, port }, span);
         }
         let instance = format!("{prefix}{name}@{}.", span.start);
         self.instantiate(model, &instance, &inner);

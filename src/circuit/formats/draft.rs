@@ -59,14 +59,12 @@ pub struct Draft {
     pub inputs: Vec<(NetName, Span)>,
     /// Output ports.
     pub outputs: Vec<(NetName, Span)>,
-    /// Registers.
     pub registers: Vec<DraftRegister>,
     names: Vec<String>,
     numbers: BTreeMap<String, NetName>,
     definitions: Vec<Option<(Definition, Span)>>,
     /// The nets with a start value: feedback may pass through them.
     starts: BTreeMap<NetName, bool>,
-    /// The errors.
     pub errors: Vec<Diagnostic>,
     /// The nets and the pins of definitions so far.
     size: usize,
@@ -105,9 +103,9 @@ impl Draft {
     }
 
     /// Reports an error.
-    pub fn fault(&mut self, error: TextError, span: Span) {
+    pub fn fault(&mut self, error: impl Into<TextError>, span: Span) {
         if self.errors.len() < MOST_ERRORS {
-            self.errors.push(error.at(span));
+            self.errors.push(error.into().at(span));
         }
     }
 

@@ -41,7 +41,7 @@ impl CircuitFormat {
     /// A design in this format.
     ///
     /// # Errors
-    /// What of the design the format cannot hold.
+    /// When the format cannot represent the design.
     pub fn encode(self, design: &Design) -> Result<Vec<u8>, Diagnostic> {
         self.check(design).map_err(Diagnostic::from)?;
         Ok(match self {

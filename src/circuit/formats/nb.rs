@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::circuit::formats::names::{FileNames, cells_in_order, stand_ins};
 use crate::circuit::{Loops, NetId, Netlist, Node};
 
-/// Words of the language that no net may be called.
+/// Reserved words of the language.
 const RESERVED: &[&str] = &[
     "and",
     "circuit",

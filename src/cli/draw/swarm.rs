@@ -99,11 +99,8 @@ impl DrawArguments {
         };
         let options = CompileOptions { swarm: choice.swarm.clone(), ..self.runs.options() };
         if let Some(test) = test {
-            let swarms = session::swarms_of(program, &test.circuit);
-            if swarms.len() > 1 && options.swarm.is_none() {
-                let swarms = swarms.iter().map(|swarm| swarm.name.clone()).collect();
-                return Err(DrawError::SeveralSwarms { circuit: test.circuit.to_string(), swarms }.into());
-            }
+            let clear = session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
+            clear.map_err(Failure::plain)?;
             return Ok(Ran::Test(run_test(&session, &file, test, &options)?.remove(0)));
         }
         let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");

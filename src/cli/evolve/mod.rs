@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::run::{Ended, EvolutionRun};
 use crate::cli::timings::Timer;
-use crate::cli::wording::UsageError;
+use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, SearchObjective};
@@ -51,7 +51,7 @@ impl EvolveArguments {
     /// Runs the evolutions one after another.
     ///
     /// # Errors
-    /// When the file has errors, a checkpoint is refused, or results cannot be written.
+    /// When the file has errors, a checkpoint is rejected, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let declared = self.declared()?;
@@ -169,8 +169,7 @@ impl EvolveArguments {
         let seconds: f64 =
             evolutions.iter().map(|evolution| evaluations(evolution) as f64 * seconds_each(evolution)).sum();
         let hours = seconds / 3600.0;
-        let text =
-            format!("at most about {hours:.1} hours on this machine; what need not be simulated makes it less\n");
+        let text = format!("at most about {hours:.1} hours on this machine; less if simulations can be skipped\n");
         context.log(&text);
     }
 
@@ -182,7 +181,7 @@ impl EvolveArguments {
         let all = checked.program.evolutions.clone();
         let own: Vec<Evolution> = all.iter().filter(|evolution| !prelude.contains(evolution)).cloned().collect();
         if own.is_empty() && self.run.is_none() {
-            return Err(UsageError::NoEvolution { file: path.display().to_string() }.into());
+            return Err(SubjectError::NoEvolution { file: path.display().to_string() }.into());
         }
         self.named(own, all)
     }
@@ -192,7 +191,7 @@ impl EvolveArguments {
         let names: Vec<String> = all.iter().map(|evolution| evolution.name.clone()).collect();
         let found: Vec<Evolution> = all.into_iter().filter(|evolution| evolution.name == *name).collect();
         if found.is_empty() {
-            return Err(UsageError::UnknownEvolution { name: name.clone(), known: names }.into());
+            return Err(SubjectError::UnknownEvolution { name: name.clone(), known: names }.into());
         }
         Ok(found)
     }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::cli::evolve::arguments::EvolveArguments;
 use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::timings::{Chore, Timer};
-use crate::cli::wording::{RunWarning, UsageError};
+use crate::cli::wording::{RunWarning, SubjectError};
 use crate::cli::{Context, Failure, Interrupt, Progress};
 use crate::evolve::{ArchiveStats, Search};
 use crate::model::Evolution;
@@ -44,16 +44,16 @@ pub(super) struct EvolutionRun<'a> {
     /// Evaluations and work made before this program took over.
     evaluations_before: u64,
     work_before: Work,
-    /// What [`searching`] gave then.
+    /// The result of [`searching`] at that time.
     searching_before: f64,
     _lock: FolderLock,
 }
 
 impl<'a> EvolutionRun<'a> {
-    /// A run that has done nothing yet, or goes on from its checkpoint.
+    /// A new run, or one that continues from its checkpoint.
     ///
     /// # Errors
-    /// When its folder is in use by another process, holds a run that is not to be resumed, or cannot be used.
+    /// When its folder is in use by another process, contains a run without `--resume`, or cannot be used.
     pub(super) fn open(
         arguments: &EvolveArguments,
         evolution: &Evolution,
@@ -92,7 +92,7 @@ impl<'a> EvolutionRun<'a> {
         Ok(run)
     }
 
-    /// Makes the generations that are left; whether it got to the end.
+    /// Makes the remaining generations; returns whether the run was finished.
     pub(super) fn make(&mut self, interrupt: &Interrupt) -> Result<bool, Failure> {
         let generations = u64::from(self.search.evolution().generations);
         let bar = Progress::resumed("generations", u64::from(self.search.generation()), generations);
@@ -111,7 +111,7 @@ impl<'a> EvolutionRun<'a> {
         Ok(self.search.is_done())
     }
 
-    /// One generation, with a clock on what is not simulation.
+    /// Makes one generation; the time of everything except simulation is counted.
     fn advance(&mut self) {
         let candidates = self.timer.time(Chore::Development, || self.search.ask());
         let (outcomes, work) = swarm::evaluate(&self.simulator, &self.search, &candidates);
@@ -127,13 +127,13 @@ impl<'a> EvolutionRun<'a> {
 
     fn append(&self, line: &EvolutionLine) -> Result<(), Failure> {
         let path = self.folder.join(PROGRESS);
-        let text = serde_json::to_string(line).expect("a line has nothing that JSON cannot say") + "\n";
+        let text = serde_json::to_string(line).expect("a line can be written as JSON") + "\n";
         let open = fs::OpenOptions::new().create(true).append(true).open(&path);
         open.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| Failure::unwritable(&path, &error))
     }
 
-    /// Drops the lines of generations that come after the checkpoint and will be made again. A damaged file is set
-    /// aside, and told.
+    /// Drops the lines of generations after the checkpoint, which will be made again. A damaged file is set aside and
+    /// reported.
     fn trim_progress(&self, context: &Context) -> Result<(), Failure> {
         let write =
             |path: &Path, bytes: &[u8]| store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error));
@@ -179,12 +179,12 @@ impl<'a> EvolutionRun<'a> {
     pub(super) fn summary(&self, finished: bool) -> String {
         let Ended { run, seed, folder, .. } = self.ended(finished);
         let table = evolution_table(&self.search, self.work);
-        let left = if finished { "" } else { "interrupted; `--resume` goes on\n" };
+        let left = if finished { "" } else { "interrupted; `--resume` continues the run\n" };
         let (speed, folder) = (self.speed(), folder.display());
         format!("{run}, seed {seed}\n{table}{speed}results in {folder}\n{left}\n")
     }
 
-    /// How fast it went since this program took over; nothing when there was nothing left to do.
+    /// The speed since this program took over; empty if there was nothing left to do.
     fn speed(&self) -> String {
         let seconds = self.started.elapsed().as_secs_f64().max(1e-9);
         let rate = (self.search.counts().evaluations - self.evaluations_before) as f64 / seconds;
@@ -209,11 +209,11 @@ fn searching(timer: &Timer) -> f64 {
 
 fn not_ours(folder: &Path, fault: LockFault) -> Failure {
     match fault {
-        LockFault::Held { process } => UsageError::Held { folder: folder.display().to_string(), process }.into(),
+        LockFault::Held { process } => SubjectError::Held { folder: folder.display().to_string(), process }.into(),
         LockFault::Io(error) => Failure::unwritable(&folder.join("lock"), &error),
     }
 }
 
 fn would_overwrite(path: &Path) -> Failure {
-    UsageError::HasRun { folder: path.display().to_string() }.into()
+    SubjectError::HasRun { folder: path.display().to_string() }.into()
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::run_folder::{CHECKPOINT, read_checkpoint};
-use crate::cli::wording::UsageError;
+use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Provenance, Robot};
@@ -145,5 +145,5 @@ fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {
 }
 
 fn missing(path: &Path) -> Failure {
-    UsageError::NoCheckpoint { path: path.display().to_string() }.into()
+    SubjectError::NoCheckpoint { path: path.display().to_string() }.into()
 }

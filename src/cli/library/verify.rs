@@ -49,7 +49,8 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
                     if finding.verified { "ok".to_owned() } else { format!("differs: {}", finding.differs.join(", ")) };
                 context.print(format_args!("{:<24} {verdict}\n", finding.name))?;
             }
-            context.print(format_args!("{}, {failed} not as in its file\n", counted(findings.len(), "robot")))?;
+            context
+                .print(format_args!("{}, {failed} different from their files\n", counted(findings.len(), "robot")))?;
         }
     }
     Ok(if failed == 0 { Status::Done } else { Status::TestFailed })

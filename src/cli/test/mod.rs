@@ -7,7 +7,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::cli::program::RunsArguments;
-use crate::cli::wording::UsageError;
+use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::diag::{Diagnostic, counted};
 use crate::report::{self, Schema};
@@ -92,7 +92,7 @@ impl TestArguments {
 fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
     let file = session.open(&path.to_string_lossy())?;
     if file.program.tests.is_empty() {
-        return Err(UsageError::NoTest { file: file.path.clone() }.into());
+        return Err(SubjectError::NoTest { file: file.path.clone() }.into());
     }
     Ok(file)
 }
@@ -121,7 +121,7 @@ fn run_cases(
         verdicts.push(verdict);
         Ok(())
     };
-    workers::in_order(cases, run, |told| bar.suspend(|| tell(told)))?;
+    workers::in_order(cases, run, |judged| bar.suspend(|| tell(judged)))?;
     Ok(verdicts)
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::diag::{Code, Diagnostic};
 
-/// Where something stands: gates of a binary file have no lines.
+/// A place in a file. Gates of a binary file have no lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AigerPlace {
     /// A line, from 1.
@@ -25,51 +25,51 @@ impl fmt::Display for AigerPlace {
 /// An AIGER file that cannot be read; `found` is the text of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum AigerError {
-    /// The end of the file where more is needed.
+    /// An unexpected end of the file.
     EndOfFile,
     /// Bytes that are not text.
     NotText,
-    /// Another first word than those of AIGER.
+    /// A first word other than `aag` and `aig`.
     NotAiger { found: String },
-    /// A header with something else than numbers.
+    /// A header with a word that is not a number.
     Header { found: String },
-    /// A header of more or fewer numbers.
+    /// A header with a wrong number of numbers.
     HeaderNumbers { found: usize },
-    /// A number of the header beyond what is read.
+    /// A number of the header above the limit.
     TooLarge { number: usize, most: usize },
-    /// More ports or latches than are read.
+    /// Too many ports or latches.
     TooManyPorts { most: usize },
     /// Numbers of the header that do not add up.
     Sum { inputs: usize, latches: usize, ands: usize, variables: usize, binary: bool },
-    /// A header that promises more than the file has bytes for.
+    /// A header that announces more than the file contains.
     TooShort { outputs: usize, ands: usize },
-    /// A line with something else than numbers.
+    /// A line with a word that is not a number.
     NotNumbers { found: String },
-    /// A port of more or fewer literals than one.
+    /// A port with a wrong number of literals.
     PortLiterals { what: &'static str, found: usize },
-    /// A latch of a wrong number of literals.
+    /// A latch with a wrong number of literals.
     Latch,
-    /// A latch whose start value is none.
+    /// A latch with an invalid start value.
     LatchStart { latch: usize, start: usize },
-    /// A gate of more or fewer literals than three.
+    /// A gate with a wrong number of literals.
     GateLiterals { found: usize },
     /// A gate that does not come after its inputs.
     GateOrder { gate: usize },
     /// A number of too many bytes.
     LongNumber,
-    /// A line after the gates that names nothing.
+    /// A line after the gates that is not a symbol.
     Symbol { found: String },
-    /// A name for a port or latch that is not there.
+    /// A name for a port or latch that does not exist.
     UnknownSymbol { found: String },
-    /// A literal that is inverted, constant or taken.
+    /// An input or latch whose literal is inverted, constant or taken.
     NotAnInput { literal: usize },
-    /// The same of a gate.
+    /// A gate whose literal is inverted, constant or taken.
     NotAGate { literal: usize },
     /// A literal with two gates.
     DefinedTwice { literal: usize },
-    /// A literal without a gate.
+    /// A literal without a definition.
     Undriven { literal: usize },
-    /// A literal beyond the header's variables.
+    /// A literal above the number of variables in the header.
     OverHeader { literal: usize },
     /// A literal on a loop.
     Loop { literal: usize },

@@ -1,9 +1,9 @@
-//! Designs that a format cannot hold.
+//! Designs that a format cannot represent.
 
 use crate::circuit::formats::RegisterKind;
 use crate::diag::{Code, Diagnostic};
 
-/// A design that cannot be written in the format asked for.
+/// A design that cannot be written in the requested format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EncodeError {
     /// A feedback loop, in AIGER.

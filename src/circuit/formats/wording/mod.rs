@@ -1,9 +1,13 @@
-//! What can be wrong with circuit files and with writing them, as data, and how it is worded: a file for each way.
+//! What can be wrong with circuit files and with writing them, as data, and how it is worded: a file for each format.
 
 mod aiger;
+mod bench;
+mod blif;
 mod encode;
 mod text;
 
 pub use aiger::{AigerError, AigerPlace};
+pub use bench::BenchError;
+pub use blif::{BlifError, ModelError};
 pub use encode::EncodeError;
 pub use text::TextError;
