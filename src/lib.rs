@@ -257,21 +257,30 @@ pub use store::DiskWorld;
 #[cfg(feature = "disk")]
 pub use store::Checkpoint;
 
-/// ```no_run
-/// # let session = nbc::Session::new(nbc::MemoryWorld::default());
-/// # let compiled: nbc::Compiled = unimplemented!();
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
+/// let checked = session.open("a.nb")?;
+/// let compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
 /// let mut swarm: nbc::LiveSwarm = session.swarm(&compiled);
-/// let outputs = &swarm.step(&[true, false]).outputs;
-/// println!("{outputs:?}");
+/// for _ in 0..compiled.timing.hold + 3 {
+///     swarm.step(&[true]);
+/// }
+/// assert_eq!(swarm.step(&[true]).outputs, [false]);
+/// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use swarm::LiveSwarm;
 
-/// ```no_run
-/// # let evolution: nbc::Evolution = unimplemented!();
-/// let mut search = nbc::Search::new(&evolution, 1);
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// session.update("run.nb", 1, "evolution mine { from: gates, box: 3 x 2, batch: 2, generations: 2 }");
+/// let checked = session.open("run.nb")?;
+/// let mut search = nbc::Search::new(checked.program.evolution("mine").unwrap(), 1);
 /// while !search.is_done() {
 ///     nbc::evolve_generation(&mut search);
 /// }
+/// assert!(!search.archive().is_empty());
+/// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use swarm::evolve_generation;
 
