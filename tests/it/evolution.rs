@@ -2,14 +2,15 @@
 //! that are exact.
 
 use std::fs;
-use std::process::{Child, Stdio};
-use std::time::{Duration, Instant};
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
 
 use nbc::Session;
 use nbc::evolve::{Search, recodings};
 use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
 use nbc::sim::Simulator;
 use nbc::source::MemoryWorld;
+use nbc::store::lock_folder;
 use nbc::swarm::evaluate;
 use proptest::prelude::*;
 
@@ -65,35 +66,47 @@ fn read(bench: &Bench, out: &str) -> Vec<Vec<u8>> {
     CHECKPOINTS.map(|path| fs::read(bench.path().join(out).join(path)).unwrap()).into()
 }
 
-/// Starts the runs and waits until a file has grown to that many lines.
-fn start(bench: &Bench, out: &str, more: &[&str], file: &str, lines: usize) -> Child {
-    let resume = [&["evolve", "runs.nb", "--out", out, "--resume", "--checkpoint-every", "0"], more].concat();
-    let mut child = bench.command(&resume).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    let path = bench.path().join(out).join(file);
-    let patience = Instant::now() + Duration::from_secs(60);
-    while fs::read_to_string(&path).unwrap_or_default().lines().count() < lines {
-        assert!(Instant::now() < patience, "the run goes on");
-        if child.try_wait().unwrap().is_some() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    child
+/// The command with a limit on the size of files, in blocks of 512 bytes. A write beyond it kills the program, unless
+/// `before` ignores the signal.
+#[cfg(unix)]
+fn limited(bench: &Bench, blocks: u32, before: &str, arguments: &[&str]) -> Command {
+    let program = bench.command(&[]).get_program().to_owned();
+    let mut command = Command::new("sh");
+    let script = format!("ulimit -c 0; ulimit -f {blocks}; {before} exec \"$@\"");
+    command.args(["-c", &script, "sh"]).arg(program).args(arguments).current_dir(bench.path());
+    command
 }
 
 #[test]
-fn the_same_seed_gives_the_same_archive_on_any_number_of_threads_and_after_being_killed() {
+fn the_same_seed_gives_the_same_archive_on_any_number_of_threads() {
     let bench = bench();
     let one = straight(&bench, "1");
     assert_eq!(straight(&bench, "2"), one);
     assert_eq!(straight(&bench, "8"), one);
-    for (file, lines) in
-        [("walks/seed-3/progress.jsonl", 2), ("walks/seed-3/progress.jsonl", 9), ("turns/seed-3/progress.jsonl", 1)]
-    {
-        let mut child = start(&bench, "killed", &[], file, lines);
-        child.kill().unwrap();
-        child.wait().unwrap();
+}
+
+#[test]
+#[cfg(unix)]
+fn the_same_seed_gives_the_same_archive_after_being_killed() {
+    use std::os::unix::process::ExitStatusExt;
+
+    let bench = bench();
+    let one = straight(&bench, "1");
+    let resume = ["evolve", "runs.nb", "--out", "killed", "--resume", "--checkpoint-every", "0"];
+    let mut generations = Vec::new();
+    for blocks in [4, 8, 16, 24] {
+        let ended = limited(&bench, blocks, "", &resume).output().unwrap();
+        assert!(ended.status.signal().is_some(), "{blocks}: {ended:?}");
+        let checkpoint = fs::read(bench.path().join("killed").join(CHECKPOINTS[0])).unwrap_or_default();
+        generations.push(checkpoint.len());
     }
+    assert!(generations.is_sorted_by(|before, after| before < after), "{generations:?}");
+    // The first run prints its table when it is finished; then the second one is killed.
+    let mut child = bench.command(&resume).stdout(Stdio::piped()).spawn().unwrap();
+    let first = BufReader::new(child.stdout.take().unwrap()).lines().next();
+    assert_eq!(first.unwrap().unwrap(), "walks, seed 3");
+    child.kill().unwrap();
+    child.wait().unwrap();
     let resumed = bench.run(&["evolve", "runs.nb", "--out", "killed", "--resume"]);
     assert_eq!(resumed.status, 0, "{}", resumed.err);
     assert_eq!(read(&bench, "killed"), one);
@@ -106,13 +119,14 @@ fn the_same_seed_gives_the_same_archive_on_any_number_of_threads_and_after_being
 fn a_signal_ends_a_run_with_a_checkpoint() {
     let bench = bench();
     for signal in ["TERM", "USR1", "INT"] {
-        let child = start(&bench, signal, &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 1);
-        let sent = std::process::Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+        let arguments = ["evolve", "runs.nb", "--out", signal, "--generations", "1000000"];
+        let mut child = bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        // The program watches signals before it estimates the time of a long run.
+        let estimate = BufReader::new(child.stderr.take().unwrap()).lines().next().unwrap().unwrap();
+        assert!(estimate.starts_with("at most about ") && estimate.contains(" hours on this machine"), "{estimate}");
+        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
         assert!(sent.success());
-        let ended = child.wait_with_output().unwrap();
-        assert_eq!(ended.status.code(), Some(4));
-        let told = String::from_utf8(ended.stderr).unwrap();
-        assert!(told.starts_with("at most about ") && told.contains(" hours on this machine"), "{told}");
+        assert_eq!(child.wait().unwrap().code(), Some(4));
         assert!(bench.path().join(signal).join(CHECKPOINTS[0]).exists());
     }
 }
@@ -149,23 +163,23 @@ fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
     let other = bench.path().join("out/walks/seed-4");
     fs::create_dir_all(&other).unwrap();
     fs::copy(&path, other.join("checkpoint.nbc")).unwrap();
-    check(&whole, &[&resume[..], &["--seed", "4"]].concat(), "is of seed 3, expected seed 4");
+    check(&whole, &[&resume[..], &["--seed", "4"]].concat(), "belongs to seed 3, expected seed 4");
 }
 
 #[test]
 fn a_folder_in_use_is_unchanged_and_its_process_reported() {
     let bench = bench();
-    let mut first = start(&bench, "shared", &["--generations", "1000000"], "walks/seed-3/progress.jsonl", 2);
-    let arguments = ["evolve", "runs.nb", "--run", "walks", "--out", "shared", "--resume"];
-    let said = format!("`shared/walks/seed-3` is in use by process {}", first.id());
+    let arguments = ["evolve", "runs.nb", "--run", "walks", "--resume"];
+    assert_eq!(bench.run(&[&arguments[..], &["--generations", "2"]].concat()).status, 0);
+    let folder = bench.path().join("out/walks/seed-3");
+    let contents = || ["checkpoint.nbc", "progress.jsonl"].map(|name| fs::read(folder.join(name)).unwrap());
+    let (before, lock) = (contents(), lock_folder(&folder).unwrap());
+    let said = format!("`out/walks/seed-3` is in use by process {}", std::process::id());
     bench.run(&arguments).expect_fault(&["unwritable", &said]);
-    first.kill().unwrap();
-    first.wait().unwrap();
-    // The system frees the folder of a process that was killed.
+    assert_eq!(contents(), before);
+    drop(lock);
     assert_eq!(bench.run(&arguments).status, 0);
-    let text = fs::read_to_string(bench.path().join("shared/walks/seed-3/progress.jsonl")).unwrap();
-    let generation = |line: &str| serde_json::from_str::<serde_json::Value>(line).unwrap()["generation"].as_u64();
-    assert!(text.lines().map(generation).eq((1..=text.lines().count() as u64).map(Some)), "{text}");
+    assert_ne!(contents(), before);
 }
 
 #[test]
@@ -200,7 +214,7 @@ fn the_same_run_is_not_counted_twice() {
     fs::create_dir_all(&copy).unwrap();
     fs::copy(own.join("checkpoint.nbc"), copy.join("checkpoint.nbc")).unwrap();
     let ran = bench.run(&["draw", "out/walks", "--as", "comparison", "-o", "a.svg"]);
-    ran.expect_fault(&["`out/walks/seed-4/checkpoint.nbc` is of seed 3, as is another run in the folder"]);
+    ran.expect_fault(&["`out/walks/seed-4/checkpoint.nbc` has seed 3, like another run in the folder"]);
 }
 
 #[test]
@@ -220,10 +234,7 @@ fn a_folder_that_cannot_be_written_is_reported() {
 fn a_run_continues_from_its_last_checkpoint_after_a_full_disk() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--checkpoint-every", "0"];
-    let program = bench.command(&[]).get_program().to_owned();
-    let mut limited = std::process::Command::new("sh");
-    limited.args(["-c", "ulimit -f 16; trap '' XFSZ; exec \"$@\"", "sh"]).arg(program).args(arguments);
-    let ran = limited.current_dir(bench.path()).output().unwrap();
+    let ran = limited(&bench, 16, "trap '' XFSZ;", &arguments).output().unwrap();
     let told = String::from_utf8(ran.stderr).unwrap();
     assert_eq!(ran.status.code(), Some(2), "{told}");
     assert!(told.contains("cannot write `out/walks/seed-3/"), "{told}");
