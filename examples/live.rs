@@ -1,9 +1,8 @@
-//! A door in a few lines: the latch, from a source in memory, a cycle at a time under bits that are typed on standard
-//! input.
+//! A door in a few lines: steps the latch, from a source in memory, cycle by cycle with inputs typed on standard input.
 //!
 //!     cargo run --release --no-default-features --example live
 //!
-//! A line has a bit for each input and how many cycles they stay: `11 6`, then `00 4`.
+//! A line has a bit for each input and a number of cycles: `11 6`, then `00 4`.
 
 use std::error::Error;
 use std::io::{BufRead, Write, stdin, stdout};

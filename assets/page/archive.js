@@ -88,7 +88,7 @@ class Archive {
     for (const button of this.maps.querySelectorAll("button")) button.classList.toggle("chosen", Number(button.dataset.elite) === i);
     describe(this.panel, elite.behavior + " " + elite.function, elite.about);
     this.player.hidden = !elite.frames;
-    document.querySelector(".untold").hidden = Boolean(elite.frames);
+    document.querySelector(".missing").hidden = Boolean(elite.frames);
     this.camera = undefined;
     this.clock.seek(0);
     if (elite.frames && !this.clock.playing && this.ready) this.clock.toggle();

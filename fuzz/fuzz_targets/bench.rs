@@ -1,4 +1,4 @@
-//! Any text is read as ISCAS .bench or refused, and what is read is the same design after a journey through BLIF.
+//! Any text is read as ISCAS .bench or rejected. A design that is read is the same after writing and reading BLIF.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -13,7 +13,7 @@ fuzz_target!(|text: &str| {
         Ok(design) => {
             let written = blif::write(&design);
             let file = sources.add("again.blif", written.clone());
-            nbc_fuzz::same_design(&design, &blif::read(&written, file, None).expect("what is written is read"));
+            nbc_fuzz::same_design(&design, &blif::read(&written, file, None).expect("a written design can be read"));
         }
         Err(faults) => {
             render::text(&faults, &sources, false);

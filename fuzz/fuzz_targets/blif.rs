@@ -1,4 +1,4 @@
-//! Any text is read as BLIF or refused, and what is read is written and read again as the same design.
+//! Any text is read as BLIF or rejected. A design that is read is the same after writing and reading it.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -13,7 +13,8 @@ fuzz_target!(|text: &str| {
         Ok(design) => {
             let written = blif::write(&design);
             let file = sources.add("again.blif", written.clone());
-            nbc_fuzz::same_design(&design, &blif::read(&written, file, Some("clk")).expect("what is written is read"));
+            let again = blif::read(&written, file, Some("clk")).expect("a written design can be read");
+            nbc_fuzz::same_design(&design, &again);
         }
         Err(faults) => {
             render::text(&faults, &sources, false);

@@ -1,4 +1,4 @@
-//! Any text is checked without a panic, and what is sound is either elaborated or refused.
+//! Any text is checked without a panic. The circuits of tests of a program without errors are elaborated.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,11 +1,11 @@
-//! What has no syntax errors is formatted to a text without syntax errors, and twice is once.
+//! A text without syntax errors is formatted to one without syntax errors. Formatting it again changes nothing.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use nbc::source::Sources;
 use nbc::syntax;
 
-/// The canonical form; nothing where the text has syntax errors.
+/// The canonical form; `None` if the text has syntax errors.
 fn formatted(text: &str) -> Option<String> {
     let mut sources = Sources::default();
     let file = sources.add("main.nb", text);
@@ -15,6 +15,6 @@ fn formatted(text: &str) -> Option<String> {
 
 fuzz_target!(|text: &str| {
     if let Some(once) = formatted(text) {
-        assert_eq!(formatted(&once).as_ref(), Some(&once), "twice is once");
+        assert_eq!(formatted(&once).as_ref(), Some(&once), "formatting twice changes nothing");
     }
 });

@@ -1,4 +1,4 @@
-//! Any text is parsed, and what is wrong with it is said, without a panic.
+//! Any text is parsed, and its errors are shown, without a panic.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

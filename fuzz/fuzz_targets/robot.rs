@@ -1,4 +1,4 @@
-//! Any text is read as a robot or refused, and what is read is printed and read again as the same robot.
+//! Any text is read as a robot or rejected. A robot that is read is the same after writing and reading it.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -11,7 +11,7 @@ fuzz_target!(|text: &str| {
     if let Ok(robot) = store::read_robot(sources.file(file)) {
         let printed = store::print_robot(&robot);
         let again = sources.add("again.yaml", printed.clone());
-        let read = store::read_robot(sources.file(again)).expect("a printed robot is read");
+        let read = store::read_robot(sources.file(again)).expect("a printed robot can be read");
         assert_eq!(store::print_robot(&read), printed, "a robot survives its file");
     }
 });

@@ -9,7 +9,7 @@ use petgraph::visit::NodeIndexable;
 
 use crate::circuit::{NetId, Netlist};
 
-/// A node that no search has met.
+/// A node that has not been visited.
 const NEW: u32 = 0;
 /// A node whose component is known.
 const DONE: u32 = u32::MAX;
@@ -17,9 +17,9 @@ const DONE: u32 = u32::MAX;
 /// The state of the search; it visits each node once.
 pub struct Components<'n> {
     netlist: &'n Netlist,
-    /// When each node was met, or [`NEW`] or [`DONE`].
+    /// When each node was visited, or [`NEW`] or [`DONE`].
     met: Vec<u32>,
-    /// For each node that was met, the earliest node that it leads back to.
+    /// For each visited node, the earliest node that it leads back to.
     low: Vec<u32>,
     clock: u32,
     /// The visited nodes without a known component.
@@ -27,7 +27,7 @@ pub struct Components<'n> {
 }
 
 impl<'n> Components<'n> {
-    /// A search that has met nothing yet.
+    /// A new search.
     pub fn new(netlist: &'n Netlist) -> Self {
         let nodes = netlist.graph().node_bound();
         Self { netlist, met: vec![NEW; nodes], low: vec![NEW; nodes], clock: NEW, open: Vec::new() }

@@ -11,7 +11,6 @@ pub type Signal = u32;
 /// A two-input gate; a function of one input has the same signal on both pins or ignores pin 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gate {
-    /// Its function.
     pub function: Function,
     /// The signals of its pins.
     pub pins: [Signal; 2],
@@ -141,7 +140,7 @@ impl View {
     /// Cuts a netlist without wires open at `cuts`; fails with a net that still lies on a loop.
     ///
     /// # Errors
-    /// A net on a loop that no cut opens.
+    /// A net on a loop without a cut.
     pub fn of(netlist: &Netlist, cuts: &[NetId]) -> Result<Self, NetId> {
         let mut network = Network::new(netlist.inputs().len() + cuts.len());
         let mut signal = BTreeMap::new();

@@ -30,7 +30,6 @@ pub struct Step {
 pub struct Recipe {
     /// The cells in order; each reads earlier ones only.
     pub steps: Vec<Step>,
-    /// The result.
     pub result: Operand,
     /// The total cost of the cells.
     pub cost: u32,

@@ -13,7 +13,7 @@ use crate::circuit::{NetId, Netlist, Node};
 /// Which delay a cell has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Delays {
-    /// The robot's clock, for any transition: safe, and used by `hold: auto`.
+    /// The robot's clock, for any transition. The resulting hold is safe; `hold: auto` never exceeds it.
     #[default]
     Clock,
     /// The settle time measured for each transition of the inputs.

@@ -1,4 +1,4 @@
-//! What every command is given: where and how to print.
+//! The context of every command: where and how to print.
 
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
@@ -137,7 +137,7 @@ impl Context {
 
     /// Writes diagnostics to standard error, with excerpts of the sources.
     pub fn tell(&self, diagnostics: &[Diagnostic], sources: &Sources) {
-        // What is of the user is made visible there; colors are ours.
+        // The user's text is made visible by `render`; the colors are ours.
         let _ = io::stderr().write_all(render::text(diagnostics, sources, self.color).as_bytes());
     }
 }
@@ -149,7 +149,7 @@ impl Formatter for Visible {
     fn write_string_fragment<W: ?Sized + Write>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()> {
         let mut rest = fragment;
         while let Some((at, hidden)) = rest.char_indices().find(|(_, c)| is_hidden(*c)) {
-            // All of them lie below U+10000, so that one unit of UTF-16 names each.
+            // All of them are below U+10000, so each is one unit of UTF-16.
             write!(writer, "{}\\u{:04x}", &rest[..at], u32::from(hidden))?;
             rest = &rest[at + hidden.len_utf8()..];
         }

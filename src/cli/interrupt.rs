@@ -1,4 +1,4 @@
-//! Ctrl-C, SIGTERM and SIGUSR1 as a flag that long work looks at.
+//! Ctrl-C, SIGTERM and SIGUSR1 as a flag that long work checks.
 
 use std::io;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use signal_hook::flag;
 
 use crate::cli::Status;
 
-/// A wish to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
+/// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
@@ -17,7 +17,7 @@ impl Interrupt {
     /// Watches the signals from now on.
     ///
     /// # Errors
-    /// When the system refuses to let signals be watched.
+    /// When the system cannot watch signals.
     pub fn watch() -> io::Result<Self> {
         let interrupt = Self::default();
         for signal in [SIGINT, SIGTERM] {
@@ -31,12 +31,12 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Whether a signal has come.
+    /// Whether a signal has arrived.
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// The flag itself, for work that knows nothing of the command line.
+    /// The flag itself, for work that does not know the command line.
     pub fn flag(&self) -> &AtomicBool {
         &self.0
     }

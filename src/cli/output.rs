@@ -19,7 +19,7 @@ impl<W: Write> Output<W> {
         let Some(out) = &mut self.open else { return Ok(swallowed) };
         match work(out) {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
-                // What is still in the buffer goes with it, so that dropping it does not write again.
+                // The rest of the buffer is dropped with it, and not written again.
                 let _ = self.open.take().map(BufWriter::into_parts);
                 Ok(swallowed)
             }

@@ -39,7 +39,7 @@ impl Progress {
         Self::resumed(what, 0, total)
     }
 
-    /// Progress of work of which `from` pieces were done earlier; these are not counted in the speed.
+    /// Progress of work that continues after `from` pieces, which are not counted in the speed.
     pub fn resumed(what: &'static str, from: u64, total: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
         let style = ProgressStyle::with_template("{prefix:>12} [{bar:30}] {pos}/{len}{msg}");

@@ -9,7 +9,7 @@ use crate::model::{Body, Function, Library, Robot};
 use crate::source::{FileError, Sources};
 use crate::store;
 
-/// The body in a file; failing a file, that of a robot of the library.
+/// The body in a file or, if there is no such file, that of a robot of the library.
 pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
     let mut sources = Sources::default();
     match store::read_text(Path::new(robot), store::MAX_ROBOT_BYTES) {

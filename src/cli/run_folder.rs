@@ -22,7 +22,7 @@ pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure
     }
 }
 
-/// The bytes of a file of progress, none where there is no file.
+/// The bytes of a file of progress; empty if there is no file.
 pub(super) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
     match store::read(path, MAX_PROGRESS_BYTES) {
         Ok(bytes) => Ok(bytes),

@@ -64,7 +64,7 @@ fn parse_length(length: &str, span: Span) -> Result<u32, Diagnostic> {
         "step" | "steps" => 1,
         _ => return Err(ScheduleError::NotADuration { found }.at(span)),
     };
-    // What is too long for a number is too long for a schedule.
+    // A number that overflows is too long for a schedule.
     let count = number.parse::<u64>().unwrap_or(if number.is_empty() { 0 } else { u64::MAX });
     match count.saturating_mul(steps_each) {
         0 => Err(ScheduleError::NoTime { found }.at(span)),

@@ -53,7 +53,7 @@ impl SimulateArguments {
     /// Simulates and prints.
     ///
     /// # Errors
-    /// When the schedule, the body or the world makes no sense.
+    /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let schedule = read_schedule(&self.schedule)?;
         let setting = Setting { world_width: self.world_width, start_x: self.start_x };

@@ -1,4 +1,4 @@
-//! `nbc synth`: circuits of other tools, made of few robots' cells and proved.
+//! `nbc synth`: circuits of other tools, mapped to cells of few robots and proved.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! The threads that simulations share: as many as the machine has cores or `RAYON_NUM_THREADS` says, fewer where the
-//! system gives no more.
+//! The threads that simulations share: as many as the machine has cores, or as `RAYON_NUM_THREADS` says; fewer if the
+//! system cannot start them.
 
 use std::env;
 use std::sync::mpsc::{self, SyncSender};
@@ -24,14 +24,17 @@ pub(super) fn start(context: &Context) -> Result<(), Failure> {
     let wanted = wanted(env::var_os(VARIABLE).map(|value| value.to_string_lossy().into_owned()).as_deref())?;
     let mut idle: Vec<Idle> = (0..wanted).map_while(|_| Idle::start()).collect();
     if idle.len() < wanted {
-        // The other half of what there is, is for the work itself.
+        // The work itself needs the other half.
         idle.drain(idle.len() / 2..).for_each(Idle::end);
-        context.log(&format!("{} of {wanted} threads are used, as the system starts no more\n", idle.len().max(1)));
+        context.log(&format!(
+            "{} of {wanted} threads are used, because the system cannot start more\n",
+            idle.len().max(1)
+        ));
     }
     let found = idle.len();
     let pool = ThreadPoolBuilder::new().num_threads(found.max(1));
     let built = match found {
-        // The thread that is there already does all the work.
+        // The current thread does all the work.
         0 => pool.use_current_thread().build_global(),
         _ => {
             let hand_out = |work| {
@@ -43,7 +46,7 @@ pub(super) fn start(context: &Context) -> Result<(), Failure> {
             pool.spawn_handler(hand_out).build_global()
         }
     };
-    // A program that calls this twice has its threads already.
+    // In a program that calls this twice, the threads of the first call stay.
     let _ = built;
     Ok(())
 }
@@ -55,7 +58,7 @@ fn wanted(value: Option<&str>) -> Result<usize, Failure> {
         None | Some("") => Ok(cores()),
         Some(digits) if digits.bytes().all(|byte| byte.is_ascii_digit()) => match digits.parse().unwrap_or(MOST) {
             0 => Ok(cores()),
-            // A number too long to be read asks for more than the most, too.
+            // A number that is too long to be read is above the limit, too.
             number => Ok(number.min(MOST)),
         },
         Some(other) => Err(UsageError::Threads { variable: VARIABLE, found: other.to_owned() }.into()),

@@ -42,7 +42,7 @@ impl Chore {
 
 /// The times of one command.
 pub struct Timer {
-    /// Counts the time of simulations, if it is asked for.
+    /// Counts the time of simulations, if it is requested.
     meter: Option<Arc<Meter>>,
     started: Instant,
     chores: [Cell<Duration>; Chore::ALL.len()],
@@ -62,7 +62,7 @@ impl Timings {
 }
 
 impl Timer {
-    /// A simulator whose time is counted, if it is asked for.
+    /// A simulator whose time is counted, if it is requested.
     pub fn simulator(&self) -> Simulator {
         Simulator::new(LaneBackend { meter: self.meter.clone(), ..LaneBackend::default() })
     }
@@ -81,7 +81,7 @@ impl Timer {
         self.chores[chore as usize].get().as_secs_f64()
     }
 
-    /// Prints the times to standard error, if they are asked for.
+    /// Prints the times to standard error, if they are requested.
     pub fn report(&self, context: &Context) {
         if let Some(meter) = &self.meter {
             let chores = Chore::ALL.map(|chore| self.seconds(chore));

@@ -1,20 +1,20 @@
-//! Work side by side on the cores of the machine, with the results in order.
+//! Parallel work on the cores of the machine, with the results in order.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
-/// Does the work for each item and hands the results on in order of the items, each as soon as it and those before it
-/// are there. Where handing on fails, no more work is begun.
+/// Does the work for each item and passes the results to `hand_on` in order of the items, each as soon as it and those
+/// before it are complete. After an error of `hand_on`, no more work is started.
 ///
-/// Where there is one thread for simulation, or no other can be started, the work is done on the caller's.
+/// If simulation has one thread, or no other can be started, the work is done on the caller's thread.
 ///
-/// The threads are not those of rayon, which simulation shares out its parts to: one of them that waits for a part
-/// would begin with another item meanwhile, and come back only when that is done.
+/// These are not rayon's threads, which run the parts of a simulation: a rayon thread that waits for a part would start
+/// another item, and return only when that is done.
 ///
 /// # Errors
-/// The first that handing on gives.
+/// The first error of `hand_on`.
 pub(super) fn in_order<T: Sync, R: Send, E>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
@@ -54,7 +54,7 @@ pub(super) fn in_order<T: Sync, R: Send, E>(
     })
 }
 
-/// The next item that nobody has taken, with its place.
+/// The next item that is not taken yet, with its place.
 fn pick<'a, T>(items: &'a [T], next: &AtomicUsize) -> Option<(usize, &'a T)> {
     let place = next.fetch_add(1, Ordering::Relaxed);
     Some((place, items.get(place)?))

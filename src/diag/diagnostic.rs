@@ -16,7 +16,8 @@ pub struct Label {
 /// A related note with a place in its own file.
 pub type Related = Label;
 
-/// One fault of the user's input: what, where, and what to do about it. [`super::json`] is its one form for programs.
+/// One fault of the user's input: what is wrong, where, and what to do about it. [`super::json`] is its form for
+/// programs.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Diagnostic {
     /// The violated rule.
@@ -31,7 +32,7 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Related places, such as the first of two definitions.
     pub related: Vec<Related>,
-    /// Edits that remove the fault, where they are certain to.
+    /// Edits that certainly remove the fault, if there are any.
     pub fix: Option<Fix>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::source::{FileId, Span};
 
-/// A text in the place of another.
+/// The replacement of a piece of text.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Edit {
     /// What is replaced; empty where text is inserted.
@@ -21,20 +21,20 @@ pub struct Fix {
 }
 
 impl Fix {
-    /// Writes `text` in the place of `span`.
+    /// Replaces `span` by `text`.
     pub fn replace(span: Span, text: impl Into<String>) -> Self {
         let text = text.into();
         Self { title: format!("replace with `{}`", text.trim()), edits: vec![Edit { span, text }] }
     }
 
-    /// Writes `text` before the byte at which `span` starts.
+    /// Inserts `text` before `span`.
     pub fn insert(span: Span, text: impl Into<String>) -> Self {
         let text = text.into();
         let span = Span { end: span.start, ..span };
         Self { title: format!("insert `{}`", text.trim()), edits: vec![Edit { span, text }] }
     }
 
-    /// Takes out `span`, which holds `what`.
+    /// Removes `span`, which contains `what`.
     pub fn remove(span: Span, what: &str) -> Self {
         Self { title: format!("remove {what}"), edits: vec![Edit { span, text: String::new() }] }
     }

@@ -28,7 +28,7 @@ fn one(diagnostic: &Diagnostic, sources: &Sources) -> Value {
     })
 }
 
-/// A place with a text: what is said of it, or what is to stand there.
+/// A place with a text: its label, or its replacement.
 fn place(span: Span, text: &str, sources: &Sources) -> Value {
     let file = sources.file(span.file);
     let end = |byte: u32| {

@@ -133,7 +133,7 @@ impl miette::Diagnostic for Report<'_> {
     }
 }
 
-/// A source file of which only the surroundings of a span are shown, because a line may be megabytes long.
+/// A source file that shows only the surroundings of a span, because a line may be megabytes long.
 #[derive(Debug)]
 struct Excerpt<'a> {
     file: &'a SourceFile,

@@ -17,17 +17,17 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 /// What may have been meant by an unknown name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Suggestion {
-    /// Nobody can say.
+    /// Unknown.
     #[default]
     None,
     /// A name that differs in a few letters.
     Near(String),
-    /// One of these, of which there are few.
+    /// One of these; all known names, if they are few.
     Known(Vec<String>),
 }
 
 impl Suggestion {
-    /// The nearest of `known`, or all of them where they are few.
+    /// The nearest of `known`, or all of them if they are few.
     pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
         let known: Vec<_> = known.into_iter().collect();
         match nearest(word, known.iter().copied()) {

@@ -8,7 +8,6 @@ use crate::source::Span;
 /// A declared circuit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Circuit {
-    /// The name.
     pub name: String,
     /// The place of the name in the declaration.
     pub span: Span,
@@ -26,7 +25,6 @@ pub struct Circuit {
     pub expressions: Vec<Expression>,
     /// The truth tables of the body.
     pub tables: Vec<Table>,
-    /// The body.
     pub body: Block,
     /// The number of integer slots: parameters, then loop variables.
     pub variables: usize,
@@ -63,7 +61,6 @@ pub struct CircuitId(pub u32);
 /// A width parameter: an integer known when the circuit is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The name.
     pub name: String,
     /// The place of the declaration.
     pub span: Span,
@@ -74,7 +71,6 @@ pub struct Parameter {
 /// A net of a circuit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Net {
-    /// The name.
     pub name: String,
     /// The place of the declaration or of the first driver.
     pub span: Span,
@@ -132,7 +128,6 @@ pub struct Target {
 /// An integer known when the circuit is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    /// The kind.
     pub kind: SizeKind,
     /// The place.
     pub span: Span,
@@ -171,7 +166,6 @@ pub enum SizeOperator {
 /// An expression with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// The kind.
     pub kind: ExpressionKind,
     /// The place.
     pub span: Span,
@@ -202,21 +196,18 @@ pub enum ExpressionKind {
     Number {
         /// The width in bits.
         width: SizeId,
-        /// The value.
         value: u128,
     },
     /// A computed number in a given width.
     Computed {
         /// The width in bits.
         width: SizeId,
-        /// The value.
         value: SizeId,
     },
     /// A whole net.
     Net(NetSlot),
     /// Bits of a net, from the highest to the lowest, including both.
     Slice {
-        /// The net.
         net: NetSlot,
         /// The highest bit.
         high: SizeId,
@@ -229,7 +220,6 @@ pub enum ExpressionKind {
     Repetition {
         /// The number of repetitions.
         count: SizeId,
-        /// The value.
         value: ExpressionId,
     },
     /// A bitwise operation on operands of one width.
@@ -241,7 +231,6 @@ pub enum ExpressionKind {
     },
     /// A choice between two values of the same width by a bit.
     Choice {
-        /// The condition.
         condition: ExpressionId,
         /// The value if it is 1.
         then: ExpressionId,
@@ -250,7 +239,6 @@ pub enum ExpressionKind {
     },
     /// A call of a circuit.
     Call {
-        /// The circuit.
         circuit: CircuitId,
         /// The parameters, in the circuit's order; `None` to infer it from the widths of the operands or use the
         /// default.
@@ -318,7 +306,6 @@ impl fmt::Display for Operator {
 /// A truth table as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// The rows.
     pub rows: Vec<TableRow>,
     /// The output for the patterns without a row.
     pub otherwise: Option<TableOutput>,
@@ -333,7 +320,6 @@ pub struct TableRow {
     pub pattern: Vec<Option<bool>>,
     /// The place of the pattern.
     pub span: Span,
-    /// The output.
     pub output: TableOutput,
 }
 

@@ -12,8 +12,8 @@ pub struct Column {
 }
 
 impl Column {
-    /// The ports that have these bits, named as [`Column::bits`] names them: a run of `a[3]`, `a[2]`, … down to `a[0]`
-    /// is one port.
+    /// The ports that have these bits, named as [`Column::bits`] names them: a run from `a[3]` down to `a[0]` is one
+    /// port.
     pub fn group(bits: &[String]) -> Vec<Self> {
         let mut ports = Vec::new();
         let mut rest = bits;

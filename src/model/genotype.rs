@@ -31,11 +31,8 @@ pub enum NodeKind {
 /// A weighted link.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
-    /// The source.
     pub source: NodeId,
-    /// The target.
     pub target: NodeId,
-    /// The weight.
     pub weight: f64,
 }
 

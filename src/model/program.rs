@@ -8,17 +8,13 @@ use crate::source::Span;
 pub struct Program {
     /// The stimuli, in the order that numbers them.
     pub stimuli: Vec<String>,
-    /// The materials.
     pub materials: Vec<Material>,
     /// The schedules of stimuli.
     pub schedules: Vec<NamedSchedule>,
     /// The evolution runs.
     pub evolutions: Vec<Evolution>,
-    /// The circuits.
     pub circuits: Vec<Circuit>,
-    /// The libraries.
     pub libraries: Vec<LibrarySource>,
-    /// The swarms.
     pub swarms: Vec<Swarm>,
     /// The simulations of the file itself, not of files it uses.
     pub simulations: Vec<Simulation>,
@@ -29,7 +25,6 @@ pub struct Program {
 /// A schedule with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedSchedule {
-    /// The name.
     pub name: String,
     /// Its stimuli, as indices of [`Program::stimuli`].
     pub stimuli: Vec<usize>,
@@ -40,7 +35,6 @@ pub struct NamedSchedule {
 /// A declared library: the source of its robots, and the behaviors it is restricted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibrarySource {
-    /// The name.
     pub name: String,
     /// The place of the declaration.
     pub span: Span,
@@ -64,11 +58,9 @@ pub enum Origin {
 /// A declared swarm: a circuit made of a library's robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Swarm {
-    /// The name.
     pub name: String,
     /// The place of the declaration.
     pub span: Span,
-    /// The circuit.
     pub circuit: Instance,
     /// The name of the library in [`Program::libraries`].
     pub library: String,
@@ -81,7 +73,7 @@ pub struct Swarm {
 /// The time for which inputs are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
-    /// The delay of the slowest path by static timing.
+    /// Until every robot has settled, row by row.
     #[default]
     Auto,
     /// That many cycles.

@@ -59,7 +59,6 @@ pub struct TestRow {
     pub hold: Option<u32>,
     /// The place of the row.
     pub span: Span,
-    /// Its line.
     pub line: usize,
     /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
     pub row: usize,

@@ -13,7 +13,6 @@ const MAX_POINTS: usize = 400;
 /// The champions of one behavior.
 #[derive(Clone, Debug)]
 pub struct Champions {
-    /// The behavior.
     pub behavior: Behavior,
     /// Each champion's path, and its body's columns.
     pub paths: Vec<(Trajectory, usize)>,

@@ -41,14 +41,14 @@ schemas! {
     Evolve = "evolve", 1: "Evolution runs, and their comparison.";
     Explain = "explain", 1: "Codes of diagnostics with their pages, or the sources of the prelude.";
     Formatted = "formatted", 1: "Which files are in their canonical form.";
-    Library = "library", 1: "The robots of a library in short.";
+    Library = "library", 1: "A summary of the robots of a library.";
     Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";
     Robots = "robots", 1: "The robots of a library in full.";
-    Run = "run", 1: "What the tests and simulations of a file came to.";
-    Simulate = "simulate", 1: "What one robot did.";
+    Run = "run", 1: "The results of the tests and simulations of a file.";
+    Simulate = "simulate", 1: "The path of one robot.";
     Synth = "synth", 1: "A circuit made of cells.";
-    Test = "test", 1: "What tests came to, row by row.";
+    Test = "test", 1: "The results of tests, row by row.";
     Verify = "verify", 1: "Robots simulated again.";
 }
 

@@ -25,9 +25,7 @@ const GAIT_CYCLES: usize = 2;
 
 /// A drawing of the page with its heading.
 pub struct Plate {
-    /// The heading.
     pub heading: String,
-    /// The drawing.
     pub drawing: Svg,
 }
 
@@ -110,9 +108,9 @@ fn archive(results: &EvolutionResults, left_out: usize) -> String {
         format!("<label>{label} <select class=\"axis\">{options}</select></label>")
     };
     let axes = if counted.is_empty() { String::new() } else { choice("across", 0) + &choice("upwards", 1) };
-    let untold = match left_out {
+    let missing = match left_out {
         0 => String::new(),
-        _ => format!("<p class=\"dim\">{left_out} elites have no gait here, as the page has no room for more.</p>\n"),
+        _ => format!("<p class=\"dim\">{left_out} elites have no gait here, because the page is full.</p>\n"),
     };
     format!(
         "<section id=\"archive\">\n<h2>Archive</h2>\n<p>Each square is a niche, colored by the best {unit} found \
@@ -122,10 +120,10 @@ fn archive(results: &EvolutionResults, left_out: usize) -> String {
          style=\"background:linear-gradient(90deg,{colors})\"></i> {high}</span></div>\n\
          <div class=\"beside\"><div class=\"maps\"></div>\n<div class=\"elite\"><div class=\"robot\" \
          aria-live=\"polite\"></div>\n\
-         <p class=\"untold dim\" hidden>There was no room for the gait of this elite.</p>\n\
+         <p class=\"missing dim\" hidden>There was no room for the gait of this elite.</p>\n\
          <div class=\"player\">{controls}<canvas class=\"stage\" role=\"img\" aria-label=\"the elite \
          walking\"></canvas></div></div></div>\n\
-         {untold}</section>\n",
+         {missing}</section>\n",
         unit = escape(results.unit()),
         low = number(range(results).0),
         high = number(range(results).1),

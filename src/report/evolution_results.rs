@@ -15,7 +15,6 @@ pub struct EvolutionResults {
     pub name: String,
     /// The archive's axes.
     pub axes: Vec<Axis>,
-    /// The objective.
     pub objective: SearchObjective,
     /// The runs by their seeds: a seed is one run, however often it was read.
     pub runs: BTreeMap<u64, SeedRun>,
@@ -108,7 +107,7 @@ impl EvolutionResults {
     pub fn unit(&self) -> &'static str {
         match self.objective {
             SearchObjective::Distance => "distance (voxels)",
-            SearchObjective::Gate => "being right (share)",
+            SearchObjective::Gate => "correct output (share)",
         }
     }
 }

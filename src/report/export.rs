@@ -74,9 +74,8 @@ impl<'a> BodyData<'a> {
     const COLUMNS: [&'static str; 7] = ["width", "height", "voxels", "actuators", "sensors", "body", "materials"];
 
     fn cells(&self) -> [String; 7] {
-        let materials = self
-            .materials
-            .map(|materials| serde_json::to_string(materials).expect("materials have nothing that JSON cannot say"));
+        let materials =
+            self.materials.map(|materials| serde_json::to_string(materials).expect("materials can be written as JSON"));
         let [width, height, voxels, actuators, sensors] =
             [self.width, self.height, self.voxels, self.actuators, self.sensors].map(|count| count.to_string());
         [width, height, voxels, actuators, sensors, self.body.join("|"), cell(&materials.unwrap_or_default())]

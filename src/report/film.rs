@@ -29,7 +29,6 @@ const FOOT: f64 = 14.0;
 /// How a film looks.
 #[derive(Clone, Debug)]
 pub struct Film {
-    /// The title.
     pub title: String,
     /// The label of each robot, beside its lane.
     pub lanes: Vec<String>,

@@ -70,7 +70,7 @@ pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup
     groups.map(|(i, &(name, stimuli))| BehaviorGroup { name, stimuli, values: values(i).collect() }).collect()
 }
 
-/// Every two groups compared, in order; pairs of which one has no values are left out.
+/// Every two groups compared, in order; pairs without values are left out.
 pub fn compare_groups(groups: &[BehaviorGroup]) -> Vec<GroupComparison> {
     let pairs = (0..groups.len()).flat_map(|a| (a + 1..groups.len()).map(move |b| [a, b]));
     let mut comparisons: Vec<GroupComparison> = pairs.filter_map(|pair| compare(groups, pair)).collect();

@@ -23,7 +23,6 @@ pub struct Html<'a> {
     pub body: String,
     /// The data for the script.
     pub data: Value,
-    /// The script.
     pub script: &'static str,
 }
 

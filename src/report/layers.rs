@@ -19,7 +19,6 @@ pub enum Slot {
 /// Nodes and passing nets in layers from left to right, each layer from top to bottom.
 #[derive(Clone, Debug, Default)]
 pub struct Layers {
-    /// The layers.
     pub layers: Vec<Vec<Slot>>,
     layer_of: BTreeMap<NetId, usize>,
 }

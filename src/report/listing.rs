@@ -13,7 +13,6 @@ use crate::store;
 /// The data of a robot in a list, for programs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Listing {
-    /// Its name.
     pub name: String,
     /// Its four letters.
     pub behavior: String,

@@ -13,7 +13,6 @@ use crate::report::svg::{Paint, Point, Svg};
 pub struct Look {
     /// The color of its voxels.
     pub color: Color,
-    /// The mark.
     pub mark: Option<Mark>,
 }
 

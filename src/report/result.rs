@@ -10,7 +10,6 @@ use crate::swarm::{SimulationResult, SwarmTrace, TestVerdict};
 pub struct RunResult<'a> {
     /// The program that found it.
     pub program: &'static str,
-    /// Its version.
     pub version: &'static str,
     /// The source file's path as the user wrote it.
     pub source: &'a str,

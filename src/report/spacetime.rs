@@ -43,9 +43,7 @@ pub struct Track {
 /// A bit or a bus over time.
 #[derive(Clone, Debug)]
 pub struct Strip {
-    /// Its name.
     pub name: String,
-    /// Its color.
     pub color: Color,
     /// Its text.
     pub spells: Spells,

@@ -25,7 +25,6 @@ pub struct SwarmTiming {
 /// A net of the slowest path.
 #[derive(Clone, Debug, Serialize)]
 pub struct PathStep {
-    /// The net.
     pub net: String,
     /// The robot that drives it; none for an input.
     pub robot: Option<String>,
@@ -107,7 +106,7 @@ impl SwarmTiming {
         };
         let path: Vec<String> = self.critical_path.iter().map(step).collect();
         let mut text =
-            format!("timing   right after {}: {}\n", counted(self.hold as usize, "cycle"), path.join(" -> "));
+            format!("timing   settles within {}: {}\n", counted(self.hold as usize, "cycle"), path.join(" -> "));
         for MemoryTimes { nets, pulse, setup, hold } in &self.memory {
             let nets = nets.join(" ");
             text.push_str(&format!("memory   {nets}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n"));

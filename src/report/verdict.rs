@@ -66,10 +66,10 @@ fn describe_weak_robots(verdict: &TestVerdict) -> String {
 
 fn describe_rows(verdict: &TestVerdict) -> String {
     let failed = || verdict.rows.iter().filter(|row| !row.passed);
-    let told: String = failed().take(MOST_ROWS).map(|row| describe_row(verdict, row)).collect();
+    let rows: String = failed().take(MOST_ROWS).map(|row| describe_row(verdict, row)).collect();
     match failed().count().saturating_sub(MOST_ROWS) {
-        0 => told,
-        more => format!("{told}    {} more failed\n", counted(more, "row")),
+        0 => rows,
+        more => format!("{rows}    {} more failed\n", counted(more, "row")),
     }
 }
 
@@ -80,7 +80,7 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
     let outputs = verdict.outputs.iter().zip(&row.expected).zip(&row.observed).zip(&row.steady);
     let wrong = outputs.filter_map(|(((port, expected), observed), &steady)| match steady {
         _ if expected.is_open() => None,
-        false => Some(format!("{} goes on changing, expected {expected}", port.name)),
+        false => Some(format!("{} keeps changing, expected {expected}", port.name)),
         true if differs(expected, observed) => Some(format!("{}={observed}, expected {expected}", port.name)),
         true => None,
     });
@@ -151,7 +151,7 @@ impl<'a> PortColumns<'a> {
 
 fn describe_lapses(row: &RowVerdict) -> Vec<String> {
     let wrong = row.lapses.iter().map(|lapse| describe_lapse(lapse, "output"));
-    let late = row.late.iter().map(|lapse| describe_lapse(lapse, "had no time yet and still output"));
+    let late = row.late.iter().map(|lapse| describe_lapse(lapse, "had not settled yet and output"));
     wrong.chain(late).chain(nearest_fix(row)).collect()
 }
 
@@ -167,12 +167,12 @@ fn describe_lapse(lapse: &Lapse, did: &str) -> String {
 fn nearest_fix(row: &RowVerdict) -> Option<String> {
     let fix = match row.lapses.first() {
         _ if row.passed => return None,
-        Some(Lapse { net, robot, .. }) => format!("another robot than {robot} on net {net}, or a longer hold"),
+        Some(Lapse { net, robot, .. }) => format!("a robot other than {robot} on net {net}, or a longer hold"),
         None if row.cycles < row.needed => {
             format!("hold the row for {}, as `hold: auto` does", counted(row.needed.unwrap_or_default(), "cycle"))
         }
         None if row.cycles.is_none() => return None,
-        None => "every robot did as its gate does, so mend the circuit or the test".to_owned(),
+        None => "every robot computed its gate, so correct the circuit or the test".to_owned(),
     };
     Some(format!("    nearest fix: {fix}\n"))
 }
@@ -242,7 +242,7 @@ mod tests {
         assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
         assert!(text.contains("    latch.nb:7: row 2: d=1 en=0 | q=0, expected 1\n"), "{text}");
         assert!(text.contains("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
-        assert!(text.ends_with("    nearest fix: another robot than nand_1 on net q, or a longer hold\n"), "{text}");
+        assert!(text.ends_with("    nearest fix: a robot other than nand_1 on net q, or a longer hold\n"), "{text}");
     }
 
     #[test]
@@ -250,7 +250,7 @@ mod tests {
         let mut verdict = verdict(false);
         verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].lapses);
         let text = describe_test(&verdict);
-        assert!(text.contains("robot nand_1 on net q had no time yet and still output 0 on stimuli 1 0\n"), "{text}");
+        assert!(text.contains("robot nand_1 on net q had not settled yet and output 0 on stimuli 1 0\n"), "{text}");
         assert!(text.ends_with("    nearest fix: hold the row for 14 cycles, as `hold: auto` does\n"), "{text}");
         verdict.rows[0].cycles = Some(14);
         let text = describe_test(&verdict);
@@ -272,7 +272,7 @@ mod tests {
         assert!(text.contains("1 0     4'd9      4'd11         12  FAIL"), "{text}");
         assert!(text.contains("row 2: d=1 en=0 | sum=4'd11, expected 4'd9\n"), "{text}");
         verdict.rows[0].steady = vec![false];
-        assert!(describe_failures(&verdict).contains("| sum goes on changing, expected 4'd9\n"));
+        assert!(describe_failures(&verdict).contains("| sum keeps changing, expected 4'd9\n"));
     }
 
     #[test]

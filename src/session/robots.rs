@@ -25,7 +25,7 @@ impl<'a> Supply<'a> {
     /// The robots of a declared library; evolution runs are in the folder `runs`.
     ///
     /// # Errors
-    /// What is wrong with the folder or its files, at the declaration.
+    /// The errors of the folder or its files, at the declaration.
     pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
         let mut library = match &declared.from {
             Origin::Shipped => self.shipped().clone(),

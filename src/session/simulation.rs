@@ -10,16 +10,16 @@ use crate::session::robots::Supply;
 use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
 use crate::swarm::{self, SimulationResult};
 
-/// A simulation with what came of it.
+/// A simulation with its results.
 #[derive(Clone, Debug)]
 pub struct SimulationRun {
-    /// What the outputs did.
+    /// The activity of the outputs.
     pub result: SimulationResult,
     /// How the run ended.
     pub end: RunEnd,
-    /// What the swarm did.
+    /// The swarm and its trace.
     pub swarm: SwarmRun,
-    /// What is legal and surely not meant.
+    /// Warnings about the swarm.
     pub warnings: Vec<Diagnostic>,
 }
 

@@ -5,19 +5,18 @@ use crate::session::observer::Observer;
 use crate::sim::Simulator;
 use crate::swarm::{LiveSwarm, Room, SwarmTrace};
 
-/// A swarm with what it did.
+/// A swarm with its trace.
 #[derive(Clone, Debug)]
 pub struct SwarmRun {
     /// The circuit, compiled.
     pub compiled: Compiled,
-    /// What its robots did.
     pub trace: SwarmTrace,
 }
 
 /// How a session's swarms are simulated.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Physics {
-    /// What simulates their robots.
+    /// The simulator of their robots.
     pub simulator: Simulator,
     /// The room for a recording of the robots' poses, if one is made.
     pub poses: Option<Room>,
@@ -26,14 +25,14 @@ pub(super) struct Physics {
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunEnd {
-    /// All of it was done.
+    /// It was completed.
     Complete,
-    /// The observer cancelled it: results are of what was done until then.
+    /// The observer cancelled it; the results cover the part before.
     Cancelled,
 }
 
 impl Physics {
-    /// A swarm at its start, on ground for so many cycles.
+    /// A swarm at its start, with ground for that many cycles.
     pub fn swarm(&self, compiled: &Compiled, cycles: usize) -> LiveSwarm {
         LiveSwarm::new(&self.simulator, &compiled.assembly, cycles, compiled.plan.window as usize, self.poses)
     }

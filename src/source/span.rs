@@ -7,7 +7,6 @@ pub struct FileId(pub u32);
 /// A half-open range of bytes of one source file; twelve bytes, so that every node of a tree can carry one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The file.
     pub file: FileId,
     /// The first byte.
     pub start: u32,

@@ -1,4 +1,4 @@
-//! Who reads files: the core asks a [`SourceWorld`]. The command line gives it the disk, tests and other doors give it
+//! Reading of files: the core asks a [`SourceWorld`]. The command line gives it the disk, tests and other doors give it
 //! memory.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ pub enum FileError {
     Io(String),
 }
 
-/// Where sources and robot files are: everything that the core reads, it reads here.
+/// The source of everything that the core reads: programs and robot files.
 pub trait SourceWorld {
     /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
@@ -74,13 +74,13 @@ impl SourceWorld for MemoryWorld {
 /// Files in memory over another world, such as an editor's buffers over the disk.
 #[derive(Clone, Debug, Default)]
 pub struct OverlayWorld<W> {
-    /// What is read first, by the identities of `under`.
+    /// The texts that hide files of `under`, by their identities there.
     over: MemoryWorld,
     under: W,
 }
 
 impl<W: SourceWorld> OverlayWorld<W> {
-    /// Nothing over a world.
+    /// A world without texts over it.
     pub fn new(under: W) -> Self {
         Self { over: MemoryWorld::default(), under }
     }
@@ -99,7 +99,7 @@ impl<W: SourceWorld> OverlayWorld<W> {
 
 impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
     fn read(&self, path: &str) -> Result<String, FileError> {
-        // A file that did not exist when its buffer was opened has had its path for an identity.
+        // A file that did not exist when its buffer was opened is known by its path.
         let over = self.over.read(&self.under.identity(path)).or_else(|_| self.over.read(path));
         over.or_else(|_| self.under.read(path))
     }

@@ -51,14 +51,14 @@ impl Checkpoint {
             env_steps,
             left_out,
         };
-        let text = serde_json::to_string(&record).expect("a search has nothing that JSON cannot say");
+        let text = serde_json::to_string(&record).expect("a search can be written as JSON");
         format!("{MAGIC} {FORMAT} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
     }
 
     /// Reads the bytes of a checkpoint file called `name`.
     ///
     /// # Errors
-    /// A diagnostic for what is no checkpoint, of another format, damaged, or no search.
+    /// A diagnostic for bytes that are not a checkpoint, of another format, or damaged, and for an impossible search.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, Diagnostic> {
         Self::read_bytes(bytes).map_err(|error| error.of(name))
     }
@@ -86,7 +86,7 @@ impl Checkpoint {
     /// The search as it was, for the declaration it was made by.
     ///
     /// # Errors
-    /// A diagnostic when the declaration or the seed is another, or its bodies are none of that declaration.
+    /// A diagnostic when the declaration or the seed is different, or its bodies do not belong to that declaration.
     pub fn resume(self, name: &str, evolution: &Evolution, seed: u64) -> Result<Search, Diagnostic> {
         let declared = || evolution.name.clone();
         let error = if self.state.seed != seed {
@@ -189,13 +189,13 @@ mod tests {
 
     #[test]
     fn another_declaration_or_seed_is_rejected() {
-        let refused = |evolution: &Evolution, seed| {
+        let rejected = |evolution: &Evolution, seed| {
             let checkpoint = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
             checkpoint.resume("a", evolution, seed).unwrap_err().message
         };
-        assert_eq!(refused(&evolution(), 2), "`a` is of seed 1, expected seed 2");
+        assert_eq!(rejected(&evolution(), 2), "`a` belongs to seed 1, expected seed 2");
         let wider = Evolution { width: 5, ..evolution() };
-        assert_eq!(refused(&wider, 1), "`a` was made by a different declaration of `small`");
+        assert_eq!(rejected(&wider, 1), "`a` was made by a different declaration of `small`");
         let mut forged = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
         forged.state.niches[0].1[0].genotype.links.clear();
         let message = forged.resume("a", &evolution(), 1).unwrap_err().message;

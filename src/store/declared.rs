@@ -11,7 +11,6 @@ pub struct Declared {
     pub name: String,
     /// The archive's axes; `None` in the oldest checkpoints, which do not have them.
     pub axes: Vec<Axis>,
-    /// The objective.
     pub objective: SearchObjective,
     /// The meaning of the codes in its bodies.
     pub palette: Arc<Palette>,

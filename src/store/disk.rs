@@ -22,7 +22,7 @@ const STANDARD_INPUT: &str = "/dev/stdin";
 /// opened, because a pipe waits for its writer and a device may never end. Standard input is read in any case.
 ///
 /// # Errors
-/// When there is no such file, or it is not a regular one, too large, or the system refuses.
+/// When there is no such file, or it is not a regular one, too large, or the system rejects it.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let about = fs::metadata(path).map_err(|error| refusal(&error))?;
     if !about.is_file() && path != Path::new(STANDARD_INPUT) {

@@ -1,4 +1,4 @@
-//! A file that is being written and takes its name when it is whole.
+//! A file that is being written, and gets its name when it is complete.
 
 use std::fs::{self, File};
 use std::io;

@@ -33,7 +33,7 @@ pub fn shipped_library() -> Library {
 /// The robots of a folder's `.yaml` files, best first within each function.
 ///
 /// # Errors
-/// What is wrong with the folder or its files; several faults where several files are wrong.
+/// The errors of the folder or its files.
 pub fn read_library(world: &dyn SourceWorld, folder: &str) -> Result<Library, Vec<Diagnostic>> {
     let mut names =
         world.list(folder).map_err(|error| vec![LibraryError { folder: folder.to_owned(), error }.into()])?;

@@ -12,7 +12,7 @@ const NAME: &str = "lock";
 #[derive(Debug)]
 pub struct FolderLock(#[expect(dead_code, reason = "the lock lasts as long as the file is open")] File);
 
-/// Why a folder is not ours.
+/// Why a folder cannot be locked.
 #[derive(Debug)]
 pub enum LockFault {
     /// Another process has the lock.

@@ -47,7 +47,7 @@ impl SearchRecord {
     /// The state of a search by that declaration.
     ///
     /// # Errors
-    /// Says which niche or body cannot be of it.
+    /// The niche or body that cannot belong to it.
     pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, StateError> {
         let Self { seed, generation, counts, mirrors, niches } = self;
         let bins = declared

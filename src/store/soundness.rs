@@ -11,7 +11,7 @@ const MAX_CYCLES: u32 = 1000;
 /// The longest name.
 const MAX_NAME: usize = 100;
 
-/// Refuses a robot that no measurement can have given.
+/// Rejects a robot with values that a measurement cannot give.
 ///
 /// # Errors
 /// A diagnostic at the field that is wrong.

@@ -46,7 +46,7 @@ fn too_deep(text: &str) -> Option<usize> {
 
 /// The text of a value, without tags, whose scalars every version of YAML reads alike.
 pub(super) fn print<T: Serialize>(value: &T) -> String {
-    let text = serde_yaml::to_string(value).expect("a robot has nothing that YAML cannot say");
+    let text = serde_yaml::to_string(value).expect("a robot can be written as YAML");
     text.lines().flat_map(|line| [portable(line), "\n".to_owned()]).collect()
 }
 

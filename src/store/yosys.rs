@@ -26,7 +26,7 @@ const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -au
 /// The BLIF of a Verilog source that was read from `path`.
 ///
 /// # Errors
-/// When Yosys is missing or refuses the source.
+/// When Yosys is missing or rejects the source.
 pub(super) fn flatten(path: &Path, source: String) -> Result<String, Diagnostics> {
     let folder = prepare(path, &source).map_err(|error| Diagnostic::from(StoreError::TemporaryFolder(error)))?;
     let output = Command::new("yosys").args(["-q", "-p", SCRIPT]).current_dir(folder.path()).output();

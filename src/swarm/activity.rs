@@ -12,7 +12,6 @@ pub struct SimulationResult {
     pub file: String,
     /// The line at which it is declared.
     pub line: usize,
-    /// The circuit.
     pub circuit: String,
     /// The declared swarm.
     pub swarm: String,

@@ -38,7 +38,7 @@ const TOPPLED: f64 = 0.7;
 /// wrong holds.
 ///
 /// # Errors
-/// The fault of a simulation that could not go on.
+/// The fault of a simulation.
 pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
     let probe = Probe::new(simulator, body, behavior);
     let tally = probe.best_clock()?;
@@ -57,7 +57,7 @@ pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> R
 /// The smallest clock of at most `most` cycles whose first, cheap sequences have no errors, with their margin.
 ///
 /// # Errors
-/// The fault of a simulation that could not go on.
+/// The fault of a simulation.
 pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
     let probe = Probe::new(simulator, body, behavior);
     for clock in 1..=most {
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn glitches_are_wrong_cycles_where_the_output_ought_to_stay() {
+    fn glitches_are_wrong_cycles_where_the_output_should_not_change() {
         let stays = hold(1, 2, &[-0.2, 0.1, 0.1]);
         let changes = hold(2, 3, &[0.2, 0.1, -0.1]);
         let Tally { quiet, glitches, .. } = tally(2, &[stays, changes]);

@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_first_cycle_counts_only_where_the_output_ought_to_stay() {
+    fn a_wrong_first_cycle_counts_only_where_the_output_should_not_change() {
         let nand: Behavior = "RRRL".parse().unwrap();
         let start = hold(None, 0, &[-9.0, 0.05, 0.05, 0.05]);
         let switch = hold(Some(0), 3, &[9.0, -0.05, -0.05, -0.05]);

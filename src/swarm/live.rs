@@ -45,7 +45,7 @@ pub struct LiveSwarm {
     trace: SwarmTrace,
 }
 
-/// A swarm at the end of a cycle, with everything that it did until then.
+/// A swarm at the end of a cycle, with its trace and recording.
 #[derive(Clone, Debug)]
 pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,

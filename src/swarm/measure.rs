@@ -22,7 +22,7 @@ pub struct Measurement {
 /// Measures a body by the paper's fixed simulations and as a gate.
 ///
 /// # Errors
-/// The fault of a simulation that could not go on.
+/// The fault of a simulation.
 pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault> {
     let trajectories = simulator.run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
     let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");

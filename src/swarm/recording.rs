@@ -37,7 +37,6 @@ impl Room {
 /// Some robots of a flock over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
-    /// Frames in a cycle.
     pub frames_per_cycle: u32,
     /// The recorded robots.
     pub robots: Vec<Recorded>,

@@ -27,7 +27,6 @@ pub struct Selection {
 /// An elite with its run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nominee {
-    /// The elite.
     pub elite: Elite,
     /// Its run.
     pub provenance: Provenance,

@@ -1,11 +1,11 @@
-//! How long a swarm takes to settle after its inputs switch, whatever each robot does on the way: ternary simulation
-//! with bounded delays.
+//! How long a swarm takes to settle after its inputs switch, whatever its robots do before they have settled: ternary
+//! simulation with bounded delays.
 //!
-//! A robot is right once it has sensed the same for as many cycles as its clock. Until then it may do either, unless it
-//! does not glitch and was right before with the same answer. A net that robots may still make either is unknown, and
-//! what follows from it is too, as far as functions let it through. A row has settled when nothing is unknown and
-//! nothing changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic simulation"
-//! (1989).
+//! The output of a robot is correct once its stimuli have been the same for as many cycles as its clock. Until then it
+//! is unknown, unless the robot does not glitch and its previous output was the same and correct. A robot with an
+//! unknown stimulus has an unknown output, unless the other stimulus decides it. A row has settled when no output is
+//! unknown and none changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic
+//! simulation" (1989).
 
 use crate::model::Function;
 use crate::swarm::{Assembly, Member, START_CYCLES, StimulusSource};
@@ -13,11 +13,11 @@ use crate::swarm::{Assembly, Member, START_CYCLES, StimulusSource};
 /// The known value of a bit; `None` if it may be either.
 type Known = Option<bool>;
 
-/// A swarm on its way through the rows of a test, as far as clocks alone tell what it does.
+/// A swarm during the rows of a test; its outputs are known as far as the clocks of its robots determine them.
 #[derive(Clone, Debug)]
 pub struct Settling<'a> {
     members: &'a [Member],
-    /// Cycles after which each robot is right, at the output's window.
+    /// Cycles after which the output of each robot is correct, with the window over which it is measured.
     clocks: Vec<usize>,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
     sensed: Vec<([Known; 2], usize)>,
@@ -67,15 +67,15 @@ impl<'a> Settling<'a> {
         &self.bits
     }
 
-    /// One cycle. In their first ones robots hear the start values of the others.
+    /// One cycle. In the first ones robots sense the start values of the others.
     fn advance(&mut self, inputs: &[bool]) {
         let starting = self.cycles < START_CYCLES;
-        let heard: Vec<Known> = match starting {
+        let others: Vec<Known> = match starting {
             true => self.members.iter().map(|member| Some(member.start)).collect(),
             false => self.bits.clone(),
         };
         for (i, member) in self.members.iter().enumerate() {
-            let pattern = member.senses.map(|signal| read(signal, inputs, &heard));
+            let pattern = member.senses.map(|signal| read(signal, inputs, &others));
             let (before, held) = self.sensed[i];
             let held = match pattern {
                 [Some(_), Some(_)] if pattern == before => held + 1,
@@ -106,10 +106,10 @@ impl<'a> Settling<'a> {
     }
 }
 
-fn read(signal: StimulusSource, inputs: &[bool], heard: &[Known]) -> Known {
+fn read(signal: StimulusSource, inputs: &[bool], others: &[Known]) -> Known {
     match signal {
         StimulusSource::Input(i) => Some(inputs[i]),
-        StimulusSource::Robot(i) => heard[i],
+        StimulusSource::Robot(i) => others[i],
         StimulusSource::Constant(value) => Some(value),
     }
 }

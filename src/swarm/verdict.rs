@@ -38,7 +38,6 @@ pub struct TestVerdict {
     pub title: String,
     /// The declared swarm, if it is one.
     pub swarm: Option<String>,
-    /// The level.
     pub level: Level,
     /// Whether all rows passed.
     pub passed: bool,
@@ -65,12 +64,11 @@ pub struct RowVerdict {
     pub expected: Vec<Value>,
     /// The values of the output ports at the end of the row.
     pub observed: Vec<Value>,
-    /// For each output port whether it had that value for good: over the last two cycles, or for ever at the level of
-    /// logic.
+    /// For each output port, whether it was steady: over the last two cycles in physics, forever at the level of logic.
     pub steady: Vec<bool>,
     /// Cycles for which the row was held; none at the level of logic.
     pub cycles: Option<usize>,
-    /// Cycles for which static timing would have it held; none at the level of logic.
+    /// Cycles for which `hold: auto` would hold it; none at the level of logic.
     pub needed: Option<usize>,
     /// Whether every checked output had its expected value and kept it.
     pub passed: bool,
@@ -92,6 +90,5 @@ pub struct Lapse {
     pub cycle: usize,
     /// Its stimuli.
     pub sensed: [bool; 2],
-    /// Its output.
     pub output: bool,
 }

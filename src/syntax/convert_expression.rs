@@ -71,14 +71,14 @@ impl Converter<'_> {
         }
     }
 
-    /// A word for the place of a sign, with a space on either side where the text has none.
+    /// A word that replaces a sign, with spaces around it if the text has none.
     fn apart(&self, sign: Span, word: &str) -> String {
         let space = |character: Option<char>| if character.is_some_and(char::is_whitespace) { "" } else { " " };
         let (before, after) = (&self.text[..sign.start as usize], &self.text[sign.end as usize..]);
         format!("{}{word}{}", space(before.chars().next_back()), space(after.chars().next()))
     }
 
-    /// Takes an operator in; `next` is what stands behind it.
+    /// Adds an operator; `next` is the text after it.
     fn push_infix(&mut self, (infix, place): (Infix, Span), next: &str, stacks: &mut Stacks, arena: &mut Arena) {
         while let Some(&top) = stacks.waiting.last().filter(|top| top.precedence() >= infix.precedence()) {
             if let Waiting::Infix(before, before_place) = top
@@ -249,7 +249,7 @@ impl Converter<'_> {
 }
 
 impl Stacks {
-    /// Puts the topmost operator together with its operands.
+    /// Combines the topmost operator with its operands.
     fn reduce(&mut self, arena: &mut Arena) {
         let right = self.values.pop().expect("an operand");
         let value = match self.waiting.pop().expect("an operator") {
@@ -264,7 +264,7 @@ impl Stacks {
     }
 }
 
-/// An operand as it is shown in advice.
+/// An operand as shown in advice.
 fn brief(operand: &str) -> &str {
     if operand.len() > 24 || operand.contains('\n') { "…" } else { operand.trim_end() }
 }

@@ -28,7 +28,6 @@ pub const MAX_WORDS: usize = 2_000_000;
 pub struct Parsed {
     /// Everything that could be parsed.
     pub tree: Tree,
-    /// The errors.
     pub errors: Vec<Diagnostic>,
 }
 
@@ -101,7 +100,7 @@ fn parse_piece(
     (declaration, converter.errors)
 }
 
-/// What is wrong with a declaration that nests too deeply or is too long to be parsed.
+/// The error of a declaration that is nested too deeply or too long to be parsed.
 fn over_limits(piece: &SourcePiece) -> Option<SyntaxError> {
     if piece.depth > MAX_NESTING {
         return Some(SyntaxError::TooDeep { depth: piece.depth, most: MAX_NESTING });

@@ -129,7 +129,7 @@ impl<'a> SlipPlace<'a> {
         self.span(self.at, self.at + self.found.len())
     }
 
-    /// The word or sign that stands there.
+    /// The word or sign at the place.
     fn found(&self) -> String {
         self.found.to_owned()
     }

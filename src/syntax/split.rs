@@ -14,7 +14,6 @@ pub const KEYWORDS: [&str; 10] =
 pub struct Split {
     /// The declarations.
     pub pieces: Vec<SourcePiece>,
-    /// All comments.
     pub comments: Vec<Range<usize>>,
 }
 

@@ -19,7 +19,6 @@ pub struct Tree {
 pub struct Declaration {
     /// From its keyword to its last character.
     pub span: Span,
-    /// The kind.
     pub kind: DeclarationKind,
 }
 
@@ -88,9 +87,7 @@ impl RecordKeyword {
 /// A declaration that is a name and a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordDeclaration {
-    /// The keyword.
     pub keyword: RecordKeyword,
-    /// The name.
     pub name: NameSyntax,
     /// The fields.
     pub record: RecordSyntax,
@@ -108,16 +105,13 @@ pub struct RecordSyntax {
 /// A field of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// The name.
     pub name: NameSyntax,
-    /// The value.
     pub value: ValueSyntax,
 }
 
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ValueSyntax {
-    /// The kind.
     pub kind: ValueKind,
     /// The place.
     pub span: Span,
@@ -158,9 +152,7 @@ pub struct Number {
 /// A number with its unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quantity {
-    /// The number.
     pub number: Number,
-    /// The unit, if there is one.
     pub unit: Option<NameSyntax>,
 }
 
@@ -174,7 +166,6 @@ impl Quantity {
 /// A circuit's name with values for its parameters, which are sizes of the surrounding arena.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstanceSyntax {
-    /// The name.
     pub name: NameSyntax,
     /// The parameters given.
     pub arguments: Vec<Argument>,
@@ -185,7 +176,6 @@ pub struct InstanceSyntax {
 /// `schedule sweep(s1, s2) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScheduleSyntax {
-    /// The name.
     pub name: NameSyntax,
     /// The stimuli.
     pub columns: Vec<NameSyntax>,
@@ -207,7 +197,6 @@ pub struct SpellSyntax {
 /// `simulate latch with …`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulate {
-    /// The swarm.
     pub swarm: NameSyntax,
     /// Its inputs over time.
     pub with: With,
@@ -232,7 +221,6 @@ pub enum With {
 pub struct Test {
     /// The tested circuit.
     pub circuit: InstanceSyntax,
-    /// The title.
     pub title: Option<Text>,
     /// The method.
     pub kind: TestKind,
@@ -280,7 +268,6 @@ pub struct TestRowSyntax {
 /// `circuit half_adder(a, b) -> (s, c) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitSyntax {
-    /// The name.
     pub name: NameSyntax,
     /// The width parameters.
     pub parameters: Vec<ParameterSyntax>,
@@ -314,7 +301,6 @@ pub struct SizeSyntaxId(pub u32);
 /// `n` or `start = 0` in a circuit's parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterSyntax {
-    /// The name.
     pub name: NameSyntax,
     /// The default value.
     pub default: Option<SizeSyntaxId>,
@@ -323,7 +309,6 @@ pub struct ParameterSyntax {
 /// `a` or `a[8]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
-    /// The name.
     pub name: NameSyntax,
     /// The width in bits, if there is one.
     pub width: Option<SizeSyntaxId>,
@@ -332,7 +317,6 @@ pub struct Port {
 /// A statement with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatementSyntax {
-    /// The kind.
     pub kind: StatementKind,
     /// The place.
     pub span: Span,
@@ -343,7 +327,6 @@ pub struct StatementSyntax {
 pub enum StatementKind {
     /// `q init 0 = nand(s, nq)`
     Drive {
-        /// The targets.
         targets: Vec<TargetSyntax>,
         /// Whether the targets are in parentheses.
         grouped: bool,
@@ -354,7 +337,6 @@ pub enum StatementKind {
     Nets(Vec<Port>),
     /// `for i in 0..8 { … }`
     For {
-        /// The variable.
         variable: NameSyntax,
         /// Its first value.
         from: SizeSyntaxId,
@@ -392,7 +374,6 @@ pub struct Index {
 /// An integer with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeSyntax {
-    /// The kind.
     pub kind: SizeSyntaxKind,
     /// The place.
     pub span: Span,
@@ -418,7 +399,6 @@ pub enum SizeSyntaxKind {
 pub struct Argument {
     /// The parameter's name, if it is given.
     pub name: Option<NameSyntax>,
-    /// The value.
     pub value: SizeSyntaxId,
     /// The place.
     pub span: Span,
@@ -427,7 +407,6 @@ pub struct Argument {
 /// An expression with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpressionSyntax {
-    /// The kind.
     pub kind: ExpressionSyntaxKind,
     /// The place.
     pub span: Span,
@@ -451,12 +430,10 @@ pub enum ExpressionSyntaxKind {
     Computed {
         /// The width: a literal or a parameter.
         width: SizeSyntaxId,
-        /// The value.
         value: SizeSyntaxId,
     },
     /// `a`, `a[3]`, `a[3..0]`
     Net {
-        /// The name.
         name: NameSyntax,
         /// The bits, if not the whole net is read.
         index: Option<Index>,
@@ -467,7 +444,6 @@ pub enum ExpressionSyntaxKind {
         name: NameSyntax,
         /// The parameters given.
         arguments: Vec<Argument>,
-        /// The operands.
         operands: Vec<ExpressionSyntaxId>,
     },
     /// `(a)`
@@ -485,7 +461,6 @@ pub enum ExpressionSyntaxKind {
     Not(ExpressionSyntaxId),
     /// `a and b`
     Infix {
-        /// The operator.
         operator: Infix,
         /// The place of the operator.
         place: Span,
@@ -498,12 +473,10 @@ pub enum ExpressionSyntaxKind {
     Operation {
         /// The operation.
         operator: crate::model::Operator,
-        /// The operands.
         operands: Vec<ExpressionSyntaxId>,
     },
     /// `if c then a else b`
     Choice {
-        /// The condition.
         condition: ExpressionSyntaxId,
         /// The value if it is 1.
         then: ExpressionSyntaxId,
@@ -512,7 +485,6 @@ pub enum ExpressionSyntaxKind {
     },
     /// `table(a, b) { 00: 1, else: 0 }`
     Table {
-        /// The inputs.
         inputs: Vec<ExpressionSyntaxId>,
         /// The rows in order of text.
         rows: Vec<TableRowSyntax>,
@@ -524,7 +496,6 @@ pub enum ExpressionSyntaxKind {
 pub struct TableRowSyntax {
     /// The pattern; `None` is `else`.
     pub pattern: Option<NameSyntax>,
-    /// The output.
     pub output: NameSyntax,
     /// The place of the row.
     pub span: Span,

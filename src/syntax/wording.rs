@@ -13,29 +13,29 @@ const NAME_PARTS: &str = "name inner parts: `t = …`";
 /// A text that does not follow the grammar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum SyntaxError {
-    /// More text than is read.
+    /// Too much text.
     TooLarge { bytes: usize, most: u64 },
-    /// A byte that no text has.
+    /// A zero byte.
     ZeroByte,
-    /// A declaration with brackets inside brackets inside brackets.
+    /// A declaration that is nested too deeply.
     TooDeep { depth: usize, most: usize },
-    /// The parser's own limit of nesting.
+    /// Nesting above the limit of the parser itself.
     TooDeepHere,
-    /// A declaration of very many words.
+    /// A declaration of too many words.
     TooLong { words: usize, most: usize },
-    /// A text that ought to name a circuit with its parameters.
+    /// A text that is not the name of a circuit with its parameters.
     NotAnInstance { text: String },
-    /// A word or sign that cannot stand there; `expected` is what could.
+    /// An unexpected word or sign; `expected` describes the valid ones.
     Unexpected { found: String, expected: String },
-    /// The same where a declaration begins.
+    /// An unexpected word at the start of a declaration.
     UnexpectedDeclaration { found: String, meant: Suggestion },
-    /// A line break where a line must go on.
+    /// A line that ends too early.
     EndOfLine { expected: String },
-    /// The end of a declaration that must go on.
+    /// A declaration that ends too early.
     EndOfDeclaration { expected: String },
-    /// A bracket that its declaration leaves open.
+    /// A bracket that is not closed.
     UnclosedBracket,
-    /// Two operators of which neither comes first.
+    /// Two operators without an order of precedence.
     Ambiguous { operators: [&'static str; 2], first: Span, readings: [String; 2] },
 }
 
@@ -96,19 +96,19 @@ impl SyntaxError {
     }
 }
 
-/// A word or sign that cannot stand at `span`.
+/// An unexpected word or sign at `span`.
 fn unexpected(found: &str, span: Span, expected: impl Into<String>) -> Diagnostic {
     Diagnostic::new(Code::Syntax, format!("unexpected `{found}`"), span, expected)
 }
 
-/// A habit of another language or a common mistake, of which is known what was meant.
+/// A habit from another language or a common mistake, whose meaning is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Slip {
     /// A comment that begins with `/*`.
     BlockComment,
-    /// A name with letters that names do not have.
+    /// A name with invalid letters.
     ForeignLetters { word: String },
-    /// A quote without its partner.
+    /// A quote that is not closed.
     UnclosedQuote,
     /// A string in single quotes; `close` is the second of them.
     SingleQuote { close: Option<Span> },
@@ -116,7 +116,7 @@ pub(crate) enum Slip {
     ReservedWord { word: String },
     /// `:` in the bits of a net.
     ColonInSlice { net: String, high: String, low: String },
-    /// `[7:0]` behind a port's name; `range` is what stands in the brackets.
+    /// `[7:0]` after a port's name; `range` is the text in the brackets.
     RangeOfPort { port: String, width: Option<u64>, range: Span },
     /// `[7:0]` before a name; `both` covers the two.
     WidthBeforeName { name: String, width: String, both: Option<Span> },
@@ -154,7 +154,7 @@ pub(crate) enum Slip {
     OperatorSign { sign: String, operator: &'static str, text: String },
     /// A base other than `d` before a computed value.
     BaseOfComputed { base: char },
-    /// Parameters behind a net.
+    /// Parameters after a net.
     ParametersOfNet,
     /// A slice where a circuit has its parameters.
     SliceOfCircuit,
@@ -251,10 +251,12 @@ impl Slip {
             Self::WidthOfConstant { width, digits, zero: None } => {
                 format!("give the width a name, as in `circuit name[w = {width}](…)`, and write `w'd{digits}`")
             }
-            Self::NetsInBraces { nets, bits } => format!(
-                "to take a circuit's outputs, write `({nets}) = …`; to take bits of a value, write `t = …`, then {}",
-                suggest::alternatives(bits, "and")
-            ),
+            Self::NetsInBraces { nets, bits } => {
+                let bits = suggest::alternatives(bits, "and");
+                format!(
+                    "for a circuit's outputs, write `({nets}) = …`; for bits of a value, write `t = …`, then {bits}"
+                )
+            }
             Self::SpaceBeforeOperands { name, operands } => format!("write `{name}{operands}`"),
             Self::MisspelledOperator { operator, .. } => format!("did you mean `{operator}`?"),
             Self::MissingOperator { .. } => return None,
@@ -275,7 +277,7 @@ impl Slip {
         })
     }
 
-    /// What to change where it is certain; `here` is the slip's place.
+    /// The fix, if it is certain; `here` is the slip's place.
     fn fix(&self, here: Span) -> Option<Fix> {
         Some(match self {
             Self::SingleQuote { close } => {
@@ -305,7 +307,7 @@ impl Slip {
     }
 }
 
-/// What to write for a word that begins a statement in other languages.
+/// The replacement of a word that begins a statement in other languages.
 fn help_for_statement(word: &str) -> &'static str {
     match word {
         "wire" | "logic" | "signal" => {

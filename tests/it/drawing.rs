@@ -88,7 +88,7 @@ fn every_picture_of_a_run_is_drawn() {
 fn missing_pictures_of_a_run_are_reported() {
     let bench = evolved();
     draw(&bench, "out/tiny --as heatmap --axes voxels,depth -o a.svg")
-        .expect_fault(&["`depth` is not an axis", "`voxels`, `active`, `sensory`, `behavior`"]);
+        .expect_fault(&["`depth` is not an axis", "`voxels`, `active`, `sensory` and `behavior`"]);
     draw(&bench, "out/tiny --as heatmap --axes active,active -o a.svg").expect_fault(&["both axes are `active`"]);
     draw(&bench, "out/tiny --as heatmap --axes active -o a.svg").expect_fault(&["expected two"]);
     draw(&bench, "out/tiny --as strip -o a.svg").expect_fault(&["`out/tiny` is a run", "`--behavior`"]);
@@ -168,7 +168,7 @@ fn a_fault_in_the_first_cycle_is_drawn_and_not_hidden() {
 }
 
 #[test]
-fn options_that_cannot_apply_are_refused() {
+fn options_that_cannot_apply_are_rejected() {
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     bench.file("idle.nb", "circuit inverter(a) -> (q) { q = not a }\n");

@@ -1,4 +1,4 @@
-//! The laws of the formatter: twice is once, comments are kept, the meaning stays.
+//! The laws of the formatter: formatting twice changes nothing, comments are kept, the meaning stays.
 
 use std::fs;
 

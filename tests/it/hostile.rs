@@ -1,4 +1,4 @@
-//! Input that means harm: a clear message, bounded work, never a panic.
+//! Hostile input: a clear message, bounded work, never a panic.
 
 use nbc::check;
 use nbc::diag::{Code, Diagnostic, render};
@@ -15,8 +15,8 @@ fn found(text: String) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// The text is refused with this code.
-fn refused(text: impl Into<String>, code: Code) {
+/// The text is rejected with this code.
+fn rejected(text: impl Into<String>, code: Code) {
     let diagnostics = found(text.into());
     assert!(diagnostics.iter().any(|diagnostic| diagnostic.code == code), "{code} is not among {diagnostics:.500?}");
 }
@@ -28,18 +28,18 @@ fn circuit(line: &str) -> String {
 #[test]
 fn nesting_is_bounded() {
     let deep = 10_000;
-    refused(circuit(&format!("q = {}a{}", "(".repeat(deep), ")".repeat(deep))), Code::Nesting);
-    refused(circuit(&format!("q = {}a{}", "nand(a, ".repeat(deep), ")".repeat(deep))), Code::Nesting);
-    refused(circuit(&format!("q = {}a{}", "{".repeat(deep), "}".repeat(deep))), Code::Nesting);
-    refused(format!("{}{}", circuit("q = a"), "[".repeat(deep)), Code::Nesting);
-    refused(format!("material m {{ kind: {}{} }}", "[".repeat(deep), "]".repeat(deep)), Code::Nesting);
+    rejected(circuit(&format!("q = {}a{}", "(".repeat(deep), ")".repeat(deep))), Code::Nesting);
+    rejected(circuit(&format!("q = {}a{}", "nand(a, ".repeat(deep), ")".repeat(deep))), Code::Nesting);
+    rejected(circuit(&format!("q = {}a{}", "{".repeat(deep), "}".repeat(deep))), Code::Nesting);
+    rejected(format!("{}{}", circuit("q = a"), "[".repeat(deep)), Code::Nesting);
+    rejected(format!("material m {{ kind: {}{} }}", "[".repeat(deep), "]".repeat(deep)), Code::Nesting);
 }
 
 #[test]
 fn long_chains_do_not_count_as_nesting() {
     let long = 20_000;
     for sign in ["~", "! ", "!not "] {
-        refused(circuit(&format!("q = {}a", sign.repeat(long))), Code::Syntax);
+        rejected(circuit(&format!("q = {}a", sign.repeat(long))), Code::Syntax);
     }
     assert_eq!(found(circuit(&format!("q = {}a", "not ".repeat(long)))), []);
     assert_eq!(found(circuit(&format!("q = a{}", " and a".repeat(long)))), []);
@@ -53,7 +53,7 @@ fn nested_ifs_are_parsed_or_rejected() {
         let text = circuit(&format!("q = {}a{}", "if a then ".repeat(depth), " else a".repeat(depth)));
         assert_eq!(found(text), [], "{depth} deep");
     }
-    refused(circuit(&format!("q = {}a{}", "if a then ".repeat(100_000), " else a".repeat(100_000))), Code::Nesting);
+    rejected(circuit(&format!("q = {}a{}", "if a then ".repeat(100_000), " else a".repeat(100_000))), Code::Nesting);
     assert_eq!(found(circuit(&format!("q = {}a", "if a then a else ".repeat(10_000)))), []);
 }
 
@@ -88,16 +88,16 @@ fn the_deepest_nesting_needs_a_small_stack() {
 
 #[test]
 fn sizes_are_bounded() {
-    refused("circuit f(a[8000000000]) -> (q) { q = any(a) }", Code::OutOfRange);
-    refused("circuit f(a[1000000000]) -> (q) { q = any(a) }", Code::OutOfRange);
-    refused("circuit f(a[0]) -> (q) { q = 0 }", Code::OutOfRange);
-    refused("circuit f(a[2 ** 62 * 4]) -> (q) { q = 0 }", Code::OutOfRange);
-    refused("circuit f(a[1 / 0]) -> (q) { q = 0 }", Code::OutOfRange);
-    refused(circuit("q = any({1000000000{a}})"), Code::OutOfRange);
-    refused(circuit("for i in 0..1000000 { _ = a }\n q = a"), Code::TooLarge);
-    refused(circuit("for i in 0..4000000000 { }\n q = a"), Code::TooLarge);
-    refused(circuit("for i in 0..1000 { for j in 0..1000 { _ = a } }\n q = a"), Code::TooLarge);
-    refused(circuit("for i in 0..400000 { net t[1000]\n for j in 0..1000 { t[j] = a } }\n q = a"), Code::TooLarge);
+    rejected("circuit f(a[8000000000]) -> (q) { q = any(a) }", Code::OutOfRange);
+    rejected("circuit f(a[1000000000]) -> (q) { q = any(a) }", Code::OutOfRange);
+    rejected("circuit f(a[0]) -> (q) { q = 0 }", Code::OutOfRange);
+    rejected("circuit f(a[2 ** 62 * 4]) -> (q) { q = 0 }", Code::OutOfRange);
+    rejected("circuit f(a[1 / 0]) -> (q) { q = 0 }", Code::OutOfRange);
+    rejected(circuit("q = any({1000000000{a}})"), Code::OutOfRange);
+    rejected(circuit("for i in 0..1000000 { _ = a }\n q = a"), Code::TooLarge);
+    rejected(circuit("for i in 0..4000000000 { }\n q = a"), Code::TooLarge);
+    rejected(circuit("for i in 0..1000 { for j in 0..1000 { _ = a } }\n q = a"), Code::TooLarge);
+    rejected(circuit("for i in 0..400000 { net t[1000]\n for j in 0..1000 { t[j] = a } }\n q = a"), Code::TooLarge);
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn exponential_hierarchies_are_rejected_without_building_them() {
     for level in 1..60 {
         text += &format!("circuit c{level}(a) -> (q) {{ q = c{0}(c{0}(a)) }}\n", level - 1);
     }
-    refused(text, Code::TooLarge);
+    rejected(text, Code::TooLarge);
 }
 
 #[test]
@@ -116,17 +116,17 @@ fn long_chains_of_circuits_are_rejected() {
         text += &format!("circuit c{level}(a) -> (q) {{ q = c{}(a) }}\n", level - 1);
     }
     text += "circuit c0(a) -> (q) { q = not a }\n";
-    refused(text, Code::Nesting);
+    rejected(text, Code::Nesting);
 }
 
 #[test]
 fn a_long_line_and_a_long_file_are_rejected() {
-    refused("a".repeat(10_000_000), Code::Unreadable);
-    refused("a".repeat(7_000_000), Code::Syntax);
-    refused("(".repeat(1_000_000), Code::Nesting);
-    refused("circuit f(a) -> (q) { q = a }\0", Code::Unreadable);
-    refused("", Code::Empty);
-    refused("\u{feff}circuit f(a) -> (q) { q = a }", Code::Syntax);
+    rejected("a".repeat(10_000_000), Code::Unreadable);
+    rejected("a".repeat(7_000_000), Code::Syntax);
+    rejected("(".repeat(1_000_000), Code::Nesting);
+    rejected("circuit f(a) -> (q) { q = a }\0", Code::Unreadable);
+    rejected("", Code::Empty);
+    rejected("\u{feff}circuit f(a) -> (q) { q = a }", Code::Syntax);
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn pipes_are_not_read_and_other_files_not_shown() {
     }
 }
 
-/// The program refuses a file with this code, within a second of the processor and a gigabyte of address space.
+/// The program rejects a file with this code, within a second of CPU time and a gigabyte of address space.
 #[track_caller]
 fn refused_in_bounds(bench: &Bench, file: &str, code: Code) {
     refused_by(bench, &["check", file], code);
@@ -223,36 +223,36 @@ fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
 #[test]
 fn hostile_files_are_rejected_within_a_second_and_a_gigabyte() {
     let bench = Bench::new();
-    let refused = |text: &[u8], code: Code| {
+    let rejected = |text: &[u8], code: Code| {
         bench.file("hostile.nb", text);
         refused_in_bounds(&bench, "hostile.nb", code);
     };
     let deep = |open: &str, close: &str| circuit(&format!("q = {}a{}", open.repeat(10_000), close.repeat(10_000)));
-    refused(deep("(", ")").as_bytes(), Code::Nesting);
-    refused(deep("if a then ", " else a").as_bytes(), Code::Nesting);
-    refused(deep("{2{", "}}").as_bytes(), Code::Nesting);
-    refused("for i in 0..2 {\n".repeat(10_000).as_bytes(), Code::Nesting);
-    refused(b"circuit f(a[8589934592]) -> (q) { q = any(a) }", Code::OutOfRange);
-    refused(circuit("q = any({1073741824{a}})").as_bytes(), Code::OutOfRange);
-    refused(circuit("for i in 0..1000000 { _ = a }\n q = a").as_bytes(), Code::TooLarge);
-    refused(circuit("for i in 0..1000000 { for j in 0..1000000 { } }\n q = a").as_bytes(), Code::TooLarge);
-    refused(b"use \"hostile.nb\"\ncircuit f(a) -> (q) { q = a }", Code::CircularUse);
-    refused(b"circuit f(a) -> (q) { q = a }\n\xff\xfe", Code::Unreadable);
-    refused(&vec![b'\n'; 100_000_000], Code::Unreadable);
-    refused("circuit f(a) -> (q) { q = a }\n".repeat(3_500_000).as_bytes(), Code::Unreadable);
-    refused("(".repeat(8_000_000).as_bytes(), Code::Nesting);
-    refused("a ".repeat(4_000_000).as_bytes(), Code::TooLarge);
-    refused("a ".repeat(900_000).as_bytes(), Code::Syntax);
-    refused("}\n".repeat(4_000_000).as_bytes(), Code::TooLarge);
-    refused("\"".repeat(8_000_000).as_bytes(), Code::TooLarge);
-    refused(circuit(&format!("q = {}1", "1+".repeat(4_000_000))).as_bytes(), Code::TooLarge);
-    refused("// c\n".repeat(1_600_000).as_bytes(), Code::Empty);
-    refused("circuit f {\n".repeat(20_000).as_bytes(), Code::Syntax);
+    rejected(deep("(", ")").as_bytes(), Code::Nesting);
+    rejected(deep("if a then ", " else a").as_bytes(), Code::Nesting);
+    rejected(deep("{2{", "}}").as_bytes(), Code::Nesting);
+    rejected("for i in 0..2 {\n".repeat(10_000).as_bytes(), Code::Nesting);
+    rejected(b"circuit f(a[8589934592]) -> (q) { q = any(a) }", Code::OutOfRange);
+    rejected(circuit("q = any({1073741824{a}})").as_bytes(), Code::OutOfRange);
+    rejected(circuit("for i in 0..1000000 { _ = a }\n q = a").as_bytes(), Code::TooLarge);
+    rejected(circuit("for i in 0..1000000 { for j in 0..1000000 { } }\n q = a").as_bytes(), Code::TooLarge);
+    rejected(b"use \"hostile.nb\"\ncircuit f(a) -> (q) { q = a }", Code::CircularUse);
+    rejected(b"circuit f(a) -> (q) { q = a }\n\xff\xfe", Code::Unreadable);
+    rejected(&vec![b'\n'; 100_000_000], Code::Unreadable);
+    rejected("circuit f(a) -> (q) { q = a }\n".repeat(3_500_000).as_bytes(), Code::Unreadable);
+    rejected("(".repeat(8_000_000).as_bytes(), Code::Nesting);
+    rejected("a ".repeat(4_000_000).as_bytes(), Code::TooLarge);
+    rejected("a ".repeat(900_000).as_bytes(), Code::Syntax);
+    rejected("}\n".repeat(4_000_000).as_bytes(), Code::TooLarge);
+    rejected("\"".repeat(8_000_000).as_bytes(), Code::TooLarge);
+    rejected(circuit(&format!("q = {}1", "1+".repeat(4_000_000))).as_bytes(), Code::TooLarge);
+    rejected("// c\n".repeat(1_600_000).as_bytes(), Code::Empty);
+    rejected("circuit f {\n".repeat(20_000).as_bytes(), Code::Syntax);
     let numbered = |line: &dyn Fn(usize) -> String| (0..10_000).map(line).collect::<String>();
-    refused(circuit(&("q = a\n".repeat(20_000))).as_bytes(), Code::MultipleDrivers);
-    refused(circuit(&numbered(&|i| format!("n{i} = nope{i} and a\n"))).as_bytes(), Code::Unknown);
-    refused(format!("test half_adder {{\n a b | s\n{}}}\n", " 0 - | 1\n".repeat(20_000)).as_bytes(), Code::Value);
-    refused(format!("stimulus s{}", numbered(&|i| format!(", t{i}"))).as_bytes(), Code::OutOfRange);
+    rejected(circuit(&("q = a\n".repeat(20_000))).as_bytes(), Code::MultipleDrivers);
+    rejected(circuit(&numbered(&|i| format!("n{i} = nope{i} and a\n"))).as_bytes(), Code::Unknown);
+    rejected(format!("test half_adder {{\n a b | s\n{}}}\n", " 0 - | 1\n".repeat(20_000)).as_bytes(), Code::Value);
+    rejected(format!("stimulus s{}", numbered(&|i| format!(", t{i}"))).as_bytes(), Code::OutOfRange);
     let signs = bench.file("signs.nb", circuit(&format!("q = {}a", "~".repeat(20_000))));
     for command in ["check", "fmt", "build", "test", "run", "evolve"] {
         refused_by(&bench, &[command, signs.to_str().unwrap()], Code::Syntax);
@@ -280,7 +280,7 @@ fn long_tables_are_formatted_in_linear_time() {
 #[test]
 fn hostile_circuit_files_are_rejected_within_a_second_and_a_gigabyte() {
     let bench = Bench::new();
-    let refused = |name: &str, bytes: &[u8]| {
+    let rejected = |name: &str, bytes: &[u8]| {
         bench.file(name, bytes);
         refused_by(&bench, &["synth", name, "--cells", "nand"], Code::CircuitFile);
     };
@@ -294,11 +294,11 @@ fn hostile_circuit_files_are_rejected_within_a_second_and_a_gigabyte() {
         }
         text + &format!(".model m{depth}\n.inputs x\n.outputs y\n.names x y\n0 1\n.end\n")
     };
-    refused("double.blif", models(60, 2).as_bytes());
-    refused("deep.blif", models(20_000, 1).as_bytes());
-    refused("wide.aig", b"aig 99999999 99999999 0 0 0\n");
-    refused("wide.aig", b"aig 4000000 4000000 0 0 0\n");
-    refused("long.aag", b"aag 4000000 0 0 4000000 0\n");
-    refused("zero.blif", &[0; 1_000_000]);
-    refused("zero.bench", &[b'('; 1_000_000]);
+    rejected("double.blif", models(60, 2).as_bytes());
+    rejected("deep.blif", models(20_000, 1).as_bytes());
+    rejected("wide.aig", b"aig 99999999 99999999 0 0 0\n");
+    rejected("wide.aig", b"aig 4000000 4000000 0 0 0\n");
+    rejected("long.aag", b"aag 4000000 0 0 4000000 0\n");
+    rejected("zero.blif", &[0; 1_000_000]);
+    rejected("zero.bench", &[b'('; 1_000_000]);
 }

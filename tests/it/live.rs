@@ -1,5 +1,4 @@
-//! A session as a door that is not the command line sees it: sources in memory, swarms that are stepped, work that is
-//! cancelled.
+//! Sessions without the command line: sources in memory, swarms that are stepped, work that is cancelled.
 
 use nbc::session::RunEnd;
 use nbc::{CompileOptions, Level, MemoryWorld, Observer, Session, TestOptions, TestRun};
@@ -72,7 +71,7 @@ fn a_restored_swarm_does_the_same_again() {
     assert_eq!(walk(&mut other), first);
 }
 
-/// Cancels after so many cycles.
+/// Cancels after that many cycles.
 struct Until(u64);
 
 impl Observer for Until {
@@ -86,7 +85,7 @@ impl Observer for Until {
 }
 
 #[test]
-fn a_cancelled_test_has_what_was_done_and_has_not_passed() {
+fn a_cancelled_test_has_its_completed_rows_and_has_not_passed() {
     let whole = in_physics(&mut ());
     let first = whole.verdict.rows[0].cycles.unwrap() as u64;
     let run = in_physics(&mut Until(first + 1));

@@ -31,7 +31,7 @@ enum Data {
 /// When a memory element takes it.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    /// A register; whether its clock is turned over.
+    /// A register, and whether its clock is inverted.
     Register(bool),
     /// A latch that is open while `en` is that value.
     Latch(bool),
@@ -111,7 +111,7 @@ fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [boo
 }
 
 /// One to five elements. A register takes any net, itself too; a latch takes inputs and the elements before it, so that
-/// none chases itself, and none that changes with the enable that closes it.
+/// none oscillates, and none that changes with the enable that closes it.
 pub fn elements() -> impl Strategy<Value = Vec<Element>> {
     let element = (0..9u8, 0..8u8, 0..100usize, 0..100usize, any::<bool>(), any::<bool>());
     proptest::collection::vec(element, 1..6).prop_map(|drawn| {

@@ -7,7 +7,7 @@ use nbc::model::Function;
 
 use crate::circuit::sum_of_products;
 
-/// Libraries of few functions, of which some need many cells, and of many.
+/// Libraries of few functions, which need many cells for some functions, and of many functions.
 const LIBRARIES: &[&str] = &[
     "nand",
     "nor",

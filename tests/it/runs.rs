@@ -233,7 +233,7 @@ fn a_ring_without_inputs_is_tested_and_simulated() {
     bench.file("b.nb", format!("{RING}test ring \"stops\" {{\n    | q\n    | 1\n}}\n"));
     let ran = run(&bench, "test b.nb --logic");
     assert_eq!(ran.status, 1, "{}", ran.err);
-    assert!(ran.out.contains("b.nb:6: row 1: q goes on changing, expected 1"), "{}", ran.out);
+    assert!(ran.out.contains("b.nb:6: row 1: q keeps changing, expected 1"), "{}", ran.out);
     bench.file(
         "c.nb",
         format!(

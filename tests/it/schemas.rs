@@ -105,9 +105,9 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "test", 0, &["test", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "--physics"]);
-    let refused = bench.run(&["completions", "bash", "--format", "json"]);
-    assert_eq!(refused.status, 2);
-    validate("diagnostics", &refused.out);
+    let rejected = bench.run(&["completions", "bash", "--format", "json"]);
+    assert_eq!(rejected.status, 2);
+    validate("diagnostics", &rejected.out);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! How long rows are held: no longer than needed, and long enough whatever robots do before they have settled.
+//! The holds of rows: no longer than needed, and long enough whatever robots do before they have settled.
 
 use nbc::circuit::CellLibrary;
 use nbc::model::{Function, Library};
@@ -13,16 +13,16 @@ use crate::language::root;
 use crate::memory::{elements, mapped, text};
 use crate::page::robot;
 
-/// Robots of a swarm that do as they like until they have settled.
-struct Whims<'a> {
+/// Robots of a swarm with random outputs until they have settled.
+struct RandomSwarm<'a> {
     assembly: &'a Assembly,
     sensed: Vec<([bool; 2], usize)>,
-    /// The output, and whether it is certain: right, and kept since.
+    /// The output, and whether it is certain: it has been correct since the robot settled.
     bits: Vec<(bool, bool)>,
     cycles: usize,
 }
 
-impl<'a> Whims<'a> {
+impl<'a> RandomSwarm<'a> {
     fn new(assembly: &'a Assembly) -> Self {
         let members = &assembly.members;
         let bits = members.iter().map(|member| (member.start, false)).collect();
@@ -66,10 +66,10 @@ fn robots(most: u32, random: &mut ChaCha8Rng) -> Library {
     Library { robots: Function::all().map(with_character).collect() }
 }
 
-/// Switches the inputs at random, holds each row until it has settled, and lets robots do as they like on the way.
+/// Switches the inputs at random, and holds each row until it has settled, with random outputs before.
 fn check(assembly: &Assembly, random: &mut ChaCha8Rng) -> usize {
     let mut settling = Settling::new(assembly, 1);
-    let mut whims: Vec<Whims> = (0..4).map(|_| Whims::new(assembly)).collect();
+    let mut swarms: Vec<RandomSwarm> = (0..4).map(|_| RandomSwarm::new(assembly)).collect();
     let mut settled = 0;
     for _ in 0..12 {
         let inputs: Vec<bool> = assembly.inputs.iter().map(|_| random.random_range(0..2) == 1).collect();
@@ -77,17 +77,17 @@ fn check(assembly: &Assembly, random: &mut ChaCha8Rng) -> usize {
         settled += usize::from(cycles.is_some());
         for _ in 0..cycles.unwrap_or_else(|| random.random_range(1..9)) {
             settling.hold(&inputs, 1);
-            for whim in &mut whims {
-                whim.cycle(&inputs, random);
+            for swarm in &mut swarms {
+                swarm.cycle(&inputs, random);
                 let agree = |(known, value): (&Option<bool>, bool)| known.is_none_or(|known| known == value);
-                assert!(settling.bits().iter().zip(whim.values()).all(agree), "what is known is so");
+                assert!(settling.bits().iter().zip(swarm.values()).all(agree), "a known output is correct");
             }
         }
         if cycles.is_some() {
-            assert!(settling.bits().iter().all(Option::is_some), "all is known once it has settled");
+            assert!(settling.bits().iter().all(Option::is_some), "every output is known once the row has settled");
             let end = settling.bits().to_vec();
             settling.clone().hold(&inputs, 20);
-            assert_eq!(settling.bits(), end, "and stays");
+            assert_eq!(settling.bits(), end, "and none changes");
         }
     }
     settled
@@ -97,7 +97,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_row_that_has_settled_has_settled_whatever_robots_did(elements in elements(), seed: u64, most in 1..4u32) {
+    fn a_settled_row_has_the_same_outputs_for_any_behavior_before(elements in elements(), seed: u64, most in 1..4u32) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let netlist = mapped(&text(&elements), &CellLibrary::uniform(Function::all().filter(|f| f.arity() == 2)));
         let library = robots(most, &mut random);

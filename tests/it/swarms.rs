@@ -1,4 +1,4 @@
-//! Compiled swarms in full physics match their truth tables, with the holds of static timing.
+//! Compiled swarms in full physics match their truth tables, with the holds of `hold: auto`.
 
 use std::fs;
 
@@ -81,7 +81,7 @@ fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
     let report = run(inverter, &CompileOptions { robots: Some(library), ..CompileOptions::default() });
     let told = describe_test(&report.tests[0].verdict);
     assert!(told.contains(&format!("robot {name} on net y output 0 on stimuli 0")), "{told}");
-    assert!(told.contains(&format!("nearest fix: another robot than {name} on net y")), "{told}");
+    assert!(told.contains(&format!("nearest fix: a robot other than {name} on net y")), "{told}");
 }
 
 #[test]

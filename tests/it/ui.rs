@@ -1,6 +1,6 @@
 //! Messages: each program of `tests/ui` with its exact diagnostics beside it as `.stderr`.
 //!
-//! `NBC_UPDATE_UI=1 cargo test --test it ui` writes what is said now; read it before it is committed.
+//! `NBC_UPDATE_UI=1 cargo test --test it ui` rewrites the records; read the diff before you commit it.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ use nbc::store::DiskWorld;
 
 use crate::language::{programs, root};
 
-/// What the checker finds in a file of the repository, by its path from the root.
+/// The diagnostics of a file of the repository, by its path from the root.
 fn found(path: &str) -> (Vec<Diagnostic>, String) {
     let mut sources = Sources::default();
     let diagnostics = match check::open(&DiskWorld, path, &mut sources) {
@@ -47,7 +47,7 @@ fn every_message_matches_its_record() {
 #[test]
 fn every_code_has_a_program_and_its_message() {
     for code in Code::ALL {
-        // What is about the command line and about other files has its program and its message on its page.
+        // Codes of the command line and of other files have their program and their message on their page.
         let own = format!("tests/ui/{code}.nb");
         let (page, said) = (format!("tests/ui/pages/{code}.stderr"), root().join(&own).is_file().then(|| found(&own)));
         assert!(root().join(&page).is_file(), "`{code}` has its message in {page}");

@@ -1,4 +1,4 @@
-//! Waveforms, read back by a reader of others.
+//! Waveforms, read back by another reader of dumps.
 
 use std::io::Cursor;
 

@@ -3,20 +3,20 @@
 use crate::diag::{Code, Diagnostic, counted, suggest};
 use crate::source::Span;
 
-/// An evolution run that cannot be made.
+/// An invalid evolution run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum EvolutionError {
     /// A run that takes its fields from itself, perhaps through others.
     Circular { evolution: String },
     /// A box without room for a body.
     SmallBox { columns: usize, rows: usize, least: usize },
-    /// A palette of no or too many materials.
+    /// A palette without materials, or with too many.
     PaletteSize { materials: usize, most: usize },
     /// A schedule that leaves out patterns of the two stimuli.
     MissingPatterns { schedule: String, missing: Vec<String> },
-    /// A range of no or too many seeds.
+    /// A range without seeds, or with too many.
     SeedRange { most: u32 },
-    /// More stimuli than a pattern has.
+    /// Too many stimuli.
     TooManyStimuli { most: usize },
 }
 

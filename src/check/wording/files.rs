@@ -10,15 +10,15 @@ pub(crate) enum LoadError {
     Empty { file: String },
     /// A file that cannot be read.
     Unreadable { file: String, error: FileError },
-    /// A file whose name does not end as those of programs do.
+    /// A file without the extension of a program.
     NotAProgram { file: String, ending: &'static str },
     /// Files that use each other.
     Circular { circle: Vec<String> },
-    /// Files that use files that use files.
+    /// Files that use each other too deeply.
     TooDeep { most: usize },
-    /// One file more than a program may have.
+    /// Too many files.
     TooManyFiles { most: usize },
-    /// More text than a program may have.
+    /// Too much text.
     TooLarge { megabytes: usize },
     /// A folder that cannot be read.
     UnreadableLibrary { folder: String, error: FileError },

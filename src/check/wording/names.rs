@@ -3,20 +3,20 @@
 use crate::diag::{Code, Diagnostic, Fix, Suggestion};
 use crate::source::Span;
 
-/// A name that does not mean what it ought to.
+/// A name that is unknown, declared twice, or of another kind than expected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum NameError {
-    /// Nothing of that kind has the name.
+    /// An unknown name.
     Unknown { kind: &'static str, name: String, meant: Suggestion },
     /// A circuit that is an operator in capital letters.
     Operator { name: String },
-    /// A net that nothing declares; `circuit` is the signature of a circuit of that name.
+    /// An undeclared net; `circuit` is the signature of a circuit of that name.
     UnknownNet { name: String, circuit: Option<String>, meant: Suggestion },
-    /// A parameter or loop variable that nothing declares.
+    /// An undeclared parameter or loop variable.
     UnknownNumber { name: String, meant: Suggestion },
-    /// A net where a number belongs.
+    /// A net in the place of a number.
     NetForNumber { name: String },
-    /// A number where a net belongs.
+    /// A number in the place of a net.
     NumberForNet { name: String },
     /// A parameter that the circuit does not have.
     UnknownParameter { circuit: String, name: String, meant: Suggestion },
@@ -28,9 +28,9 @@ pub(crate) enum NameError {
     UnknownBehavior { name: String, meant: Suggestion },
     /// A second declaration of a name.
     Duplicate { kind: &'static str, name: String, first: Span },
-    /// A second mention of a material.
+    /// A material that is listed twice.
     RepeatedMaterial { name: String },
-    /// A second mention of a seed.
+    /// A seed that is listed twice.
     RepeatedSeed { seed: u32, first: Span },
 }
 

@@ -3,27 +3,27 @@
 use crate::diag::{Code, Diagnostic, counted, suggest};
 use crate::source::Span;
 
-/// As many bits are shown as an example of how a value is written.
+/// The most bits of an example of a value.
 const SHOWN: usize = 16;
 
-/// A value that its column does not take.
+/// A value that is invalid in its column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum CellError {
     /// Neither bits nor a constant.
     NotAValue { word: String },
-    /// A pulse of a column of several bits.
+    /// A pulse on a column of several bits.
     WidePulse { column: String, width: usize },
     /// A value that is not as wide as its column.
     Width { found: String, column: String, width: usize },
-    /// A number of more bits than are written before it.
+    /// A number that does not fit into its width.
     Unfitting { value: u128, width: usize },
-    /// A number of more bits than are read.
+    /// A number of too many bits.
     TooLarge,
     /// Neither 0 nor 1 in a schedule of stimuli.
     NotAStimulus { word: String },
     /// An input without a definite value.
     NotAnInput { word: String },
-    /// A pulse of an output.
+    /// A pulse on an output.
     PulsedOutput,
 }
 
@@ -90,13 +90,13 @@ pub(crate) enum RowError {
     MissingInputs { inputs: Vec<String>, circuit: String },
     /// A simulation without a column for an input.
     MissingInput { input: String },
-    /// A schedule of stimuli whose times are no whole cycles.
+    /// A schedule of stimuli with times that are not whole cycles.
     PartOfCycle { schedule: String },
     /// A second `|`.
     TwoBars,
     /// No `|`.
     NoBar,
-    /// `|` after another number of values than in the header.
+    /// `|` in another place than in the header.
     BarElsewhere { inputs: usize },
     /// `-` for an input.
     InputWithoutValue { input: String },

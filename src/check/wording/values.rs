@@ -24,9 +24,9 @@ impl fmt::Display for Record {
 /// A record with the wrong fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum FieldError {
-    /// A field that must be there.
+    /// A required field that is missing.
     Missing { record: Record, field: &'static str, example: &'static str },
-    /// A field that such records do not have.
+    /// A field that this kind of record does not have.
     Unknown { record: Record, field: String, known: Vec<&'static str>, meant: Suggestion },
 }
 
@@ -51,7 +51,7 @@ impl FieldError {
     }
 }
 
-/// What a field takes.
+/// The valid values of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Expected {
     /// A name of that kind.
@@ -60,13 +60,13 @@ pub(crate) enum Expected {
     OneOf(Vec<&'static str>),
     /// The origin of a library's robots.
     Origin,
-    /// What a robot computes.
+    /// A function or a behavior.
     Behavior,
     /// An axis of an archive.
     Axis,
-    /// What a niche keeps.
+    /// The elites that a niche keeps.
     Niche,
-    /// How long rows are held.
+    /// The hold of rows.
     Hold,
     /// A width and a height.
     Box,
@@ -78,9 +78,9 @@ pub(crate) enum Expected {
     Quantity,
     /// A number without a unit.
     Number,
-    /// How often a mutation happens.
+    /// The weight of a mutation.
     Weight,
-    /// That of each mutation.
+    /// The weights of mutations.
     Weights,
 }
 
@@ -105,18 +105,18 @@ impl fmt::Display for Expected {
     }
 }
 
-/// The numbers that make sense; `unit` is what is counted, or empty.
+/// The valid numbers; `unit` is what they count, or empty.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Bounds {
-    /// Any without a fraction.
+    /// Any whole number.
     Whole { unit: &'static str },
-    /// One no smaller than this.
+    /// A whole number of at least `least`.
     From { least: u32, unit: &'static str },
-    /// One of these, both included.
+    /// A whole number from `least` to `most`.
     Between { least: u32, most: u32, unit: &'static str },
-    /// A real number between these, both included.
+    /// A real number from `least` to `most`.
     Real { least: f64, most: f64 },
-    /// One that is not that large.
+    /// A smaller number.
     Smaller,
 }
 
@@ -134,7 +134,7 @@ impl fmt::Display for Bounds {
     }
 }
 
-/// A value that its field does not take.
+/// A value that is invalid in its field.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ValueError {
     /// A value of another kind.
@@ -147,17 +147,17 @@ pub(crate) enum ValueError {
     MissingUnit { number: String, wanted: Vec<&'static str> },
     /// A number with a unit of something else.
     WrongUnit { number: String, unit: String, wanted: Vec<&'static str> },
-    /// A number that counts, with a unit.
+    /// A unit of a number that has none.
     UnexpectedUnit { number: String, unit: String },
-    /// A number outside the range that makes sense.
+    /// A number out of range.
     OutOfRange { found: String, expected: Bounds },
-    /// A width of a voxel outside that range.
+    /// A width of a voxel out of range.
     WidthOutOfRange { found: f64, least: f64, most: f64 },
     /// A range whose lower end comes last.
     Descending { high: f64, low: f64 },
     /// An integer of more than 32 bits.
     TooLarge,
-    /// A parameter given by anything but digits.
+    /// A parameter that is not written in digits.
     NotANumber,
 }
 
@@ -214,7 +214,7 @@ fn units(wanted: &[&str]) -> String {
     format!("expected {}", suggest::alternatives(wanted, "or"))
 }
 
-/// Only where there is one unit to write is it certain which was meant.
+/// The fix is certain only if there is a single possible unit.
 fn with_unit(error: Diagnostic, number: &str, wanted: &[&str], fix: Fix) -> Diagnostic {
     error.with_help(format!("write `{number} {}`", wanted[0])).with_fix((wanted.len() == 1).then_some(fix))
 }

@@ -150,7 +150,7 @@ impl SatSweep {
         }
     }
 
-    /// Inputs at which two signals, each maybe turned over, differ.
+    /// Inputs at which two signals, each maybe inverted, differ.
     pub fn difference(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Option<Vec<bool>> {
         if one == two {
             return None;

@@ -13,7 +13,7 @@ pub fn equal(one: &Network, two: &Network) -> bool {
     first == second
 }
 
-/// A signal, and whether it is turned over.
+/// A signal, and whether it is inverted.
 type Literal = (u32, bool);
 
 /// The functions that the two signals of a pair are of the pair, in the order of a function's bits.

@@ -64,7 +64,6 @@ const START: [u8; 2 + MOST_INPUTS] = [0x00, 0xff, 0xaa, 0xcc, 0xf0];
 struct Operation {
     /// Its function of the two values in the order of the search.
     effect: Function,
-    /// The cell.
     cell: Function,
     /// The values that the cell's pins read.
     pins: [Pin; 2],
@@ -188,7 +187,7 @@ impl<'a> Search<'a> {
         false
     }
 
-    /// Adds a cell, if its value is new and in order, and then the rest; undoes it if there is no rest.
+    /// Adds a cell, if its value is new and in order, and then the others; removes it again if they cannot be found.
     fn append(&mut self, operation: Operation, pins: [usize; 2], left: u32, missing: u32) -> bool {
         let [a, b] = pins.map(|pin| self.values[pin]);
         let value = apply(operation.effect, a, b);

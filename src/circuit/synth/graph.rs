@@ -230,7 +230,7 @@ impl<'p> Graph<'p> {
         Some(root)
     }
 
-    /// Works out a gate's values from its pins'.
+    /// Computes a gate's values from those of its pins.
     fn simulate(&mut self, signal: Signal) {
         let GraphNode { function, pins: [a, b], .. } = self.nodes[signal as usize];
         let (a, b, out) = (a as usize * self.width, b as usize * self.width, signal as usize * self.width);
@@ -372,7 +372,7 @@ impl<'p> Graph<'p> {
         }
     }
 
-    /// Works out all values and stages again, in order.
+    /// Computes all values and stages again, in order.
     pub fn refresh(&mut self) {
         for i in 0..self.order.len() {
             let signal = self.order[i];

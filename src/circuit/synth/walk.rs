@@ -110,7 +110,7 @@ struct Walk<'p, 'r> {
     /// The required time of each gate.
     required: Vec<u32>,
     random: &'r mut ChaCha8Rng,
-    /// Values with the visited gate turned over, for the signals marked as changed.
+    /// Values with the visited gate inverted, for the signals marked as changed.
     flipped: Vec<u64>,
     changed: Vec<bool>,
     /// Whether a signal depends on the visited gate.
@@ -159,7 +159,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         ((u64::from(rand::Rng::next_u32(self.random)) * bound as u64) >> 32) as usize
     }
 
-    /// Visits a random gate; whether the network changed.
+    /// Visits a random gate; returns whether the network changed.
     fn visit(&mut self, slack: u32) -> bool {
         let at = self.below(self.graph.order().len());
         let gate = self.graph.order()[at];
@@ -253,7 +253,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         self.on.iter_mut().zip(values).for_each(|(care, value)| *care &= value);
     }
 
-    /// Works out a gate with the visited one turned over; whether it changes.
+    /// Computes a gate with the visited one inverted; returns whether it changes.
     fn flip(&mut self, signal: Signal, pins: [Signal; 2]) -> bool {
         let width = self.graph.width();
         let function = self.graph.node(signal).function;
@@ -382,7 +382,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         Some(if xor { Function::XOR } else { Function::XNOR })
     }
 
-    /// Takes one literal of a random shape for granted, and looks for the rest.
+    /// Fixes one literal of a random shape, and looks for the others.
     fn find_deeper(&mut self, on: &[u64], off: &[u64]) {
         if self.divisors.is_empty() {
             return;

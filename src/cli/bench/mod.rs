@@ -107,7 +107,7 @@ fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     Part::ALL.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
 }
 
-/// The name of the processor, where the system has it, and its instruction set.
+/// The name of the processor, if the system tells it, and its instruction set.
 fn machine(kernel: Kernel) -> String {
     let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = information.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
@@ -127,9 +127,7 @@ fn describe(figures: &Figures) -> String {
     }
     let Figures { machine, width, .. } = figures;
     let parts = describe_timings(figures) + &figures.swarm.as_ref().map_or(String::new(), SwarmFigures::describe);
-    format!(
-        "{machine}, {width} lanes, one core; substeps a second, and the paper's evaluations a second\n{table}{parts}"
-    )
+    format!("{machine}, {width} lanes, one core; substeps and the paper's evaluations per second\n{table}{parts}")
 }
 
 /// The shares of time as a table; empty if they were not measured.

@@ -35,7 +35,7 @@ pub(super) fn race(side: usize, kernel: Kernel, shift: usize, meter: Option<&Arc
     })
 }
 
-/// CPU time of this thread, in seconds, where the system has it (Linux). Other programs do not distort it.
+/// CPU time of this thread, in seconds, if the system has it (Linux). Other programs do not distort it.
 pub(super) fn processor_seconds() -> Option<f64> {
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;

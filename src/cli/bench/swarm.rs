@@ -1,4 +1,4 @@
-//! `nbc bench --swarm`: how fast a whole swarm is simulated, with all that is read of it.
+//! `nbc bench --swarm`: how fast a whole swarm is simulated, including its trace and recording.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -23,11 +23,11 @@ const CYCLES: usize = 1000;
 #[derive(Serialize)]
 pub(super) struct SwarmFigures {
     robots: usize,
-    /// Lane-substeps a second on one core.
+    /// Lane-substeps per second on one core.
     one_core: f64,
-    /// Lane-substeps a second of different bodies in the same boxes, side by side on one core.
+    /// Lane-substeps per second of different bodies in the same boxes, side by side on one core.
     different: f64,
-    /// Lane-substeps a second on all threads, by the clock on the wall.
+    /// Lane-substeps per second on all threads, in wall-clock time.
     all_threads: f64,
     threads: usize,
 }
@@ -64,7 +64,7 @@ impl SwarmFigures {
     }
 }
 
-/// Robots that all hear two inputs.
+/// Robots that all sense the two inputs.
 fn assembly() -> Assembly {
     let library = store::shipped_library();
     let gates = GATES.into_iter().flat_map(|(function, count)| std::iter::repeat_n(function, count));
@@ -80,8 +80,8 @@ fn assembly() -> Assembly {
     Assembly { circuit: "counter".to_owned(), inputs: inputs.into(), members, outputs, shown }
 }
 
-/// Lane-substeps a second by that clock, or by the one on the wall where it tells nothing. Poses are recorded as for a
-/// page.
+/// Lane-substeps per second by that clock, or in wall-clock time if the system does not have it. Poses are recorded as
+/// for a page.
 fn speed(assembly: &Assembly, kernel: Kernel, clock: impl Fn() -> Option<f64>) -> f64 {
     let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
     let mut swarm = LiveSwarm::new(&simulator, assembly, CYCLES, 1, Some(Room::SWARM));

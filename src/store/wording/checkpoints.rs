@@ -10,24 +10,24 @@ use crate::model::BodyError;
 pub(in crate::store) enum CheckpointError {
     /// Another kind of file.
     NotACheckpoint,
-    /// A checkpoint of a format that is not read.
+    /// A checkpoint of an unsupported format.
     Format { found: String, expected: &'static str },
-    /// Bytes that are not those that were written.
+    /// Damaged bytes.
     Damaged,
-    /// A search that cannot have been written.
+    /// An impossible state of a search.
     Unreadable(StateError),
     /// A checkpoint of another seed.
     OtherSeed { found: u64, expected: u64 },
     /// A checkpoint of a declaration that has changed since.
     Changed { evolution: String },
-    /// A checkpoint whose bodies or niches the declaration cannot have.
+    /// A checkpoint with bodies or niches that do not belong to the declaration.
     OtherEvolution { evolution: String },
 }
 
 impl CheckpointError {
     /// The error of the file of that name.
     pub(in crate::store) fn of(self, file: &str) -> Diagnostic {
-        let afresh = "choose another name for the run, or start it afresh without `--resume`";
+        let afresh = "choose another name for the run, or start it again without `--resume`";
         let (code, what, help) = match self {
             Self::NotACheckpoint => (Code::Checkpoint, "is not a checkpoint of an evolution run".to_owned(), None),
             Self::Format { found, expected } => (
@@ -36,11 +36,11 @@ impl CheckpointError {
                 Some("resume it with the version that wrote it"),
             ),
             Self::Damaged => {
-                (Code::Checkpoint, "is damaged: its checksum does not match".to_owned(), Some("start the run afresh"))
+                (Code::Checkpoint, "is damaged: its checksum does not match".to_owned(), Some("start the run again"))
             }
             Self::Unreadable(error) => (Code::Checkpoint, format!("cannot be read: {error}"), None),
             Self::OtherSeed { found, expected } => {
-                (Code::Checkpoint, format!("is of seed {found}, expected seed {expected}"), Some(afresh))
+                (Code::Checkpoint, format!("belongs to seed {found}, expected seed {expected}"), Some(afresh))
             }
             Self::Changed { evolution } => {
                 (Code::Checkpoint, format!("was made by a different declaration of `{evolution}`"), Some(afresh))
@@ -54,18 +54,18 @@ impl CheckpointError {
     }
 }
 
-/// The state of a search that cannot have been written.
+/// An impossible state of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::store) enum StateError {
-    /// Another shape than that of a state; the reader's words.
+    /// Data that is not a state, in the words of the reader.
     Shape(String),
     /// A declaration without materials.
     NoMaterials,
-    /// An axis of no or too many bins.
+    /// An axis without bins, or with too many.
     Bins { bins: usize, most: usize },
     /// A niche outside the archive, as its bins.
     NoNiche { bins: Vec<u16> },
-    /// An elite whose body is none.
+    /// An elite with an invalid body.
     Body(BodyError),
 }
 

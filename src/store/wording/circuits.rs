@@ -8,17 +8,17 @@ use crate::source::Span;
 /// A circuit file that cannot be read or written.
 #[derive(Debug)]
 pub(in crate::store) enum StoreError {
-    /// A name that ends as no circuit file's does.
+    /// A file name without the extension of a circuit format.
     CircuitFormat { file: String },
-    /// A circuit of more text than is read again.
+    /// A circuit whose text would be too large to be read again.
     NbTooLarge { bytes: usize, most: u64 },
-    /// No folder to work in.
+    /// A temporary folder that cannot be written.
     TemporaryFolder(io::Error),
-    /// No Yosys.
+    /// Yosys is missing.
     YosysMissing,
-    /// Yosys without a result.
+    /// Yosys wrote no result.
     YosysSilent { file: String },
-    /// Yosys with an error of its own, at a place of the file where it names one.
+    /// An error message of Yosys, with its place in the file if it names one.
     Yosys { file: String, reason: String, place: Option<Span> },
 }
 

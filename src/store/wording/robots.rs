@@ -9,11 +9,11 @@ use crate::source::{FileError, Span};
 /// A robot file that cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::store) enum RobotFileError {
-    /// More text than is read.
+    /// Too much text.
     TooLarge { most: u64 },
-    /// Brackets inside brackets.
+    /// Brackets that are nested too deeply.
     TooDeep { most: usize },
-    /// Text that is not YAML of a robot; the reader's words.
+    /// Text that is not the YAML of a robot, in the words of the reader.
     Shape(String),
     /// A file of another version.
     Format { found: u32, expected: u32 },
@@ -21,12 +21,12 @@ pub(in crate::store) enum RobotFileError {
     Body(BodyError),
     /// A body of several pieces.
     TwoPieces,
-    /// Numbers and words that no robot has.
+    /// A value that a robot cannot have.
     Flaw(Flaw),
 }
 
 impl RobotFileError {
-    /// The error of the file of that name, at its place in the file where it has one.
+    /// The error of the file of that name, at its place in the file if it has one.
     pub(in crate::store) fn of(self, file: &str, span: impl Into<Option<Span>>) -> Diagnostic {
         let (code, message, label) = match &self {
             Self::TooLarge { most } => {
@@ -59,29 +59,29 @@ impl RobotFileError {
     }
 }
 
-/// An error of a file that needs nothing but a body, with an example of one.
+/// Adds an example of a body to an error of a file that needs only a body.
 pub(in crate::store) fn with_body_example(error: Diagnostic) -> Diagnostic {
     error.with_help("write the body's rows, top row first: `body: [\"00345\", \"33333\"]`")
 }
 
-/// What no measurement of a robot gives.
+/// A value that a measurement of a robot cannot give.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::store) enum Flaw {
-    /// A name that cannot be one of a file.
+    /// A name that cannot be part of a file name.
     Name { name: String, most: usize },
     /// A word of the provenance that is too long or has control characters.
     Provenance { field: &'static str, most: usize },
     /// A displacement that is not finite.
     Displacement,
-    /// A behavior that is not that of the displacements.
+    /// A behavior that contradicts the displacements.
     Behavior { found: Behavior, expected: Behavior },
-    /// A clock of no or too many cycles.
+    /// A clock of zero or too many cycles.
     Clock { cycles: u32, most: u32 },
     /// A share outside 0 to 1.
     Rate { field: &'static str, rate: f64 },
     /// A margin that is not finite.
     Margin,
-    /// A settle time of no or too many cycles.
+    /// A settle time of zero or too many cycles.
     Settle { cycles: u32, most: u32 },
     /// A weight of the genotype that is not finite.
     Weight,

@@ -163,7 +163,6 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
 /// One row of the lattice.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Its masses.
     pub masses: Range<usize>,
     /// The frames whose upper masses are in it.
     pub frames: Range<usize>,

@@ -173,7 +173,7 @@ mod tests {
         #![proptest_config(ProptestConfig { cases: 4096, ..ProptestConfig::default() })]
 
         #[test]
-        fn what_is_clear_of_a_voxel_is_not_inside(
+        fn points_clear_of_a_voxel_are_not_inside(
             shifts in proptest::array::uniform4(point(-0.06..0.06)),
             beside in point(-0.2..0.3),
             far_along_the_diagonal in -3.0..3.0,

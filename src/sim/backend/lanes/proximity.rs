@@ -60,7 +60,6 @@ struct NearTiles {
 /// A point at or below some height.
 #[derive(Clone, Copy, Debug)]
 pub struct LowPoint {
-    /// Its mass.
     pub mass: usize,
     /// In which lanes, as bits.
     pub lanes: u32,

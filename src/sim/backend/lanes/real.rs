@@ -52,8 +52,8 @@ pub trait Real:
     /// 1/sqrt(x) for positive x of single precision's range, root and quotient rounded to single precision.
     fn recip_sqrt_seed(self) -> Self;
 
-    /// 1/sqrt(x) to a unit in the last place from its seed, by one cubic step: y + y e (1/2 + 3/8 e) with e = 1 - x y².
-    /// Every step is exactly rounded, so the bits are the same on every machine.
+    /// 1/sqrt(x) to a unit in the last place from its seed, by one cubic step: y + y e (1/2 + 3/8 e) with
+    /// e = 1 - x y². Every step is exactly rounded, so the bits are the same on every machine.
     #[inline(always)]
     fn recip_sqrt_from(self, seed: Self) -> Self {
         let error = Self::splat(1.0) - self * (seed * seed);

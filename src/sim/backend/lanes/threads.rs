@@ -1,4 +1,4 @@
-//! Work shared out over the threads of the machine, where the feature `parallel` has them; results do not depend on it.
+//! Work shared among the threads of the machine with the feature `parallel`; results do not depend on it.
 
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
