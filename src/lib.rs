@@ -279,7 +279,7 @@ pub use swarm::LiveSwarm;
 /// while !search.is_done() {
 ///     nbc::evolve_generation(&mut search);
 /// }
-/// assert!(!search.archive().is_empty());
+/// assert_eq!(search.generation(), 2);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use swarm::evolve_generation;
