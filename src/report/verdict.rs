@@ -254,7 +254,7 @@ mod tests {
         assert!(text.ends_with("    nearest fix: hold the row for 14 cycles, as `hold: auto` does\n"), "{text}");
         verdict.rows[0].cycles = Some(14);
         let text = describe_test(&verdict);
-        assert!(text.ends_with("so mend the circuit or the test\n"), "{text}");
+        assert!(text.ends_with("so correct the circuit or the test\n"), "{text}");
     }
 
     #[test]
