@@ -21,6 +21,17 @@ pub enum StimulusSource {
     Constant(bool),
 }
 
+impl StimulusSource {
+    /// Its bit among the bits of the inputs and the outputs of the robots, which may be unknown ones.
+    pub(crate) fn bit<T: Copy + From<bool>>(self, inputs: &[bool], outputs: &[T]) -> T {
+        match self {
+            Self::Input(i) => inputs[i].into(),
+            Self::Robot(i) => outputs[i],
+            Self::Constant(value) => value.into(),
+        }
+    }
+}
+
 /// One robot of a swarm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {

@@ -37,7 +37,7 @@ pub struct LiveSwarm {
     /// Cycles over which a displacement is measured; its sign is the output.
     window: usize,
     /// Each robot's output as sensed by the others.
-    heard: Vec<bool>,
+    outputs: Vec<bool>,
     /// Env steps of a cycle at whose end something is read, in order.
     stops: BTreeSet<u32>,
     /// Env steps from frame to frame of the recording.
@@ -49,7 +49,7 @@ pub struct LiveSwarm {
 #[derive(Clone, Debug)]
 pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,
-    heard: Vec<bool>,
+    outputs: Vec<bool>,
     trace: SwarmTrace,
 }
 
@@ -72,7 +72,7 @@ impl LiveSwarm {
         Self {
             flock,
             window,
-            heard: assembly.members.iter().map(|member| member.start).collect(),
+            outputs: assembly.members.iter().map(|member| member.start).collect(),
             stops: steps(SAMPLE_STRIDE).chain(steps(stride)).collect(),
             stride,
             trace,
@@ -89,13 +89,13 @@ impl LiveSwarm {
     pub fn step(&mut self, inputs: &[bool]) -> &CycleTrace {
         let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
-        let senses = |robot: &RobotTrace| robot.senses.map(|signal| read(signal, inputs, &self.heard));
+        let senses = |robot: &RobotTrace| robot.senses.map(|signal| signal.bit(inputs, &self.outputs));
         let sensed: Vec<[bool; 2]> = self.trace.robots.iter().map(senses).collect();
         self.advance(&sensed);
         let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
-        let outputs = self.trace.shown.iter().map(|&signal| read(signal, inputs, &bits)).collect();
+        let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
         if self.trace.cycles.len() + 1 >= START_CYCLES {
-            self.heard.clone_from(&bits);
+            self.outputs.clone_from(&bits);
         }
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {
             robot.fault = self.flock.fault(i);
@@ -117,7 +117,7 @@ impl LiveSwarm {
     /// The swarm as it is now, to come back to.
     pub fn snapshot(&self) -> SwarmSnapshot {
         let robots = (0..self.flock.len()).map(|robot| self.flock.snapshot(robot)).collect();
-        SwarmSnapshot { robots, heard: self.heard.clone(), trace: self.trace.clone() }
+        SwarmSnapshot { robots, outputs: self.outputs.clone(), trace: self.trace.clone() }
     }
 
     /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
@@ -129,7 +129,7 @@ impl LiveSwarm {
         for (i, robot) in snapshot.robots.iter().enumerate() {
             self.flock.restore(i, robot);
         }
-        self.heard.clone_from(&snapshot.heard);
+        self.outputs.clone_from(&snapshot.outputs);
         self.trace.clone_from(&snapshot.trace);
     }
 
@@ -149,14 +149,6 @@ impl LiveSwarm {
                 self.trace.recording.record(&*self.flock);
             }
         }
-    }
-}
-
-fn read(signal: StimulusSource, inputs: &[bool], bits: &[bool]) -> bool {
-    match signal {
-        StimulusSource::Input(i) => inputs[i],
-        StimulusSource::Robot(i) => bits[i],
-        StimulusSource::Constant(value) => value,
     }
 }
 

@@ -8,7 +8,7 @@
 //! simulation" (1989).
 
 use crate::model::Function;
-use crate::swarm::{Assembly, Member, START_CYCLES, StimulusSource};
+use crate::swarm::{Assembly, Member, START_CYCLES};
 
 /// The known value of a bit; `None` if it may be either.
 type Known = Option<bool>;
@@ -75,7 +75,7 @@ impl<'a> Settling<'a> {
             false => self.bits.clone(),
         };
         for (i, member) in self.members.iter().enumerate() {
-            let pattern = member.senses.map(|signal| read(signal, inputs, &others));
+            let pattern = member.senses.map(|signal| signal.bit(inputs, &others));
             let (before, held) = self.sensed[i];
             let held = match pattern {
                 [Some(_), Some(_)] if pattern == before => held + 1,
@@ -103,14 +103,6 @@ impl<'a> Settling<'a> {
     /// before, they stay.
     fn is_at_rest(&self) -> bool {
         self.cycles > START_CYCLES && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
-    }
-}
-
-fn read(signal: StimulusSource, inputs: &[bool], others: &[Known]) -> Known {
-    match signal {
-        StimulusSource::Input(i) => Some(inputs[i]),
-        StimulusSource::Robot(i) => others[i],
-        StimulusSource::Constant(value) => Some(value),
     }
 }
 
