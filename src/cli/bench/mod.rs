@@ -76,7 +76,7 @@ impl BenchArguments {
         };
         let cases = SIDES.iter().map(case).collect();
         drop(bar);
-        let swarm = self.swarm.then(|| SwarmFigures::measure(kernel));
+        let swarm = self.swarm.then(|| SwarmFigures::measure(kernel)).transpose()?;
         let figures = Figures { machine: machine(kernel), width: kernel.lanes(), cases, swarm };
         match context.format {
             OutputFormat::Json => context.print_json(Schema::Bench, &figures)?,

@@ -7,7 +7,7 @@ use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use crate::sim::{Constants, Kernel, LaneBackend, Meter, Simulator};
 
 /// The shortest measurement of a figure.
-pub(super) const PATIENCE: Duration = Duration::from_millis(500);
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Substeps of a cycle.
 pub(super) fn cycle_substeps() -> f64 {
@@ -22,17 +22,28 @@ pub(super) fn race(side: usize, kernel: Kernel, shift: usize, meter: Option<&Arc
     let backend = LaneBackend { kernel, meter: meter.cloned(), ..LaneBackend::default() };
     let simulator = Simulator::new(backend);
     let setting = Setting::default();
+    let work = trials.len() as f64 * cycle_substeps();
+    let simulate = || {
+        simulator.run_trials(&setting, &trials);
+        work
+    };
     // One thread takes all lanes as one batch.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
-    pool.install(|| {
-        let (start, spent, mut rounds) = (Instant::now(), processor_seconds(), 0);
-        while start.elapsed() < PATIENCE {
-            simulator.run_trials(&setting, &trials);
-            rounds += 1;
-        }
-        let seconds = processor_seconds().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
-        f64::from(rounds) * trials.len() as f64 * cycle_substeps() / seconds
-    })
+    on_one_thread(|| per_second(PATIENCE, processor_seconds, simulate))
+}
+
+/// Runs a measurement whose work is done by one thread.
+pub(super) fn on_one_thread<T: Send>(measure: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started").install(measure)
+}
+
+/// Work per second by a clock in seconds, or in wall-clock time if the system does not have it. `step` returns the work
+/// that it has done.
+pub(super) fn per_second(patience: Duration, clock: fn() -> Option<f64>, mut step: impl FnMut() -> f64) -> f64 {
+    let (start, spent, mut work) = (Instant::now(), clock(), 0.0);
+    while start.elapsed() < patience {
+        work += step();
+    }
+    work / clock().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then)
 }
 
 /// CPU time of this thread, in seconds, if the system has it (Linux). Other programs do not distort it.

@@ -1,19 +1,23 @@
 //! `nbc bench --swarm`: how fast a whole swarm is simulated, including its trace and recording.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
+use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::cli::bench::speed::{PATIENCE, cycle_substeps, processor_seconds, race};
-use crate::model::{Column, Function};
+use crate::cli::Failure;
+use crate::cli::bench::speed::{cycle_substeps, on_one_thread, per_second, processor_seconds, race};
+use crate::model::Column;
+use crate::session::{Choice, CompileOptions, Session};
 use crate::sim::{Kernel, LaneBackend, Simulator};
-use crate::store;
-use crate::swarm::{Assembly, LiveSwarm, Member, Room, StimulusSource};
+use crate::source::MemoryWorld;
+use crate::swarm::{Assembly, LiveSwarm, Room};
 
-/// The robots of a counter of three bits (circuits/counter.nb), by their gates.
-const GATES: [(Function, usize); 5] =
-    [(Function::NAND, 24), (Function::NOT, 2), (Function::XNOR, 1), (Function::XOR, 1), (Function::new(0b0100), 1)];
+/// A counter of three bits.
+const FILE: &str = "circuits/counter.nb";
+const SOURCE: &str = include_str!("../../../circuits/counter.nb");
+/// The shortest measurement of a swarm.
+const PATIENCE: Duration = Duration::from_secs(2);
 /// Cycles for which the inputs are held.
 const HOLD: usize = 8;
 /// Cycles for which the world has room.
@@ -34,20 +38,22 @@ pub(super) struct SwarmFigures {
 
 impl SwarmFigures {
     /// Measures the swarm on one thread, and on all.
-    pub(super) fn measure(kernel: Kernel) -> Self {
-        let assembly = assembly();
+    ///
+    /// # Errors
+    /// When the circuit has an error.
+    pub(super) fn measure(kernel: Kernel) -> Result<Self, Failure> {
+        let assembly = assembly()?;
         let mut boxes: BTreeMap<usize, f64> = BTreeMap::new();
         let sides = assembly.members.iter().map(|member| member.robot.body.width());
         let seconds: f64 =
             sides.map(|side| 1.0 / *boxes.entry(side).or_insert_with(|| race(side, kernel, 1, None))).sum();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started");
-        Self {
+        Ok(Self {
             robots: assembly.members.len(),
-            one_core: pool.install(|| speed(&assembly, kernel, processor_seconds)),
+            one_core: on_one_thread(|| speed(&assembly, kernel, processor_seconds)),
             different: assembly.members.len() as f64 / seconds,
             all_threads: speed(&assembly, kernel, || None),
             threads: rayon::current_num_threads(),
-        }
+        })
     }
 
     pub(super) fn describe(&self) -> String {
@@ -64,33 +70,27 @@ impl SwarmFigures {
     }
 }
 
-/// Robots that all sense the two inputs.
-fn assembly() -> Assembly {
-    let library = store::shipped_library();
-    let gates = GATES.into_iter().flat_map(|(function, count)| std::iter::repeat_n(function, count));
-    let member = |(i, function): (usize, Function)| Member {
-        net: format!("n{i}"),
-        robot: library.robots_for(function).next().expect("the shipped robots compute every function").clone(),
-        senses: [StimulusSource::Input(0), StimulusSource::Input(1)],
-        start: false,
-    };
-    let inputs = ["a", "b"].map(|name| Column { name: name.to_owned(), width: 1 });
-    let (outputs, shown) = (Vec::new(), Vec::new());
-    let members = gates.enumerate().map(member).collect();
-    Assembly { circuit: "counter".to_owned(), inputs: inputs.into(), members, outputs, shown }
+/// The swarm of the counter.
+fn assembly() -> Result<Assembly, Failure> {
+    let mut session = Session::new(MemoryWorld::default());
+    session.update(FILE, 1, SOURCE);
+    let file = session.open(FILE)?;
+    let circuit = file.circuit(&Choice::default())?;
+    Ok(session.compile(&file, &circuit, &CompileOptions::default())?.assembly)
 }
 
 /// Lane-substeps per second by that clock, or in wall-clock time if the system does not have it. Poses are recorded as
 /// for a page.
-fn speed(assembly: &Assembly, kernel: Kernel, clock: impl Fn() -> Option<f64>) -> f64 {
+fn speed(assembly: &Assembly, kernel: Kernel, clock: fn() -> Option<f64>) -> f64 {
     let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
     let mut swarm = LiveSwarm::new(&simulator, assembly, CYCLES, 1, Some(Room::SWARM));
-    let (start, spent, mut cycles) = (Instant::now(), clock(), 0);
-    while start.elapsed() < 4 * PATIENCE {
-        let pattern = cycles / HOLD;
-        swarm.step(&[pattern & 1 == 1, pattern & 2 == 2]);
+    let bits = assembly.inputs.iter().flat_map(Column::bits).count();
+    let work = assembly.members.len() as f64 * cycle_substeps();
+    let mut cycles = 0;
+    per_second(PATIENCE, clock, || {
+        let inputs: Vec<bool> = (0..bits).map(|bit| (cycles / HOLD) >> bit & 1 == 1).collect();
+        swarm.step(&inputs);
         cycles += 1;
-    }
-    let seconds = clock().zip(spent).map_or(start.elapsed().as_secs_f64(), |(now, then)| now - then);
-    (cycles * assembly.members.len()) as f64 * cycle_substeps() / seconds
+        work
+    })
 }
