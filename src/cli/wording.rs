@@ -232,11 +232,11 @@ impl ScheduleError {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::cli) enum DrawError {
     /// A file name without an extension of that kind of picture.
-    Extension { path: String, expected: Vec<String>, kind: String },
+    Extension { path: String, expected: Vec<String>, kind: &'static str },
     /// A kind of picture that the subject does not have.
-    Kind { what: String, given: &'static str, expected: &'static str, kind: String },
+    Kind { what: String, given: &'static str, expected: &'static str, kind: &'static str },
     /// An option that would have no effect.
-    Option { what: String, option: &'static str, kind: String, applies_to: &'static str },
+    Option { what: String, option: &'static str, kind: &'static str, applies_to: &'static str },
     /// A moment after the end of the schedule.
     AfterEnd { at: f64, end: f64 },
     /// A behavior without a robot.

@@ -3,45 +3,49 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::cli::draw::kind::Kind;
+use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind};
 use crate::cli::wording::DrawError;
 use crate::cli::{Failure, Progress};
-use crate::report::{self, Film, Stage, Svg};
+use crate::report::{self, Film, Stage};
 use crate::store;
 
 /// The file to be written.
 pub(super) struct Canvas {
     path: PathBuf,
     extension: String,
-    kind: Kind,
 }
 
 impl Canvas {
     /// The file, if its name fits the kind of picture.
-    pub(super) fn new(path: &Path, kind: Kind) -> Result<Self, DrawError> {
+    pub(super) fn new(path: &Path, kind: &dyn PictureKind) -> Result<Self, DrawError> {
         let extension = path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         if kind.extensions().contains(&extension.as_str()) {
-            return Ok(Self { path: path.to_owned(), extension, kind });
+            return Ok(Self { path: path.to_owned(), extension });
         }
         let expected = kind.extensions().iter().map(|extension| format!("`.{extension}`")).collect();
         Err(DrawError::Extension { path: path.display().to_string(), expected, kind: kind.word() })
     }
 
-    pub(super) fn picture(&self, svg: &Svg) -> Result<(), Failure> {
-        let bytes = if self.extension == "svg" { svg.finish().into_bytes() } else { report::png(svg) };
-        self.bytes(&bytes)
+    /// Writes the file.
+    pub(super) fn write(&self, drawing: Drawing) -> Result<(), Failure> {
+        match drawing {
+            Drawing::Picture(svg) if self.extension == "svg" => self.bytes(svg.finish().as_bytes()),
+            Drawing::Picture(svg) => self.bytes(&report::png(&svg)),
+            Drawing::Text(text) => self.bytes(text.as_bytes()),
+            Drawing::Film { format, film, stage } => self.film(format, &film, stage),
+        }
     }
 
-    pub(super) fn bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
+    fn bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         store::write(&self.path, bytes).map_err(|error| Failure::unwritable(&self.path, &error))
     }
 
-    pub(super) fn film(&self, film: &Film, stage: Stage) -> Result<(), Failure> {
+    fn film(&self, format: FilmFormat, film: &Film, stage: Stage) -> Result<(), Failure> {
         let bar = Progress::new("drawing", stage.moments() as u64);
         let mut observe = |done| bar.set(done as u64);
-        let write = |out: &mut dyn Write| match self.kind {
-            Kind::Apng => report::write_apng(film, stage, out, &mut observe),
-            _ => report::write_gif(film, stage, out, &mut observe),
+        let write = |out: &mut dyn Write| match format {
+            FilmFormat::Apng => report::write_apng(film, stage, out, &mut observe),
+            FilmFormat::Gif => report::write_gif(film, stage, out, &mut observe),
         };
         store::write_with(&self.path, write).map_err(|error| Failure::unwritable(&self.path, &error))
     }

@@ -1,53 +1,19 @@
-//! Kinds of pictures, and their file extensions.
+//! The kind of a picture on the command line: one of the table.
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-/// Kinds of pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Kind {
-    /// A film as animated PNG
-    Apng,
-    /// The fitness of a run by group of behaviors, with statistics
-    Comparison,
-    /// The cells of a circuit, for Graphviz
-    Dot,
-    /// A film as GIF
-    Gif,
-    /// The archive of a run
-    Heatmap,
-    /// The deformed body of a robot at one moment
-    Pose,
-    /// The coverage and QD-score of a run over its generations
-    Progress,
-    /// A page with a player
-    Report,
-    /// The cells of a circuit with their robots
-    Schematic,
-    /// Paths over time
-    Spacetime,
-    /// Bodies with their materials
-    Sprite,
-    /// Snapshots of a robot's gait under each pattern
-    Strip,
-    /// The waveforms of a swarm
-    Vcd,
-}
+use crate::cli::draw::picture::PictureKind;
+use crate::cli::draw::pictures::PICTURES;
 
-impl Kind {
-    /// The file extensions of this kind.
-    pub(super) fn extensions(self) -> &'static [&'static str] {
-        match self {
-            Self::Apng => &["png", "apng"],
-            Self::Gif => &["gif"],
-            Self::Vcd => &["vcd"],
-            Self::Dot => &["dot", "gv"],
-            Self::Report => &["html"],
-            _ => &["svg", "png"],
-        }
-    }
+/// A kind of the table.
+#[derive(Clone, Copy)]
+pub(super) struct Kind(pub(super) &'static dyn PictureKind);
 
-    /// The word for it on the command line.
-    pub(super) fn word(self) -> String {
-        self.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
-    }
+/// Reads a kind by its word.
+pub(super) fn kinds() -> impl TypedValueParser<Value = Kind> {
+    let value = |kind: &&dyn PictureKind| PossibleValue::new(kind.word()).help(kind.about());
+    PossibleValuesParser::new(PICTURES.iter().map(value)).try_map(|word| {
+        let kind = PICTURES.into_iter().find(|kind| kind.word() == word);
+        kind.map(Kind).ok_or("not a kind of picture")
+    })
 }

@@ -4,29 +4,29 @@ mod arguments;
 mod canvas;
 mod kind;
 mod options;
+mod order;
+mod picture;
+mod pictures;
+mod program;
 mod robot;
 mod run;
 mod several;
-mod swarm;
 
 use std::path::Path;
 
-use crate::cli::{Context, Failure, OutputFormat, Status, robots, schedule};
-use crate::model::{Behavior, Schedule};
-use crate::report::{Schema, Scheme};
-use crate::source::Sources;
+use crate::cli::{Context, Failure, OutputFormat, Status, robots};
+use crate::report::Schema;
 use crate::store;
 
-use crate::cli::wording::DrawError;
 use canvas::Canvas;
-use options::Drawn;
+use kind::Kind;
+use order::Order;
+use picture::{Drawing, PictureKind, SubjectKind};
 use robot::Subject;
 
 pub(super) use arguments::DrawArguments;
-pub(super) use run::{is_run, page as run_page, read as read_run};
-
-/// The default schedule of robots: every pattern as long as in the paper.
-const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
+pub(super) use pictures::run_page;
+pub(super) use run::{is_run, read as read_run};
 
 impl DrawArguments {
     /// Draws and writes.
@@ -34,78 +34,60 @@ impl DrawArguments {
     /// # Errors
     /// When the subject is invalid, has no such picture, or the file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let canvas = Canvas::new(&self.output, self.kind)?;
-        let drawn = self.drawn();
-        self.check_options(drawn)?;
-        match drawn {
-            Drawn::Program => self.draw_program(&canvas)?,
-            Drawn::Run => {
-                let results = run::read(Path::new(&self.what), context)?;
-                match self.behavior {
-                    Some(behavior) => self.draw_robot(&canvas, &self.champion(&results, behavior)?)?,
-                    None => self.draw_run(&canvas, &results)?,
-                }
-            }
-            Drawn::Library => self.draw_library(&canvas)?,
-            Drawn::Robot => self.draw_robot(&canvas, &self.robot()?)?,
-        }
+        let Self { kind: Kind(kind), output, order } = self;
+        let canvas = Canvas::new(&output, kind)?;
+        let subject = subject_kind(&order.what);
+        options::check_options(&order, kind, subject)?;
+        canvas.write(draw(kind, subject, &order, context)?)?;
         if context.format == OutputFormat::Json {
-            let drawn = serde_json::json!({ "file": self.output, "kind": self.kind.word() });
+            let drawn = serde_json::json!({ "file": output, "kind": kind.word() });
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)
     }
+}
 
-    fn drawn(&self) -> Drawn {
-        let path = Path::new(&self.what);
-        match () {
-            () if self.what.ends_with(".nb") => Drawn::Program,
-            () if run::is_run(path) => Drawn::Run,
-            () if self.what == "shipped" || path.is_dir() => Drawn::Library,
-            () => Drawn::Robot,
+fn subject_kind(what: &str) -> SubjectKind {
+    let path = Path::new(what);
+    match () {
+        () if what.ends_with(".nb") => SubjectKind::Program,
+        () if run::is_run(path) => SubjectKind::Run,
+        () if what == "shipped" || path.is_dir() => SubjectKind::Library,
+        () => SubjectKind::Robot,
+    }
+}
+
+fn draw(kind: &dyn PictureKind, subject: SubjectKind, order: &Order, context: &Context) -> Result<Drawing, Failure> {
+    match subject {
+        SubjectKind::Program => kind.of_program(order),
+        SubjectKind::Run => {
+            let results = run::read(Path::new(&order.what), context)?;
+            let Some(behavior) = order.behavior else { return kind.of_run(&results, order) };
+            let robot = run::champion(&results, behavior).ok_or_else(|| order.none_of(behavior))?;
+            kind.of_robot(&robot, order)
         }
+        SubjectKind::Library => draw_library(kind, order),
+        SubjectKind::Robot => kind.of_robot(&robot(&order.what)?, order),
     }
+}
 
-    fn draw_library(&self, canvas: &Canvas) -> Result<(), Failure> {
-        let folder = Path::new(&self.what);
-        let library = if self.what == "shipped" { store::shipped_library() } else { robots::robots(folder)? };
-        match self.behavior {
-            None => self.draw_several(canvas, &several::of_library(&self.what, &library)),
-            Some(behavior) => {
-                let robot = library.robots_for(behavior.function()).next();
-                let robot = robot.ok_or_else(|| self.none_of(behavior))?;
-                self.draw_robot(canvas, &Subject::of(robot))
-            }
+fn draw_library(kind: &dyn PictureKind, order: &Order) -> Result<Drawing, Failure> {
+    let what = &order.what;
+    let library = if what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(what))? };
+    let Some(behavior) = order.behavior else {
+        return kind.of_library(&several::of_library(what, &library), order);
+    };
+    let robot = library.robots_for(behavior.function()).next();
+    kind.of_robot(&Subject::of(robot.ok_or_else(|| order.none_of(behavior))?), order)
+}
+
+fn robot(what: &str) -> Result<Subject, Failure> {
+    let body = robots::read_body(what)?;
+    match robots::find(&store::shipped_library(), what) {
+        Ok(robot) => Ok(Subject::of(robot)),
+        Err(_) => {
+            let title = Path::new(what).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            Ok(Subject { title: title.unwrap_or_default(), body })
         }
-    }
-
-    fn robot(&self) -> Result<Subject, Failure> {
-        let body = robots::read_body(&self.what)?;
-        match robots::find(&store::shipped_library(), &self.what) {
-            Ok(robot) => Ok(Subject::of(robot)),
-            Err(_) => {
-                let title = Path::new(&self.what).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-                Ok(Subject { title: title.unwrap_or_default(), body })
-            }
-        }
-    }
-
-    fn none_of(&self, behavior: Behavior) -> Failure {
-        DrawError::UnknownBehavior { what: self.what.clone(), behavior }.into()
-    }
-
-    fn scheme(&self) -> Scheme {
-        if self.safe_colors { Scheme::Safe } else { Scheme::Paper }
-    }
-
-    fn schedule(&self) -> Result<Schedule, Failure> {
-        let mut sources = Sources::default();
-        let id = sources.add("--schedule", self.schedule.as_deref().unwrap_or(SCHEDULE));
-        schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
-    }
-
-    /// The error for a picture that this subject does not have.
-    fn not_of(&self, given: &'static str, wanted: &'static str) -> Failure {
-        DrawError::Kind { what: self.what.clone(), given, expected: wanted, kind: self.kind.word() }.into()
     }
 }

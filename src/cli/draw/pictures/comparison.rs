@@ -1,0 +1,35 @@
+//! The fitness of a run by group of behaviors.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::report::{self, EvolutionResults, Svg};
+
+/// The fitness of a run by group of behaviors.
+pub(super) struct ComparisonPicture;
+
+impl PictureKind for ComparisonPicture {
+    fn word(&self) -> &'static str {
+        "comparison"
+    }
+
+    fn about(&self) -> &'static str {
+        "The fitness of a run by group of behaviors, with statistics"
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Run
+    }
+
+    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Picture(comparison(results)))
+    }
+}
+
+/// The champions of a run, compared by group of behaviors.
+pub(super) fn comparison(results: &EvolutionResults) -> Svg {
+    let champions = results.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
+    let groups = report::behavior_groups(&champions);
+    let title = format!("{}: champions by group of behaviors", results.name);
+    report::draw_comparison(&title, results.unit(), &groups, &report::compare_groups(&groups))
+}

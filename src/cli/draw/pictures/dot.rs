@@ -1,0 +1,31 @@
+//! A netlist for Graphviz.
+
+use crate::circuit::formats::dot;
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+
+/// A netlist for Graphviz.
+pub(super) struct DotPicture;
+
+impl PictureKind for DotPicture {
+    fn word(&self) -> &'static str {
+        "dot"
+    }
+
+    fn about(&self) -> &'static str {
+        "The cells of a circuit, for Graphviz"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["dot", "gv"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Program
+    }
+
+    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(dot::write(&order.compiled()?.mapping.netlist)))
+    }
+}

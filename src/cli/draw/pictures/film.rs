@@ -1,0 +1,76 @@
+//! Films of robots that move.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind, SubjectKind};
+use crate::cli::draw::robot::Subject;
+use crate::cli::draw::several::Several;
+use crate::model::{Body, Setting};
+use crate::report::{Film, STRIDE, Stage};
+use crate::session::SwarmRun;
+
+/// A film in a format.
+pub(super) struct FilmPicture(pub(super) FilmFormat);
+
+impl PictureKind for FilmPicture {
+    fn word(&self) -> &'static str {
+        match self.0 {
+            FilmFormat::Apng => "apng",
+            FilmFormat::Gif => "gif",
+        }
+    }
+
+    fn about(&self) -> &'static str {
+        match self.0 {
+            FilmFormat::Apng => "A film as animated PNG",
+            FilmFormat::Gif => "A film as GIF",
+        }
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        match self.0 {
+            FilmFormat::Apng => &["png", "apng"],
+            FilmFormat::Gif => &["gif"],
+        }
+    }
+
+    fn options(&self) -> &'static [&'static str] {
+        &["--safe-colors", "--schedule"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Library
+    }
+
+    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+        let Subject { title, body } = robot;
+        let lanes = vec![format!("{} x {}", body.width(), body.height())];
+        let stage = Stage::of_trial(&Setting::default(), body, &order.schedule()?, STRIDE);
+        Ok(self.film(title, lanes, std::slice::from_ref(body), order, stage))
+    }
+
+    fn of_library(&self, robots: &Several, order: &Order) -> Result<Drawing, Failure> {
+        let bodies: Vec<Body> = robots.robots.iter().map(|one| one.body.clone()).collect();
+        let lanes = robots.robots.iter().map(|one| one.name.clone()).collect();
+        let stage = Stage::of_trials(&Setting::default(), &bodies, &order.schedule()?, STRIDE);
+        Ok(self.film(&robots.title, lanes, &bodies, order, stage))
+    }
+
+    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
+        let ran = order.ran(None)?;
+        let SwarmRun { compiled, trace } = ran.swarm();
+        let assembly = &compiled.assembly;
+        let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
+        let lanes = assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
+        let stage = Stage::of_swarm(assembly, trace, STRIDE);
+        Ok(self.film(&assembly.circuit, lanes.collect(), &bodies, order, stage))
+    }
+}
+
+impl FilmPicture {
+    fn film(&self, title: &str, lanes: Vec<String>, bodies: &[Body], order: &Order, stage: Stage) -> Drawing {
+        let largest = bodies.iter().map(|body| body.width().max(body.height())).max().unwrap_or(1);
+        let film = Film { title: title.to_owned(), lanes, scheme: order.scheme(), largest };
+        Drawing::Film { format: self.0, film, stage }
+    }
+}

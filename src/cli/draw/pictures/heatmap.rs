@@ -1,0 +1,57 @@
+//! An archive as a map of its niches.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::wording::DrawError;
+use crate::evolve::NicheKey;
+use crate::report::{self, EvolutionResults, Terrain, axis_word};
+
+/// An archive as a map of its niches.
+pub(super) struct HeatmapPicture;
+
+impl PictureKind for HeatmapPicture {
+    fn word(&self) -> &'static str {
+        "heatmap"
+    }
+
+    fn about(&self) -> &'static str {
+        "The archive of a run"
+    }
+
+    fn options(&self) -> &'static [&'static str] {
+        &["--axes"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Run
+    }
+
+    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
+        let [x, y] = axes(results, &order.axes)?;
+        let best = results.best();
+        let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
+        let terrain = Terrain { unit: results.unit(), axes: &results.axes, niches: &niches };
+        let title = format!("{}: the best of each niche", results.name);
+        Ok(Drawing::Picture(report::draw_heatmap(&title, &terrain, x, y)))
+    }
+}
+
+/// The indices of the two requested axes; by default the first two.
+fn axes(results: &EvolutionResults, requested: &[String]) -> Result<[usize; 2], Failure> {
+    let axes: Vec<String> = results.axes.iter().map(|&axis| axis_word(axis).to_owned()).collect();
+    if requested.is_empty() {
+        return Ok([0, usize::from(axes.len() > 1)]);
+    }
+    let [x, y] = requested else {
+        return Err(DrawError::AxisCount { found: requested.len(), axes }.into());
+    };
+    let place = |word: &String| {
+        let unknown = || DrawError::UnknownAxis { name: word.clone(), axes: axes.clone() };
+        axes.iter().position(|known| known == word).ok_or_else(unknown)
+    };
+    match [place(x)?, place(y)?] {
+        [x, y] if x == y => Err(DrawError::SameAxis { name: axes[x].clone(), axes }.into()),
+        places => Ok(places),
+    }
+}

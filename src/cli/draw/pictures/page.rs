@@ -1,0 +1,61 @@
+//! A page with a player, or with all plots of a run.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::pictures::comparison::comparison;
+use crate::cli::draw::pictures::progress::progress;
+use crate::cli::draw::pictures::spacetime::champions;
+use crate::cli::draw::run::each_champion;
+use crate::cli::run::run_page as swarm_page;
+use crate::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
+use crate::report::{self, EvolutionResults, Plate, Scheme};
+use crate::swarm::Room;
+
+/// A page with a player, or with all plots of a run.
+pub(super) struct PagePicture;
+
+impl PictureKind for PagePicture {
+    fn word(&self) -> &'static str {
+        "report"
+    }
+
+    fn about(&self) -> &'static str {
+        "A page with a player"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["html"]
+    }
+
+    fn options(&self) -> &'static [&'static str] {
+        &["--safe-colors"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Program
+    }
+
+    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(run_page(results, order.scheme())))
+    }
+
+    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(swarm_page(&order.what, &order.ran(Some(Room::SWARM))?, order.scheme())))
+    }
+}
+
+/// The page of a run with all its plots.
+pub(in crate::cli) fn run_page(results: &EvolutionResults, scheme: Scheme) -> String {
+    let spell = |pattern| Spell { pattern, steps: 10 * CYCLE_STEPS };
+    let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
+    let plate = |heading: &str, drawing| Plate { heading: heading.to_owned(), drawing };
+    let mut plates = vec![
+        plate("Progress", progress(results)),
+        plate("Champions in space and time", champions(&each_champion(results), &schedule)),
+    ];
+    if results.objective == SearchObjective::Distance {
+        plates.push(plate("Groups of behaviors", comparison(results)));
+    }
+    report::draw_evolution_page(results, &plates, scheme)
+}

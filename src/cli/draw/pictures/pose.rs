@@ -1,0 +1,34 @@
+//! A deformed body at one moment.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::robot::Subject;
+use crate::report;
+
+/// A deformed body at one moment.
+pub(super) struct PosePicture;
+
+impl PictureKind for PosePicture {
+    fn word(&self) -> &'static str {
+        "pose"
+    }
+
+    fn about(&self) -> &'static str {
+        "The deformed body of a robot at one moment"
+    }
+
+    fn options(&self) -> &'static [&'static str] {
+        &["--at", "--safe-colors", "--schedule"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Robot
+    }
+
+    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+        let schedule = order.schedule()?;
+        let step = order.step(&schedule)?;
+        Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, order.scheme())))
+    }
+}

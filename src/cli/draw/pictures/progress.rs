@@ -1,0 +1,32 @@
+//! The curves of a run.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::report::{self, EvolutionResults, Svg};
+
+/// The curves of a run.
+pub(super) struct ProgressPicture;
+
+impl PictureKind for ProgressPicture {
+    fn word(&self) -> &'static str {
+        "progress"
+    }
+
+    fn about(&self) -> &'static str {
+        "The coverage and QD-score of a run over its generations"
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Run
+    }
+
+    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Picture(progress(results)))
+    }
+}
+
+/// Coverage and QD-score over the generations.
+pub(super) fn progress(results: &EvolutionResults) -> Svg {
+    report::draw_progress(&format!("{} over time", results.name), "generation", &results.courses())
+}

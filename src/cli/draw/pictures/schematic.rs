@@ -1,0 +1,35 @@
+//! The cells of a circuit with their robots.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::model::Robot;
+use crate::report;
+
+/// The cells of a circuit with their robots.
+pub(super) struct SchematicPicture;
+
+impl PictureKind for SchematicPicture {
+    fn word(&self) -> &'static str {
+        "schematic"
+    }
+
+    fn about(&self) -> &'static str {
+        "The cells of a circuit with their robots"
+    }
+
+    fn options(&self) -> &'static [&'static str] {
+        &["--safe-colors"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Program
+    }
+
+    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
+        let compiled = order.compiled()?;
+        let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
+        let (netlist, path) = (&compiled.mapping.netlist, &compiled.timing.critical_path);
+        Ok(Drawing::Picture(report::draw_schematic(netlist, &robots, path, order.scheme())))
+    }
+}

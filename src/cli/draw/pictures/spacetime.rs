@@ -1,0 +1,100 @@
+//! Paths over time.
+
+use std::collections::BTreeMap;
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::robot::Subject;
+use crate::cli::draw::run::each_champion;
+use crate::cli::draw::several::{One, Several};
+use crate::cli::wording::DrawError;
+use crate::model::{CYCLE_STEPS, Schedule, Setting, Trial};
+use crate::report::{self, Champions, EvolutionResults, Svg};
+use crate::session::SwarmRun;
+use crate::sim::Simulator;
+use crate::swarm::SwarmTrace;
+
+/// Paths over time.
+pub(super) struct SpacetimePicture;
+
+impl PictureKind for SpacetimePicture {
+    fn word(&self) -> &'static str {
+        "spacetime"
+    }
+
+    fn about(&self) -> &'static str {
+        "Paths over time"
+    }
+
+    fn options(&self) -> &'static [&'static str] {
+        &["--robots", "--schedule"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Library
+    }
+
+    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+        let trial = Trial { body: robot.body.clone(), schedule: order.schedule()? };
+        let trajectory = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
+        Ok(Drawing::Picture(report::draw_robot(&robot.title, &trial.schedule, &trajectory)))
+    }
+
+    fn of_library(&self, robots: &Several, order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Picture(champions(robots, &order.schedule()?)))
+    }
+
+    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
+        self.of_library(&each_champion(results), order)
+    }
+
+    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
+        let ran = order.ran(None)?;
+        let SwarmRun { trace, .. } = ran.swarm();
+        if order.robots.is_empty() {
+            return Ok(Drawing::Picture(report::draw_swarm(trace)));
+        }
+        let chosen = order.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Drawing::Picture(report::draw_chosen(trace, &chosen.concat())))
+    }
+}
+
+/// The indices of the robots that drive a net, or all nets that begin with the text before a final `*`.
+fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
+    let robots = &trace.robots;
+    let is_meant = |driven: &str| match net.strip_suffix('*') {
+        Some(beginning) => driven.starts_with(beginning),
+        None => driven == net,
+    };
+    let meant: Vec<usize> = (0..robots.len()).filter(|&k| is_meant(&robots[k].net)).collect();
+    if meant.is_empty() {
+        let known = robots.iter().map(|robot| robot.net.clone()).collect();
+        return Err(DrawError::UnknownNet { net: net.to_owned(), known }.into());
+    }
+    Ok(meant)
+}
+
+/// Every robot's path under one schedule, by behavior.
+pub(super) fn champions(several: &Several, schedule: &Schedule) -> Svg {
+    let trial = |one: &One| Trial { body: one.body.clone(), schedule: schedule.clone() };
+    let trials: Vec<Trial> = several.robots.iter().map(trial).collect();
+    let trajectories = Simulator::default().run_trials(&Setting::default(), &trials);
+    let mut paths: BTreeMap<u8, Champions> = BTreeMap::new();
+    for (one, trajectory) in several.robots.iter().zip(trajectories) {
+        let bits = one.behavior.function().bits();
+        let group = paths.entry(bits).or_insert_with(|| Champions { behavior: one.behavior, paths: Vec::new() });
+        group.paths.push((trajectory, one.body.width()));
+    }
+    let groups: Vec<Champions> = paths.into_values().collect();
+    report::draw_champions(&several.title, &groups, &changes(schedule))
+}
+
+/// The cycles at which a schedule's stimuli change.
+fn changes(schedule: &Schedule) -> Vec<f64> {
+    let ends = schedule.spells.iter().scan(0, |steps, spell| {
+        *steps += spell.steps;
+        Some(f64::from(*steps) / f64::from(CYCLE_STEPS))
+    });
+    ends.take(schedule.spells.len().saturating_sub(1)).collect()
+}

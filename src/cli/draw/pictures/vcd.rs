@@ -1,0 +1,31 @@
+//! Waveforms.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::report;
+
+/// Waveforms.
+pub(super) struct VcdPicture;
+
+impl PictureKind for VcdPicture {
+    fn word(&self) -> &'static str {
+        "vcd"
+    }
+
+    fn about(&self) -> &'static str {
+        "The waveforms of a swarm"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["vcd"]
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Program
+    }
+
+    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(report::vcd(&order.ran(None)?.swarm().trace)))
+    }
+}

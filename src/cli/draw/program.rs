@@ -1,0 +1,71 @@
+//! The circuit of a source file to be drawn, and the run of its swarm.
+
+use crate::circuit::is_same_instance;
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::run::{Ran, run_simulation, run_test};
+use crate::cli::wording::DrawError;
+use crate::model::{CircuitTest, Instance};
+use crate::session::{self, Checked, CompileOptions, Compiled, Session};
+use crate::store::DiskWorld;
+use crate::swarm::Room;
+
+impl Order {
+    /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
+    pub(super) fn compiled(&self) -> Result<Compiled, Failure> {
+        let mut session = Session::new(DiskWorld);
+        let file = session.open(&self.what)?;
+        let mut choice = self.circuit.choice();
+        if let Some(name) = &self.test {
+            choice.circuit = Some(test_called(&file, name)?.circuit.to_string());
+        }
+        let circuit = file.circuit(&choice)?;
+        let options = CompileOptions { swarm: choice.swarm, ..self.runs.options() };
+        Ok(session.compile(&file, &circuit, &options)?)
+    }
+
+    /// The chosen test, run in physics: the first one, or the first simulation if the file has no test. Poses are
+    /// recorded if there is room for them.
+    pub(super) fn ran(&self, poses: Option<Room>) -> Result<Ran, Failure> {
+        let session = Session::new(DiskWorld);
+        let mut session = match poses {
+            Some(room) => session.with_poses(room),
+            None => session,
+        };
+        let file = session.open(&self.what)?;
+        let choice = self.circuit.choice();
+        let is_choice = choice.circuit.is_some() || choice.swarm.is_some();
+        let chosen = if is_choice { Some(file.circuit(&choice)?) } else { None };
+        let program = &file.program;
+        let is_chosen =
+            |circuit: &Instance| chosen.as_ref().is_none_or(|chosen| is_same_instance(program, chosen, circuit));
+        let test = match &self.test {
+            Some(name) => Some(test_called(&file, name)?),
+            None => program.tests.iter().find(|test| is_chosen(&test.circuit)),
+        };
+        let options = CompileOptions { swarm: choice.swarm.clone(), ..self.runs.options() };
+        if let Some(test) = test {
+            let clear = session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
+            clear.map_err(Failure::plain)?;
+            return Ok(Ran::Test(run_test(&session, &file, test, &options)?.remove(0)));
+        }
+        let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");
+        let simulation = program.simulations.iter().find(|simulation| {
+            is_chosen(&swarm(&simulation.swarm).circuit)
+                && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
+        });
+        match simulation {
+            Some(simulation) => Ok(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?)),
+            None => {
+                let what = chosen.map_or_else(|| self.what.clone(), |circuit| circuit.to_string());
+                Err(DrawError::NoRun { what }.into())
+            }
+        }
+    }
+}
+
+/// The first test of that title or circuit.
+fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, Failure> {
+    let unknown = || DrawError::UnknownTest { file: file.path.clone(), name: name.to_owned() };
+    file.tests(name).next().ok_or_else(|| unknown().into())
+}
