@@ -119,7 +119,7 @@ impl<'a> CircuitChecker<'a> {
         for parameter in parameters {
             let default = parameter.default.map(|size| self.size(size));
             let slot = self.variable(&parameter.name);
-            debug_assert_eq!(slot as usize, self.circuit.parameters.len());
+            assert_eq!(slot as usize, self.circuit.parameters.len());
             let (name, span) = (parameter.name.text.clone(), parameter.name.span);
             self.circuit.parameters.push(Parameter { name, span, default });
         }

@@ -42,7 +42,7 @@ impl Network {
     /// Adds a gate and returns its signal.
     pub fn add(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let signal = self.signals() as Signal;
-        debug_assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
+        assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
         self.gates.push(Gate { function, pins });
         signal
     }

@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn the_work_reported_is_the_work_announced() {
-        let nominees = [nominee(&["333", "343"], 1.0), nominee(&["3"], 2.0), nominee(&["33"], 0.0)];
+        let nominees = [nominee(&["33"], 1.0), nominee(&["3"], 2.0), nominee(&["34"], 0.0)];
         for behavior in ["RRRR", "LLLL"] {
             let done = Cell::new(0);
             let observe = |more| done.set(done.get() + more);
@@ -209,9 +209,9 @@ mod tests {
 
     #[test]
     fn a_robot_that_errs_is_left_out_unless_it_is_allowed_to() {
-        let (behavior, body) = ("RRRR".parse().unwrap(), Body::parse(&["333", "343"], &Palette::paper()).unwrap());
+        let (behavior, body) = ("RRRR".parse().unwrap(), Body::parse(&["34"], &Palette::paper()).unwrap());
         let measured = measure(&Simulator::default(), &body).unwrap();
-        let nominees = [nominee(&["333", "343"], 1.0)];
+        let nominees = [nominee(&["34"], 1.0)];
         let select = |behavior, max_error| {
             let selection = Selection { max_error, ..SELECTION };
             selection.select(&Simulator::default(), behavior, &nominees, &|_| ())
