@@ -73,8 +73,8 @@ struct Clocks {
 
 impl Clocks {
     fn net(&mut self, netlist: &mut Netlist, register: &Register) -> NetId {
-        let name = register.clock.clone().unwrap_or_else(|| "clk".to_owned());
-        let clock = *self.by_name.entry(name.clone()).or_insert_with(|| netlist.add_input(name));
+        let name = register.clock_name();
+        let clock = *self.by_name.entry(name.to_owned()).or_insert_with(|| netlist.add_input(name));
         match register.kind {
             RegisterKind::Rising | RegisterKind::High => clock,
             RegisterKind::Falling | RegisterKind::Low => netlist.add_gate(Function::NOT, &[clock]),

@@ -83,7 +83,7 @@ impl SynthArguments {
         let design = store::read_circuit(&self.input, self.clock.as_deref())?;
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
-            None => matches!(target, Some(circuit::formats::CircuitFormat::Nb | circuit::formats::CircuitFormat::Dot)),
+            None => target == Some(circuit::formats::CircuitFormat::Dot),
         };
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let options = self.mapping.options();

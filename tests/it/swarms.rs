@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use nbc::circuit::formats::nb;
+use nbc::circuit::formats::{Design, nb};
 use nbc::circuit::{Delays, Netlist, Timing};
 use nbc::model::{Function, Robot};
 use nbc::report::{Stage, describe_test};
@@ -32,7 +32,10 @@ fn program(truth: u8) -> String {
     let rows: String = (0..8)
         .map(|row| format!("    {} {} {} | {}\n", row >> 2 & 1, row >> 1 & 1, row & 1, truth >> row & 1))
         .collect();
-    format!("{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n", nb::write(&netlist))
+    format!(
+        "{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n",
+        nb::write(&Design { logic: netlist, registers: Vec::new() })
+    )
 }
 
 /// Runs a program's tests in physics.

@@ -74,8 +74,13 @@ fn registers_are_kept_or_made_of_cells() {
     let report: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(report["latches"], 2);
     abc_agrees(&bench, "dsec", "counter.bench", "kept.blif");
-    let ran = bench.run(&["synth", "counter.bench", "-o", "cells.nb", "--cells", "nand,not", "--format", "json"]);
-    let expanded: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+    let arguments = ["synth", "counter.bench", "-o", "cells.nb", "--cells", "nand,not", "--format", "json"];
+    let kept = bench.run(&arguments).expect_json();
+    assert_eq!(kept["cells"], report["cells"]);
+    let written = std::fs::read_to_string(bench.path().join("cells.nb")).unwrap();
+    assert!(written.starts_with("circuit main(en, clk) -> (q1) {\n") && written.contains(" = register("), "{written}");
+    assert_eq!(bench.run(&["build", "cells.nb", "--cells", "nand,not"]).status, 0);
+    let expanded = bench.run(&[&arguments[..], &["--registers", "expand"]].concat()).expect_json();
     // Eight cells a flip-flop, and one inverter for the clock of both.
     assert_eq!(expanded["cells"].as_u64().unwrap(), report["cells"].as_u64().unwrap() + 17);
     assert_eq!(bench.run(&["build", "cells.nb", "--cells", "nand,not"]).status, 0);
@@ -187,7 +192,7 @@ fn a_file_name_is_not_part_of_the_yosys_script() {
 }
 
 /// Whether Yosys is installed; under CI it must be.
-fn has_yosys() -> bool {
+pub fn has_yosys() -> bool {
     let found = Command::new("yosys").arg("-V").output().is_ok();
     assert!(found || std::env::var_os("CI").is_none(), "CI must have yosys");
     found

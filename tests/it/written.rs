@@ -1,7 +1,7 @@
 //! Files written for other tools and in the language: valid unique names, formatted programs, the same function.
 
-use nbc::circuit::formats::{CircuitFormat, Design, aiger, blif};
-use nbc::circuit::{Logic, Netlist, elaborate};
+use nbc::circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, buses};
+use nbc::circuit::{Logic, NetId, Netlist, elaborate, registers};
 use nbc::model::{Function, Instance};
 use nbc::source::{FileId, MemoryWorld, Sources};
 use nbc::{check, store, syntax};
@@ -77,13 +77,27 @@ fn netlists() -> impl Strategy<Value = Netlist> {
 }
 
 /// Whether two netlists give the same outputs, port by port, for every input.
-fn same(one: &Netlist, two: &Netlist, text: &str) {
+pub fn same(one: &Netlist, two: &Netlist, text: &str) {
+    let orders = [one.inputs(), one.outputs()].map(|ports| (0..ports.len()).collect::<Vec<_>>());
+    same_in_order(one, two, &orders, text);
+}
+
+/// Like [`same`], where the ports of the second are those of the first in these orders.
+pub fn same_in_order(one: &Netlist, two: &Netlist, [ins, outs]: &[Vec<usize>; 2], text: &str) {
     let bits = one.inputs().len();
     let (mut first, mut second) = (Logic::new(one), Logic::new(two));
     for pattern in 0..1u32 << bits {
         let inputs: Vec<bool> = (0..bits).map(|bit| pattern >> bit & 1 == 1).collect();
-        assert_eq!(first.settle(&inputs), second.settle(&inputs), "at {inputs:?}\n{text}");
+        let moved: Vec<bool> = ins.iter().map(|&place| inputs[place]).collect();
+        let expected = first.settle(&inputs).map(|found| outs.iter().map(|&place| found[place]).collect::<Vec<_>>());
+        assert_eq!(expected, second.settle(&moved), "at {inputs:?}\n{text}");
     }
+}
+
+/// The order of ports in a program, whose buses have their highest bit first.
+pub fn order(netlist: &Netlist, ports: &[NetId]) -> Vec<usize> {
+    let names: Vec<String> = ports.iter().map(|&id| netlist.net_name(id)).collect();
+    buses::buses(&names).into_iter().flat_map(|bus| bus.bits.into_iter().rev()).collect()
 }
 
 /// The text of a design as a program, checked to be formatted, and its circuit.
@@ -108,7 +122,8 @@ proptest! {
     fn written_programs_are_formatted_and_equivalent(netlist in netlists()) {
         let design = Design { logic: netlist, registers: Vec::new() };
         let (text, again) = as_program(&design);
-        same(&design.logic, &again, &text);
+        let orders = [design.logic.inputs(), design.logic.outputs()].map(|ports| order(&design.logic, ports));
+        same_in_order(&design.logic, &again, &orders, &text);
     }
 
     #[test]
@@ -148,4 +163,50 @@ fn a_model_without_outputs_is_not_a_program() {
     logic.add_input("a");
     let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, CircuitFormat::Nb).unwrap_err();
     assert_eq!(fault.message, "`silent` has no outputs, but a circuit of a .nb file needs one");
+}
+
+/// Four registers of one clock after an inverting shift, and one bit of each other kind.
+fn with_registers() -> Design {
+    let mut logic = Netlist::new("shift");
+    let ports = ["d", "clk"].map(|name| logic.add_input(name));
+    let names = ["q[0]", "q[1]", "q[2]", "q[3]", "falling", "high", "low"];
+    let states: Vec<_> = names.iter().map(|&name| logic.add_input(name)).collect();
+    (0..4).for_each(|bit| _ = logic.add_output(format!("q[{bit}]"), states[bit]));
+    (4..7).for_each(|at| _ = logic.add_output(format!("{}_out", names[at]), states[at]));
+    let before = [ports[0], states[0], states[1], states[2], states[3], ports[0], ports[0]];
+    for (name, before) in names.iter().zip(before) {
+        let next = logic.add_gate(Function::NOT, &[before]);
+        logic.add_output(format!("{name}_next"), next);
+    }
+    let kinds = [RegisterKind::Falling, RegisterKind::High, RegisterKind::Low];
+    let register = |(at, &name): (usize, &&str)| Register {
+        name: name.to_owned(),
+        kind: at.checked_sub(4).map_or(RegisterKind::Rising, |at| kinds[at]),
+        clock: Some("clk".to_owned()),
+        start: Some(at % 2 == 1),
+    };
+    Design { registers: names.iter().enumerate().map(register).collect(), logic }
+}
+
+#[test]
+fn registers_become_calls_that_do_the_same() {
+    let design = with_registers();
+    let (text, again) = as_program(&design);
+    let head = "circuit shift(d, clk) -> (q[4], falling_out, high_out, low_out) {\n";
+    assert!(text.starts_with(head), "{text}");
+    for call in
+        [" = register[start = 10](q_next, clk)", "= register(falling_next, not clk)", "= latch[start = 1](", "= latch("]
+    {
+        assert!(text.contains(call), "`{call}` is not in\n{text}");
+    }
+    let made = registers::expand(&design);
+    let (mut first, mut second) = (Logic::new(&made), Logic::new(&again));
+    let outs = order(&made, made.outputs());
+    for row in 0..40u32 {
+        // The data changes while the clock is 0, a row after it falls.
+        let inputs = [(row / 4).wrapping_mul(0x9e37_79b9) >> 16 & 1 == 1, matches!(row % 4, 1 | 2)];
+        let expected = first.settle(&inputs).unwrap();
+        let expected: Vec<bool> = outs.iter().map(|&place| expected[place]).collect();
+        assert_eq!(second.settle(&inputs).unwrap(), expected, "row {row}\n{text}");
+    }
 }

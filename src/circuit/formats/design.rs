@@ -28,6 +28,13 @@ pub struct Register {
     pub start: Option<bool>,
 }
 
+impl Register {
+    /// The name of its clock, with the one that is usual if the format has none.
+    pub fn clock_name(&self) -> &str {
+        self.clock.as_deref().unwrap_or("clk")
+    }
+}
+
 /// A circuit and its registers.
 #[derive(Clone, Debug)]
 pub struct Design {

@@ -7,6 +7,33 @@ use crate::circuit::formats::wording::EncodeError;
 use crate::circuit::formats::{Design, RegisterKind, aiger, blif, dot, nb, verilog};
 use crate::diag::Diagnostic;
 
+/// A format that a design can be read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CircuitSource {
+    /// AIGER, binary or as text.
+    Aiger,
+    /// ISCAS .bench.
+    Bench,
+    /// BLIF.
+    Blif,
+    /// Verilog, which Yosys translates to BLIF.
+    Verilog,
+}
+
+impl CircuitSource {
+    /// The format for the extension of a path, in any case.
+    pub fn of_path(path: &str) -> Option<Self> {
+        let (_, ending) = path.rsplit_once('.')?;
+        Some(match ending.to_ascii_lowercase().as_str() {
+            "aag" | "aig" => Self::Aiger,
+            "bench" => Self::Bench,
+            "blif" => Self::Blif,
+            "sv" | "v" => Self::Verilog,
+            _ => return None,
+        })
+    }
+}
+
 /// A format that a design can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CircuitFormat {
@@ -50,7 +77,7 @@ impl CircuitFormat {
             Self::AigerText => aiger::write(design, false),
             Self::Verilog => verilog::write(design).into_bytes(),
             Self::Dot => dot::write(&design.logic).into_bytes(),
-            Self::Nb => nb::write(&design.logic).into_bytes(),
+            Self::Nb => nb::write(design).into_bytes(),
         })
     }
 
@@ -78,12 +105,9 @@ fn fits_aiger(design: &Design) -> Result<(), EncodeError> {
     Ok(())
 }
 
-/// A circuit of the language consists of cells only and has an output.
+/// A circuit of the language has an output.
 fn fits_nb(design: &Design) -> Result<(), EncodeError> {
-    if !design.registers.is_empty() {
-        return Err(EncodeError::NbRegisters);
-    }
-    if design.logic.outputs().is_empty() {
+    if design.outputs() == 0 {
         return Err(EncodeError::NbNoOutputs { circuit: design.logic.name.clone() });
     }
     Ok(())

@@ -3,14 +3,17 @@
 pub mod aiger;
 pub mod bench;
 pub mod blif;
+pub mod buses;
 mod design;
 pub mod dot;
 mod draft;
 mod format;
 mod names;
 pub mod nb;
+mod nb_names;
 pub mod verilog;
 mod wording;
 
 pub use design::{Design, Register, RegisterKind};
-pub use format::CircuitFormat;
+pub use format::{CircuitFormat, CircuitSource};
+pub use nb_names::is_word;

@@ -69,7 +69,7 @@ impl FileNames {
 }
 
 /// The name itself, or with the first free number appended.
-fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
+pub(super) fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
     let numbered = (1..).map(|i| format!("{wish}_{i}"));
     let name = std::iter::once(wish.clone()).chain(numbered).find(|name| !taken.contains(name));
     let name = name.expect("there are more numbers than nets");

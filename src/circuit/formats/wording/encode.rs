@@ -12,8 +12,6 @@ pub enum EncodeError {
     AigerRegister { register: String, kind: RegisterKind },
     /// Registers of several clocks, in AIGER.
     AigerClocks { clocks: Vec<String> },
-    /// Registers that are kept, in the project's own language.
-    NbRegisters,
     /// A circuit without outputs, in the project's own language.
     NbNoOutputs { circuit: String },
 }
@@ -36,9 +34,6 @@ impl From<EncodeError> for Diagnostic {
             EncodeError::AigerClocks { clocks } => {
                 let clocks: Vec<_> = clocks.iter().map(|clock| format!("`{clock}`")).collect();
                 (format!("AIGER has one clock, but the registers have {}", clocks.join(", ")), other_format)
-            }
-            EncodeError::NbRegisters => {
-                ("a .nb file cannot keep registers; they are made of cells".to_owned(), "leave out `--registers keep`")
             }
             EncodeError::NbNoOutputs { circuit } => (
                 format!("`{circuit}` has no outputs, but a circuit of a .nb file needs one"),
