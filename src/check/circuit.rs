@@ -282,7 +282,7 @@ impl<'a> CircuitChecker<'a> {
             if !self.driven[slot] {
                 let what = if slot < self.circuit.inputs + self.circuit.outputs { "output" } else { "net" };
                 self.diagnostics.push(CircuitError::Undriven { what, net: name }.at(net.span));
-            } else if !self.used[slot] && !typo && self.home != Home::Prelude {
+            } else if !self.used[slot] && !typo && !matches!(self.home, Home::Prelude | Home::Foreign) {
                 let what = if slot < self.circuit.inputs { "input" } else { "net" };
                 self.diagnostics.push(CircuitError::Unused { what, net: name }.at(net.span));
             }

@@ -1,7 +1,9 @@
 //! The files of a program: the checked file, the files it uses, and the prelude.
 
+use crate::check::foreign::Foreign;
 use crate::check::names::Home;
 use crate::check::wording::LoadError;
+use crate::circuit::formats::CircuitSource;
 use crate::diag::Diagnostic;
 use crate::source::{FileId, SourceWorld, Sources, Span};
 use crate::syntax::parse;
@@ -22,8 +24,18 @@ const MAX_FILES: usize = 256;
 /// The largest total size of the files of a program, in bytes.
 const MAX_PROGRAM_BYTES: usize = 16 << 20;
 
-/// The extension of programs. Text of other files is never shown in messages.
-const ENDING: &str = ".nb";
+/// The kind of a file, by its extension. Text of other files is never shown in messages.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum UsedKind {
+    Program,
+    Circuit(CircuitSource),
+}
+
+impl UsedKind {
+    fn of_path(path: &str) -> Option<Self> {
+        if path.ends_with(".nb") { Some(Self::Program) } else { CircuitSource::of_path(path).map(Self::Circuit) }
+    }
+}
 
 /// The trees of a program: the prelude's first, the checked file's last.
 pub(crate) struct Loaded {
@@ -105,26 +117,52 @@ impl Loader<'_> {
 
     /// Reads and parses a file at its first use.
     fn read(&mut self, sources: &mut Sources, name: String, identity: String, place: Span) {
-        let text = if [&name, &identity].iter().all(|path| path.ends_with(ENDING)) {
-            self.world.read(&name).map_err(|error| LoadError::Unreadable { file: name.clone(), error })
-        } else {
-            Err(LoadError::NotAProgram { file: name.clone(), ending: ENDING })
-        };
-        let text = text.and_then(|text| over_limits(sources, &text).map_or(Ok(text), Err));
-        match text {
-            Ok(text) => {
-                let id = sources.add(name, text);
-                self.file(sources, id, Home::Used);
+        let kind = UsedKind::of_path(&name).filter(|&kind| UsedKind::of_path(&identity) == Some(kind));
+        let result = match kind {
+            Some(UsedKind::Program) => {
+                self.text(sources, &name, place).map(|file| self.file(sources, file, Home::Used))
             }
-            Err(error) => {
-                let fault = error.at(place);
-                self.done.push(identity);
-                // There may be thousands more after the first file above the limit.
-                if !self.loaded.faults.iter().any(|known| known.message == fault.message) {
-                    self.loaded.faults.push(fault);
-                }
+            Some(UsedKind::Circuit(format)) => self.circuits(sources, format, &name, place),
+            None => Err(vec![LoadError::NotUsable { file: name }.at(place)]),
+        };
+        self.done.push(identity);
+        for fault in result.err().into_iter().flatten() {
+            // There may be thousands more after the first file above the limit.
+            if !self.loaded.faults.iter().any(|known| known.message == fault.message) {
+                self.loaded.faults.push(fault);
             }
         }
+    }
+
+    /// Adds the text of a used file to `sources`.
+    fn text(&self, sources: &mut Sources, name: &str, place: Span) -> Result<FileId, Vec<Diagnostic>> {
+        let text = self.world.read(name).map_err(|error| LoadError::Unreadable { file: name.to_owned(), error });
+        let text = text.and_then(|text| over_limits(sources, &text).map_or(Ok(text), Err));
+        Ok(sources.add(name, text.map_err(|error| vec![error.at(place)])?))
+    }
+
+    /// Translates another tool's file to circuits of the language, and parses them.
+    fn circuits(
+        &mut self,
+        sources: &mut Sources,
+        format: CircuitSource,
+        name: &str,
+        place: Span,
+    ) -> Result<(), Vec<Diagnostic>> {
+        let foreign = Foreign { world: self.world, format, name, place };
+        let text = match format {
+            CircuitSource::Aiger => foreign.aiger()?,
+            _ => {
+                let file = self.text(sources, name, place)?;
+                foreign.text(sources.file(file))?
+            }
+        };
+        if let Some(error) = over_limits(sources, &text) {
+            return Err(vec![error.at(place)]);
+        }
+        let file = sources.add(format!("{name} (as circuits)"), text);
+        self.parse(sources, file, Home::Foreign);
+        Ok(())
     }
 }
 

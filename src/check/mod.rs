@@ -7,6 +7,7 @@ mod constant;
 mod evolution;
 mod expression;
 mod fields;
+mod foreign;
 mod instance;
 mod library;
 mod load;

@@ -13,6 +13,8 @@ use crate::syntax::tree::NameSyntax;
 pub(crate) enum Home {
     /// The prelude, which files may redeclare.
     Prelude,
+    /// A circuit file of another tool: it declares circuits, and calls those of the prelude only.
+    Foreign,
     /// A file imported by another.
     Used,
     /// The checked file.
@@ -54,7 +56,7 @@ impl NameTable {
 
     /// The meaning of a name in a file, or in the prelude.
     pub(crate) fn find(&self, name: &str, home: Home) -> Option<usize> {
-        let file = self.files.get(name).filter(|_| home != Home::Prelude);
+        let file = self.files.get(name).filter(|_| !matches!(home, Home::Prelude | Home::Foreign));
         file.or_else(|| self.prelude.get(name)).map(|entry| entry.index)
     }
 

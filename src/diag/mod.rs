@@ -13,6 +13,7 @@ mod json;
 pub mod render;
 mod severity;
 pub mod suggest;
+mod verilog;
 mod visible;
 
 pub use code::Code;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::session::checked::Checked;
-use crate::source::{FileError, OverlayWorld, SourceWorld};
+use crate::source::{FileError, OverlayWorld, SourceWorld, VerilogError, VerilogModules};
 
 /// The sources of a session.
 pub(super) struct Documents {
@@ -85,6 +85,15 @@ impl SourceWorld for Asking<'_> {
     fn read(&self, path: &str) -> Result<String, FileError> {
         self.note(path);
         self.world.read(path)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.note(path);
+        self.world.read_bytes(path)
+    }
+
+    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        self.world.translate_verilog(path, text)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

@@ -3,8 +3,10 @@
 
 mod file;
 mod span;
+mod verilog;
 mod world;
 
 pub use file::{LineColumn, SourceFile, Sources};
 pub use span::{FileId, Span};
+pub use verilog::{VerilogError, VerilogModules};
 pub use world::{FileError, MemoryWorld, OverlayWorld, SourceWorld};

@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::{VerilogError, VerilogModules};
+
 /// The reason why a file could not be read as source text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileError {
@@ -28,6 +30,16 @@ pub enum FileError {
 pub trait SourceWorld {
     /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
+
+    /// The bytes of the file at `path`.
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.read(path).map(String::into_bytes)
+    }
+
+    /// The modules of a Verilog text that was read from `path`.
+    fn translate_verilog(&self, _path: &str, _text: &str) -> Result<VerilogModules, VerilogError> {
+        Err(VerilogError::NoTranslator)
+    }
 
     /// The names of the entries of a folder, in order.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
@@ -104,6 +116,15 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
         over.or_else(|_| self.under.read(path))
     }
 
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        let over = self.over.read(&self.under.identity(path)).or_else(|_| self.over.read(path));
+        over.map(String::into_bytes).or_else(|_| self.under.read_bytes(path))
+    }
+
+    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        self.under.translate_verilog(path, text)
+    }
+
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
         match (self.over.list(&self.under.identity(folder)), self.under.list(folder)) {
             (Ok(over), Ok(under)) => Ok(BTreeSet::from_iter(over.into_iter().chain(under)).into_iter().collect()),
@@ -120,6 +141,14 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
 impl<W: SourceWorld + ?Sized> SourceWorld for Box<W> {
     fn read(&self, path: &str) -> Result<String, FileError> {
         (**self).read(path)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        (**self).read_bytes(path)
+    }
+
+    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        (**self).translate_verilog(path, text)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::circuit::formats::{CircuitFormat, Design, aiger, bench, blif};
+use crate::circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif};
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::source::{FileError, Sources};
+use crate::source::{FileError, FileId, Sources};
 use crate::store::wording::StoreError;
 use crate::store::{disk, yosys};
 use crate::syntax;
@@ -14,23 +14,30 @@ use crate::syntax;
 /// # Errors
 /// A file that cannot be read, of an unknown format, or damaged.
 pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnostics> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    match ending.as_str() {
-        "aig" | "aag" => {
+    let name = path.display().to_string();
+    match CircuitSource::of_path(&name) {
+        Some(CircuitSource::Aiger) => {
             let bytes = disk::read(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))?;
             Ok(aiger::read(&bytes, clock)?)
         }
-        "blif" | "bench" => {
-            let text = text(path)?;
-            let read = if ending == "bench" { bench::read } else { blif::read };
-            parse(path.display().to_string(), text, |text, file| read(text, file, clock))
+        Some(CircuitSource::Bench) => parse(name, text(path)?, |text, file| bench::read(text, file, clock)),
+        Some(CircuitSource::Blif) => parse(name, text(path)?, |text, file| blif::read(text, file, clock)),
+        Some(CircuitSource::Verilog) => {
+            let flat = translated(path, name.clone(), text(path)?)?;
+            parse(format!("{name} (as BLIF)"), flat, |text, file| blif::read(text, file, clock))
         }
-        "v" | "sv" => {
-            let flat = yosys::flatten(path, text(path)?)?;
-            parse(format!("{} (as BLIF)", path.display()), flat, |text, file| blif::read(text, file, clock))
-        }
-        _ => Err(Diagnostic::from(StoreError::CircuitFormat { file: path.display().to_string() }).into()),
+        None => Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
     }
+}
+
+/// The top module of a Verilog text as BLIF.
+fn translated(path: &Path, name: String, text: String) -> Result<String, Diagnostics> {
+    let mut sources = Sources::default();
+    let file = sources.add(name, text);
+    yosys::flatten(path, &sources.file(file).text).map_err(|error| {
+        let fault = Diagnostic::untranslated(sources.file(file), &error);
+        Diagnostics { list: vec![fault], sources }
+    })
 }
 
 /// A design as the bytes of a file; a program of the language is written as the formatter writes it.
@@ -69,7 +76,7 @@ fn text(path: &Path) -> Result<String, Diagnostics> {
 fn parse(
     name: String,
     text: String,
-    read: impl FnOnce(&str, crate::source::FileId) -> Result<Design, Vec<Diagnostic>>,
+    read: impl FnOnce(&str, FileId) -> Result<Design, Vec<Diagnostic>>,
 ) -> Result<Design, Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(name, text);

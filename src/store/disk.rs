@@ -5,7 +5,8 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::diag::io_words;
-use crate::source::{FileError, SourceWorld};
+use crate::source::{FileError, SourceWorld, VerilogError, VerilogModules};
+use crate::store::yosys;
 use crate::syntax::MAX_SOURCE_BYTES;
 
 /// The largest checkpoint of an evolution run, in bytes.
@@ -79,6 +80,14 @@ pub struct DiskWorld;
 impl SourceWorld for DiskWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
         read_text(Path::new(path), MAX_SOURCE_BYTES)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        read(Path::new(path), MAX_SOURCE_BYTES)
+    }
+
+    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        yosys::modules(Path::new(path), text)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

@@ -3,39 +3,70 @@
 //! Yosys runs a fixed script in a temporary folder, where the source has a fixed name, and so has a link to the folder
 //! of `include` lines. No name chosen by a user becomes part of the script or of a shell command.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::diag::{Diagnostic, Diagnostics};
-use crate::source::{Sources, Span};
-use crate::store::wording::StoreError;
+use crate::diag::io_words;
+use crate::source::{VerilogError, VerilogModules};
 
 /// The names in the temporary folder.
 const SOURCE: &str = "source.v";
 const INCLUDED: &str = "included";
+/// The modules as written, and with their registers.
+const WRITTEN: &str = "written.il";
+const PROCESSED: &str = "processed.il";
 const FLAT: &str = "flat.blif";
 
-/// The script, with the names above.
-const SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; flatten; opt; memory; \
-    opt; techmap; \
-                      dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; \
-                      simplemap; \
-                      opt_clean; write_blif flat.blif";
+/// The script, with the names above, for the top module that Yosys finds.
+const TOP_SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; \
+    write_rtlil processed.il; flatten; opt; memory; opt; techmap; \
+    dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; opt_clean; \
+    write_blif flat.blif";
 
-/// The BLIF of a Verilog source that was read from `path`.
+/// The same for all modules.
+const MODULES_SCRIPT: &str = "read_verilog -sv -Iincluded source.v; write_rtlil written.il; hierarchy -check; proc; \
+    write_rtlil processed.il; flatten; opt; memory; opt; techmap; \
+    dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; opt_clean; \
+    write_blif flat.blif";
+
+/// The registers of Yosys that change without their clock.
+const ASYNCHRONOUS: &[&str] =
+    &["$adff", "$adffe", "$adlatch", "$aldff", "$aldffe", "$dffsr", "$dffsre", "$dlatchsr", "$sr"];
+
+/// The top module of a Verilog source, which was read from `path`, as BLIF.
 ///
 /// # Errors
 /// When Yosys is missing or rejects the source.
-pub(super) fn flatten(path: &Path, source: String) -> Result<String, Diagnostics> {
-    let folder = prepare(path, &source).map_err(|error| Diagnostic::from(StoreError::TemporaryFolder(error)))?;
-    let output = Command::new("yosys").args(["-q", "-p", SCRIPT]).current_dir(folder.path()).output();
-    let output = output.map_err(|_| Diagnostic::from(StoreError::YosysMissing))?;
-    if !output.status.success() {
-        return Err(fault(path, source, &String::from_utf8_lossy(&output.stderr)));
+pub(super) fn flatten(path: &Path, source: &str) -> Result<String, VerilogError> {
+    let folder = run(path, source, TOP_SCRIPT)?;
+    result(&folder, FLAT)
+}
+
+/// All modules of a Verilog source, which was read from `path`.
+///
+/// # Errors
+/// As [`flatten`].
+pub(super) fn modules(path: &Path, source: &str) -> Result<VerilogModules, VerilogError> {
+    let folder = run(path, source, MODULES_SCRIPT)?;
+    Ok(VerilogModules { blif: result(&folder, FLAT)?, tops: tops(&result(&folder, WRITTEN)?) })
+}
+
+/// The folder in which Yosys ran a script.
+fn run(path: &Path, source: &str, script: &str) -> Result<tempfile::TempDir, VerilogError> {
+    let folder = prepare(path, source).map_err(|error| VerilogError::NoFolder(io_words(&error)))?;
+    let output = Command::new("yosys").args(["-q", "-p", script]).current_dir(folder.path()).output();
+    let output = output.map_err(|_| VerilogError::NoYosys)?;
+    if output.status.success() {
+        return Ok(folder);
     }
-    fs::read_to_string(folder.path().join(FLAT))
-        .map_err(|_| Diagnostic::from(StoreError::YosysSilent { file: path.display().to_string() }).into())
+    let processed = fs::read_to_string(folder.path().join(PROCESSED)).unwrap_or_default();
+    Err(asynchronous(&processed).unwrap_or_else(|| rejected(path, &String::from_utf8_lossy(&output.stderr))))
+}
+
+fn result(folder: &tempfile::TempDir, name: &str) -> Result<String, VerilogError> {
+    fs::read_to_string(folder.path().join(name)).map_err(|_| VerilogError::NoResult)
 }
 
 /// A folder with the source and a link to its includes.
@@ -57,31 +88,53 @@ fn link(folder: &Path, at: &Path) -> std::io::Result<()> {
     std::os::windows::fs::symlink_dir(folder, at)
 }
 
-/// The error message of Yosys, at the line of the user's file.
-fn fault(path: &Path, source: String, said: &str) -> Diagnostics {
-    let line = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
-    let name = path.display().to_string();
-    let mut sources = Sources::default();
-    let file = sources.add(name.as_str(), source);
-    let (reason, place) = match place(line) {
-        Some((number, reason)) => {
-            let text = &sources.file(file).text;
-            let start = text.split_inclusive('\n').take(number.saturating_sub(1)).map(str::len).sum::<usize>();
-            let width = text[start..].lines().next().map_or(0, |line| line.trim_end().len());
-            (reason.to_owned(), Some(Span::new(file, start, start + width)))
+/// The modules that no other module contains, in a text of Yosys (RTLIL). A module without outputs, such as a test
+/// bench, does not count.
+fn tops(rtlil: &str) -> Vec<String> {
+    let mut tops: Vec<&str> = Vec::new();
+    let mut inside: BTreeSet<&str> = BTreeSet::new();
+    for module in rtlil.split("\nmodule \\").skip(1) {
+        let lines = || module.lines().map(str::trim_start);
+        if lines().any(|line| line.starts_with("wire ") && line.contains(" output ")) {
+            tops.extend(module.lines().next());
+            inside.extend(lines().filter_map(|line| line.strip_prefix("cell \\")?.split(' ').next()));
         }
+    }
+    tops.into_iter().filter(|module| !inside.contains(module)).map(str::to_owned).collect()
+}
+
+/// The first register with an asynchronous set or reset in a text of Yosys (RTLIL).
+fn asynchronous(rtlil: &str) -> Option<VerilogError> {
+    let mut place = "";
+    for line in rtlil.lines().map(str::trim_start) {
+        if let Some(source) = line.strip_prefix("attribute \\src \"") {
+            place = source;
+        }
+        let cell = line.strip_prefix("cell ").and_then(|cell| cell.split(' ').next());
+        if cell.is_some_and(|cell| ASYNCHRONOUS.contains(&cell)) {
+            let number = place.strip_prefix(SOURCE).and_then(|place| place.strip_prefix(':')?.split('.').next());
+            return Some(VerilogError::Asynchronous { line: number.and_then(|number| number.parse().ok()) });
+        }
+    }
+    None
+}
+
+/// The error message of Yosys, with the line of the user's file.
+fn rejected(path: &Path, said: &str) -> VerilogError {
+    let said = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
+    match place(said) {
+        Some((line, reason)) => VerilogError::Rejected { reason: reason.to_owned(), line: Some(line) },
         None => {
             let parent = path.parent().unwrap_or(Path::new("")).join("").display().to_string();
-            (line.replace(&format!("{INCLUDED}/"), &parent), None)
+            let reason = said.trim_start_matches("ERROR: ").replace(&format!("{INCLUDED}/"), &parent);
+            VerilogError::Rejected { reason, line: None }
         }
-    };
-    let diagnostic = StoreError::Yosys { file: name, reason, place }.into();
-    Diagnostics { list: vec![diagnostic], sources }
+    }
 }
 
 /// The line of the source and the reason of a message such as `source.v:3: ERROR: syntax error`.
-fn place(line: &str) -> Option<(usize, &str)> {
-    let (number, reason) = line.strip_prefix(SOURCE)?.strip_prefix(':')?.split_once(": ")?;
+fn place(said: &str) -> Option<(usize, &str)> {
+    let (number, reason) = said.strip_prefix(SOURCE)?.strip_prefix(':')?.split_once(": ")?;
     Some((number.parse().ok()?, reason.trim_start_matches("ERROR: ")))
 }
 
@@ -90,27 +143,49 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_script_has_the_names_of_the_folder_and_no_others() {
-        for name in [SOURCE, INCLUDED, FLAT] {
-            assert!(SCRIPT.contains(name));
+    fn the_scripts_have_the_names_of_the_folder_and_no_others() {
+        for name in [SOURCE, INCLUDED, PROCESSED, FLAT] {
+            assert!([TOP_SCRIPT, MODULES_SCRIPT].iter().all(|script| script.contains(name)));
         }
+        assert!(MODULES_SCRIPT.contains(WRITTEN));
     }
 
     #[test]
-    fn errors_of_yosys_are_shown_at_the_line_of_the_users_file() {
-        let source = "module a;\nwrong\nendmodule\n".to_owned();
-        let Diagnostics { list: diagnostics, sources } =
-            fault(Path::new("my file.v"), source, "\nsource.v:2: ERROR: syntax error, unexpected TOK_ENDMODULE\n");
-        let label = &diagnostics[0].labels[0];
-        assert_eq!(sources.text(label.span), "wrong");
-        assert_eq!(label.text, "syntax error, unexpected TOK_ENDMODULE");
-        assert_eq!(diagnostics[0].message, "yosys cannot read `my file.v`");
+    fn errors_of_yosys_have_the_line_of_the_users_file() {
+        let said = "\nsource.v:2: ERROR: syntax error, unexpected TOK_ENDMODULE\n";
+        let reason = "syntax error, unexpected TOK_ENDMODULE".to_owned();
+        assert_eq!(rejected(Path::new("my file.v"), said), VerilogError::Rejected { reason, line: Some(2) });
     }
 
     #[test]
-    fn errors_of_yosys_in_an_included_file_show_its_path() {
+    fn errors_of_yosys_in_an_included_file_have_its_path() {
         let said = "included/part.vh:7: ERROR: syntax error";
-        let Diagnostics { list: diagnostics, .. } = fault(Path::new("folder/a.v"), String::new(), said);
-        assert_eq!(diagnostics[0].message, "yosys cannot read `folder/a.v`: folder/part.vh:7: ERROR: syntax error");
+        let reason = "folder/part.vh:7: ERROR: syntax error".to_owned();
+        assert_eq!(rejected(Path::new("folder/a.v"), said), VerilogError::Rejected { reason, line: None });
+    }
+
+    #[test]
+    fn modules_inside_others_are_not_offered() {
+        let module = |name: &str, wire: &str, cell: &str| {
+            format!("module \\{name}\n  wire {wire} \\q\n  cell {cell}\n  end\nend\n")
+        };
+        let modules = [
+            module("add", "output 1", "$and $1"),
+            module("alu", "width 4 output 3", "\\add \\u"),
+            module("bench", "width 4", "\\b \\u"),
+            module("b", "output 1", "$or $2"),
+        ];
+        assert_eq!(tops(&format!("autoidx 3\n{}", modules.concat())), ["alu", "b"]);
+    }
+
+    #[test]
+    fn an_asynchronous_reset_is_found_with_its_line() {
+        let cell = "  attribute \\src \"source.v:11.1-12.35\"\n  cell $adff $procdff$15\n";
+        assert_eq!(asynchronous(cell), Some(VerilogError::Asynchronous { line: Some(11) }));
+        assert_eq!(asynchronous(&cell.replace("$adff", "$dff")), None);
+        assert_eq!(
+            asynchronous(&cell.replace("source.v", "included/x.vh")),
+            Some(VerilogError::Asynchronous { line: None })
+        );
     }
 }

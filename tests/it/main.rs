@@ -40,5 +40,6 @@ mod terminal;
 mod testing;
 mod tidy;
 mod ui;
+mod using;
 mod waves;
 mod written;

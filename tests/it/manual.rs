@@ -108,6 +108,8 @@ fn every_error_page_has_a_failing_and_a_corrected_example() {
 
 #[test]
 fn every_example_of_the_manual_runs() {
+    let majority = fences(&read("docs/language.md")).into_iter().find(|fence| fence.words == ["blif"]);
+    let majority = majority.expect("the manual shows the file that an example uses").text;
     for path in ["docs/language.md", "grammar/README.md"] {
         let examples: Vec<_> = fences(&read(path)).into_iter().filter(|fence| fence.words == ["nb"]).collect();
         assert!(examples.len() > 5, "{path} has examples");
@@ -116,6 +118,7 @@ fn every_example_of_the_manual_runs() {
             let file = sources.add("main.nb", example.text);
             let mut world = MemoryWorld::default();
             world.insert("adders.nb", read("circuits/full_adder.nb"));
+            world.insert("majority.blif", majority.as_str());
             let checked = check::check(&world, &mut sources, file);
             let text = render::text(&checked.diagnostics, &sources, false);
             assert!(checked.diagnostics.is_empty(), "{path}:\n{}\n{text}", sources.file(file).text);

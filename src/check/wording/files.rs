@@ -1,6 +1,6 @@
 //! Files: those of the program, and folders of robots.
 
-use crate::diag::{Code, Diagnostic, folder_error};
+use crate::diag::{Code, Diagnostic, Label, folder_error};
 use crate::source::{FileError, Span};
 
 /// A file or folder that a program cannot use.
@@ -10,8 +10,14 @@ pub(crate) enum LoadError {
     Empty { file: String },
     /// A file that cannot be read.
     Unreadable { file: String, error: FileError },
-    /// A file without the extension of a program.
-    NotAProgram { file: String, ending: &'static str },
+    /// A file whose name does not end as those of programs and circuit files do.
+    NotUsable { file: String },
+    /// A circuit of a file whose name is not one of the language.
+    CircuitName { circuit: String, rename: &'static str },
+    /// A circuit of a file without outputs.
+    NoOutputs { circuit: String },
+    /// A Verilog file without a module to call.
+    NoModules { file: String },
     /// Files that use each other.
     Circular { circle: Vec<String> },
     /// Files that use each other too deeply.
@@ -37,10 +43,24 @@ impl LoadError {
             Self::Unreadable { file, error } => Diagnostic::unreadable(&file, &error)
                 .with_label(span, "used here")
                 .with_help("the path is relative to the file that uses it"),
-            Self::NotAProgram { file, ending } => {
-                let message = format!("cannot use `{file}`: it is not a program");
-                Diagnostic::new(Code::Unreadable, message, span, format!("expected a file name ending in `{ending}`"))
-                    .with_help(format!("a link must lead to a file name ending in `{ending}` too"))
+            Self::NotUsable { file } => {
+                let message = format!("cannot use `{file}`: it is neither a program nor a circuit file");
+                let label = "expected a file name ending in .nb, .blif, .aig, .aag, .bench or .v";
+                Diagnostic::new(Code::Unreadable, message, span, label)
+                    .with_help("a link must lead to a file name with the same ending")
+            }
+            Self::CircuitName { circuit, rename } => {
+                let message = format!("`{circuit}` cannot be the name of a circuit");
+                let label = "expected letters, digits and underscores, and no word of the language";
+                Diagnostic::new(Code::CircuitFile, message, span, label).with_help(rename)
+            }
+            Self::NoOutputs { circuit } => {
+                let message = format!("`{circuit}` has no outputs, but a circuit needs one");
+                Diagnostic::new(Code::CircuitFile, message, span, "used here")
+            }
+            Self::NoModules { file } => {
+                let message = format!("`{file}` has no module with an output");
+                Diagnostic::new(Code::CircuitFile, message, span, "used here")
             }
             Self::Circular { circle } => {
                 let circle: Vec<_> = circle.iter().map(|file| format!("`{file}`")).collect();
@@ -58,6 +78,17 @@ impl LoadError {
             Self::EmptyLibrary { folder } => library(&folder, "it contains no robot files (.yaml)", span),
         }
     }
+}
+
+/// A fault of a file that a program uses, with the place of the use.
+pub(crate) fn at_use(fault: Diagnostic, span: Span) -> Diagnostic {
+    if fault.labels.is_empty() { fault.with_label(span, "used here") } else { fault.with_related(span, "used here") }
+}
+
+/// A fault of a text that a translator wrote, at the use of the file that was translated.
+pub(crate) fn of_translation(fault: Diagnostic, span: Span) -> Diagnostic {
+    let labels = vec![Label { span, text: "used here".to_owned() }];
+    Diagnostic { labels, related: Vec::new(), fix: None, ..fault }
 }
 
 fn too_large(message: String, span: Span) -> Diagnostic {

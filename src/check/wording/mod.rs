@@ -9,7 +9,7 @@ mod values;
 
 pub(crate) use circuits::{CircuitError, OperandError, TableError};
 pub(crate) use evolutions::EvolutionError;
-pub(crate) use files::LoadError;
+pub(crate) use files::{LoadError, at_use, of_translation};
 pub(crate) use names::NameError;
 pub(crate) use rows::{CellError, RowError};
 pub(crate) use values::{Bounds, Expected, FieldError, Record, ValueError};

@@ -16,6 +16,19 @@ use crate::source::{FileId, Span};
 /// # Errors
 /// The errors of the text, with their places.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
+    read_model(text, file, clock, None)
+}
+
+/// Reads a model by its name, or the first, and expands the models it instantiates.
+///
+/// # Errors
+/// As [`read`], and if there is no such model.
+pub fn read_model(
+    text: &str,
+    file: FileId,
+    clock: Option<&str>,
+    model: Option<&str>,
+) -> Result<Design, Vec<Diagnostic>> {
     let mut models = Models { all: Vec::new(), by_name: BTreeMap::new(), errors: Vec::new() };
     models.read(text, file);
     if !models.errors.is_empty() {
@@ -24,13 +37,20 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
     if models.all.is_empty() {
         return Err(vec![BlifError::NoModel.at(Span::new(file, 0, 0))]);
     }
+    let top = match model {
+        None => 0,
+        Some(name) => *models
+            .by_name
+            .get(name)
+            .ok_or_else(|| vec![ModelError::MissingModel { model: name.to_owned() }.at(Span::new(file, 0, 0))])?,
+    };
     let mut extents = vec![None; models.all.len()];
-    if let Err((error, span)) = models.extent(0, 0, &mut extents) {
+    if let Err((error, span)) = models.extent(top, 0, &mut extents) {
         return Err(vec![error.at(span)]);
     }
-    let mut draft = Draft::titled(models.all[0].name);
+    let mut draft = Draft::titled(models.all[top].name);
     let mut flat = Flat { models: &models, draft: &mut draft, clock, path: Vec::new() };
-    flat.instantiate(0, "", &BTreeMap::new());
+    flat.instantiate(top, "", &BTreeMap::new());
     draft.finish()
 }
 
