@@ -11,6 +11,7 @@ mod drawing;
 mod editor;
 mod evolution;
 mod examples;
+mod exchange;
 mod exporting;
 mod faults;
 mod films;
