@@ -197,7 +197,7 @@ fn pipes_are_not_read_and_other_files_not_shown() {
     for path in ["shadow", "link.nb"] {
         bench.file("user.nb", format!("use \"{path}\""));
         let ran = bench.run(&["check", "user.nb"]);
-        ran.expect_fault(&["it is not a program"]);
+        ran.expect_fault(&["it is neither a program nor a circuit file"]);
         assert!(!ran.err.contains("secret"), "{}", ran.err);
     }
 }
