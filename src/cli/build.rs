@@ -13,6 +13,7 @@ use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::model::Column;
 use crate::report::{Document, Schema};
 use crate::session::{CompileOptions, Mapping, Session};
 use crate::store::{self, DiskWorld};
@@ -127,8 +128,10 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
         let nets: Vec<_> = nets.iter().map(name).collect();
         json!({ "nets": nets, "pulse": pulse, "setup": setup, "hold": hold })
     });
+    let ports = |ids: &[NetId]| Column::group(&ids.iter().map(name).collect::<Vec<_>>());
     json!({
         "circuit": mapped.name,
+        "ports": { "inputs": ports(mapped.inputs()), "outputs": ports(mapped.outputs()) },
         "inputs": mapped.inputs().iter().map(name).collect::<Vec<_>>(),
         "outputs": outputs,
         "cells": cells,

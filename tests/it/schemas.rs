@@ -77,6 +77,10 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "diagnostics", 2, &["check", "flip.nb", "wrong.nb"]);
     check(&bench, "build", 0, &["build", "flip.nb"]);
     check(&bench, "build", 0, &["build", latch.to_str().unwrap()]);
+    let counter = root().join("circuits/counter.nb");
+    let ports = &check(&bench, "build", 0, &["build", counter.to_str().unwrap()])["ports"];
+    let port = |name: &str, width: usize| serde_json::json!([{ "name": name, "width": width }]);
+    assert_eq!((&ports["inputs"], &ports["outputs"]), (&port("clk", 1), &port("count", 3)));
     let both = bench.run(&["build", "flip.nb", "--emit", "blif", "--format", "json"]);
     assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
     check(&bench, "drawn", 0, &["draw", "walker.yaml", "--as", "sprite", "-o", "a.svg"]);
