@@ -1,5 +1,8 @@
 //! The common parts of all pages. A page is one file that loads nothing, follows the reader's theme, and contains its
 //! data and scripts.
+//!
+//! Pages are written as text, not with a template crate such as `maud`: their markup is a few elements around drawings,
+//! tables and scripts, and every text of a user passes [`escape`].
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -1,5 +1,8 @@
 //! Waveforms as a value change dump (IEEE 1364, section 18), for GTKWave, Surfer and the like: ports, robots' bits,
 //! stimuli and places.
+//!
+//! The text is written here, not with the `vcd` crate: its writer takes one change at a time and returns an error for
+//! each, while a trace is text in memory.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
