@@ -1,12 +1,9 @@
 //! Circuits of other tools' files, translated to source text of the language.
 
 use crate::check::wording::{LoadError, at_use, of_translation};
-use crate::circuit::formats::{CircuitSource, Design, aiger, bench, blif, is_word, nb};
+use crate::circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, SourceFile, SourceWorld, Span};
-
-/// The clock of registers for which the file names none.
-const CLOCK: &str = "clk";
 
 /// A file of another tool that a program uses.
 pub(super) struct Foreign<'a> {
@@ -18,15 +15,19 @@ pub(super) struct Foreign<'a> {
 }
 
 impl Foreign<'_> {
-    /// The circuits of a text as source text of the language.
-    pub(super) fn text(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
-        let designs = match self.format {
-            CircuitSource::Bench => vec![self.titled(bench::read(&source.text, source.id, Some(CLOCK))?)],
-            CircuitSource::Blif => vec![blif::read(&source.text, source.id, Some(CLOCK))?],
-            CircuitSource::Verilog => self.modules(source)?,
-            CircuitSource::Aiger => unreachable!("AIGER may be binary"),
-        };
-        let texts: Result<Vec<String>, _> = designs.iter().map(|design| self.circuit(design)).collect();
+    /// The circuit of a .bench file as source text of the language.
+    pub(super) fn bench(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
+        self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Register::CLOCK))?))
+    }
+
+    /// The circuit of a BLIF file as source text of the language.
+    pub(super) fn blif(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
+        self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)
+    }
+
+    /// The circuits of a Verilog file as source text of the language.
+    pub(super) fn verilog(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
+        let texts: Result<Vec<String>, _> = self.modules(source)?.iter().map(|design| self.circuit(design)).collect();
         Ok(texts?.join("\n"))
     }
 
@@ -35,11 +36,11 @@ impl Foreign<'_> {
         let file = self.name.to_owned();
         let bytes = self.world.read_bytes(self.name);
         let bytes = bytes.map_err(|error| self.fault(LoadError::Unreadable { file, error }))?;
-        let design = aiger::read(&bytes, Some(CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
+        let design = aiger::read(&bytes, Some(Register::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
         self.circuit(&self.titled(design))
     }
 
-    /// A design of a format that names no circuits is named as its file.
+    /// Names a design after its file, for formats without names of circuits.
     fn titled(&self, mut design: Design) -> Design {
         let file = self.name.rsplit('/').next().unwrap_or(self.name);
         design.logic.name = file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned();
@@ -58,7 +59,7 @@ impl Foreign<'_> {
 
     fn module(&self, blif: &str, file: FileId, name: &str) -> Result<Design, Vec<Diagnostic>> {
         self.legal(name)?;
-        let design = blif::read_model(blif, file, Some(CLOCK), Some(name));
+        let design = blif::read_model(blif, file, Some(Register::CLOCK), Some(name));
         design.map_err(|faults| faults.into_iter().map(|fault| of_translation(fault, self.place)).collect())
     }
 
@@ -77,7 +78,7 @@ impl Foreign<'_> {
             return Ok(());
         }
         let rename = match self.format {
-            CircuitSource::Aiger | CircuitSource::Bench => "rename the file, after which the circuit is named",
+            CircuitSource::Aiger | CircuitSource::Bench => "rename the file: the circuit has its name",
             CircuitSource::Blif => "write another name after `.model`",
             CircuitSource::Verilog => "rename the module",
         };

@@ -151,12 +151,13 @@ impl Loader<'_> {
     ) -> Result<(), Vec<Diagnostic>> {
         let foreign = Foreign { world: self.world, format, name, place };
         let text = match format {
-            CircuitSource::Aiger => foreign.aiger()?,
-            _ => {
-                let file = self.text(sources, name, place)?;
-                foreign.text(sources.file(file))?
+            CircuitSource::Aiger => foreign.aiger(),
+            CircuitSource::Bench => self.text(sources, name, place).and_then(|file| foreign.bench(sources.file(file))),
+            CircuitSource::Blif => self.text(sources, name, place).and_then(|file| foreign.blif(sources.file(file))),
+            CircuitSource::Verilog => {
+                self.text(sources, name, place).and_then(|file| foreign.verilog(sources.file(file)))
             }
-        };
+        }?;
         if let Some(error) = over_limits(sources, &text) {
             return Err(vec![error.at(place)]);
         }

@@ -29,7 +29,7 @@ Examples:
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SynthArguments {
-    /// The circuit: .blif, .aig, .aag, .bench or .v
+    /// The circuit: .blif, .aig, .aag, .bench, .v or .sv
     input: PathBuf,
     /// The file to write: .blif, .aig, .aag, .v, .dot or .nb
     #[arg(short, long, value_name = "OUT")]

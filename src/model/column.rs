@@ -19,7 +19,7 @@ impl Column {
         let mut rest = bits;
         while let Some(first) = rest.first() {
             let width = whole_port(rest).unwrap_or(1);
-            let name = if width == 1 { first } else { parts(first).expect("a bit of a bus").0 };
+            let name = if width == 1 { first } else { bit_parts(first).expect("a bit of a bus").0 };
             ports.push(Self { name: name.to_owned(), width });
             rest = &rest[width..];
         }
@@ -37,16 +37,18 @@ impl Column {
 
 /// The width of the bus that these bits begin with, if all its bits are there.
 fn whole_port(bits: &[String]) -> Option<usize> {
-    let (name, highest) = parts(&bits[0])?;
+    let (name, highest) = bit_parts(&bits[0])?;
     let run = bits.get(..=highest)?;
-    let whole = run.iter().zip((0..=highest).rev()).all(|(bit, at)| parts(bit) == Some((name, at)));
+    let whole = run.iter().zip((0..=highest).rev()).all(|(bit, at)| bit_parts(bit) == Some((name, at)));
     (whole && highest > 0).then_some(highest + 1)
 }
 
-/// The name of a bus and the number of its bit, in the name of the bit.
-fn parts(bit: &str) -> Option<(&str, usize)> {
-    let (name, at) = bit.strip_suffix(']')?.rsplit_once('[')?;
-    Some((name, at.parse().ok()?))
+/// The name of a bus and the number of its bit, in the name of the bit such as `a[3]`.
+pub(crate) fn bit_parts(bit: &str) -> Option<(&str, usize)> {
+    let (name, number) = bit.strip_suffix(']')?.rsplit_once('[')?;
+    let is_plain = !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit());
+    // The number of bits fits too.
+    Some((name, number.parse().ok().filter(|&number: &usize| is_plain && number < usize::MAX)?))
 }
 
 #[cfg(test)]

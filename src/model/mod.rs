@@ -26,6 +26,7 @@ pub use circuit::{
     Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
 };
 pub use column::Column;
+pub(crate) use column::bit_parts;
 pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SearchObjective, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};

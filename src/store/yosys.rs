@@ -19,17 +19,10 @@ const WRITTEN: &str = "written.il";
 const PROCESSED: &str = "processed.il";
 const FLAT: &str = "flat.blif";
 
-/// The script, with the names above, for the top module that Yosys finds.
-const TOP_SCRIPT: &str = "read_verilog -sv -Iincluded source.v; hierarchy -check -auto-top; proc; \
-    write_rtlil processed.il; flatten; opt; memory; opt; techmap; \
-    dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; opt_clean; \
-    write_blif flat.blif";
-
+/// What a script does to the modules of the source before they become gates, for the top module that Yosys finds.
+const TOP: &str = "hierarchy -check -auto-top";
 /// The same for all modules.
-const MODULES_SCRIPT: &str = "read_verilog -sv -Iincluded source.v; write_rtlil written.il; hierarchy -check; proc; \
-    write_rtlil processed.il; flatten; opt; memory; opt; techmap; \
-    dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; opt_clean; \
-    write_blif flat.blif";
+const ALL: &str = "write_rtlil written.il; hierarchy -check";
 
 /// The registers of Yosys that change without their clock.
 const ASYNCHRONOUS: &[&str] =
@@ -40,7 +33,7 @@ const ASYNCHRONOUS: &[&str] =
 /// # Errors
 /// When Yosys is missing or rejects the source.
 pub(super) fn flatten(path: &Path, source: &str) -> Result<String, VerilogError> {
-    let folder = run(path, source, TOP_SCRIPT)?;
+    let folder = run(path, source, TOP)?;
     result(&folder, FLAT)
 }
 
@@ -49,14 +42,24 @@ pub(super) fn flatten(path: &Path, source: &str) -> Result<String, VerilogError>
 /// # Errors
 /// As [`flatten`].
 pub(super) fn modules(path: &Path, source: &str) -> Result<VerilogModules, VerilogError> {
-    let folder = run(path, source, MODULES_SCRIPT)?;
+    let folder = run(path, source, ALL)?;
     Ok(VerilogModules { blif: result(&folder, FLAT)?, tops: tops(&result(&folder, WRITTEN)?) })
 }
 
-/// The folder in which Yosys ran a script.
-fn run(path: &Path, source: &str, script: &str) -> Result<tempfile::TempDir, VerilogError> {
+/// The script, with the names above.
+fn script(modules: &str) -> String {
+    format!(
+        "read_verilog -sv -Iincluded source.v; {modules}; proc; write_rtlil processed.il; \
+         flatten; opt; memory; opt; techmap; \
+         dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; \
+         opt_clean; write_blif flat.blif"
+    )
+}
+
+/// The folder in which Yosys ran the script.
+fn run(path: &Path, source: &str, modules: &str) -> Result<tempfile::TempDir, VerilogError> {
     let folder = prepare(path, source).map_err(|error| VerilogError::NoFolder(io_words(&error)))?;
-    let output = Command::new("yosys").args(["-q", "-p", script]).current_dir(folder.path()).output();
+    let output = Command::new("yosys").args(["-q", "-p", &script(modules)]).current_dir(folder.path()).output();
     let output = output.map_err(|_| VerilogError::NoYosys)?;
     if output.status.success() {
         return Ok(folder);
@@ -145,9 +148,9 @@ mod tests {
     #[test]
     fn the_scripts_have_the_names_of_the_folder_and_no_others() {
         for name in [SOURCE, INCLUDED, PROCESSED, FLAT] {
-            assert!([TOP_SCRIPT, MODULES_SCRIPT].iter().all(|script| script.contains(name)));
+            assert!([TOP, ALL].iter().all(|modules| script(modules).contains(name)));
         }
-        assert!(MODULES_SCRIPT.contains(WRITTEN));
+        assert!(script(ALL).contains(WRITTEN));
     }
 
     #[test]

@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn a_robot_that_errs_is_left_out_unless_it_is_allowed_to() {
-        let (behavior, body) = ("RRRR".parse().unwrap(), Body::parse(&["34"], &Palette::paper()).unwrap());
+        let body = Body::parse(&["34"], &Palette::paper()).unwrap();
         let measured = measure(&Simulator::default(), &body).unwrap();
         let nominees = [nominee(&["34"], 1.0)];
         let select = |behavior, max_error| {
@@ -219,8 +219,7 @@ mod tests {
         let own = measured.behavior;
         assert!(matches!(select(own, measured.character.error_rate), Selected::Robot(_)));
         assert!(matches!(select(own, -1.0), Selected::Erring(robot) if robot.behavior == own));
-        if own != behavior {
-            assert_eq!(select(behavior, 1.0), Selected::Other(own));
-        }
+        let other = ["RRRR", "LLLL"].map(|word| word.parse().unwrap()).into_iter().find(|&other| other != own).unwrap();
+        assert_eq!(select(other, 1.0), Selected::Other(own));
     }
 }

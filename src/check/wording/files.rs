@@ -10,9 +10,9 @@ pub(crate) enum LoadError {
     Empty { file: String },
     /// A file that cannot be read.
     Unreadable { file: String, error: FileError },
-    /// A file whose name does not end as those of programs and circuit files do.
+    /// A file name without the extension of a program or of a circuit file.
     NotUsable { file: String },
-    /// A circuit of a file whose name is not one of the language.
+    /// A circuit with a name that is not legal in the language.
     CircuitName { circuit: String, rename: &'static str },
     /// A circuit of a file without outputs.
     NoOutputs { circuit: String },
@@ -45,7 +45,7 @@ impl LoadError {
                 .with_help("the path is relative to the file that uses it"),
             Self::NotUsable { file } => {
                 let message = format!("cannot use `{file}`: it is neither a program nor a circuit file");
-                let label = "expected a file name ending in .nb, .blif, .aig, .aag, .bench or .v";
+                let label = "expected a file name ending in .nb, .blif, .aig, .aag, .bench, .v or .sv";
                 Diagnostic::new(Code::Unreadable, message, span, label)
                     .with_help("a link must lead to a file name with the same ending")
             }

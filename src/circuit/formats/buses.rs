@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::model::bit_parts;
+
 /// A port or a net of one bit or several, made of the bits of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bus {
@@ -12,12 +14,12 @@ pub struct Bus {
 }
 
 /// The buses of bits with these names, in the order of their first bits. Bits are one bus if their numbers have no gap;
-/// the lowest need not be 0. Of other names each is a bus of one bit.
+/// the lowest need not be 0. Every other name is a bus of one bit.
 pub fn buses(names: &[String]) -> Vec<Bus> {
     let mut numbered: BTreeMap<&str, BTreeMap<usize, usize>> = BTreeMap::new();
     let mut apart: BTreeSet<&str> = BTreeSet::new();
     for (place, name) in names.iter().enumerate() {
-        let Some((base, bit)) = parts(name) else { continue };
+        let Some((base, bit)) = bit_parts(name) else { continue };
         if numbered.entry(base).or_default().insert(bit, place).is_some() {
             apart.insert(base);
         }
@@ -31,7 +33,7 @@ pub fn buses(names: &[String]) -> Vec<Bus> {
     let mut done = BTreeSet::new();
     let mut all = Vec::new();
     for (place, name) in names.iter().enumerate() {
-        let bus = parts(name).and_then(|(base, _)| Some((base, whole(base)?)));
+        let bus = bit_parts(name).and_then(|(base, _)| Some((base, whole(base)?)));
         match bus {
             Some((base, _)) if !done.insert(base) => {}
             Some((base, bits)) => all.push(Bus { name: base.to_owned(), bits }),
@@ -39,13 +41,6 @@ pub fn buses(names: &[String]) -> Vec<Bus> {
         }
     }
     all
-}
-
-/// The name of a bus and the number of a bit, in the name of the bit.
-fn parts(bit: &str) -> Option<(&str, usize)> {
-    let (base, number) = bit.strip_suffix(']')?.rsplit_once('[')?;
-    let plain = !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit());
-    Some((base, number.parse().ok().filter(|&number| plain && number < usize::MAX / 2)?))
 }
 
 #[cfg(test)]

@@ -29,9 +29,12 @@ pub struct Register {
 }
 
 impl Register {
-    /// The name of its clock, with the one that is usual if the format has none.
+    /// The clock of registers for which a file names none.
+    pub const CLOCK: &str = "clk";
+
+    /// The name of its clock.
     pub fn clock_name(&self) -> &str {
-        self.clock.as_deref().unwrap_or("clk")
+        self.clock.as_deref().unwrap_or(Self::CLOCK)
     }
 }
 

@@ -130,7 +130,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The outputs that show what another net drives.
+    /// The outputs that repeat another net.
     fn copies(&self, statements: &mut Vec<String>) {
         let logic = &self.design.logic;
         for &id in &logic.outputs()[..self.design.outputs()] {

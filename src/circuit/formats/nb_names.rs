@@ -83,7 +83,7 @@ pub(super) struct NamedNet {
 }
 
 impl NamedNet {
-    /// The net as a declaration has it.
+    /// The net with its width.
     pub(super) fn declared(&self) -> String {
         if self.bits.len() == 1 { self.name.clone() } else { format!("{}[{}]", self.name, self.bits.len()) }
     }
@@ -98,7 +98,7 @@ pub(super) struct NbNames {
     pub(super) nexts: Vec<NamedNet>,
     /// The clocks that are not nets of the design.
     pub(super) clocks: BTreeMap<String, String>,
-    /// For each net that an output names, that output.
+    /// The output that stands in for a net, if one does.
     pub(super) stand_ins: BTreeMap<NetId, NetId>,
     bits: BTreeMap<NetId, NamedBit>,
     taken: BTreeSet<String>,
@@ -165,7 +165,7 @@ impl NbNames {
         }
     }
 
-    /// The name of a net, or of the output that names it.
+    /// The name of a net, or of the output that stands in for it.
     pub(super) fn bit(&self, logic: &Netlist, id: NetId) -> NamedBit {
         match logic.node(id) {
             Node::Constant(value) => NamedBit::alone(u8::from(*value).to_string()),
@@ -174,18 +174,18 @@ impl NbNames {
     }
 }
 
-/// The name of a register's next value, such that those of a bus are a bus.
+/// The name of a register's next value: the next values of a bus are a bus.
 fn next_name(name: &str) -> String {
     let bit = name.strip_suffix("_next").and_then(|state| state.strip_suffix(']')?.rsplit_once('['));
     bit.map_or_else(|| name.to_owned(), |(bus, bit)| format!("{bus}_next[{bit}]"))
 }
 
-/// Whether a name is one of the language, and none of its words.
+/// Whether the language allows a name: letters, digits and underscores, and not a reserved word.
 pub fn is_word(name: &str) -> bool {
     word(name) == name
 }
 
-/// A name as the language reads it.
+/// A name made legal in the language.
 pub(super) fn word(name: &str) -> String {
     let mut word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     let nameless = word.chars().all(|c| c == '_');

@@ -22,7 +22,7 @@ use canvas::Canvas;
 use kind::Kind;
 use order::Order;
 use picture::{Drawing, PictureKind, SubjectKind};
-use robot::Subject;
+use robot::TitledBody;
 
 pub(super) use arguments::DrawArguments;
 pub(super) use pictures::run_page;
@@ -78,16 +78,16 @@ fn draw_library(kind: &dyn PictureKind, order: &Order) -> Result<Drawing, Failur
         return kind.of_library(&several::of_library(what, &library), order);
     };
     let robot = library.robots_for(behavior.function()).next();
-    kind.of_robot(&Subject::of(robot.ok_or_else(|| order.none_of(behavior))?), order)
+    kind.of_robot(&TitledBody::of(robot.ok_or_else(|| order.none_of(behavior))?), order)
 }
 
-fn robot(what: &str) -> Result<Subject, Failure> {
+fn robot(what: &str) -> Result<TitledBody, Failure> {
     let body = robots::read_body(what)?;
     match robots::find(&store::shipped_library(), what) {
-        Ok(robot) => Ok(Subject::of(robot)),
+        Ok(robot) => Ok(TitledBody::of(robot)),
         Err(_) => {
             let title = Path::new(what).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-            Ok(Subject { title: title.unwrap_or_default(), body })
+            Ok(TitledBody { title: title.unwrap_or_default(), body })
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::run::best_champions;
 use crate::cli::draw::several::Several;
 use crate::cli::wording::DrawError;
@@ -49,11 +49,12 @@ pub(super) trait PictureKind: Sync {
         &[]
     }
 
-    /// The kind of subject that it is for.
+    /// The kind of subject that it is for: the one to name if another is given. A kind for libraries also shows the
+    /// best robots of a run.
     fn subject(&self) -> SubjectKind;
 
     /// Draws one robot.
-    fn of_robot(&self, _robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+    fn of_robot(&self, _robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
         Err(self.refuse(SubjectKind::Robot, order))
     }
 

@@ -3,12 +3,12 @@
 use crate::model::{Body, Robot};
 
 /// A body with its title.
-pub(super) struct Subject {
+pub(super) struct TitledBody {
     pub(super) title: String,
     pub(super) body: Body,
 }
 
-impl Subject {
+impl TitledBody {
     pub(super) fn of(robot: &Robot) -> Self {
         Self { title: format!("{}: {}, {}", robot.name, robot.function(), robot.behavior), body: robot.body.clone() }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::{One, Several};
 use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::wording::{DrawError, RunWarning};
@@ -71,10 +71,10 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
 }
 
 /// The best robot of a behavior.
-pub(super) fn champion(results: &EvolutionResults, behavior: Behavior) -> Option<Subject> {
+pub(super) fn champion(results: &EvolutionResults, behavior: Behavior) -> Option<TitledBody> {
     let elite = results.champion(behavior)?;
     let title = format!("{}: {}, {behavior}", results.name, behavior.function());
-    Some(Subject { title, body: elite.body.clone() })
+    Some(TitledBody { title, body: elite.body.clone() })
 }
 
 /// The champions of every seed, by behavior.

@@ -16,7 +16,7 @@ impl From<StoreError> for Diagnostic {
         match error {
             StoreError::CircuitFormat { file } => {
                 let message =
-                    format!("unrecognized circuit format of `{file}`; expected .blif, .aig, .aag, .bench or .v");
+                    format!("unrecognized circuit format of `{file}`; expected .blif, .aig, .aag, .bench, .v or .sv");
                 Self::without_place(Code::BadValue, message)
             }
             StoreError::NbTooLarge { bytes, most } => {

@@ -5,7 +5,6 @@ use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::report::{self, EvolutionResults, Svg};
 
-/// The fitness of a run by group of behaviors.
 pub(super) struct ComparisonPicture;
 
 impl PictureKind for ComparisonPicture {

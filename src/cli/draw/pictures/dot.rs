@@ -5,7 +5,6 @@ use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 
-/// A netlist for Graphviz.
 pub(super) struct DotPicture;
 
 impl PictureKind for DotPicture {

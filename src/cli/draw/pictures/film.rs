@@ -3,7 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind, SubjectKind};
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::Several;
 use crate::model::{Body, Setting};
 use crate::report::{Film, STRIDE, Stage};
@@ -42,8 +42,8 @@ impl PictureKind for FilmPicture {
         SubjectKind::Library
     }
 
-    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
-        let Subject { title, body } = robot;
+    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
+        let TitledBody { title, body } = robot;
         let lanes = vec![format!("{} x {}", body.width(), body.height())];
         let stage = Stage::of_trial(&Setting::default(), body, &order.schedule()?, STRIDE);
         Ok(self.film(title, lanes, std::slice::from_ref(body), order, stage))

@@ -7,7 +7,6 @@ use crate::cli::wording::DrawError;
 use crate::evolve::NicheKey;
 use crate::report::{self, EvolutionResults, Terrain, axis_word};
 
-/// An archive as a map of its niches.
 pub(super) struct HeatmapPicture;
 
 impl PictureKind for HeatmapPicture {

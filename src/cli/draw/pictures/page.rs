@@ -12,7 +12,6 @@ use crate::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
 use crate::report::{self, EvolutionResults, Plate, Scheme};
 use crate::swarm::Room;
 
-/// A page with a player, or with all plots of a run.
 pub(super) struct PagePicture;
 
 impl PictureKind for PagePicture {

@@ -3,10 +3,9 @@
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::report;
 
-/// A deformed body at one moment.
 pub(super) struct PosePicture;
 
 impl PictureKind for PosePicture {
@@ -26,7 +25,7 @@ impl PictureKind for PosePicture {
         SubjectKind::Robot
     }
 
-    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
         let schedule = order.schedule()?;
         let step = order.step(&schedule)?;
         Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, order.scheme())))

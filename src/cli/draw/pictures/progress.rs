@@ -5,7 +5,6 @@ use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::report::{self, EvolutionResults, Svg};
 
-/// The curves of a run.
 pub(super) struct ProgressPicture;
 
 impl PictureKind for ProgressPicture {

@@ -6,7 +6,6 @@ use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::model::Robot;
 use crate::report;
 
-/// The cells of a circuit with their robots.
 pub(super) struct SchematicPicture;
 
 impl PictureKind for SchematicPicture {

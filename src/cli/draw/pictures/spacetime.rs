@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::run::each_champion;
 use crate::cli::draw::several::{One, Several};
 use crate::cli::wording::DrawError;
@@ -15,7 +15,6 @@ use crate::session::SwarmRun;
 use crate::sim::Simulator;
 use crate::swarm::SwarmTrace;
 
-/// Paths over time.
 pub(super) struct SpacetimePicture;
 
 impl PictureKind for SpacetimePicture {
@@ -35,7 +34,7 @@ impl PictureKind for SpacetimePicture {
         SubjectKind::Library
     }
 
-    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
         let trial = Trial { body: robot.body.clone(), schedule: order.schedule()? };
         let trajectory = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
         Ok(Drawing::Picture(report::draw_robot(&robot.title, &trial.schedule, &trajectory)))

@@ -3,11 +3,10 @@
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::{One, Several, cast};
 use crate::report::{self, Portrait};
 
-/// Bodies with their materials.
 pub(super) struct SpritePicture;
 
 impl PictureKind for SpritePicture {
@@ -27,7 +26,7 @@ impl PictureKind for SpritePicture {
         SubjectKind::Library
     }
 
-    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
         Ok(Drawing::Picture(report::draw_portrait(&robot.title, &robot.body, order.scheme())))
     }
 

@@ -3,10 +3,9 @@
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::Subject;
+use crate::cli::draw::robot::TitledBody;
 use crate::report;
 
-/// Snapshots of a gait.
 pub(super) struct StripPicture;
 
 impl PictureKind for StripPicture {
@@ -26,7 +25,7 @@ impl PictureKind for StripPicture {
         SubjectKind::Robot
     }
 
-    fn of_robot(&self, robot: &Subject, order: &Order) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
         let schedule = order.schedule()?;
         Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, order.scheme())))
     }

@@ -5,7 +5,6 @@ use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::report;
 
-/// Waveforms.
 pub(super) struct VcdPicture;
 
 impl PictureKind for VcdPicture {

@@ -1,7 +1,7 @@
 //! Length limits: after the integrator, edges that are too long or too short are partly corrected (docs/physics.md 8).
 
 use crate::sim::backend::lanes::batch::{Batch, DIAGONAL, FRAME, MAIN, Round, Row};
-use crate::sim::backend::lanes::mass::{Mass, Vector, between, each_axis, square};
+use crate::sim::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::constants::Constants;
@@ -27,8 +27,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
         for row in 0..self.rows.len() {
             let Row { masses, frames } = self.rows[row].clone();
-            for (frame, stiffness) in self.frames[frames.clone()].iter().zip(&self.frame_stiffness[frames]) {
-                let corners = frame.indices();
+            for (n, stiffness) in frames.clone().zip(&self.frame_stiffness[frames]) {
+                let corners = self.frames[n].indices();
                 let [a, b, c, d] = corners;
                 let (top_left, top_right) = (all[a].at, all[b].at);
                 let (bottom_right, bottom_left) = (all[c].at, all[d].at);
@@ -49,9 +49,9 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
                 }
             }
             for mass in &mut all[masses] {
-                each_axis!(axis, {
+                for axis in 0..2 {
                     mass.at[axis] += mass.stage[axis];
-                });
+                }
             }
         }
     }
@@ -82,9 +82,9 @@ fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -
     for &(corners, lanes) in voxels {
         for corner in 0..CORNERS {
             let place = masses[corners[corner]].at;
-            each_axis!(axis, {
+            for axis in 0..2 {
                 at[corner][axis] = R::select(lanes, place[axis], at[corner][axis]);
-            });
+            }
         }
     }
     at
@@ -96,9 +96,9 @@ fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask
     for &(corners, lanes) in voxels {
         for corner in 0..CORNERS {
             let place = &mut masses[corners[corner]].at;
-            each_axis!(axis, {
+            for axis in 0..2 {
                 place[axis] = R::select(lanes, at[corner][axis], place[axis]);
-            });
+            }
         }
     }
 }
@@ -127,10 +127,10 @@ impl<R: Real> Rigid<R> {
         if bites.any() {
             let bound = R::select(too_long, self.bounds.most, self.bounds.least);
             let factor = correction(square, bound, self.share, bites);
-            each_axis!(axis, {
+            for axis in 0..2 {
                 at[FROM][axis] -= r[axis] * factor;
                 at[TO][axis] += r[axis] * factor;
-            });
+            }
         }
         bites.any()
     }
@@ -171,10 +171,10 @@ fn pull_back<R: Real>(masses: &mut [Mass<R>], ends: [usize; 2], bounds: &Bounds<
     let square = square(r);
     let bound = R::select(bounds.most_squared.below(square), bounds.most, bounds.least);
     let factor = correction(square, bound, share, bites);
-    each_axis!(axis, {
+    for axis in 0..2 {
         masses[ends[0]].stage[axis] -= r[axis] * factor;
         masses[ends[1]].stage[axis] += r[axis] * factor;
-    });
+    }
 }
 
 /// The factor by which an edge's vector moves its ends if a limit is exceeded: share (d - bound) / (2 d), from d².

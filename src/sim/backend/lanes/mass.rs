@@ -22,23 +22,6 @@ pub struct Mass<R> {
     pub force: Vector<R>,
 }
 
-/// Does the same for x and for y. Written out twice, because a loop costs calls in builds that optimize little, such as
-/// those of tests.
-macro_rules! each_axis {
-    ($axis:ident, $body:block) => {{
-        {
-            let $axis = 0;
-            $body
-        }
-        {
-            let $axis = 1;
-            $body
-        }
-    }};
-}
-
-pub(super) use each_axis;
-
 /// The vector from `there` to `here`.
 #[inline(always)]
 pub fn between<R: Real>(here: Vector<R>, there: Vector<R>) -> Vector<R> {

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use crate::sim::backend::lanes::batch::{Batch, DIAGONAL, Frame, MAIN, Row};
-use crate::sim::backend::lanes::mass::{Mass, Vector, between, each_axis, square};
+use crate::sim::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::backend::lanes::stiffness::Stiffness;
 use crate::sim::constants::Constants;
@@ -63,10 +63,10 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         for (rim, (stiffness, frozen)) in self.rims.iter().zip(kept) {
             let measure = measure::<R, STAGE>(masses, rim.from, rim.to);
             let pull = law.pull::<STAGE>(measure, stiffness.value(), aims[rim.aim as usize], frozen);
-            each_axis!(axis, {
+            for axis in 0..2 {
                 masses[rim.from as usize].force[axis] -= pull[axis];
                 masses[rim.to as usize].force[axis] += pull[axis];
-            });
+            }
         }
     }
 
@@ -87,12 +87,12 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             let falling = law.pull::<STAGE>(now[2], stiffness[2].value(), diagonal, &mut frozen[2]);
             let rising = law.pull::<STAGE>(now[3], stiffness[3].value(), diagonal, &mut frozen[3]);
             let corners = frame.indices();
-            each_axis!(axis, {
+            for axis in 0..2 {
                 masses[corners[0]].force[axis] -= top[axis] + (left[axis] + falling[axis]);
                 masses[corners[1]].force[axis] += top[axis] - rising[axis];
                 masses[corners[2]].force[axis] += falling[axis];
                 masses[corners[3]].force[axis] += left[axis] + rising[axis];
-            });
+            }
         }
     }
 
@@ -194,7 +194,7 @@ impl<R: Real> Mass<R> {
     #[inline(always)]
     fn advance<const STAGE: u8>(&mut self, acceleration: Vector<R>, before: &mut Vector<R>) {
         let (half, two, sixth) = (R::splat(0.5), R::splat(2.0), R::splat(1.0 / 6.0));
-        each_axis!(axis, {
+        for axis in 0..2 {
             let a = acceleration[axis];
             let u = self.velocity[axis];
             let pace = self.stage_velocity[axis];
@@ -222,7 +222,7 @@ impl<R: Real> Mass<R> {
                     self.stage[axis] = R::splat(0.0);
                 }
             }
-        });
+        }
     }
 }
 
