@@ -1,6 +1,7 @@
 //! Circuits of other tools' files, translated to source text of the language.
 
 use crate::check::wording::{LoadError, at_use, of_translation};
+use crate::circuit::correspondence;
 use crate::circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, SourceFile, SourceWorld, Span};
@@ -69,7 +70,7 @@ impl Foreign<'_> {
         if design.outputs() == 0 {
             return Err(self.fault(LoadError::NoOutputs { circuit: name.clone() }));
         }
-        Ok(nb::write(design))
+        Ok(nb::write(&correspondence::reduce(design).0))
     }
 
     /// Rejects the name of a circuit that the language cannot call.

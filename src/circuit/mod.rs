@@ -2,6 +2,7 @@
 
 pub mod cells;
 mod components;
+pub mod correspondence;
 pub mod delayed;
 pub mod elaborate;
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub fn expand(design: &Design) -> Netlist {
         net.insert(id, netlist.add_input(logic.net_name(id)));
     }
     for (&id, register) in states.iter().zip(&design.registers) {
-        net.insert(id, netlist.add_wire(&register.name, Some(register.start.unwrap_or(false)), None));
+        net.insert(id, netlist.add_wire(&register.name, Some(register.starts_at()), None));
     }
     copy(logic, &mut netlist, &mut net);
     let mut clocks = Clocks { by_name: BTreeMap::new() };
@@ -32,7 +32,7 @@ pub fn expand(design: &Design) -> Netlist {
     for ((&state, &next), register) in states.iter().zip(nexts).zip(&design.registers) {
         let clock = clocks.net(&mut netlist, register);
         let data = net[&logic.pins(next)[0]];
-        let start = register.start.unwrap_or(false);
+        let start = register.starts_at();
         let q = match register.kind {
             RegisterKind::High | RegisterKind::Low => latch(&mut netlist, &register.name, data, clock, start),
             RegisterKind::Rising | RegisterKind::Falling => flip_flop(&mut netlist, &register.name, data, clock, start),

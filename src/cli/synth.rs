@@ -7,6 +7,7 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
+use crate::circuit::correspondence::{self, Removed};
 use crate::circuit::formats::Design;
 use crate::circuit::{self, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions};
@@ -55,6 +56,9 @@ enum RegisterWord {
     Expand,
 }
 
+/// The most registers that are named in a line.
+const SHOWN: usize = 8;
+
 /// The result for programs.
 #[derive(Serialize)]
 struct Report {
@@ -64,10 +68,54 @@ struct Report {
     inputs: usize,
     outputs: usize,
     latches: usize,
+    removed: RemovedReport,
     proved: bool,
     seconds: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     what_if: BTreeMap<String, i64>,
+}
+
+/// Registers that the circuit does not need.
+#[derive(Serialize)]
+struct RemovedReport {
+    constant: BTreeMap<String, u8>,
+    equal: BTreeMap<String, String>,
+    unused: Vec<String>,
+}
+
+impl From<Removed> for RemovedReport {
+    fn from(removed: Removed) -> Self {
+        Self {
+            constant: removed.constant.into_iter().map(|(name, value)| (name, value.into())).collect(),
+            equal: removed.equal.into_iter().collect(),
+            unused: removed.unused,
+        }
+    }
+}
+
+impl RemovedReport {
+    /// A line for each reason that applies.
+    fn text(&self) -> String {
+        let constant: Vec<_> = self.constant.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let equal: Vec<_> = self.equal.iter().map(|(name, other)| format!("{name} = {other}")).collect();
+        let line = |(what, names): (&str, &[String])| match names.len() {
+            0 => String::new(),
+            _ => format!("{what}: {}\n", listed(names)),
+        };
+        [
+            ("registers that never change", &constant[..]),
+            ("registers that equal another", &equal),
+            ("registers that no output needs", &self.unused),
+        ]
+        .map(line)
+        .concat()
+    }
+}
+
+/// The first of these names, and how many more there are.
+fn listed(names: &[String]) -> String {
+    let shown = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }
 }
 
 impl SynthArguments {
@@ -80,7 +128,8 @@ impl SynthArguments {
         let target = self.output.as_deref().map(format).transpose()?;
         let library = self.mapping.library()?;
         let what_if = functions(&self.what_if)?;
-        let design = store::read_circuit(&self.input, self.clock.as_deref())?;
+        let read = store::read_circuit(&self.input, self.clock.as_deref())?;
+        let (design, removed) = correspondence::reduce(&read);
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
             None => target == Some(circuit::formats::CircuitFormat::Dot),
@@ -93,7 +142,7 @@ impl SynthArguments {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
             store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
         }
-        let mut report = Report::of(&design, &result.logic, started);
+        let mut report = Report::of(&design, removed, &result.logic, started);
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, crate::circuit::CellKind::uniform(1, 1.0));
@@ -110,7 +159,7 @@ impl SynthArguments {
 }
 
 impl Report {
-    fn of(design: &Design, mapped: &Netlist, started: Instant) -> Self {
+    fn of(design: &Design, removed: Removed, mapped: &Netlist, started: Instant) -> Self {
         Self {
             cells: mapped.cells().count(),
             by_function: mapped.by_function(),
@@ -118,6 +167,7 @@ impl Report {
             inputs: design.inputs(),
             outputs: design.outputs(),
             latches: design.registers.len(),
+            removed: removed.into(),
             // A circuit that is not proved is never reported.
             proved: true,
             seconds: started.elapsed().as_secs_f64(),
@@ -135,6 +185,7 @@ impl Report {
             self.depth,
             self.seconds
         );
+        text.push_str(&self.removed.text());
         for (name, saved) in &self.what_if {
             text.push_str(&format!("with `{name}`: {saved} cells fewer\n"));
         }

@@ -31,6 +31,7 @@ mod palette;
 mod physics;
 mod pictures;
 mod plots;
+mod redundant;
 mod runs;
 mod schemas;
 mod settling;

@@ -308,7 +308,7 @@ fn equivalent(bench: &Bench, one: &str, two: &str) {
 }
 
 /// Lets ABC prove that two files are equal.
-fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
+pub fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
     let Some(said) = abc(bench.path(), &format!("{command} {one} {two}")) else { return };
     assert!(said.contains("Networks are equivalent"), "{said}");
 }

@@ -36,6 +36,11 @@ impl Register {
     pub fn clock_name(&self) -> &str {
         self.clock.as_deref().unwrap_or(Self::CLOCK)
     }
+
+    /// Its value before the first cycle in a swarm: 0 if the file does not say.
+    pub fn starts_at(&self) -> bool {
+        self.start.unwrap_or(false)
+    }
 }
 
 /// A circuit and its registers.

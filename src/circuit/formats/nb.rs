@@ -94,7 +94,7 @@ impl Writer<'_> {
             RegisterKind::High => ("latch", clock),
             RegisterKind::Low => ("latch", format!("not {clock}")),
         };
-        let value = |at: usize| u64::from(self.design.registers[at].start.unwrap_or(false));
+        let value = |at: usize| u64::from(self.design.registers[at].starts_at());
         let start = run.iter().rev().fold(0, |sum, (_, at)| sum << 1 | value(*at));
         let start = if start == 0 { String::new() } else { format!("[start = {start}]") };
         format!("{target} = {word}{start}({next}, {clock})")

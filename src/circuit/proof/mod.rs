@@ -12,6 +12,7 @@ mod structural;
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use method::Method;
+pub(crate) use sat::SatSweep;
 
 use crate::circuit::loops::Loops;
 use crate::circuit::network::{Network, View};

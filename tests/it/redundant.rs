@@ -1,0 +1,136 @@
+//! Registers that a design does not need are removed, and the outputs stay the same.
+
+use nbc::circuit::correspondence::reduce;
+use nbc::circuit::formats::{Design, Register, RegisterKind};
+use nbc::circuit::network::View;
+use nbc::circuit::{NetId, Netlist};
+use nbc::model::Function;
+use proptest::prelude::*;
+
+use crate::cli::Bench;
+use crate::synth::abc_agrees;
+
+/// Two bits that count twice, a bit that stays 0, and a bit that nothing reads.
+const REDUNDANT: &str = "\
+INPUT(en)
+OUTPUT(q1)
+OUTPUT(q3)
+OUTPUT(q4)
+q0 = DFF(n0)
+q1 = DFF(n1)
+n0 = XOR(q0, en)
+c = AND(q0, en)
+n1 = XOR(q1, c)
+q2 = DFF(n2)
+q3 = DFF(n3)
+n2 = XOR(en, q2)
+d = NAND(q2, en)
+nd = NOT(d)
+n3 = XOR(nd, q3)
+q4 = DFF(n4)
+n4 = AND(q4, en)
+q5 = DFF(n5)
+n5 = OR(q5, en)
+";
+
+#[test]
+fn synthesis_names_the_registers_that_it_removes() {
+    let bench = Bench::new();
+    bench.file("twice.bench", REDUNDANT);
+    let arguments = ["synth", "twice.bench", "-o", "once.blif", "--cells", "nand,not"];
+    let ran = bench.run(&arguments);
+    let lines = ["that never change: q4 = 0\n", "that equal another: q2 = q0, q3 = q1\n", "that no output needs: q5\n"];
+    for line in lines {
+        assert!(ran.out.contains(&format!("registers {line}")), "{}", ran.out);
+    }
+    let report = bench.run(&[&arguments[..], &["--format", "json"]].concat()).expect_json();
+    assert_eq!(report["latches"], 2);
+    assert_eq!(
+        report["removed"],
+        serde_json::json!({ "constant": { "q4": 0 }, "equal": { "q2": "q0", "q3": "q1" }, "unused": ["q5"] })
+    );
+    abc_agrees(&bench, "dsec", "twice.bench", "once.blif");
+}
+
+#[test]
+fn a_program_uses_a_circuit_without_them() {
+    let bench = Bench::new();
+    bench.file("twice.bench", REDUNDANT);
+    bench.file("once.nb", "use \"twice.bench\"\n");
+    let cells = |circuit: &str| {
+        let built = bench.run(&["build", "once.nb", "--circuit", circuit, "--cells", "nand,not", "--format", "json"]);
+        built.expect_json()["cells"].as_array().unwrap().len()
+    };
+    // Two registers of nine cells each, and two exclusive ors and an and: the other registers would need 36 more.
+    assert!(cells("twice") < 32, "{}", cells("twice"));
+}
+
+/// A machine of registers, each given by a function and the two nets that it reads: an input, or a register, whose
+/// clock and start.
+type Recipe = Vec<(u8, usize, usize, bool, Option<bool>)>;
+
+fn recipe() -> impl Strategy<Value = Recipe> {
+    let register = (0u8..16, 0usize..9, 0usize..9, any::<bool>(), any::<Option<bool>>());
+    proptest::collection::vec(register, 1..8)
+}
+
+fn machine(recipe: &Recipe) -> Design {
+    let mut logic = Netlist::new("machine");
+    let mut nets: Vec<NetId> = ["x", "y"].map(|name| logic.add_input(name)).to_vec();
+    nets.extend((0..recipe.len()).map(|at| logic.add_input(format!("s{at}"))));
+    let net = |at: usize| nets[at % nets.len()];
+    let nexts: Vec<NetId> =
+        recipe.iter().map(|&(bits, a, b, ..)| logic.add_gate(Function::new(bits), &[net(a), net(b)])).collect();
+    let parity = nets[2..].iter().copied().reduce(|sum, state| logic.add_gate(Function::XOR, &[sum, state]));
+    logic.add_output("parity", parity.unwrap());
+    logic.add_output("last", *nets.last().unwrap());
+    nexts.iter().enumerate().for_each(|(at, &next)| _ = logic.add_output(format!("s{at}_next"), next));
+    let register = |(at, &(.., falls, start)): (usize, &(u8, usize, usize, bool, Option<bool>))| Register {
+        name: format!("s{at}"),
+        kind: if falls { RegisterKind::Falling } else { RegisterKind::Rising },
+        clock: None,
+        start,
+    };
+    Design { logic, registers: recipe.iter().enumerate().map(register).collect() }
+}
+
+/// The outputs over time for these inputs in 64 runs; registers of both edges change in turns.
+fn outputs(design: &Design, inputs: &[[u64; 2]]) -> Vec<Vec<u64>> {
+    let network = View::of(&design.logic, &[]).unwrap().network;
+    let filled = |value: bool| if value { !0 } else { 0 };
+    let mut states: Vec<u64> = design.registers.iter().map(|register| filled(register.starts_at())).collect();
+    let mut shown = Vec::new();
+    for (at, inputs) in inputs.iter().enumerate() {
+        let values = network.simulate(&inputs.iter().chain(&states).copied().collect::<Vec<_>>());
+        let output: Vec<u64> = network.outputs.iter().map(|&output| values[output as usize]).collect();
+        let (ports, nexts) = output.split_at(design.outputs());
+        shown.push(ports.to_vec());
+        for ((state, register), &next) in states.iter_mut().zip(&design.registers).zip(nexts) {
+            if (register.kind == RegisterKind::Falling) == (at % 2 == 1) {
+                *state = next;
+            }
+        }
+    }
+    shown
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn outputs_stay_the_same(
+        recipe in recipe(),
+        inputs in proptest::collection::vec(any::<[u64; 2]>(), 40),
+        copies in 1usize..3,
+    ) {
+        // Copies read the same registers, so that many are equal.
+        let recipe: Recipe = recipe.iter().cycle().take(recipe.len() * copies).cloned().collect();
+        let design = machine(&recipe);
+        let (reduced, removed) = reduce(&design);
+        let count = removed.constant.len() + removed.equal.len() + removed.unused.len();
+        prop_assert_eq!(reduced.registers.len() + count, design.registers.len());
+        prop_assert!(copies == 1 || reduced.registers.len() <= design.registers.len() / 2);
+        prop_assert_eq!(outputs(&reduced, &inputs), outputs(&design, &inputs));
+        prop_assert!(reduce(&reduced).1.is_empty());
+    }
+}
