@@ -5,7 +5,7 @@ use std::fs;
 use crate::cli::{Bench, Ran};
 use crate::schemas::validate;
 
-/// A small archive with a few behaviors, most of them of robots that err.
+/// A small archive of small bodies with few behaviors, all of robots that err.
 const RUN: &str = "
 schedule short(s1, s2) {
     0 0 for 1 cycles
@@ -15,11 +15,11 @@ schedule short(s1, s2) {
 }
 
 evolution walks {
-    box:         3 x 2
+    box:         3 x 1
     variable:    short
     fixed:       1 cycles
     batch:       6
-    generations: 12
+    generations: 4
     seed:        3
 }
 ";
@@ -47,20 +47,20 @@ fn written(bench: &Bench) -> Vec<String> {
 #[test]
 fn every_requested_behavior_has_a_result_and_robots_with_errors_are_left_out() {
     let bench = bench();
-    let strict = add(&bench, &["--behavior", "RLRL", "--behavior", "LRRL", "--format", "json"]);
+    let strict = add(&bench, &["--behavior", "LLLL", "--behavior", "LRRL", "--format", "json"]);
     assert_eq!(strict.status, 1, "a behavior that was asked for has no robot: {}", strict.err);
     let found = validate("added", &strict.out);
-    let [notb, xor] = &found["answers"].as_array().unwrap()[..] else { panic!("{found}") };
+    let [zero, xor] = &found["answers"].as_array().unwrap()[..] else { panic!("{found}") };
     assert!(xor["outcome"] == "missing" && xor["reason"] == "no elite of this behavior", "{xor}");
-    assert!(notb["outcome"] == "left_out" && notb["robot"]["error_rate"].as_f64() > Some(0.0), "{notb}");
-    let reason = notb["reason"].as_str().unwrap();
+    assert!(zero["outcome"] == "left_out" && zero["robot"]["error_rate"].as_f64() > Some(0.0), "{zero}");
+    let reason = zero["reason"].as_str().unwrap();
     assert!(reason.contains(" of 1024 switches wrong (") && reason.ends_with(", at most 0 % accepted"), "{reason}");
     assert_eq!(written(&bench), [""; 0]);
-    let allowed = add(&bench, &["--behavior", "RRRR", "--max-error", "0.02"]);
+    let allowed = add(&bench, &["--behavior", "LLLL", "--max-error", "0.8"]);
     assert_eq!(allowed.status, 0, "{}", allowed.err);
-    assert!(allowed.out.starts_with("RRRR  one         added     one_3x2, clock "), "{}", allowed.out);
+    assert!(allowed.out.starts_with("LLLL  zero        added     zero_3x1, clock "), "{}", allowed.out);
     assert!(allowed.out.ends_with("\n1 of 1 behaviors have a robot in robots\n"), "{}", allowed.out);
-    assert_eq!(written(&bench), ["one_3x2.yaml"]);
+    assert_eq!(written(&bench), ["zero_3x1.yaml"]);
 }
 
 #[test]
