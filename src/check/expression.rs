@@ -95,10 +95,11 @@ impl<'a> CircuitChecker<'a> {
                 self.call(name, arguments, operands, outputs, span)
             }
             tree::ExpressionSyntaxKind::Table { inputs, rows } => {
+                let outputs = take(done, table_values(rows).count());
                 let inputs = take(done, inputs.len());
-                let table = self.table(rows, span);
+                let table = self.table(rows, &outputs, span);
                 self.circuit.tables.push(table);
-                ExpressionKind::Table { inputs, table: self.circuit.tables.len() - 1 }
+                ExpressionKind::Table { inputs, outputs, table: self.circuit.tables.len() - 1 }
             }
         }
     }
@@ -258,6 +259,14 @@ fn take(done: &mut Vec<ExpressionId>, count: usize) -> Vec<ExpressionId> {
     done.split_off(done.len() - count)
 }
 
+/// The outputs of a table that are expressions.
+fn table_values(rows: &[tree::TableRowSyntax]) -> impl Iterator<Item = tree::ExpressionSyntaxId> {
+    rows.iter().filter_map(|row| match row.output {
+        tree::TableOutputSyntax::Value(value) => Some(value),
+        tree::TableOutputSyntax::Bits(_) => None,
+    })
+}
+
 /// The first expression of the contiguous range that ends with `root`.
 fn first_leaf(expressions: &[tree::ExpressionSyntax], root: tree::ExpressionSyntaxId) -> u32 {
     let mut at = root;
@@ -271,8 +280,8 @@ fn first_leaf(expressions: &[tree::ExpressionSyntax], root: tree::ExpressionSynt
             Kind::Concatenation(values)
             | Kind::Repetition { values, .. }
             | Kind::Operation { operands: values, .. }
-            | Kind::Call { operands: values, .. }
-            | Kind::Table { inputs: values, .. } => values.first().copied(),
+            | Kind::Call { operands: values, .. } => values.first().copied(),
+            Kind::Table { inputs, rows } => inputs.first().copied().or(table_values(rows).next()),
         };
         match first {
             Some(first) => at = first,

@@ -3,7 +3,7 @@
 use crate::check::circuit::CircuitChecker;
 use crate::check::wording::TableError;
 use crate::diag::Diagnostic;
-use crate::model::{Table, TableOutput, TableRow};
+use crate::model::{ExpressionId, OutputValue, Table, TableOutput, TableRow};
 use crate::source::Span;
 use crate::syntax::tree;
 
@@ -14,11 +14,26 @@ const MAX_ROWS: usize = 4096;
 const MAX_BITS: usize = 64;
 
 impl CircuitChecker<'_> {
-    pub(crate) fn table(&mut self, rows: &[tree::TableRowSyntax], span: Span) -> Table {
+    /// The table of these rows; `values` are the outputs that are expressions.
+    pub(crate) fn table(&mut self, rows: &[tree::TableRowSyntax], values: &[ExpressionId], span: Span) -> Table {
         let mut table = Table { rows: Vec::new(), otherwise: None, span };
+        let mut values = values
+            .iter()
+            .map(|value| self.circuit.expressions[value.0 as usize].span)
+            .enumerate()
+            .collect::<Vec<_>>()
+            .into_iter();
         for row in rows {
-            let Some(bits) = self.bits(&row.output) else { continue };
-            let output = TableOutput { bits, span: row.output.span };
+            let output = match &row.output {
+                tree::TableOutputSyntax::Bits(word) => {
+                    let Some(bits) = self.bits(word) else { continue };
+                    TableOutput { value: OutputValue::Bits(bits), span: word.span }
+                }
+                tree::TableOutputSyntax::Value(_) => {
+                    let (index, span) = values.next().expect("every expression has its value");
+                    TableOutput { value: OutputValue::Expression(index), span }
+                }
+            };
             match &row.pattern {
                 Some(pattern) => {
                     let span = pattern.span;
@@ -56,7 +71,6 @@ impl CircuitChecker<'_> {
     }
 
     fn table_faults(&mut self, table: &Table) {
-        let outputs = table.rows.iter().map(|row| &row.output).chain(&table.otherwise);
         let found = if table.rows.len() > MAX_ROWS {
             Some(TableError::TooManyRows { rows: table.rows.len(), most: MAX_ROWS }.at(table.span))
         } else if let Some(row) = table.rows.iter().find(|row| row.pattern.len() > MAX_BITS) {
@@ -64,11 +78,19 @@ impl CircuitChecker<'_> {
         } else {
             let patterns = uneven(table.rows.iter().map(|row| (row.pattern.len(), row.span)), "patterns");
             patterns
-                .or_else(|| uneven(outputs.map(|output| (output.bits.len(), output.span)), "outputs"))
+                .or_else(|| uneven(table.outputs().filter_map(written), "outputs"))
                 .or_else(|| overlap(table))
                 .or_else(|| missing(table))
         };
         self.diagnostics.extend(found);
+    }
+}
+
+/// The width of an output that is not an expression, with its place.
+fn written(output: &TableOutput) -> Option<(usize, Span)> {
+    match &output.value {
+        OutputValue::Bits(bits) => Some((bits.len(), output.span)),
+        OutputValue::Expression(_) => None,
     }
 }
 

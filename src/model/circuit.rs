@@ -181,8 +181,8 @@ impl Expression {
             ExpressionKind::Choice { condition, .. } => Some(*condition),
             ExpressionKind::Concatenation(parts)
             | ExpressionKind::Operation { operands: parts, .. }
-            | ExpressionKind::Call { operands: parts, .. }
-            | ExpressionKind::Table { inputs: parts, .. } => parts.first().copied(),
+            | ExpressionKind::Call { operands: parts, .. } => parts.first().copied(),
+            ExpressionKind::Table { inputs, outputs, .. } => inputs.first().or(outputs.first()).copied(),
         }
     }
 }
@@ -250,6 +250,8 @@ pub enum ExpressionKind {
     Table {
         /// The inputs, most significant first.
         inputs: Vec<ExpressionId>,
+        /// The outputs that are expressions.
+        outputs: Vec<ExpressionId>,
         /// The index in [`Circuit::tables`].
         table: usize,
     },
@@ -313,6 +315,13 @@ pub struct Table {
     pub span: Span,
 }
 
+impl Table {
+    /// The output of each row, and then the one of the other patterns.
+    pub fn outputs(&self) -> impl Iterator<Item = &TableOutput> {
+        self.rows.iter().map(|row| &row.output).chain(&self.otherwise)
+    }
+}
+
 /// One row of a truth table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableRow {
@@ -326,10 +335,18 @@ pub struct TableRow {
 /// The output of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableOutput {
-    /// Most significant bit first; the compiler chooses a bit that is `None`.
-    pub bits: Vec<Option<bool>>,
+    pub value: OutputValue,
     /// The place.
     pub span: Span,
+}
+
+/// The value of an output.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OutputValue {
+    /// Most significant bit first; the compiler chooses a bit that is `None`.
+    Bits(Vec<Option<bool>>),
+    /// This one of the expressions of the table.
+    Expression(usize),
 }
 
 /// A circuit with values for its parameters.

@@ -22,8 +22,8 @@ mod wording;
 pub use behavior::{Behavior, Direction};
 pub use body::Body;
 pub use circuit::{
-    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, Parameter,
-    Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
+    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, OutputValue,
+    Parameter, Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
 };
 pub use column::Column;
 pub(crate) use column::bit_parts;

@@ -8,7 +8,8 @@ use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
-    ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntaxId, SizeSyntaxKind, TableRowSyntax,
+    ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntaxId, SizeSyntaxKind, TableOutputSyntax,
+    TableRowSyntax,
 };
 use crate::syntax::wording::{Slip, SyntaxError};
 
@@ -236,15 +237,20 @@ impl Converter<'_> {
     fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let inputs = self.expressions(parts.next().expect("operands"), arena);
-        ExpressionSyntaxKind::Table { inputs, rows: parts.map(|row| self.table_row(row)).collect() }
+        ExpressionSyntaxKind::Table { inputs, rows: parts.map(|row| self.table_row(row, arena)).collect() }
     }
 
-    fn table_row(&mut self, pair: Pair<Rule>) -> TableRowSyntax {
+    fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {
         let span = self.span(&pair);
         let mut parts = parts(pair);
         let pattern = parts.next().expect("a pattern");
         let pattern = (pattern.as_rule() == Rule::pattern).then(|| self.name(&pattern));
-        TableRowSyntax { pattern, output: self.name(&parts.next().expect("an output")), span }
+        let output = parts.next().expect("an output");
+        let output = match output.as_rule() {
+            Rule::output_bits => TableOutputSyntax::Bits(self.name(&output)),
+            _ => TableOutputSyntax::Value(self.expression(output, arena)),
+        };
+        TableRowSyntax { pattern, output, span }
     }
 }
 

@@ -496,9 +496,18 @@ pub enum ExpressionSyntaxKind {
 pub struct TableRowSyntax {
     /// The pattern; `None` is `else`.
     pub pattern: Option<NameSyntax>,
-    pub output: NameSyntax,
+    pub output: TableOutputSyntax,
     /// The place of the row.
     pub span: Span,
+}
+
+/// The output of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TableOutputSyntax {
+    /// `0-1`
+    Bits(NameSyntax),
+    /// The value of an expression.
+    Value(ExpressionSyntaxId),
 }
 
 /// The operators between two operands.

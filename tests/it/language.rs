@@ -123,3 +123,27 @@ fn every_test_of_the_gallery_passes_at_the_level_of_logic() {
         }
     }
 }
+
+#[test]
+fn the_outputs_of_a_table_may_be_expressions() {
+    let text = "\
+circuit by_table(op[2], a[3], b[3]) -> (q[3], r[3], s) {
+    q = table(op) { 00: a + b, 01: a - b, 10: 101, 11: {b[0], 2'b10} }
+    r = table(op) { 1-: if a == b then 3'd1 else a, else: a xor b }
+    s = table(op, a[0]) {
+        000: b[1] 001: 1 -10: 0
+        else: not b[0]
+    }
+}
+
+circuit by_choice(op[2], a[3], b[3]) -> (q[3], r[3], s) {
+    q = if op == 2'd0 then a + b else if op == 2'd1 then a - b else if op == 2'd2 then 3'd5 else {b[0], 2'b10}
+    r = if not op[1] then a xor b else if a == b then 3'd1 else a
+    s = if op[0] and not a[0] then 0 else if op != 2'd0 then not b[0] else if a[0] then 1 else b[1]
+}
+
+test by_table for all inputs against by_choice
+";
+    let program = sound("table.nb", text);
+    passes(&program, &program.tests[0]);
+}

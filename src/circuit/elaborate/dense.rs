@@ -26,17 +26,16 @@ pub(super) enum Shape {
 }
 
 impl Dense {
-    /// One output bit, counted from the highest, of a table with that many inputs.
-    pub(super) fn of(table: &Table, inputs: usize, bit: usize) -> Self {
-        let otherwise = table.otherwise.as_ref().and_then(|output| output.bits[bit]);
+    /// One output bit of a table with that many inputs: its value in each row, and for the other patterns.
+    pub(super) fn of(table: &Table, inputs: usize, values: &[Option<bool>], otherwise: Option<bool>) -> Self {
         let mut outputs = vec![otherwise; 1 << inputs];
-        for row in &table.rows {
+        for (row, output_bit) in table.rows.iter().zip(values) {
             let value =
                 |wanted| row.pattern.iter().fold(0usize, |sum, digit| sum << 1 | usize::from(*digit == Some(wanted)));
             let (ones, zeros) = (value(true), value(false));
             for (pattern, output) in outputs.iter_mut().enumerate() {
                 if pattern & ones == ones && pattern & zeros == 0 {
-                    *output = row.output.bits[bit];
+                    *output = *output_bit;
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::module::{Bit, ModuleId, ModuleSignal, NONE, Site};
+use crate::circuit::elaborate::table::TableValues;
 use crate::circuit::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
 use crate::source::Span;
@@ -136,9 +137,11 @@ impl ModuleBuilder<'_, '_> {
             ExpressionKind::Choice { condition, then, otherwise } => {
                 self.choice([*condition, *then, *otherwise], take(3), span)?
             }
-            ExpressionKind::Table { inputs, table } => {
+            ExpressionKind::Table { inputs, outputs, table } => {
+                let values = take(outputs.len());
                 let inputs: Vec<Bit> = take(inputs.len()).into_iter().rev().flatten().collect();
-                self.table(&circuit.tables[*table], &inputs)?
+                let values = TableValues { expressions: outputs, bits: &values };
+                self.table(&circuit.tables[*table], &inputs, values)?
             }
             ExpressionKind::Call { circuit, arguments, operands } => {
                 let values = take(operands.len());
@@ -154,6 +157,11 @@ impl ModuleBuilder<'_, '_> {
             self.constants[usize::from(value)] = self.signal(ModuleSignal::Constant(value));
         }
         self.constants[usize::from(value)]
+    }
+
+    /// Whether a net is this constant.
+    pub(super) fn is_constant(&self, bit: Bit, value: bool) -> bool {
+        bit != NONE && bit == self.constants[usize::from(value)]
     }
 
     fn signal(&mut self, signal: ModuleSignal) -> Bit {
@@ -277,7 +285,7 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// A value with the name that advice calls it by.
-    fn operand(&self, id: ExpressionId, value: &[Bit]) -> OperandText {
+    pub(super) fn operand(&self, id: ExpressionId, value: &[Bit]) -> OperandText {
         let net = match self.circuit.expressions[id.0 as usize].kind {
             ExpressionKind::Net(slot) => Some(self.circuit.nets[slot.0 as usize].name.clone()),
             _ => None,

@@ -3,35 +3,113 @@
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::dense::{Dense, Shape};
 use crate::circuit::elaborate::module::{Bit, NONE};
-use crate::circuit::elaborate::wording::ElaborateError;
-use crate::model::{Function, Table, TableRow};
+use crate::circuit::elaborate::wording::{ElaborateError, OperandText, WidthError};
+use crate::model::{ExpressionId, Function, OutputValue, Table, TableOutput, TableRow};
 use crate::source::Span;
 
 /// Tables with more input bits are built row by row, not decomposed.
 const MAX_DENSE_BITS: usize = 12;
 
+/// One bit of an output.
+#[derive(Clone, Copy)]
+enum OutputBit {
+    /// A value, or a bit that the compiler chooses.
+    Fixed(Option<bool>),
+    /// A net.
+    Net(Bit),
+}
+
+impl OutputBit {
+    fn fixed(self) -> Option<Option<bool>> {
+        match self {
+            Self::Fixed(value) => Some(value),
+            Self::Net(_) => None,
+        }
+    }
+}
+
+/// The outputs of a table that are expressions, and their values.
+#[derive(Clone, Copy)]
+pub(super) struct TableValues<'a> {
+    pub(super) expressions: &'a [ExpressionId],
+    pub(super) bits: &'a [Vec<Bit>],
+}
+
 impl ModuleBuilder<'_, '_> {
     /// The outputs of a table for these input bits, the lowest first.
-    pub(super) fn table(&mut self, table: &Table, inputs: &[Bit]) -> Option<Vec<Bit>> {
+    pub(super) fn table(&mut self, table: &Table, inputs: &[Bit], values: TableValues) -> Option<Vec<Bit>> {
         if let Some(row) = table.rows.iter().find(|row| row.pattern.len() != inputs.len()) {
             let error = ElaborateError::PatternWidth { found: row.pattern.len(), expected: inputs.len() };
             self.fault(error.at(row.span));
             return None;
         }
-        let output = table.rows.first().map(|row| &row.output).or(table.otherwise.as_ref())?;
-        Some((0..output.bits.len()).rev().map(|bit| self.table_bit(table, inputs, bit)).collect())
+        let outputs: Vec<Vec<OutputBit>> = table.outputs().map(|output| self.output_bits(output, values)).collect();
+        let width = outputs.first()?.len();
+        if let Some(at) = outputs.iter().position(|output| output.len() != width) {
+            let mut texts = table.outputs().zip(&outputs).map(|(output, bits)| self.output_text(output, bits, values));
+            let (first, second) = (texts.next()?, texts.nth(at - 1)?);
+            self.fault(WidthError::Outputs { first, second }.into());
+            return None;
+        }
+        let column = |bit: usize| outputs.iter().map(|output| output[bit]).collect::<Vec<_>>();
+        let columns: Vec<_> = (0..width).map(column).collect();
+        Some(columns.iter().map(|column| self.table_bit(table, inputs, column)).collect())
     }
 
-    fn table_bit(&mut self, table: &Table, inputs: &[Bit], bit: usize) -> Bit {
-        if inputs.len() <= MAX_DENSE_BITS {
-            let dense = Dense::of(table, inputs.len(), bit);
+    /// The bits of an output, the lowest first.
+    fn output_bits(&self, output: &TableOutput, values: TableValues) -> Vec<OutputBit> {
+        let value = |bit| match [false, true].into_iter().find(|&value| self.is_constant(bit, value)) {
+            Some(value) => OutputBit::Fixed(Some(value)),
+            None => OutputBit::Net(bit),
+        };
+        match &output.value {
+            OutputValue::Bits(bits) => bits.iter().rev().map(|&bit| OutputBit::Fixed(bit)).collect(),
+            OutputValue::Expression(index) => values.bits[*index].iter().map(|&bit| value(bit)).collect(),
+        }
+    }
+
+    /// An output for a message about its width.
+    fn output_text(&self, output: &TableOutput, bits: &[OutputBit], values: TableValues) -> OperandText {
+        match output.value {
+            OutputValue::Bits(_) => OperandText { width: bits.len() as u32, span: output.span, net: None },
+            OutputValue::Expression(index) => self.operand(values.expressions[index], &values.bits[index]),
+        }
+    }
+
+    /// One bit of the outputs: in each row, and for the other patterns if there is an `else`.
+    fn table_bit(&mut self, table: &Table, inputs: &[Bit], column: &[OutputBit]) -> Bit {
+        let (rows, otherwise) = column.split_at(table.rows.len());
+        let otherwise = otherwise.first().copied().unwrap_or(OutputBit::Fixed(None));
+        let fixed: Option<Vec<_>> = rows.iter().map(|bit| bit.fixed()).collect();
+        if let (Some(rows), Some(otherwise), true) = (fixed, otherwise.fixed(), inputs.len() <= MAX_DENSE_BITS) {
+            let dense = Dense::of(table, inputs.len(), &rows, otherwise);
             return self.shape(&dense.shape(), inputs, table.span);
         }
-        let otherwise = table.otherwise.as_ref().and_then(|output| output.bits[bit]).unwrap_or(false);
-        let rows = table.rows.iter().filter(|row| row.output.bits[bit].is_some_and(|value| value != otherwise));
-        let terms: Vec<Bit> = rows.map(|row| self.term(row, inputs, table.span)).collect();
+        let mut terms = Vec::new();
+        for (row, &bit) in table.rows.iter().zip(rows) {
+            terms.extend(self.row_bit(bit, |builder| builder.term(row, inputs, table.span), table.span));
+        }
+        terms.extend(self.row_bit(otherwise, |builder| builder.no_row(table, inputs), table.span));
+        self.join(Function::OR, terms, false, table.span)
+    }
+
+    /// An output bit if the inputs match, else 0; `None` if it is always 0.
+    fn row_bit(&mut self, bit: OutputBit, matches: impl FnOnce(&mut Self) -> Bit, span: Span) -> Option<Bit> {
+        match bit {
+            OutputBit::Fixed(Some(true)) => Some(matches(self)),
+            OutputBit::Fixed(_) => None,
+            OutputBit::Net(bit) => {
+                let matched = matches(self);
+                Some(self.gate(Function::AND, [matched, bit], span))
+            }
+        }
+    }
+
+    /// Whether the inputs match no row.
+    fn no_row(&mut self, table: &Table, inputs: &[Bit]) -> Bit {
+        let terms = table.rows.iter().map(|row| self.term(row, inputs, table.span)).collect();
         let any = self.join(Function::OR, terms, false, table.span);
-        if otherwise { self.gate(Function::NOT, [any, NONE], table.span) } else { any }
+        self.gate(Function::NOT, [any, NONE], table.span)
     }
 
     /// Whether the inputs match a row.

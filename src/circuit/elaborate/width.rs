@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use crate::circuit::elaborate::build::ModuleBuilder;
 use crate::circuit::elaborate::instance;
 use crate::circuit::elaborate::wording::ElaborateError;
-use crate::model::{ExpressionId, ExpressionKind, NetSlot};
+use crate::model::{ExpressionId, ExpressionKind, NetSlot, OutputValue, TableOutput};
 
 /// The widths of an expression's values, if known, and the first net whose width is missing.
 struct Widths {
@@ -157,11 +157,14 @@ impl ModuleBuilder<'_, '_> {
                 let branches = take(3);
                 one(branches[1].or(branches[2]))
             }
-            ExpressionKind::Table { inputs, table } => {
+            ExpressionKind::Table { inputs, outputs, table } => {
+                let expressions = take(outputs.len());
                 take(inputs.len());
-                let table = &circuit.tables[*table];
-                let output = table.rows.first().map(|row| &row.output).or(table.otherwise.as_ref());
-                one(output.map(|output| output.bits.len() as u32))
+                let width = |output: &TableOutput| match &output.value {
+                    OutputValue::Bits(bits) => Some(bits.len() as u32),
+                    OutputValue::Expression(index) => expressions[*index],
+                };
+                one(circuit.tables[*table].outputs().find_map(width))
             }
             ExpressionKind::Call { circuit: callee, arguments, operands } => {
                 let operands = take(operands.len());

@@ -69,6 +69,8 @@ pub(super) enum WidthError {
     Operands { operator: &'static str, first: OperandText, second: OperandText },
     /// The two values of a choice.
     Branches { first: OperandText, second: OperandText },
+    /// Two outputs of a table.
+    Outputs { first: OperandText, second: OperandText },
 }
 
 impl From<WidthError> for Diagnostic {
@@ -79,6 +81,7 @@ impl From<WidthError> for Diagnostic {
                 unequal(&format!("the operands of `{operator}`"), &first, &second)
             }
             WidthError::Branches { first, second } => unequal("the branches", &first, &second),
+            WidthError::Outputs { first, second } => unequal("the outputs of the table", &first, &second),
         }
     }
 }

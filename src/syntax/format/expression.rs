@@ -3,7 +3,7 @@
 use crate::syntax::format::layout::LayoutPiece;
 use crate::syntax::tree::{
     Argument, BodySyntax, ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntax, SizeSyntaxId,
-    SizeSyntaxKind, TableRowSyntax,
+    SizeSyntaxKind, TableOutputSyntax, TableRowSyntax,
 };
 
 /// The pieces of an expression.
@@ -128,7 +128,11 @@ fn table(body: &BodySyntax, inputs: &[ExpressionSyntaxId], rows: &[TableRowSynta
         pieces.push(LayoutPiece::Break(if at == 0 { " " } else { ", " }));
         pieces.push(LayoutPiece::Text(format!("{pattern}:")));
         pieces.push(LayoutPiece::Pad(pad));
-        pieces.push(LayoutPiece::Text(format!(" {}", row.output.text)));
+        text(pieces, " ");
+        match &row.output {
+            TableOutputSyntax::Bits(bits) => text(pieces, &*bits.text),
+            TableOutputSyntax::Value(value) => push(body, *value, pieces),
+        }
     }
     pieces.push(LayoutPiece::EndBreak(" "));
     pieces.push(LayoutPiece::Close);
