@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::circuit::formats::{Design, blif, dot, verilog};
 use crate::circuit::timing::fan_out;
-use crate::circuit::{CellLibrary, Delays, MapOptions, Memory, NetId, Netlist, Race, Timing, levels, races};
+use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::UsageError;
@@ -70,8 +70,7 @@ impl BuildArguments {
         let checked = session.open(&self.file.to_string_lossy())?;
         let choice = self.circuit.choice();
         let circuit = checked.circuit(&choice)?;
-        let MapOptions { objective, effort } = self.mapping.options();
-        let options = CompileOptions { swarm: choice.swarm, objective, effort, ..self.runs.options() };
+        let options = self.mapping.with(CompileOptions { swarm: choice.swarm, ..self.runs.options() });
         let mapping = match chosen {
             Some(cells) => session.map_onto(&checked, &circuit, &cells, &options)?,
             None => session.map(&checked, &circuit, &options)?,

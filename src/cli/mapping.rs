@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 use crate::circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
 use crate::cli::wording::UsageError;
 use crate::cli::{Failure, robots};
-use crate::model::Function;
+use crate::model::{Function, Library};
+use crate::session::CompileOptions;
 use crate::{store, swarm};
 
 /// The available cells and the options of mapping.
@@ -19,7 +20,14 @@ pub(super) struct MappingArguments {
     /// A robot file, or a folder of them, whose functions are the cells
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
-    /// What to minimize
+    #[command(flatten)]
+    goal: GoalArguments,
+}
+
+/// The goal of mapping.
+#[derive(Args)]
+pub(super) struct GoalArguments {
+    /// What to optimize; of several robots for a function, the one that suits it best is used
     #[arg(long, value_enum, default_value_t)]
     objective: ObjectiveWord,
     /// The amount of search
@@ -27,16 +35,33 @@ pub(super) struct MappingArguments {
     effort: EffortWord,
 }
 
+impl GoalArguments {
+    /// How to map.
+    pub(super) fn options(&self) -> MapOptions {
+        MapOptions { objective: self.objective.into(), effort: self.effort.into() }
+    }
+
+    /// These options with the goal.
+    pub(super) fn with(&self, options: CompileOptions) -> CompileOptions {
+        let MapOptions { objective, effort } = self.options();
+        CompileOptions { objective, effort, ..options }
+    }
+}
+
 impl MappingArguments {
     /// The library that the user chose, else that of the built-in robots.
     pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
-        Ok(self.chosen()?.unwrap_or_else(|| swarm::cells(&store::shipped_library())))
+        Ok(self.chosen()?.unwrap_or_else(|| self.cells_of(&store::shipped_library())))
+    }
+
+    fn cells_of(&self, robots: &Library) -> CellLibrary {
+        swarm::cells(&swarm::prefer(robots, self.goal.options().objective))
     }
 
     /// The library that the user chose.
     pub(super) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
         Ok(Some(match (&self.library, &self.cells[..]) {
-            (Some(path), _) => swarm::cells(&robots::robots(path)?),
+            (Some(path), _) => self.cells_of(&robots::robots(path)?),
             (None, []) => return Ok(None),
             (None, [all]) if all == "all" => CellLibrary::uniform(
                 Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),
@@ -47,7 +72,12 @@ impl MappingArguments {
 
     /// How to map.
     pub(super) fn options(&self) -> MapOptions {
-        MapOptions { objective: self.objective.into(), effort: self.effort.into() }
+        self.goal.options()
+    }
+
+    /// These options with the goal.
+    pub(super) fn with(&self, options: CompileOptions) -> CompileOptions {
+        self.goal.with(options)
     }
 }
 

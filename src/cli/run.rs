@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
 use crate::cli::wording::SubjectError;
@@ -44,6 +45,8 @@ pub struct RunArguments {
     no_report: bool,
     #[command(flatten)]
     runs: RunsArguments,
+    #[command(flatten)]
+    goal: GoalArguments,
     #[command(flatten)]
     timings: Timings,
 }
@@ -100,7 +103,7 @@ impl RunArguments {
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
         store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
-        let options = self.runs.options();
+        let options = self.goal.with(self.runs.options());
         let mut runs = Vec::new();
         for test in tests {
             runs.extend(run_test(&session, &file, test, &options)?.into_iter().map(Ran::Test));

@@ -7,6 +7,7 @@ use crate::session::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
 use crate::session::options::CompileOptions;
 use crate::session::robots::Supply;
 use crate::session::wording::ChoiceError;
+use crate::swarm;
 
 /// A circuit with everything that its swarm declares.
 #[derive(Clone, Debug)]
@@ -66,10 +67,10 @@ pub(super) fn of_swarm(
     supply: Supply<'_>,
     program: &Program,
     circuit: &Instance,
-    swarm: Option<&Swarm>,
+    declaration: Option<&Swarm>,
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let declared = program.library(swarm.map_or(DEFAULT_LIBRARY, |swarm| swarm.library.as_str()));
+    let declared = program.library(declaration.map_or(DEFAULT_LIBRARY, |swarm| swarm.library.as_str()));
     let library = match (&options.robots, declared) {
         (Some(robots), _) => robots.clone(),
         (None, Some(declared)) => supply.library(declared, &options.runs)?,
@@ -77,10 +78,10 @@ pub(super) fn of_swarm(
     };
     Ok(Plan {
         circuit: circuit.clone(),
-        swarm: swarm.map(|swarm| swarm.name.clone()),
-        library,
-        hold: swarm.map_or(Hold::Auto, |swarm| swarm.hold),
-        window: swarm.map_or(1, |swarm| swarm.window),
+        swarm: declaration.map(|swarm| swarm.name.clone()),
+        library: swarm::prefer(&library, options.objective),
+        hold: declaration.map_or(Hold::Auto, |swarm| swarm.hold),
+        window: declaration.map_or(1, |swarm| swarm.window),
     })
 }
 

@@ -1,7 +1,25 @@
 //! A robot library as a cell library for the compiler: the available functions, and the delay of each robot.
 
-use crate::circuit::{CellKind, CellLibrary};
-use crate::model::{Function, Library, Pattern, Robot};
+use crate::circuit::{CellKind, CellLibrary, MappingObjective};
+use crate::model::{Character, Function, Library, Pattern, Robot};
+
+/// A library in which the robots that an objective prefers come first: those with the shortest clocks for the delay,
+/// and those with the widest margins for the margin. For the area all are equal, and the order stays.
+pub fn prefer(library: &Library, objective: MappingObjective) -> Library {
+    let mut robots = library.robots.clone();
+    let faster = |a: &Character, b: &Character| a.clock.cmp(&b.clock);
+    let wider = |a: &Character, b: &Character| b.margin.total_cmp(&a.margin);
+    match objective {
+        MappingObjective::Area => {}
+        MappingObjective::Delay => {
+            robots.sort_by(|a, b| faster(&a.character, &b.character).then(wider(&a.character, &b.character)));
+        }
+        MappingObjective::Margin => {
+            robots.sort_by(|a, b| wider(&a.character, &b.character).then(faster(&a.character, &b.character)));
+        }
+    }
+    Library { robots }
+}
 
 /// The cells of a library: for each function its first robot, or else the first that computes it with exchanged inputs.
 /// [`super::assemble`] makes the same choice.

@@ -3,7 +3,7 @@
 use std::fs;
 
 use nbc::circuit::formats::{Design, nb};
-use nbc::circuit::{Delays, Netlist, Timing};
+use nbc::circuit::{Delays, MappingObjective, Netlist, Timing};
 use nbc::model::{Function, Robot};
 use nbc::report::{Stage, describe_test};
 use nbc::session::SwarmRun;
@@ -156,6 +156,20 @@ fn every_circuit_of_the_gallery_computes() {
         }
     }
     assert!(failed.is_empty(), "{failed}");
+}
+
+#[test]
+fn the_objective_chooses_among_robots_of_the_same_function() {
+    let found = [MappingObjective::Delay, MappingObjective::Margin].map(|objective| {
+        let options = CompileOptions { objective, ..CompileOptions::default() };
+        let report = nbc::run_file("circuits/half_adder.nb", &options).unwrap();
+        assert!(report.tests.iter().all(|test| test.verdict.passed), "{}", describe_test(&report.tests[0].verdict));
+        let members = &swarm(&report).compiled.assembly.members;
+        let margins = members.iter().map(|member| member.robot.character.margin);
+        (margins.fold(f64::INFINITY, f64::min), swarm(&report).compiled.timing.hold)
+    });
+    let [(thin, short), (wide, long)] = found;
+    assert!(wide > 4.0 * thin && short < long, "{found:?}");
 }
 
 #[test]

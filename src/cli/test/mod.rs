@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
@@ -38,6 +39,8 @@ pub struct TestArguments {
     physics: bool,
     #[command(flatten)]
     runs: RunsArguments,
+    #[command(flatten)]
+    goal: GoalArguments,
 }
 
 /// A case with the index of its file on the command line.
@@ -78,7 +81,7 @@ impl TestArguments {
 
     /// The tests of the files, in order.
     fn cases<'a>(&self, session: &Session, files: &'a [Arc<Checked>]) -> Result<Vec<Numbered<'a>>, Failure> {
-        let options = TestOptions { level: self.level(), compile: self.runs.options() };
+        let options = TestOptions { level: self.level(), compile: self.goal.with(self.runs.options()) };
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
             for test in &file.program.tests {
