@@ -17,7 +17,7 @@ pub enum MappingObjective {
 pub enum Effort {
     /// Little: for quick looks.
     Fast,
-    /// Well under a second for most circuits.
+    /// Seconds for circuits of a few hundred cells.
     #[default]
     Normal,
     /// As good as it gets in minutes.

@@ -96,7 +96,7 @@ enum ObjectiveWord {
 enum EffortWord {
     /// A quick look
     Fast,
-    /// Well under a second for most circuits
+    /// Seconds for circuits of a few hundred cells
     #[default]
     Normal,
     /// As good as it gets in minutes

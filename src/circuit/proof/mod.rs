@@ -6,12 +6,15 @@
 
 mod exhaustive;
 mod method;
+mod patterns;
 mod sat;
 mod structural;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use method::Method;
+pub use patterns::random_word;
+pub use sat::Comparison;
 pub(crate) use sat::SatSweep;
 
 use crate::circuit::loops::Loops;

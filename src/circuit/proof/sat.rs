@@ -11,22 +11,53 @@ use rustsat_batsat::BasicSolver;
 
 use crate::circuit::network::{Gate, Network, Signal, word};
 use crate::circuit::proof::method::Method;
+use crate::circuit::proof::patterns::random_word;
 use crate::model::Function;
 
 /// Words of 64 random patterns to start with.
-const WORDS: usize = 16;
+const WORDS: usize = 32;
 
 /// Proves two networks equal; fails with an output and inputs at which it differs.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
-    let mut sweep = SatSweep::new(one.inputs);
-    let first = sweep.add(one);
-    let second = sweep.add(two);
-    for (output, (&a, &b)) in one.outputs.iter().zip(&two.outputs).enumerate() {
-        if let Some(inputs) = sweep.difference(first[a as usize], second[b as usize]) {
-            return Err((output, inputs));
-        }
+    let mut comparison = Comparison::with(one);
+    comparison.compare(two)?;
+    Ok(Method::Sat { calls: comparison.sweep.calls })
+}
+
+/// The comparison of networks with one network. What is proved of a network helps to compare the next.
+pub struct Comparison {
+    sweep: SatSweep,
+    outputs: Vec<(Signal, bool)>,
+}
+
+impl Comparison {
+    /// A comparison with this network.
+    pub fn with(network: &Network) -> Self {
+        let mut sweep = SatSweep::new(network.inputs);
+        let signals = sweep.add(network);
+        Self { outputs: network.outputs.iter().map(|&output| signals[output as usize]).collect(), sweep }
     }
-    Ok(Method::Sat { calls: sweep.calls })
+
+    /// Proves a network equal; fails with an output and inputs at which it differs.
+    pub fn compare(&mut self, network: &Network) -> Result<(), (usize, Vec<bool>)> {
+        let signals = self.sweep.add(network);
+        for (output, (&a, &b)) in self.outputs.iter().zip(&network.outputs).enumerate() {
+            if let Some(inputs) = self.sweep.difference(a, signals[b as usize]) {
+                return Err((output, inputs));
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of calls of the solver so far.
+    pub fn calls(&self) -> usize {
+        self.sweep.calls
+    }
+
+    /// The number of signals that were compared so far.
+    pub fn signals(&self) -> usize {
+        self.sweep.values.len()
+    }
 }
 
 /// Signals of several networks over the same inputs, merged if they are proved equal or opposite.
@@ -53,7 +84,7 @@ impl SatSweep {
     /// No gates yet.
     pub fn new(inputs: usize) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_726f_6f66);
-        let patterns = (0..WORDS).map(|_| (0..inputs).map(|_| rand::Rng::next_u64(&mut random)).collect()).collect();
+        let patterns = (0..WORDS).map(|word| (0..inputs).map(|_| random_word(word, &mut random)).collect()).collect();
         let mut sweep = Self {
             solver: BasicSolver::default(),
             patterns,

@@ -146,6 +146,11 @@ impl<'p> Graph<'p> {
         &self.values[signal as usize * self.width..][..self.width]
     }
 
+    /// The values of all signals, each in the row of its number.
+    pub fn all_values(&self) -> &[u64] {
+        &self.values
+    }
+
     /// A gate of the library, found or made.
     pub fn make(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let pins = match (function.depends_on(0), function.depends_on(1)) {
@@ -386,7 +391,7 @@ impl<'p> Graph<'p> {
 
     /// Whether a signal is shown.
     pub fn is_output(&self, signal: Signal) -> bool {
-        self.outputs.contains(&signal)
+        self.nodes[signal as usize].refs as usize > self.fanout[signal as usize].len()
     }
 
     /// Sets the outputs, removes gates they do not need, and returns the network.

@@ -6,27 +6,31 @@ use rand_chacha::ChaCha8Rng;
 use crate::circuit::cells::CellLibrary;
 use crate::circuit::network::{Network, Signal};
 use crate::circuit::options::{Effort, MapOptions, MappingObjective};
+use crate::circuit::synth::candidates::below;
 use crate::circuit::synth::exact::{self, ExactResult};
 use crate::circuit::synth::graph::Graph;
+use crate::circuit::synth::parts::in_parts;
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::roam::roam;
 use crate::circuit::synth::walk::{self, Pace, WalkPlan};
-use crate::circuit::synth::window::{self, WindowPlan};
 use crate::model::Function;
 
 /// The most inputs of a network that is searched as a whole.
-const WHOLE_INPUTS: usize = 11;
+const WHOLE_INPUTS: usize = 12;
 /// The most inputs of a network that is searched from several starts at high effort, and the number of starts.
 const SMALL_INPUTS: usize = 4;
 const SMALL_STARTS: usize = 6;
 /// The most gates of a network that is searched as a whole.
-const WHOLE_GATES: usize = 500;
-/// The most gates of a network that the walk roams as a whole.
-const MOST_ROAMED: usize = 1_000;
+const WHOLE_GATES: usize = 600;
 /// Above this number of gates, a search without a second one gets this share of the work at normal effort, instead of
 /// 2.
-const MANY_GATES: usize = 100;
-const SHARE_ALONE: u64 = 8;
+const MANY_GATES: usize = 150;
+const SHARE_ALONE: u64 = 4;
+/// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
+const WHOLE_WORK: u64 = 1_200_000_000;
+/// The gates of a part of a wide network whose gates are seen in their surroundings, or in samples of the patterns.
+const NEAR_GATES: usize = 300;
+const FAR_GATES: usize = 1_500;
 /// Above this number of gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
@@ -47,16 +51,7 @@ pub fn reduce(
     if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
         return Ok(direct);
     }
-    let exclusive = target.cost(Function::XOR).unwrap_or(4);
-    let alone = exclusive <= 1 && options.effort == Effort::Normal && direct.gates.len() > MANY_GATES;
-    let mut best = course.search(&direct, if alone { SHARE_ALONE } else { 2 }, &mut random);
-    if exclusive > 1 && (options.effort == Effort::High || is_narrow(&direct)) {
-        // If an exclusive or is expensive, first minimize the number of gates of any kind, then the number of cells.
-        let ideal = Prices::abstracted(2 * exclusive - 1);
-        let few = Course { prices: &ideal, ..course }.search(&cover(network, &ideal, stages)?, 1, &mut random);
-        let mapped = course.search(&cover(&few, &target, stages)?, 2, &mut random);
-        best = cheaper(best, mapped, &target);
-    }
+    let mut best = course.search_both_ways(network, &direct, &mut random)?;
     best = course.fewest(best);
     if options.objective == MappingObjective::Delay {
         best = course.quicken(&best, &mut random);
@@ -64,9 +59,10 @@ pub fn reduce(
     Ok(best)
 }
 
-/// The cheaper of two networks; of equal cost, the first.
+/// The cheaper of two networks; of equal cost, the one with the shorter slowest path, or the first.
 fn cheaper(one: Network, two: Network, prices: &Prices) -> Network {
-    if cost(&two, prices) < cost(&one, prices) { two } else { one }
+    let rank = |network: &Network| (cost(network, prices), depth(network, prices));
+    if rank(&two) < rank(&one) { two } else { one }
 }
 
 /// The cost of a network's cells.
@@ -107,17 +103,66 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
+    /// The search for the library's prices, and the search that first minimizes the number of gates of any kind.
+    fn search_both_ways(
+        &self,
+        network: &Network,
+        direct: &Network,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Network, Function> {
+        let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
+        let gates = direct.gates.len();
+        let normal = self.effort == Effort::Normal;
+        if normal && !is_narrow(direct) && gates > MANY_GATES {
+            return self.search_gates(network, direct, 1, random);
+        }
+        let alone = exclusive <= 1 && normal && gates > MANY_GATES;
+        let best = self.search(direct, if alone { SHARE_ALONE } else { 2 }, random);
+        if exclusive <= 1 || self.effort == Effort::Fast && !is_narrow(direct) {
+            return Ok(best);
+        }
+        let other = self.search_gates(network, direct, 1, random)?;
+        Ok(cheaper(best, other, self.prices))
+    }
+
+    /// Minimizes the number of gates of any kind, an exclusive or counted as slightly less than its cells, then the
+    /// number of cells. Where inverters are free, a search is stuck less often.
+    fn search_gates(
+        &self,
+        network: &Network,
+        direct: &Network,
+        share: u64,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Network, Function> {
+        let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
+        let ideal = Prices::abstracted(if exclusive > 1 { 2 * exclusive - 1 } else { 2 });
+        let few = Course { prices: &ideal, ..*self }.search(&cover(network, &ideal, self.stages)?, share, random);
+        let mapped = cover(&few, self.prices, self.stages)?;
+        Ok(self.search(&cheaper(direct.clone(), mapped, self.prices), 2 * share, random))
+    }
+
     /// The search for a network's width and the effort; `share` is its part of the work.
     fn search(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         if !is_narrow(network) {
-            return self.search_wide(network, share, random);
+            let wide = self.search_wide(network, share, random);
+            return if is_narrow(&wide) { self.search_whole(&wide, share, random) } else { wide };
         }
+        match network.gates.len() > MANY_GATES && self.effort == Effort::Normal {
+            true => self.search_whole(&self.search_wide(network, share, random), share, random),
+            false => self.search_whole(network, share, random),
+        }
+    }
+
+    /// Searches a narrow network over every pattern.
+    fn search_whole(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         let gates = network.gates.len() as u64;
         let visits = match self.effort {
             Effort::Fast => (8 * gates).min(1_000),
-            Effort::Normal => (12 * gates).clamp(150, 500),
+            Effort::Normal => (25 * gates + gates * gates / 20).clamp(150, 6_000),
             Effort::High => (1_000 * gates).clamp(10_000, 60_000),
         };
+        let words = (1u64 << network.inputs).div_ceil(64);
+        let visits = visits.min(WHOLE_WORK / (words * gates.max(1)));
         let calm = WalkPlan::calm(visits * share);
         let bold = WalkPlan { climb: 400, patience: visits / 4, ..calm };
         let mut walk = || {
@@ -130,26 +175,38 @@ impl Course<'_> {
         (1..starts).fold(first, |best, _| cheaper(best, walk(), self.prices))
     }
 
-    /// Searches in windows and over samples of the patterns, in turns.
+    /// Searches each gate's surroundings and then over samples of the patterns, in rounds.
     fn search_wide(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
-        let &Self { prices, stages, effort } = self;
-        let (rounds, visits, steps) = match effort {
-            Effort::Fast => (1, 20, 0),
-            Effort::Normal => ((1_000 / network.gates.len() as u64).clamp(2, 5) * share / 2, 50, 2),
-            Effort::High => (3 * share, 400, 16),
+        let round = match self.effort {
+            Effort::Fast => Round { near: 2, most_near: 100_000, far: 0, most_far: 0, work: 0 },
+            Effort::Normal => Round { near: 50, most_near: 100_000, far: 16, most_far: 8_000, work: 2_400_000 },
+            Effort::High => Round { near: 40, most_near: 800_000, far: 30, most_far: 30_000, work: 9_000_000 },
         };
-        let mut best = network.clone();
-        for round in 0..rounds {
-            let gates = best.gates.len();
-            let (inputs, size) = if effort == Effort::High && round % 2 == 1 { (10, 50) } else { (8, 30) };
-            let panes = WindowPlan { windows: gates.min(3000), inputs, gates: size, plan: WalkPlan::calm(visits) };
-            best = self.no_dearer(best, |best| window::improve(best, prices, stages, panes, random));
-            if gates <= MOST_ROAMED {
-                let plan = WalkPlan::calm(steps * gates as u64);
-                best = self.no_dearer(best, |best| roam(best, prices, stages, plan, random));
+        let rounds = match self.effort {
+            Effort::Fast => 1,
+            Effort::Normal => 2 * share,
+            Effort::High => 6 * share,
+        };
+        (0..rounds).fold(network.clone(), |best, _| {
+            let gates = best.gates.len() as u64;
+            let first = below(random, NEAR_GATES) + 1;
+            let near = self.no_dearer(best, |best| {
+                in_parts(best, self.stages, first, NEAR_GATES, |part, stages| {
+                    let plan = WalkPlan::calm(round.near(part.gates.len() as u64, gates));
+                    walk::improve(part, self.prices, stages, &[], plan, random)
+                })
+            });
+            if round.far == 0 || is_narrow(&near) {
+                return near;
             }
-        }
-        best
+            let first = below(random, FAR_GATES) + 1;
+            self.no_dearer(near, |near| {
+                in_parts(near, self.stages, first, FAR_GATES, |part, stages| {
+                    let plan = WalkPlan::calm(round.far(part.gates.len() as u64, gates));
+                    roam(part, self.prices, stages, plan, random)
+                })
+            })
+        })
     }
 
     /// The result of a search, unless it is more expensive than the network.
@@ -198,6 +255,31 @@ impl Course<'_> {
             }
         }
         best
+    }
+}
+
+/// The visits in a round of the search in a wide network.
+#[derive(Clone, Copy)]
+struct Round {
+    /// Visits to each gate that see its surroundings, and the most such visits to all gates.
+    near: u64,
+    most_near: u64,
+    /// Visits to each gate that see samples of the whole part, and the most such visits to all gates.
+    far: u64,
+    most_far: u64,
+    /// The most such visits to a part, times its gates.
+    work: u64,
+}
+
+impl Round {
+    /// The visits to a part of `part` gates of a network of `all` gates that see surroundings.
+    fn near(&self, part: u64, all: u64) -> u64 {
+        (self.near * part).min(self.most_near * part / all.max(1))
+    }
+
+    /// The visits to a part that see samples.
+    fn far(&self, part: u64, all: u64) -> u64 {
+        (self.far * part).min(self.most_far * part / all.max(1)).min(self.work / part.max(1))
     }
 }
 

@@ -4,30 +4,35 @@
 use rand_chacha::ChaCha8Rng;
 
 use crate::circuit::network::Network;
-use crate::circuit::proof::equal;
+use crate::circuit::proof::{Comparison, random_word};
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::walk::{self, WalkPlan};
 
 /// Words of 64 random patterns to start with.
 const WORDS: usize = 32;
 /// Words of patterns at most.
-const MOST_WORDS: usize = 256;
+const MOST_WORDS: usize = 128;
 /// Visits between two proofs: initial, smallest and largest number.
-const BATCH: [u64; 3] = [32, 8, 4_000];
+const BATCH: [u64; 3] = [32, 8, 1_000];
+/// The most signals that a comparison collects, as a multiple of those of the network.
+const MOST_SIGNALS: usize = 6;
 
-/// Searches for a cheaper network in `visits` visits; every network that it passes through is proved equal to the one
-/// before.
+/// Searches for a cheaper network in `plan.visits` visits, each call of the solver counted as one. Every network that
+/// it passes through is proved equal to the first.
 pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: WalkPlan, random: &mut ChaCha8Rng) -> Network {
     let mut samples = Samples::new(network.inputs, random);
     let [mut batch, least, most] = BATCH;
     let mut now = network.clone();
-    let mut visits = 0;
-    while visits < plan.visits && !now.gates.is_empty() {
+    let mut comparison = Comparison::with(network);
+    let mut work = 0;
+    while work < plan.visits && !now.gates.is_empty() {
         let short = WalkPlan { visits: batch, ..plan };
         let next = walk::improve(&now, prices, stages, &samples.words, short, random);
-        visits += batch;
-        match equal(&now, &next) {
-            Ok(_) => {
+        let calls = comparison.calls();
+        let compared = comparison.compare(&next);
+        work += batch + (comparison.calls() - calls) as u64;
+        match compared {
+            Ok(()) => {
                 now = next;
                 batch = (batch + batch / 2).min(most);
             }
@@ -35,6 +40,9 @@ pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: WalkPlan, 
                 samples.learn(&pattern, random);
                 batch = (batch / 2).max(least);
             }
+        }
+        if comparison.signals() > MOST_SIGNALS * network.signals() {
+            comparison = Comparison::with(&now);
         }
     }
     now
@@ -48,8 +56,8 @@ struct Samples {
 
 impl Samples {
     fn new(inputs: usize, random: &mut ChaCha8Rng) -> Self {
-        let mut word = || rand::Rng::next_u64(random);
-        Self { words: (0..inputs).map(|_| (0..WORDS).map(|_| word()).collect()).collect(), next: WORDS }
+        let words = (0..inputs).map(|_| (0..WORDS).map(|word| random_word(word, random)).collect()).collect();
+        Self { words, next: WORDS }
     }
 
     /// Adds a pattern with 63 of its neighbors; if there are many already, they replace the oldest ones that were not

@@ -6,9 +6,10 @@
 use rand_chacha::ChaCha8Rng;
 
 use crate::circuit::network::{Network, Signal, word};
+use crate::circuit::synth::candidates::{Finder, Replacement, Rows, TRIES, below};
 use crate::circuit::synth::graph::{Graph, every_pattern};
 use crate::circuit::synth::prices::Prices;
-use crate::model::Function;
+use crate::circuit::synth::surroundings::Surroundings;
 
 /// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +43,8 @@ impl WalkPlan {
     }
 }
 
-/// Searches for a cheaper network of the same function; the patterns must be all that can occur.
+/// Searches for a cheaper network of the same function. The patterns must be all that can occur; without patterns, each
+/// gate is seen in its surroundings only.
 pub fn improve(
     network: &Network,
     prices: &Prices,
@@ -53,6 +55,7 @@ pub fn improve(
 ) -> Network {
     let graph = Graph::new(network, prices, stages, patterns);
     let mut walk = Walk::new(graph, plan.pace, random);
+    walk.surroundings = patterns.is_empty().then(Surroundings::default);
     if plan.pace == Pace::Hurry {
         (0..plan.visits).for_each(|_| walk.hurry());
         return walk.graph.network();
@@ -88,17 +91,6 @@ pub fn improve_all(
     improve(network, prices, stages, &every_pattern(network.inputs), plan, random)
 }
 
-/// A replacement of a gate: one function, or a function of a signal and of another function.
-#[derive(Clone, Copy, Debug)]
-enum Candidate {
-    Signal(Signal),
-    One(Function, [Signal; 2]),
-    Two(Function, Signal, Function, [Signal; 2]),
-}
-
-/// A literal: a signal, maybe inverted.
-type Literal = (Signal, bool);
-
 /// The state of a walk, with room for its sums.
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
@@ -115,23 +107,13 @@ struct Walk<'p, 'r> {
     changed: Vec<bool>,
     /// Whether a signal depends on the visited gate.
     after: Vec<bool>,
-    on: Vec<u64>,
-    off: Vec<u64>,
-    divisors: Vec<Signal>,
-    candidates: Vec<Candidate>,
-    ands: Vec<Literal>,
-    ors: Vec<Literal>,
-    buckets: Vec<Vec<Signal>>,
+    finder: Finder,
+    /// The surroundings of the visited gate, if the walk does not see the whole network.
+    surroundings: Option<Surroundings>,
 }
-
-/// The most candidates that are tried in a visit.
-const TRIES: usize = 24;
 
 /// The highest cost of making one gate earlier.
 const HURRY_PRICE: u32 = 6;
-
-/// Buckets of the table that finds exclusive ors.
-const BUCKETS: usize = 256;
 
 impl<'p, 'r> Walk<'p, 'r> {
     fn new(graph: Graph<'p>, pace: Pace, random: &'r mut ChaCha8Rng) -> Self {
@@ -145,18 +127,13 @@ impl<'p, 'r> Walk<'p, 'r> {
             flipped: Vec::new(),
             changed: Vec::new(),
             after: Vec::new(),
-            on: Vec::new(),
-            off: Vec::new(),
-            divisors: Vec::new(),
-            candidates: Vec::new(),
-            ands: Vec::new(),
-            ors: Vec::new(),
-            buckets: vec![Vec::new(); BUCKETS],
+            finder: Finder::new(),
+            surroundings: None,
         }
     }
 
     fn below(&mut self, bound: usize) -> usize {
-        ((u64::from(rand::Rng::next_u32(self.random)) * bound as u64) >> 32) as usize
+        below(self.random, bound)
     }
 
     /// Visits a random gate; returns whether the network changed.
@@ -199,19 +176,35 @@ impl<'p, 'r> Walk<'p, 'r> {
 
     /// Looks for a replacement of a gate that costs at most `slack`; returns whether the network changed.
     fn change(&mut self, gate: Signal, slack: u32) -> bool {
-        self.observe(gate);
-        self.find_divisors(gate);
-        self.candidates.clear();
-        let (on, off) = (std::mem::take(&mut self.on), std::mem::take(&mut self.off));
-        self.find_candidates(&on, &off, None);
-        if self.graph.released(gate) + slack >= 2 {
-            self.find_deeper(&on, &off);
+        let deep = self.graph.released(gate) + slack >= 2;
+        match self.surroundings.take() {
+            Some(mut surroundings) => {
+                self.look_around(&mut surroundings, gate, deep);
+                self.surroundings = Some(surroundings);
+            }
+            None => {
+                self.observe(gate);
+                self.find_divisors(gate);
+                let rows = Rows { words: self.graph.all_values(), width: self.graph.width(), places: None };
+                self.finder.find(rows, deep, self.random);
+            }
         }
-        (self.on, self.off) = (on, off);
         self.graph.set_leaving(Some(gate));
         let changed = self.choose(gate, i64::from(slack));
         self.graph.set_leaving(None);
         changed
+    }
+
+    /// Finds candidates in the surroundings of a gate.
+    fn look_around(&mut self, surroundings: &mut Surroundings, gate: Signal, deep: bool) {
+        let graph = &self.graph;
+        surroundings.look(graph, gate);
+        surroundings.observe(graph, gate, &mut self.finder.on, &mut self.finder.off);
+        let stage = graph.node(gate).stage;
+        self.finder.divisors.clear();
+        let known = surroundings.before().iter().copied();
+        self.finder.divisors.extend(known.filter(|&signal| graph.node(signal).stage <= stage));
+        self.finder.find(surroundings.rows(), deep, self.random);
     }
 
     /// Finds the patterns in which the gate matters (`on`: and it is 1, `off`: and it is 0) and the gates that depend
@@ -237,20 +230,21 @@ impl<'p, 'r> Walk<'p, 'r> {
                 self.changed[signal as usize] = self.flip(signal, [a, b]);
             }
         }
-        self.on.clear();
-        self.on.resize(width, 0);
+        let Finder { on, off, .. } = &mut self.finder;
+        on.clear();
+        on.resize(width, 0);
         for &output in self.graph.outputs() {
             if self.changed[output as usize] {
                 let flipped = &self.flipped[output as usize * width..][..width];
                 for (i, (value, flipped)) in self.graph.values(output).iter().zip(flipped).enumerate() {
-                    self.on[i] |= value ^ flipped;
+                    on[i] |= value ^ flipped;
                 }
             }
         }
         let values = self.graph.values(gate);
-        self.off.clear();
-        self.off.extend(self.on.iter().zip(values).map(|(care, value)| care & !value));
-        self.on.iter_mut().zip(values).for_each(|(care, value)| *care &= value);
+        off.clear();
+        off.extend(on.iter().zip(values).map(|(care, value)| care & !value));
+        on.iter_mut().zip(values).for_each(|(care, value)| *care &= value);
     }
 
     /// Computes a gate with the visited one inverted; returns whether it changes.
@@ -276,171 +270,18 @@ impl<'p, 'r> Walk<'p, 'r> {
         let stage = self.graph.node(gate).stage;
         let sources = 2..self.graph.first_gate();
         let all = sources.chain(self.graph.order().iter().copied());
-        self.divisors.clear();
         let (after, graph) = (&self.after, &self.graph);
-        self.divisors.extend(all.filter(|&signal| !after[signal as usize] && graph.node(signal).stage <= stage));
-    }
-
-    /// Finds signals and functions of two signals that are 1 on `on` and 0 on `off`, `outer` being applied to them.
-    fn find_candidates(&mut self, on: &[u64], off: &[u64], outer: Option<(Function, Signal)>) {
-        self.ands.clear();
-        self.ors.clear();
-        if on.iter().all(|&word| word == 0) || off.iter().all(|&word| word == 0) {
-            let constant = Signal::from(on.iter().any(|&word| word != 0));
-            self.push_signal(constant, outer);
-            return;
-        }
-        for i in 0..self.divisors.len() {
-            let signal = self.divisors[i];
-            let fits = fits(self.graph.values(signal), on, off);
-            if fits.covers_on && fits.avoids_off {
-                self.push_signal(signal, outer);
-            }
-            if fits.avoids_on && fits.covers_off {
-                self.push(Function::NOT, [signal; 2], outer);
-            }
-            let literals = [
-                (fits.covers_on, false, true),
-                (fits.avoids_on, true, true),
-                (fits.avoids_off, false, false),
-                (fits.covers_off, true, false),
-            ];
-            for (_, inverted, and) in literals.into_iter().filter(|&(fits, ..)| fits) {
-                if and { self.ands.push((signal, inverted)) } else { self.ors.push((signal, inverted)) }
-            }
-        }
-        self.find_pairs(off, true, outer);
-        self.find_pairs(on, false, outer);
-        self.find_exclusive(on, off, outer);
-    }
-
-    /// Pairs of literals whose AND is 0 on `target`, or whose OR is 1 on `target`.
-    fn find_pairs(&mut self, target: &[u64], and: bool, outer: Option<(Function, Signal)>) {
-        let literals = std::mem::take(if and { &mut self.ands } else { &mut self.ors });
-        let start = if literals.is_empty() { 0 } else { self.below(literals.len()) };
-        let mut found = 0;
-        'pairs: for i in 0..literals.len() {
-            let one = literals[(start + i) % literals.len()];
-            for j in 0..i {
-                let two = literals[(start + j) % literals.len()];
-                if self.pair_fits(one, two, target, and) {
-                    self.push(pair_function(one.1, two.1, and), [one.0, two.0], outer);
-                    found += 1;
-                    if found > 4 * TRIES {
-                        break 'pairs;
-                    }
-                }
-            }
-        }
-        *(if and { &mut self.ands } else { &mut self.ors }) = literals;
-    }
-
-    fn pair_fits(&self, one: Literal, two: Literal, target: &[u64], and: bool) -> bool {
-        let (a, b) = (self.graph.values(one.0), self.graph.values(two.0));
-        // An OR is 1 on the target where the AND of the opposite literals is 0.
-        let turn = |inverted: bool| if inverted == and { !0 } else { 0 };
-        let (x, y) = (turn(one.1), turn(two.1));
-        a.iter().zip(b).zip(target).all(|((a, b), target)| (a ^ x) & (b ^ y) & target == 0)
-    }
-
-    /// Pairs of signals whose exclusive or, or its opposite, fits.
-    fn find_exclusive(&mut self, on: &[u64], off: &[u64], outer: Option<(Function, Signal)>) {
-        let care = |i: usize| on[i] | off[i];
-        let first = (0..on.len()).find(|&i| care(i) != 0).expect("the gate matters somewhere");
-        let bit = care(first).trailing_zeros();
-        let hash = |values: &[u64]| {
-            let turn = if values[first] >> bit & 1 == 1 { !0 } else { 0 };
-            (0..on.len()).fold(0u64, |hash, i| hash.rotate_left(23) ^ ((values[i] ^ turn) & care(i)))
-        };
-        let target = hash(on);
-        let bucket = |hash: u64| (hash.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as usize % BUCKETS;
-        self.buckets.iter_mut().for_each(Vec::clear);
-        for i in 0..self.divisors.len() {
-            let signal = self.divisors[i];
-            let own = hash(self.graph.values(signal));
-            for j in 0..self.buckets[bucket(own ^ target)].len() {
-                let other = self.buckets[bucket(own ^ target)][j];
-                if let Some(function) = self.exclusive_fits(signal, other, on, off) {
-                    self.push(function, [signal, other], outer);
-                }
-            }
-            self.buckets[bucket(own)].push(signal);
-        }
-    }
-
-    fn exclusive_fits(&self, one: Signal, two: Signal, on: &[u64], off: &[u64]) -> Option<Function> {
-        let (a, b) = (self.graph.values(one), self.graph.values(two));
-        let (mut xor, mut xnor) = (true, true);
-        for i in 0..on.len() {
-            let differ = a[i] ^ b[i];
-            xor &= differ & off[i] == 0 && !differ & on[i] == 0;
-            xnor &= differ & on[i] == 0 && !differ & off[i] == 0;
-            if !xor && !xnor {
-                return None;
-            }
-        }
-        Some(if xor { Function::XOR } else { Function::XNOR })
-    }
-
-    /// Fixes one literal of a random shape, and looks for the others.
-    fn find_deeper(&mut self, on: &[u64], off: &[u64]) {
-        if self.divisors.is_empty() {
-            return;
-        }
-        for shape in 0..3 {
-            let pick = rand::Rng::next_u32(self.random) as usize;
-            let (outer, rest_on, rest_off): (_, Vec<u64>, Vec<u64>) = match shape {
-                0 if !self.ands.is_empty() => {
-                    let (signal, inverted) = self.ands[pick % self.ands.len()];
-                    let turn = if inverted { !0 } else { 0 };
-                    let values = self.graph.values(signal);
-                    let rest = off.iter().zip(values).map(|(off, value)| off & (value ^ turn)).collect();
-                    ((pair_function(inverted, false, true), signal), on.to_vec(), rest)
-                }
-                1 if !self.ors.is_empty() => {
-                    let (signal, inverted) = self.ors[pick % self.ors.len()];
-                    let turn = if inverted { 0 } else { !0 };
-                    let values = self.graph.values(signal);
-                    let rest = on.iter().zip(values).map(|(on, value)| on & (value ^ turn)).collect();
-                    ((pair_function(inverted, false, false), signal), rest, off.to_vec())
-                }
-                2 => {
-                    let signal = self.divisors[pick % self.divisors.len()];
-                    let values = self.graph.values(signal);
-                    let turned = |to: &[u64], from: &[u64]| {
-                        (0..on.len()).map(|i| to[i] & !values[i] | from[i] & values[i]).collect()
-                    };
-                    ((Function::XOR, signal), turned(on, off), turned(off, on))
-                }
-                _ => continue,
-            };
-            let literals = (self.ands.clone(), self.ors.clone());
-            self.find_candidates(&rest_on, &rest_off, Some(outer));
-            (self.ands, self.ors) = literals;
-        }
-    }
-
-    fn push_signal(&mut self, signal: Signal, outer: Option<(Function, Signal)>) {
-        self.candidates.push(match outer {
-            None => Candidate::Signal(signal),
-            Some((function, other)) => Candidate::One(function, [other, signal]),
-        });
-    }
-
-    fn push(&mut self, function: Function, pins: [Signal; 2], outer: Option<(Function, Signal)>) {
-        self.candidates.push(match outer {
-            None => Candidate::One(function, pins),
-            Some((outer, other)) => Candidate::Two(outer, other, function, pins),
-        });
+        self.finder.divisors.clear();
+        self.finder.divisors.extend(all.filter(|&signal| !after[signal as usize] && graph.node(signal).stage <= stage));
     }
 
     /// Tries candidates in random order, and uses the best one that adds at most `slack` to the cost.
     fn choose(&mut self, gate: Signal, slack: i64) -> bool {
-        let mut best: Option<(i64, Candidate)> = None;
-        for tried in 0..TRIES.min(self.candidates.len()) {
-            let pick = tried + self.below(self.candidates.len() - tried);
-            self.candidates.swap(tried, pick);
-            let candidate = self.candidates[tried];
+        let mut best: Option<(i64, Replacement)> = None;
+        for tried in 0..TRIES.min(self.finder.found.len()) {
+            let pick = tried + self.below(self.finder.found.len() - tried);
+            self.finder.found.swap(tried, pick);
+            let candidate = self.finder.found[tried];
             if let Some(change) = self.weigh(gate, candidate)
                 && change <= slack
                 && best.is_none_or(|(least, _)| change < least)
@@ -451,11 +292,11 @@ impl<'p, 'r> Walk<'p, 'r> {
         best.is_some_and(|(_, candidate)| self.take(gate, candidate))
     }
 
-    fn build(&mut self, candidate: Candidate) -> Option<Signal> {
+    fn build(&mut self, candidate: Replacement) -> Option<Signal> {
         match candidate {
-            Candidate::Signal(signal) => Some(signal),
-            Candidate::One(function, pins) => self.graph.compose(function, pins),
-            Candidate::Two(outer, other, function, pins) => {
+            Replacement::Signal(signal) => Some(signal),
+            Replacement::One(function, pins) => self.graph.compose(function, pins),
+            Replacement::Two(outer, other, function, pins) => {
                 let inner = self.graph.compose(function, pins)?;
                 let root = self.graph.compose(outer, [other, inner])?;
                 self.graph.hold(root);
@@ -467,7 +308,7 @@ impl<'p, 'r> Walk<'p, 'r> {
     }
 
     /// The added cost of the network; `None` if nothing would change.
-    fn weigh(&mut self, gate: Signal, candidate: Candidate) -> Option<i64> {
+    fn weigh(&mut self, gate: Signal, candidate: Replacement) -> Option<i64> {
         let before = i64::from(self.graph.cost());
         let root = self.build(candidate)?;
         let change = i64::from(self.graph.cost()) - before - i64::from(self.hold_and_release(root, gate));
@@ -485,7 +326,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         released
     }
 
-    fn take(&mut self, gate: Signal, candidate: Candidate) -> bool {
+    fn take(&mut self, gate: Signal, candidate: Replacement) -> bool {
         let Some(root) = self.build(candidate) else {
             return false;
         };
@@ -496,33 +337,73 @@ impl<'p, 'r> Walk<'p, 'r> {
     }
 }
 
-/// The function of two signals that is the AND (or the OR) of two literals of them.
-fn pair_function(one: bool, two: bool, and: bool) -> Function {
-    let mut function = if and { Function::AND } else { Function::OR };
-    for (pin, inverted) in [one, two].into_iter().enumerate() {
-        function = if inverted { function.with_input_inverted(pin) } else { function };
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+
+    use super::*;
+    use crate::circuit::cells::CellLibrary;
+    use crate::circuit::proof::equal;
+    use crate::model::Function;
+
+    /// A network of these gates; each reads two of the signals before it.
+    fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
+        let mut network = Network::new(inputs);
+        for &(bits, a, b) in gates {
+            let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
+            network.add(Function::new(bits % 16), pins);
+        }
+        let signals = network.signals() as Signal;
+        network.outputs = (signals.saturating_sub(8)..signals).step_by(3).collect();
+        network
     }
-    function
-}
 
-/// The relation of a signal to the patterns in which a 1 or a 0 is wrong.
-struct Fits {
-    covers_on: bool,
-    avoids_on: bool,
-    covers_off: bool,
-    avoids_off: bool,
-}
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
 
-fn fits(values: &[u64], on: &[u64], off: &[u64]) -> Fits {
-    let (mut one_on, mut zero_on, mut one_off, mut zero_off) = (0, 0, 0, 0);
-    for i in 0..values.len() {
-        one_on |= values[i] & on[i];
-        zero_on |= !values[i] & on[i];
-        one_off |= values[i] & off[i];
-        zero_off |= !values[i] & off[i];
-        if one_on != 0 && zero_on != 0 && one_off != 0 && zero_off != 0 {
-            break;
+        #[test]
+        fn a_walk_that_sees_surroundings_only_keeps_the_function(
+            gates in prop::collection::vec(any::<(u8, u16, u16)>(), 5..80),
+            stages in prop::collection::vec(0u32..3, 14),
+        ) {
+            let source = network(14, &gates);
+            let library = CellLibrary::uniform([Function::NAND, Function::AND, Function::NOT]);
+            let prices = Prices::of(&library);
+            let covered = crate::circuit::synth::reduce::cover(&source, &prices, &stages).unwrap();
+            let mut random = ChaCha8Rng::seed_from_u64(1);
+            let plan = WalkPlan::calm(10 * gates.len() as u64);
+            let walked = improve(&covered, &prices, &stages, &[], plan, &mut random);
+            prop_assert!(equal(&source, &walked).is_ok());
+            prop_assert!(walked.gates.len() <= covered.gates.len());
+            let [before, after] = [&covered, &walked].map(|network| output_stages(network, &stages));
+            prop_assert!(after.iter().zip(&before).all(|(after, before)| after <= before));
+            let again = improve(&covered, &prices, &stages, &[], plan, &mut ChaCha8Rng::seed_from_u64(1));
+            prop_assert_eq!(walked, again);
         }
     }
-    Fits { covers_on: zero_on == 0, avoids_on: one_on == 0, covers_off: zero_off == 0, avoids_off: one_off == 0 }
+
+    /// The latest stage that each output depends on.
+    fn output_stages(network: &Network, inputs: &[u32]) -> Vec<u32> {
+        let mut stages = vec![0, 0];
+        stages.extend(inputs);
+        for gate in &network.gates {
+            stages.push(gate.pins.map(|pin| stages[pin as usize]).into_iter().max().unwrap_or(0));
+        }
+        network.outputs.iter().map(|&output| stages[output as usize]).collect()
+    }
+
+    #[test]
+    fn surroundings_show_dont_cares_through_later_gates() {
+        // The exclusive or matters only if `a` is 1: there it is the opposite of `b`.
+        let mut network = Network::new(20);
+        let different = network.add(Function::XOR, [2, 3]);
+        let both = network.add(Function::AND, [2, different]);
+        network.outputs.push(both);
+        let all = Function::all().filter(|function| function.arity() == 2);
+        let prices = Prices::of(&CellLibrary::uniform(all));
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let walked = improve(&network, &prices, &[], &[], WalkPlan::calm(20), &mut random);
+        assert_eq!(walked.gates.len(), 1);
+    }
 }
