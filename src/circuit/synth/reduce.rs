@@ -31,6 +31,9 @@ const WHOLE_WORK: u64 = 1_200_000_000;
 /// The gates of a part of a wide network whose gates are seen in their surroundings, or in samples of the patterns.
 const NEAR_GATES: usize = 300;
 const FAR_GATES: usize = 1_500;
+/// The visits to each gate, and to all gates at most, that make gates earlier at no cost.
+const SHORTENING_VISITS: u64 = 10;
+const MOST_SHORTENING: u64 = 20_000;
 /// Above this number of gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
@@ -51,12 +54,12 @@ pub fn reduce(
     if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
         return Ok(direct);
     }
-    let mut best = course.search_both_ways(network, &direct, &mut random)?;
-    best = course.fewest(best);
-    if options.objective == MappingObjective::Delay {
-        best = course.quicken(&best, &mut random);
-    }
-    Ok(best)
+    let best = course.search_both_ways(network, &direct, &mut random)?;
+    let best = course.fewest(best);
+    Ok(match options.objective {
+        MappingObjective::Delay => course.quicken(&best, &mut random),
+        _ => course.shorten(&best, &mut random),
+    })
 }
 
 /// The cheaper of two networks; of equal cost, the one with the shorter slowest path, or the first.
@@ -232,6 +235,16 @@ impl Course<'_> {
         }
     }
 
+    /// Makes gates earlier where that costs nothing, so that a network of the same cells settles sooner.
+    fn shorten(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
+        let visits = (SHORTENING_VISITS * network.gates.len() as u64).min(MOST_SHORTENING);
+        let plan = WalkPlan { pace: Pace::Shorten, ..WalkPlan::calm(visits) };
+        match is_narrow(network) {
+            true => walk::improve_all(network, self.prices, self.stages, plan, random),
+            false => walk::improve(network, self.prices, self.stages, &[], plan, random),
+        }
+    }
+
     /// Alternately shortens the slowest path and reduces the cost without making the path longer.
     fn quicken(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let rounds = match self.effort {
@@ -320,6 +333,22 @@ mod tests {
         let carry = network.add(Function::OR, pairs);
         network.outputs = vec![sum, carry];
         assert_eq!(reduced(&network, "nand").gates.len(), 9);
+    }
+
+    #[test]
+    fn a_decoder_of_the_fewest_cells_has_two_levels() {
+        let excluded = Function::parse("nota_and_b").unwrap();
+        let mut network = Network::new(3);
+        let high = network.add(Function::AND, [4, 2]);
+        let low = network.add(excluded, [high, 4]);
+        let one = network.add(Function::AND, [3, low]);
+        let zero = network.add(excluded, [one, low]);
+        let two = network.add(excluded, [3, high]);
+        let three = network.add(excluded, [two, high]);
+        network.outputs = vec![zero, one, two, three];
+        let library = library("and nota_and_b a_and_notb");
+        let reduced = reduce(&network, &[], &library, MapOptions::default()).unwrap();
+        assert_eq!((reduced.gates.len(), depth(&reduced, &Prices::of(&library))), (6, 2));
     }
 
     #[test]

@@ -34,6 +34,8 @@ pub enum Pace {
     Keep,
     /// Gates on the slowest paths are made earlier at any cost.
     Hurry,
+    /// Gates are made earlier where that costs nothing.
+    Shorten,
 }
 
 impl WalkPlan {
@@ -140,9 +142,13 @@ impl<'p, 'r> Walk<'p, 'r> {
     fn visit(&mut self, slack: u32) -> bool {
         let at = self.below(self.graph.order().len());
         let gate = self.graph.order()[at];
-        if self.pace == Pace::Keep {
-            self.require();
-            self.limit = self.required[gate as usize];
+        match self.pace {
+            Pace::Keep => {
+                self.require();
+                self.limit = self.required[gate as usize];
+            }
+            Pace::Shorten => self.limit = self.graph.node(gate).arrival - 1,
+            Pace::Any | Pace::Hurry => {}
         }
         self.change(gate, slack)
     }
