@@ -158,6 +158,22 @@ fn every_circuit_of_the_gallery_computes() {
     assert!(failed.is_empty(), "{failed}");
 }
 
+/// Run with `cargo test --release --test it the_computer -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes of physics"]
+fn the_computer_runs_its_programs() {
+    let started = std::time::Instant::now();
+    let report = nbc::run_file("circuits/computer.nb", &CompileOptions::default()).unwrap();
+    for test in &report.tests {
+        let run = test.swarm.as_ref().unwrap();
+        let (robots, rows) = (run.compiled.assembly.members.len(), test.verdict.rows.len());
+        let cycles = run.trace.cycles.len();
+        println!("{}: {robots} robots, {rows} rows in {cycles} cycles", test.verdict.title);
+        assert!(test.verdict.passed, "{}", describe_test(&test.verdict));
+    }
+    println!("{:.0} s", started.elapsed().as_secs_f64());
+}
+
 #[test]
 fn the_objective_chooses_among_robots_of_the_same_function() {
     let found = [MappingObjective::Delay, MappingObjective::Margin].map(|objective| {
