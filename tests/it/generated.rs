@@ -105,8 +105,8 @@ fn arbiter(inputs: usize) -> Netlist {
     let requests = sketch.inputs("r", inputs);
     let pointer = sketch.inputs("p", inputs);
     let mut grants = vec![Vec::new(); inputs];
-    for start in 0..inputs {
-        let mut open = pointer[start];
+    for (start, &first) in pointer.iter().enumerate() {
+        let mut open = first;
         for step in 0..inputs {
             let at = (start + step) % inputs;
             grants[at].push(sketch.gate(Function::AND, &[open, requests[at]]));

@@ -8,5 +8,5 @@ use rand_chacha::ChaCha8Rng;
 pub fn random_word(word: usize, random: &mut ChaCha8Rng) -> u64 {
     let rarity = (word / 2 % 8).saturating_sub(3);
     let rare = (0..rarity).fold(rand::Rng::next_u64(random), |bits, _| bits & rand::Rng::next_u64(random));
-    if word % 2 == 0 { rare } else { !rare }
+    if word.is_multiple_of(2) { rare } else { !rare }
 }
