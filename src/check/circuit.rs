@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::check::names::{Home, NameTable, duplicate};
+use crate::check::uses::{NameKind, NameUse};
 use crate::check::wording::{CircuitError, NameError};
 use crate::diag::{Code, Diagnostic, Suggestion, suggest};
 use crate::model::{
@@ -26,6 +27,8 @@ pub(crate) struct Header {
     pub(crate) parameters: Vec<String>,
     pub(crate) inputs: Vec<String>,
     pub(crate) outputs: Vec<String>,
+    /// The places of the parameters, and of the ports in order.
+    pub(crate) places: [Vec<Span>; 2],
 }
 
 impl Header {
@@ -36,7 +39,23 @@ impl Header {
             parameters: circuit.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
             inputs: names(&circuit.inputs),
             outputs: names(&circuit.outputs),
+            places: [
+                circuit.parameters.iter().map(|parameter| parameter.name.span).collect(),
+                circuit.inputs.iter().chain(&circuit.outputs).map(|port| port.name.span).collect(),
+            ],
         }
+    }
+
+    /// The parameter that an argument names.
+    pub(crate) fn parameter(&self, name: &tree::NameSyntax) -> Option<NameUse> {
+        let at = self.parameters.iter().position(|known| *known == name.text)?;
+        Some(NameUse { place: name.span, declared: self.places[0][at], kind: NameKind::Number })
+    }
+
+    /// The port that a column names.
+    pub(crate) fn port(&self, name: &tree::NameSyntax) -> Option<NameUse> {
+        let at = self.inputs.iter().chain(&self.outputs).position(|known| *known == name.text)?;
+        Some(NameUse { place: name.span, declared: self.places[1][at], kind: NameKind::Net })
     }
 
     /// The interface as declared, without widths.
@@ -66,6 +85,7 @@ pub(crate) struct CircuitChecker<'a> {
     driven: Vec<bool>,
     pub(crate) calls: Vec<(CircuitId, Span)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    pub(crate) uses: Vec<NameUse>,
 }
 
 /// A checked circuit with its diagnostics and the circuits it calls.
@@ -73,6 +93,7 @@ pub(crate) struct CheckedCircuit {
     pub(crate) circuit: Circuit,
     pub(crate) calls: Vec<(CircuitId, Span)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    pub(crate) uses: Vec<NameUse>,
 }
 
 /// Checks one circuit.
@@ -106,12 +127,14 @@ pub(crate) fn circuit(
         driven: Vec::new(),
         calls: Vec::new(),
         diagnostics: Vec::new(),
+        uses: Vec::new(),
     };
     checker.parameters(&source.parameters);
     checker.ports(source);
     checker.circuit.body = checker.block(&source.body.statements);
     checker.loose_ends();
-    CheckedCircuit { circuit: checker.circuit, calls: checker.calls, diagnostics: checker.diagnostics }
+    let CircuitChecker { circuit, calls, diagnostics, uses, .. } = checker;
+    CheckedCircuit { circuit, calls, diagnostics, uses }
 }
 
 impl<'a> CircuitChecker<'a> {
@@ -155,6 +178,7 @@ impl<'a> CircuitChecker<'a> {
     }
 
     fn bind(&mut self, name: &'a tree::NameSyntax, binding: Binding) {
+        self.refer(name.span, binding);
         let scope = self.scopes.last_mut().expect("a circuit has a scope");
         if let Some(first) = scope.insert(&name.text, binding) {
             // A second message for the other one of the two nets would be redundant.
@@ -170,6 +194,15 @@ impl<'a> CircuitChecker<'a> {
             };
             self.diagnostics.push(duplicate("name", name, first));
         }
+    }
+
+    /// Notes the use of a name.
+    pub(crate) fn refer(&mut self, place: Span, binding: Binding) {
+        let (declared, kind) = match binding {
+            Binding::Variable(_, declared) => (declared, NameKind::Number),
+            Binding::Net(slot) => (self.circuit.nets[slot.0 as usize].span, NameKind::Net),
+        };
+        self.uses.push(NameUse { place, declared, kind });
     }
 
     pub(crate) fn lookup(&self, name: &str) -> Option<Binding> {
@@ -240,7 +273,9 @@ impl<'a> CircuitChecker<'a> {
         if target.name.text == "_" {
             return Some(Target { net: None, bits: None, start, span: target.span });
         }
-        let slot = match self.lookup(&target.name.text).expect("the targets of a block are declared first") {
+        let binding = self.lookup(&target.name.text).expect("the targets of a block are declared first");
+        self.refer(target.name.span, binding);
+        let slot = match binding {
             Binding::Net(slot) => slot,
             Binding::Variable(_, first) => {
                 self.diagnostics.push(duplicate("name", &target.name, first));
@@ -292,8 +327,9 @@ impl<'a> CircuitChecker<'a> {
     /// The net for a name in an expression.
     pub(crate) fn net(&mut self, name: &tree::NameSyntax) -> Option<NetSlot> {
         match self.lookup(&name.text) {
-            Some(Binding::Net(slot)) => {
+            Some(binding @ Binding::Net(slot)) => {
                 self.used[slot.0 as usize] = true;
+                self.refer(name.span, binding);
                 Some(slot)
             }
             Some(Binding::Variable(..)) => {

@@ -194,6 +194,7 @@ impl<'a> CircuitChecker<'a> {
         let header = &headers.circuits[circuit];
         self.calls.push((CircuitId(circuit as u32), name.span));
         self.call_counts(name, header, [operands.len(), outputs], span);
+        self.uses.extend(arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
         let arguments = self.arguments(name, &header.parameters, arguments);
         ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
     }

@@ -18,6 +18,7 @@ pub(crate) fn instance(
     headers: &Headers,
 ) -> Result<Instance, Diagnostic> {
     let header = &headers.circuits[names.resolve(&source.name, home)?];
+    names.note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
     with_numbers(source, &header.name, &header.parameters)
 }
 

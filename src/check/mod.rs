@@ -22,11 +22,13 @@ mod size;
 mod swarm;
 mod table;
 mod test;
+mod uses;
 mod wording;
 
 pub use instance::named;
 pub use load::{PRELUDE, open};
 pub use swarm::DEFAULT_LIBRARY;
+pub use uses::{NameKind, NameUse, NameUses};
 
 use std::collections::BTreeSet;
 
@@ -41,6 +43,8 @@ pub struct Analysis {
     pub program: Program,
     /// Errors and warnings, ordered by place.
     pub diagnostics: Vec<Diagnostic>,
+    /// The names with a meaning.
+    pub uses: NameUses,
 }
 
 impl Analysis {
@@ -53,13 +57,13 @@ impl Analysis {
 /// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
     let loaded = load::load(world, sources, file);
-    let (program, mut diagnostics) = program::program(&loaded.trees, sources);
+    let (program, mut diagnostics, uses) = program::program(&loaded.trees, sources);
     forget_consequences(&mut diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();
-    Analysis { program, diagnostics }
+    Analysis { program, diagnostics, uses }
 }
 
 /// A name whose declaration could not be parsed is not reported as unknown, because the declaration has its own

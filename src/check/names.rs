@@ -1,8 +1,9 @@
 //! Names: one table for each kind of declaration. Names of a file take precedence over those of the prelude.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
+use crate::check::uses::{NameKind, NameUse};
 use crate::check::wording::NameError;
 use crate::diag::{Diagnostic, Suggestion, suggest};
 use crate::source::Span;
@@ -23,12 +24,13 @@ pub(crate) enum Home {
 
 /// The names of one kind of declaration, with their positions in the program.
 pub(crate) struct NameTable {
-    /// The kind of declaration, for messages.
-    kind: &'static str,
+    kind: NameKind,
     prelude: BTreeMap<String, Entry>,
     files: BTreeMap<String, Entry>,
     /// The number of unknown names looked up so far.
     unknown: Cell<usize>,
+    /// The names declared and resolved so far.
+    uses: RefCell<Vec<NameUse>>,
 }
 
 #[derive(Clone, Copy)]
@@ -38,17 +40,18 @@ struct Entry {
 }
 
 impl NameTable {
-    pub(crate) fn new(kind: &'static str) -> Self {
-        Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0) }
+    pub(crate) fn new(kind: NameKind) -> Self {
+        Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0), uses: RefCell::default() }
     }
 
     /// Adds a name, unless it is taken.
     pub(crate) fn declare(&mut self, name: &NameSyntax, index: usize, home: Home) -> Result<(), Diagnostic> {
         let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };
         match table.get(&name.text) {
-            Some(first) => Err(duplicate(self.kind, name, first.span)),
+            Some(first) => Err(duplicate(self.kind.word(), name, first.span)),
             None => {
                 table.insert(name.text.clone(), Entry { index, span: name.span });
+                self.refer(name.span, name.span);
                 Ok(())
             }
         }
@@ -56,16 +59,36 @@ impl NameTable {
 
     /// The meaning of a name in a file, or in the prelude.
     pub(crate) fn find(&self, name: &str, home: Home) -> Option<usize> {
+        self.entry(name, home).map(|entry| entry.index)
+    }
+
+    fn entry(&self, name: &str, home: Home) -> Option<Entry> {
         let file = self.files.get(name).filter(|_| !matches!(home, Home::Prelude | Home::Foreign));
-        file.or_else(|| self.prelude.get(name)).map(|entry| entry.index)
+        file.or_else(|| self.prelude.get(name)).copied()
     }
 
     /// The meaning of a name, or an error if it is unknown.
     pub(crate) fn resolve(&self, name: &NameSyntax, home: Home) -> Result<usize, Diagnostic> {
-        self.find(&name.text, home).ok_or_else(|| {
+        let entry = self.entry(&name.text, home).ok_or_else(|| {
             let meant = self.suggestion(&name.text);
-            NameError::Unknown { kind: self.kind, name: name.text.clone(), meant }.at(name.span)
-        })
+            NameError::Unknown { kind: self.kind.word(), name: name.text.clone(), meant }.at(name.span)
+        })?;
+        self.refer(name.span, entry.span);
+        Ok(entry.index)
+    }
+
+    fn refer(&self, place: Span, declared: Span) {
+        self.uses.borrow_mut().push(NameUse { place, declared, kind: self.kind });
+    }
+
+    /// Adds names that were resolved otherwise.
+    pub(crate) fn note(&self, uses: impl Iterator<Item = NameUse>) {
+        self.uses.borrow_mut().extend(uses);
+    }
+
+    /// The names declared and resolved so far.
+    pub(crate) fn take_uses(&self) -> Vec<NameUse> {
+        self.uses.take()
     }
 
     /// A suggestion for an unknown name, for the first unknown names only.

@@ -13,6 +13,7 @@ use crate::check::schedule::schedule;
 use crate::check::simulate::{Schedules, spells};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
+use crate::check::uses::{NameKind, NameUse, NameUses};
 use crate::check::wording::{CircuitError, EvolutionError};
 use crate::circuit::Inspector;
 use crate::diag::{Code, Diagnostic};
@@ -20,8 +21,8 @@ use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, R
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
 
-/// The program of the trees, and its diagnostics.
-pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Vec<Diagnostic>) {
+/// The program of the trees, its diagnostics, and its names.
+pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Vec<Diagnostic>, NameUses) {
     let mut assembly = Assembly::new(trees, sources);
     assembly.stimuli();
     assembly.materials();
@@ -33,7 +34,8 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Ve
     assembly.unused_libraries();
     assembly.build();
     assembly.forget_redeclared();
-    (assembly.program, assembly.faults)
+    let uses = assembly.uses();
+    (assembly.program, assembly.faults, uses)
 }
 
 /// A program under construction.
@@ -56,6 +58,8 @@ struct Assembly<'a> {
     sound: Vec<bool>,
     /// The origin of each circuit.
     homes: Vec<Home>,
+    /// The names inside circuits and tests.
+    inner: Vec<NameUse>,
 }
 
 impl<'a> Assembly<'a> {
@@ -65,17 +69,18 @@ impl<'a> Assembly<'a> {
             sources,
             program: Program::default(),
             faults: Vec::new(),
-            stimuli: NameTable::new("stimulus"),
-            materials: NameTable::new("material"),
-            schedules: NameTable::new("schedule"),
-            evolutions: NameTable::new("evolution"),
-            libraries: NameTable::new("library"),
-            circuits: NameTable::new("circuit"),
-            swarms: NameTable::new("swarm"),
+            stimuli: NameTable::new(NameKind::Stimulus),
+            materials: NameTable::new(NameKind::Material),
+            schedules: NameTable::new(NameKind::Schedule),
+            evolutions: NameTable::new(NameKind::Evolution),
+            libraries: NameTable::new(NameKind::Library),
+            circuits: NameTable::new(NameKind::Circuit),
+            swarms: NameTable::new(NameKind::Swarm),
             headers: Headers::default(),
             places: BTreeMap::new(),
             sound: Vec::new(),
             homes: Vec::new(),
+            inner: Vec::new(),
         }
     }
 
@@ -196,6 +201,7 @@ impl<'a> Assembly<'a> {
             self.sound.push(!checked.diagnostics.iter().any(Diagnostic::is_error));
             self.homes.push(home);
             self.faults.extend(checked.diagnostics);
+            self.inner.extend(checked.uses);
             calls.push(checked.calls);
             self.program.circuits.push(checked.circuit);
         }
@@ -206,6 +212,29 @@ impl<'a> Assembly<'a> {
         for (at, header) in self.headers.circuits.iter().enumerate() {
             self.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
         }
+    }
+
+    /// All names with a meaning.
+    fn uses(&mut self) -> NameUses {
+        let tables = [
+            &self.stimuli,
+            &self.materials,
+            &self.schedules,
+            &self.evolutions,
+            &self.libraries,
+            &self.circuits,
+            &self.swarms,
+        ];
+        let mut list = std::mem::take(&mut self.inner);
+        list.extend(tables.into_iter().flat_map(NameTable::take_uses));
+        NameUses::new(list)
+    }
+
+    /// Notes the ports that columns of a test or a simulation name.
+    fn ports_named(&mut self, circuit: &str, columns: &[NameSyntax]) {
+        let Some(place) = self.places.get(circuit) else { return };
+        let header = &self.headers.circuits[place.0 as usize];
+        self.inner.extend(columns.iter().filter_map(|name| header.port(name)));
     }
 
     /// If a file redeclares a circuit of the prelude, other circuits of the prelude still use the original.
@@ -330,6 +359,9 @@ impl<'a> Assembly<'a> {
             };
             let Some(swarm) = swarm else { continue };
             let Some((inputs, _)) = self.ports(&swarm.circuit, source.swarm.span, inspector) else { continue };
+            if let tree::With::Spells { columns, .. } = &source.with {
+                self.ports_named(&swarm.circuit.circuit, columns);
+            }
             let schedules = Schedules { names: &self.schedules, declared: &program.schedules };
             let at = source.swarm.span;
             let spells = spells(&source.with, at, &inputs, home, schedules, self.sources, &mut self.faults);
@@ -345,13 +377,14 @@ impl<'a> Assembly<'a> {
         let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
         let stimulation = match &source.kind {
             tree::TestKind::Table(table) => {
+                self.ports_named(&tested.circuit, &table.inputs);
+                self.ports_named(&tested.circuit, &table.outputs);
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
                 Stimulation::Rows(test::rows(table, &ports, self.sources, &mut self.faults))
             }
             tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, (&inputs, &outputs))?,
             tree::TestKind::Reference(body) => {
-                let name = format!("{tested} as tested");
-                let circuit = self.reference(&name, &source.circuit.name, body, (&inputs, &outputs))?;
+                let circuit = self.reference(&tested, &source.circuit.name, body, (&inputs, &outputs))?;
                 Stimulation::All { reference: Reference::Body(Box::new(circuit)) }
             }
         };
@@ -391,7 +424,7 @@ impl<'a> Assembly<'a> {
     /// The body of a test as a circuit with the ports of the tested one.
     fn reference(
         &mut self,
-        name: &str,
+        instance: &Instance,
         tested: &NameSyntax,
         body: &tree::BodySyntax,
         ports: (&[Column], &[Column]),
@@ -404,11 +437,20 @@ impl<'a> Assembly<'a> {
             tree::Port { name, width: Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)) }
         };
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
-        let name = NameSyntax { text: name.to_owned(), span: tested.span };
+        let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { name, parameters: Vec::new(), inputs, outputs, body };
         let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
         let sound = !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);
+        // Its ports are those of the tested circuit.
+        let (ports, own): (Vec<_>, Vec<_>) = checked.uses.into_iter().partition(|found| found.declared == tested.span);
+        let names: Vec<_> = ports
+            .into_iter()
+            .filter(|found| found.place != tested.span)
+            .map(|found| NameSyntax { text: self.sources.text(found.place).to_owned(), span: found.place })
+            .collect();
+        self.ports_named(&instance.circuit, &names);
+        self.inner.extend(own);
         // The reference may ignore an input of the tested circuit.
         self.faults.extend(checked.diagnostics.into_iter().filter(|fault| fault.code != Code::Unused));
         (sound && called).then_some(checked.circuit)

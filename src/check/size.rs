@@ -49,7 +49,10 @@ impl CircuitChecker<'_> {
     fn number(&mut self, name: &str, span: Span) -> SizeKind {
         let name = name.to_owned();
         let error = match self.lookup(&name) {
-            Some(Binding::Variable(slot, _)) => return SizeKind::Variable(slot),
+            Some(binding @ Binding::Variable(slot, _)) => {
+                self.refer(span, binding);
+                return SizeKind::Variable(slot);
+            }
             Some(Binding::Net(slot)) => {
                 self.used[slot.0 as usize] = true;
                 NameError::NetForNumber { name }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::check;
+use crate::check::{self, Analysis, NameUses};
 use crate::diag::{Diagnostic, Diagnostics, json};
 use crate::model::{Instance, Program};
 use crate::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
@@ -22,20 +22,20 @@ pub struct Checked {
     pub program: Program,
     /// Errors and warnings, in order of place.
     pub diagnostics: Vec<Diagnostic>,
+    /// The names with a meaning, and their declarations.
+    pub uses: NameUses,
 }
 
 impl Checked {
     /// Reads, parses and checks a source. A file that cannot be read is a diagnostic like any other.
     pub(super) fn read(world: &dyn SourceWorld, path: &str, revision: u64) -> Self {
         let mut sources = Sources::default();
-        let (file, program, diagnostics) = match check::open(world, path, &mut sources) {
-            Ok(file) => {
-                let analysis = check::check(world, &mut sources, file);
-                (Some(file), analysis.program, analysis.diagnostics)
-            }
-            Err(fault) => (None, Program::default(), vec![fault]),
+        let (file, analysis) = match check::open(world, path, &mut sources) {
+            Ok(file) => (Some(file), check::check(world, &mut sources, file)),
+            Err(fault) => (None, Analysis { diagnostics: vec![fault], ..Analysis::default() }),
         };
-        Self { path: path.to_owned(), revision, sources, file, program, diagnostics }
+        let Analysis { program, diagnostics, uses } = analysis;
+        Self { path: path.to_owned(), revision, sources, file, program, diagnostics, uses }
     }
 
     /// Whether there are errors.

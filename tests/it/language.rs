@@ -28,7 +28,7 @@ pub(crate) fn programs(folder: &str) -> Vec<PathBuf> {
 pub(crate) fn sound(name: &str, text: &str) -> Program {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
-    let Analysis { program, diagnostics } = check::check(&MemoryWorld::default(), &mut sources, file);
+    let Analysis { program, diagnostics, .. } = check::check(&MemoryWorld::default(), &mut sources, file);
     assert!(diagnostics.is_empty(), "{}", render::text(&diagnostics, &sources, false));
     program
 }
