@@ -73,7 +73,7 @@ pub struct Context {
 
 impl Context {
     pub(super) fn new(global: &GlobalArguments, command: fn() -> Command) -> Self {
-        Self { format: global.format, color: global.color.on(), command, out: Output::new(io::stdout().lock()) }
+        Self { format: global.format, color: global.color.on(), command, out: Output::new(io::stdout()) }
     }
 
     /// Prints to standard output. A closed pipe is ignored and the command continues, because its work decides the exit

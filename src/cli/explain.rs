@@ -60,7 +60,7 @@ impl ExplainArguments {
     }
 }
 
-fn page(code: Code) -> &'static str {
+pub(super) fn page(code: Code) -> &'static str {
     let file = PAGES.get_file(format!("{code}.md")).expect("every code has its page");
     file.contents_utf8().expect("pages are text")
 }

@@ -15,6 +15,7 @@ mod failure;
 mod fmt;
 mod interrupt;
 mod library;
+mod lsp;
 mod mapping;
 mod output;
 mod program;
@@ -75,6 +76,7 @@ commands! {
     Export(export::ExportArguments),
     Fmt(fmt::FmtArguments),
     Library(library::LibraryArguments),
+    Lsp(lsp::LspArguments),
     Run(run::RunArguments),
     Simulate(simulate::SimulateArguments),
     Synth(synth::SynthArguments),

@@ -1,10 +1,10 @@
 //! Standard output, which its reader may close at any moment.
 
-use std::io::{self, BufWriter, StdoutLock, Write};
+use std::io::{self, BufWriter, Stdout, Write};
 
 /// Buffered standard output. After the reader closes the pipe, further output is dropped without an error: `nbc … |
 /// head` must not change the exit status.
-pub(super) struct Output<W: Write = StdoutLock<'static>> {
+pub(super) struct Output<W: Write = Stdout> {
     /// `None` after the pipe was closed.
     open: Option<BufWriter<W>>,
 }

@@ -34,6 +34,22 @@ pub(in crate::cli) enum UsageError {
     OffGround { start: usize, most: usize, columns: usize, width: usize },
 }
 
+/// A client of the language server that breaks the protocol.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::cli) enum ServerError {
+    /// What is wrong.
+    Protocol(String),
+}
+
+impl From<ServerError> for Diagnostic {
+    fn from(error: ServerError) -> Self {
+        let ServerError::Protocol(reason) = error;
+        let message = format!("the client does not speak the Language Server Protocol: {reason}");
+        Self::without_place(Code::Unreadable, message)
+            .with_help("editors start `nbc lsp` themselves: see docs/editors.md")
+    }
+}
+
 impl From<UsageError> for Diagnostic {
     fn from(error: UsageError) -> Self {
         let bad = |message: String| Self::without_place(Code::BadValue, message);

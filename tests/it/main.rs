@@ -23,6 +23,7 @@ mod hostile;
 mod language;
 mod library;
 mod live;
+mod lsp;
 mod manual;
 mod memory;
 mod modules;

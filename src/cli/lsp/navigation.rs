@@ -1,0 +1,54 @@
+//! From a name to its declaration and its uses, and new names.
+
+use gen_lsp_types::{DocumentHighlight, DocumentHighlightKind, Location, TextEdit, Uri, WorkspaceEdit};
+
+use crate::check::NameUse;
+use crate::circuit::formats::is_word;
+use crate::cli::lsp::files::Files;
+use crate::source::Span;
+
+/// The declaration of a name.
+pub(super) fn definition(files: &Files<'_>, found: NameUse) -> Location {
+    files.location(found.declared)
+}
+
+/// The places in the file of a name that mean the same.
+pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighlight> {
+    let same = files.checked.uses.of(found.declared).filter(|other| other.place.file == found.place.file);
+    let highlight = |other: NameUse| DocumentHighlight {
+        range: files.range(other.place),
+        kind: Some(match other.place == other.declared {
+            true => DocumentHighlightKind::Write,
+            false => DocumentHighlightKind::Read,
+        }),
+    };
+    same.map(highlight).collect()
+}
+
+/// The uses of a declaration in a source and the files that it uses; `home` and `declared` are the declaration's file
+/// and place.
+pub(super) fn uses(files: &Files<'_>, home: &Uri, declared: Span, with_declaration: bool) -> Vec<Location> {
+    let own = files.checked.sources.iter().filter(|source| files.uri(source.id) == *home);
+    let declared = own.map(|source| Span { file: source.id, ..declared });
+    let places = declared.flat_map(|declared| {
+        let used = files.checked.uses.of(declared);
+        used.filter(move |found| with_declaration || found.place != declared).map(|found| found.place)
+    });
+    places.map(|place| files.location(place)).collect()
+}
+
+/// Why a name cannot be changed.
+pub(super) fn refusal(files: &Files<'_>, found: NameUse, new: &str) -> Option<String> {
+    if files.prelude(found.declared.file).is_some() {
+        return Some("the prelude declares this name".to_owned());
+    }
+    (!is_word(new)).then(|| format!("`{new}` is not a name: expected letters, digits and `_`, and no reserved word"))
+}
+
+/// Edits of several files.
+pub(super) fn workspace_edit(edits: impl Iterator<Item = (Uri, TextEdit)>) -> WorkspaceEdit {
+    let mut edit = WorkspaceEdit::default();
+    let changes = edit.changes.get_or_insert_default();
+    edits.for_each(|(uri, edit)| changes.entry(uri).or_default().push(edit));
+    edit
+}

@@ -1,0 +1,120 @@
+//! Places in text, as the protocol counts them: lines, and code units of UTF-16 or UTF-8 within a line.
+
+use gen_lsp_types::{Position, PositionEncodingKind, Range};
+
+/// The unit in which a client counts characters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Encoding {
+    /// Bytes.
+    Utf8,
+    /// Code units of UTF-16, which every client knows.
+    #[default]
+    Utf16,
+}
+
+impl Encoding {
+    /// UTF-8 if the client knows it, because it needs no conversion.
+    pub(super) fn negotiated(known: &[PositionEncodingKind]) -> Self {
+        if known.contains(&PositionEncodingKind::UTF8) { Self::Utf8 } else { Self::Utf16 }
+    }
+
+    /// Its name in the protocol.
+    pub(super) fn kind(self) -> PositionEncodingKind {
+        match self {
+            Self::Utf8 => PositionEncodingKind::UTF8,
+            Self::Utf16 => PositionEncodingKind::UTF16,
+        }
+    }
+
+    fn units(self, text: &str) -> usize {
+        match self {
+            Self::Utf8 => text.len(),
+            Self::Utf16 => text.chars().map(char::len_utf16).sum(),
+        }
+    }
+}
+
+/// A text with the starts of its lines.
+pub(super) struct Lines<'t> {
+    text: &'t str,
+    starts: Vec<usize>,
+    encoding: Encoding,
+}
+
+impl<'t> Lines<'t> {
+    /// The lines of a text; `\n`, `\r\n` and `\r` end a line.
+    pub(super) fn new(text: &'t str, encoding: Encoding) -> Self {
+        let bytes = text.as_bytes();
+        let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+        let starts = std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at + 1)).collect();
+        Self { text, starts, encoding }
+    }
+
+    /// The byte at a position; past the end of a line, its end.
+    pub(super) fn offset(&self, position: Position) -> usize {
+        let Some(&start) = self.starts.get(position.line as usize) else { return self.text.len() };
+        let end = self.starts.get(position.line as usize + 1).copied().unwrap_or(self.text.len());
+        let line = self.text[start..end].trim_end_matches(['\n', '\r']);
+        let mut left = position.character as usize;
+        for (at, character) in line.char_indices() {
+            let width = self.encoding.units(character.encode_utf8(&mut [0; 4]));
+            if left < width {
+                return start + at;
+            }
+            left -= width;
+        }
+        start + line.len()
+    }
+
+    /// The position of a byte.
+    pub(super) fn position(&self, offset: usize) -> Position {
+        let offset = offset.min(self.text.len());
+        let line = self.starts.partition_point(|&start| start <= offset) - 1;
+        let character = self.encoding.units(&self.text[self.starts[line]..offset]);
+        Position { line: line as u32, character: character as u32 }
+    }
+
+    /// The range of bytes.
+    pub(super) fn range(&self, bytes: std::ops::Range<usize>) -> Range {
+        Range { start: self.position(bytes.start), end: self.position(bytes.end) }
+    }
+
+    /// The bytes of a range.
+    pub(super) fn bytes(&self, range: Range) -> std::ops::Range<usize> {
+        let (start, end) = (self.offset(range.start), self.offset(range.end));
+        start.min(end)..end
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "a𝔸é\r\n\rx\n";
+
+    #[test]
+    fn every_byte_of_a_character_has_its_position() {
+        for (encoding, places) in [(Encoding::Utf16, [0, 1, 3, 4]), (Encoding::Utf8, [0, 1, 5, 7])] {
+            let lines = Lines::new(TEXT, encoding);
+            for (offset, character) in [0, 1, 5, 7].into_iter().zip(places) {
+                let position = Position { line: 0, character };
+                assert_eq!(lines.position(offset), position);
+                assert_eq!(lines.offset(position), offset);
+            }
+        }
+    }
+
+    #[test]
+    fn lines_end_as_in_the_language() {
+        let lines = Lines::new(TEXT, Encoding::Utf16);
+        assert_eq!(lines.position(10), Position { line: 2, character: 0 });
+        assert_eq!(lines.offset(Position { line: 9, character: 0 }), TEXT.len());
+    }
+
+    #[test]
+    fn a_position_past_the_end_of_a_line_is_its_end() {
+        let lines = Lines::new(TEXT, Encoding::Utf16);
+        assert_eq!(lines.offset(Position { line: 0, character: 99 }), 7);
+        assert_eq!(lines.offset(Position { line: 0, character: 2 }), 1, "inside a pair, its start");
+    }
+}

@@ -1,0 +1,358 @@
+//! `nbc lsp` in the real program, with a client that speaks the protocol over pipes.
+
+use std::io::{BufReader, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use lsp_server::Message;
+use serde_json::{Value, json};
+
+use crate::cli::Bench;
+
+/// A running server and its client.
+struct Client {
+    server: Child,
+    input: Option<ChildStdin>,
+    output: BufReader<ChildStdout>,
+    next: i32,
+    /// The diagnostics published since they were last asked for, by URI.
+    published: Vec<(String, Value)>,
+}
+
+impl Client {
+    fn start() -> Self {
+        Self::with(&json!({}))
+    }
+
+    fn with(capabilities: &Value) -> Self {
+        let mut server = Command::new(env!("CARGO_BIN_EXE_nbc"))
+            .args(["lsp", "--stdio"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let input = server.stdin.take();
+        let output = BufReader::new(server.stdout.take().unwrap());
+        let mut client = Self { server, input, output, next: 0, published: Vec::new() };
+        let answer = client.ask("initialize", json!({ "capabilities": capabilities })).unwrap();
+        assert_eq!(answer["serverInfo"]["name"], "nbc");
+        client.tell("initialized", json!({}));
+        client
+    }
+
+    fn send(&mut self, message: &Value) {
+        let text = message.to_string();
+        let input = self.input.as_mut().unwrap();
+        write!(input, "Content-Length: {}\r\n\r\n{text}", text.len()).unwrap();
+        input.flush().unwrap();
+    }
+
+    fn tell(&mut self, method: &str, parameters: Value) {
+        self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": parameters }));
+    }
+
+    /// The result of a request, or the message of its error.
+    fn ask(&mut self, method: &str, parameters: Value) -> Result<Value, String> {
+        self.next += 1;
+        self.send(&json!({ "jsonrpc": "2.0", "id": self.next, "method": method, "params": parameters }));
+        loop {
+            match Message::read(&mut self.output).unwrap().expect("the server answers") {
+                Message::Response(response) => {
+                    assert_eq!(response.id, self.next.into());
+                    return response.response_result.map_err(|error| error.message);
+                }
+                Message::Notification(told) if told.method == "textDocument/publishDiagnostics" => {
+                    let uri = told.params["uri"].as_str().unwrap().to_owned();
+                    self.published.push((uri, told.params["diagnostics"].clone()));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn open(&mut self, uri: &str, text: &str) {
+        let document = json!({ "uri": uri, "languageId": "nb", "version": 1, "text": text });
+        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    }
+
+    /// The last diagnostics of a file. An answer to any request comes after them.
+    fn diagnostics(&mut self, uri: &str) -> Value {
+        self.ask("textDocument/foldingRange", json!({ "textDocument": { "uri": uri } })).unwrap();
+        let found = self.published.iter().rev().find(|(known, _)| known == uri);
+        found.map(|(_, list)| list.clone()).expect("diagnostics were published")
+    }
+
+    fn goodbye(mut self) {
+        self.ask("shutdown", Value::Null).unwrap();
+        self.tell("exit", Value::Null);
+        assert!(self.server.wait().unwrap().success());
+    }
+}
+
+fn uri(path: &Path) -> String {
+    format!("file://{}", path.canonicalize().unwrap().display())
+}
+
+/// A file of a folder, with its URI and its text.
+fn file(bench: &Bench, name: &str, text: &str) -> (String, String) {
+    bench.file(name, text);
+    (uri(&bench.path().join(name)), text.to_owned())
+}
+
+/// The place of a word in a text that has it, in lines and characters.
+fn at(text: &str, word: &str) -> Value {
+    let before = &text[..text.find(word).unwrap()];
+    let line = before.matches('\n').count();
+    let start = before.rfind('\n').map_or(0, |end| end + 1);
+    json!({ "line": line, "character": before[start..].encode_utf16().count() })
+}
+
+fn place(uri: &str, text: &str, word: &str) -> Value {
+    json!({ "textDocument": { "uri": uri }, "position": at(text, word) })
+}
+
+const ADDER: &str = "\
+use \"half.nb\"
+
+// Adds two bits and a carry.
+circuit full(a, b, c) -> (s, co) {
+    (t, c1) = half(a, b)
+    (s, c2) = half(t, c)
+    co = c1 or c2
+}
+
+test full {
+    a b c | s co
+    1 1 0 | 0 1
+}
+";
+
+const HALF: &str = "\
+// Adds two bits.
+circuit half(a, b) -> (s, c) {
+    s = a xor b
+    c = a and b
+}
+";
+
+#[test]
+fn errors_are_published_while_typing_and_fixed_by_quick_fixes() {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, "a.nb", "circuit gate(a, b) -> (q) {\n    q = a & b\n}\n");
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    let found = client.diagnostics(&uri);
+    let [problem] = &found.as_array().unwrap()[..] else { panic!("{found}") };
+    assert_eq!((&problem["code"], &problem["severity"]), (&json!("syntax"), &json!(1)));
+    assert_eq!(problem["range"]["start"], at(&text, "&"));
+    let page = problem["codeDescription"]["href"].as_str().unwrap().strip_prefix("file://").unwrap();
+    assert!(std::fs::read_to_string(page).unwrap().contains("# "), "the page of the code is there to be read");
+
+    let asked = json!({ "textDocument": { "uri": uri }, "range": problem["range"], "context": { "diagnostics": [] } });
+    let actions = client.ask("textDocument/codeAction", asked).unwrap();
+    let edit = &actions[0]["edit"]["changes"][&uri][0];
+    assert_eq!(edit["newText"], "and");
+
+    let change = json!({ "textDocument": { "uri": uri, "version": 2 },
+        "contentChanges": [{ "range": edit["range"], "text": edit["newText"] }] });
+    client.tell("textDocument/didChange", change);
+    assert_eq!(client.diagnostics(&uri), json!([]));
+    client.goodbye();
+}
+
+#[test]
+fn names_lead_to_their_declarations_in_other_files_and_in_the_prelude() {
+    let bench = Bench::new();
+    let (half, _) = file(&bench, "half.nb", HALF);
+    let text = ADDER.replace("c1 or c2", "latch(c1, c2)");
+    let (full, text) = file(&bench, "full.nb", &text);
+    let mut client = Client::start();
+    client.open(&full, &text);
+    let found = client.ask("textDocument/definition", place(&full, &text, "half(t")).unwrap();
+    assert_eq!(found, json!({ "uri": half, "range": { "start": at(HALF, "half"), "end": at(HALF, "(a, b)") } }));
+    let found = client.ask("textDocument/definition", place(&full, &text, "latch")).unwrap();
+    let prelude = std::fs::read_to_string(found["uri"].as_str().unwrap().strip_prefix("file://").unwrap()).unwrap();
+    let line = found["range"]["start"]["line"].as_u64().unwrap() as usize;
+    assert!(prelude.lines().nth(line).unwrap().starts_with("circuit latch"), "{found}");
+    let nothing = client.ask("textDocument/definition", place(&full, &text, "1 1 0")).unwrap();
+    assert_eq!(nothing, Value::Null);
+    client.goodbye();
+}
+
+#[test]
+fn a_hover_shows_the_declaration_and_its_comment() {
+    let bench = Bench::new();
+    file(&bench, "half.nb", HALF);
+    let (full, text) = file(&bench, "full.nb", ADDER);
+    let mut client = Client::start();
+    client.open(&full, &text);
+    let mut hover = |word: &str| {
+        let found = client.ask("textDocument/hover", place(&full, &text, word)).unwrap();
+        found["contents"]["value"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(hover("half(a"), "```nb\ncircuit half(a, b) -> (s, c)\n```\n\nAdds two bits.\n");
+    assert_eq!(hover("c1 or"), "```nb\nnet c1\n```\n");
+    client.goodbye();
+}
+
+#[test]
+fn a_new_name_is_written_in_all_open_files() {
+    let bench = Bench::new();
+    let (half, half_text) = file(&bench, "half.nb", HALF);
+    let (full, text) = file(&bench, "full.nb", ADDER);
+    let mut client = Client::start();
+    client.open(&full, &text);
+    client.open(&half, &half_text);
+    let uses = client.ask("textDocument/references", {
+        let mut asked = place(&half, &half_text, "half");
+        asked["context"] = json!({ "includeDeclaration": false });
+        asked
+    });
+    assert_eq!(uses.unwrap().as_array().unwrap().len(), 2);
+    let mut asked = place(&full, &text, "half(a");
+    asked["newName"] = json!("adder");
+    let edit = client.ask("textDocument/rename", asked.clone()).unwrap();
+    let changes = edit["changes"].as_object().unwrap();
+    assert_eq!((changes[&half].as_array().unwrap().len(), changes[&full].as_array().unwrap().len()), (1, 2));
+    asked["newName"] = json!("and");
+    assert!(client.ask("textDocument/rename", asked).unwrap_err().contains("`and` is not a name"));
+    // Ports are renamed in tests too.
+    let mut asked = place(&full, &text, "co = c1");
+    asked["newName"] = json!("carry");
+    let edit = client.ask("textDocument/rename", asked).unwrap();
+    assert_eq!(edit["changes"][&full].as_array().unwrap().len(), 3);
+    let highlights = client.ask("textDocument/documentHighlight", place(&full, &text, "t, c1")).unwrap();
+    assert_eq!(highlights.as_array().unwrap().len(), 2);
+    client.goodbye();
+}
+
+#[test]
+fn a_text_is_formatted_as_by_the_program() {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, "a.nb", "circuit   f(a)->(q){q=not a}\n");
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    let asked = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
+    let edits = client.ask("textDocument/formatting", asked.clone()).unwrap();
+    assert_eq!(bench.run(&["fmt", "a.nb"]).status, 0);
+    assert_eq!(edits[0]["newText"], std::fs::read_to_string(bench.path().join("a.nb")).unwrap());
+    let change = json!({ "textDocument": { "uri": uri, "version": 2 }, "contentChanges": [{ "text": "circuit f(" }] });
+    client.tell("textDocument/didChange", change);
+    assert_eq!(client.ask("textDocument/formatting", asked).unwrap(), Value::Null, "a broken text stays as it is");
+    client.goodbye();
+}
+
+#[test]
+fn declarations_are_listed_folded_and_completed() {
+    let bench = Bench::new();
+    file(&bench, "half.nb", HALF);
+    let (full, text) = file(&bench, "full.nb", ADDER);
+    let mut client = Client::start();
+    client.open(&full, &text);
+    let document = json!({ "textDocument": { "uri": full } });
+    let symbols = client.ask("textDocument/documentSymbol", document.clone()).unwrap();
+    let names: Vec<_> = symbols.as_array().unwrap().iter().map(|symbol| symbol["detail"].as_str().unwrap()).collect();
+    assert_eq!(names, ["circuit", "test"]);
+    assert_eq!(symbols[0]["children"].as_array().unwrap().len(), 5);
+    let folds = client.ask("textDocument/foldingRange", document).unwrap();
+    assert_eq!(folds[0]["startLine"], 3);
+    let mut labels = |word: &str| -> Vec<String> {
+        let items = client.ask("textDocument/completion", place(&full, &text, word)).unwrap();
+        items.as_array().unwrap().iter().map(|item| item["label"].as_str().unwrap().to_owned()).collect()
+    };
+    let inside = labels("c1 or");
+    for wanted in ["half", "latch", "t", "c2", "table"] {
+        assert!(inside.iter().any(|label| label == wanted), "{wanted}: {inside:?}");
+    }
+    assert!(labels("// Adds").iter().any(|label| label == "circuit"));
+    client.goodbye();
+}
+
+#[test]
+fn characters_are_counted_as_was_agreed() {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, "a.nb", "// 𝔸é\ncircuit f(a) -> (q) { q = a /* */ }\n");
+    for (encodings, character) in [(json!(["utf-16"]), 4), (json!(["utf-8", "utf-16"]), 7)] {
+        let mut client = Client::with(&json!({ "general": { "positionEncodings": encodings } }));
+        client.open(&uri, &text);
+        let change = json!({ "textDocument": { "uri": uri, "version": 2 }, "contentChanges": [{
+            "range": { "start": { "line": 0, "character": 3 }, "end": { "line": 0, "character": character + 2 } },
+            "text": "text" }] });
+        client.tell("textDocument/didChange", change);
+        let folds = client.diagnostics(&uri);
+        assert_eq!(folds[0]["range"]["start"]["line"], 1, "the comment kept its line: {folds}");
+        client.goodbye();
+    }
+}
+
+#[test]
+fn wrong_messages_are_answered_and_the_server_goes_on() {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, "a.nb", HALF);
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    assert!(client.ask("workspace/nonsense", json!({})).unwrap_err().contains("`workspace/nonsense`"));
+    assert!(client.ask("textDocument/hover", json!({ "position": 3 })).is_err());
+    let far = json!({ "textDocument": { "uri": uri }, "position": { "line": 4_000_000, "character": 9 } });
+    assert_eq!(client.ask("textDocument/hover", far).unwrap(), Value::Null);
+    let unopened = json!({ "textDocument": { "uri": "untitled:x" }, "position": { "line": 0, "character": 0 } });
+    assert_eq!(client.ask("textDocument/hover", unopened).unwrap(), Value::Null);
+    client.tell("textDocument/didChange", json!("nonsense"));
+    client.tell("$/unknown", json!({}));
+    assert_eq!(client.diagnostics(&uri), json!([]));
+    client.goodbye();
+}
+
+#[test]
+fn a_text_without_a_file_and_a_closed_one_are_served() {
+    let mut client = Client::start();
+    client.open("untitled:one", "circuit f(");
+    assert_eq!(client.diagnostics("untitled:one")[0]["severity"], 1);
+    client.tell("textDocument/didClose", json!({ "textDocument": { "uri": "untitled:one" } }));
+    assert_eq!(client.diagnostics("untitled:one"), json!([]));
+    client.goodbye();
+}
+
+#[test]
+fn the_server_ends_when_its_client_vanishes() {
+    for message in ["", "Content-Length: 3\r\n\r\n{x}", "Content-Length: 2\r\n\r\n\u{fffd}", "nonsense\r\n\r\n"] {
+        let mut client = Client::start();
+        let mut input = client.input.take().unwrap();
+        let _ = input.write_all(message.as_bytes());
+        drop(input);
+        let status = client.server.wait().unwrap();
+        assert!(matches!(status.code(), Some(0 | 2)), "{message:?}: {status}");
+    }
+}
+
+/// Needs `nvim`; set `NBC_WITHOUT_NEOVIM` where there is none.
+#[test]
+fn neovim_hovers_goes_to_definitions_renames_and_formats() {
+    if std::env::var_os("NBC_WITHOUT_NEOVIM").is_some() {
+        return;
+    }
+    let bench = Bench::new();
+    let text = std::fs::read_to_string(crate::language::root().join("circuits/latch.nb")).unwrap();
+    bench.file("latch.nb", &text);
+    let name = "d_latch";
+    let used = text.rfind(&format!("test {name}")).unwrap() + "test ".len();
+    let place = at(&text, &text[used..]);
+    let script = crate::language::root().join("tests/it/neovim.lua");
+    let status = Command::new("nvim")
+        .args(["--headless", "-u", "NONE", "-n", "-c", &format!("luafile {}", script.display())])
+        .current_dir(bench.path())
+        .env("NBC", env!("CARGO_BIN_EXE_nbc"))
+        .env("LINE", place["line"].to_string())
+        .env("CHARACTER", place["character"].to_string())
+        .stdin(Stdio::null())
+        .status()
+        .expect("install neovim, or set NBC_WITHOUT_NEOVIM");
+    assert!(status.success());
+    let found: Value = serde_json::from_slice(&std::fs::read(bench.path().join("found.json")).unwrap()).unwrap();
+    assert!(found["hover"].as_str().unwrap().starts_with(&format!("```nb\ncircuit {name}(")), "{found}");
+    assert_eq!(found["definition"], at(&text, &format!("{name}("))["line"]);
+    assert_eq!(found["problems"], 0);
+    let renamed = format!("//   formatted\n\n{}", text.replace(name, "memory"));
+    assert_eq!(found["text"], renamed, "a canonical text stays as it is");
+}
