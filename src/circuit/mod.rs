@@ -9,6 +9,7 @@ pub mod elaborate;
 mod example;
 pub mod formats;
 pub mod guarded;
+pub mod known;
 pub mod levels;
 pub mod logic;
 pub mod loops;

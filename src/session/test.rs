@@ -10,7 +10,7 @@ use crate::session::plan::plans;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
 use crate::session::wording::SwarmWarning;
-use crate::swarm::{self, Demand, Level, START_CYCLES, STEADY_CYCLES, Settling, TestVerdict};
+use crate::swarm::{self, Demand, Level, STEADY_CYCLES, Settling, TestVerdict};
 
 /// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
 /// [`STEADY_CYCLES`].
@@ -197,7 +197,7 @@ fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
     let bound = (compiled.timing.hold + window - 1) as usize;
     let mut settling = Settling::new(&compiled.assembly, window as usize);
     let demand = |(i, row): (usize, &TestRow)| {
-        let most = if i == 0 { bound + START_CYCLES } else { bound };
+        let most = if i == 0 { bound + compiled.assembly.start_cycles() } else { bound };
         let needed = settling.cycles_to_settle(&row.inputs, most).unwrap_or(most) + STEADY_EXTRA;
         let hold = match (row.hold, compiled.plan.hold) {
             (Some(cycles), _) | (None, Hold::Cycles(cycles)) => cycles.max(1) as usize,

@@ -60,6 +60,23 @@ pub struct Assembly {
     pub shown: Vec<StimulusSource>,
 }
 
+/// The fewest cycles in which robots settle into their shape after their fresh start.
+const LEAST_START: usize = 2;
+
+impl Assembly {
+    /// Cycles in which robots settle into their shape after their fresh start, and in which the slowest of them reacts
+    /// once. Their motion is ignored until the last of them is over, and the others sense their start values until
+    /// then; otherwise a latch would lose its start value (docs/physics.md 14).
+    pub fn start_cycles(&self) -> usize {
+        start_cycles(self.members.iter().map(|member| member.robot.character.clock))
+    }
+}
+
+/// [`Assembly::start_cycles`] of robots with these clocks.
+pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
+    clocks.into_iter().map(|clock| clock as usize).max().unwrap_or(0).max(LEAST_START)
+}
+
 /// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are
 /// wired.
 ///

@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use crate::circuit::{Logic, Netlist};
 use crate::model::{CircuitTest, TestRow};
-use crate::swarm::{Lapse, RowVerdict, START_CYCLES, SwarmTrace};
+use crate::swarm::assemble::start_cycles;
+use crate::swarm::{Lapse, RowVerdict, SwarmTrace};
 
 /// Cycles over which an output must have had its value when its row ends.
 pub const STEADY_CYCLES: usize = 2;
@@ -99,25 +100,24 @@ fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>) -> Vec<bool> {
 /// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had been stable long
 /// enough.
 fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse, bool)> {
+    let start = start_cycles(clocks.iter().copied());
     let robots = || trace.robots.iter().zip(clocks).enumerate();
     let of_cycle = |cycle: usize| {
         robots().filter_map(move |(k, (robot, &clock))| {
             let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
             let (net, name) = (robot.net.clone(), robot.robot.clone());
             let lapse = || Lapse { net, robot: name, cycle, sensed, output };
-            let settled = || is_settled(trace, cycle, k, clock as usize);
+            let settled = || cycle + 1 >= start && is_settled(trace, cycle, k, clock as usize);
             (output != robot.function.output(sensed[0], sensed[1])).then(|| (lapse(), settled()))
         })
     };
     cycles.flat_map(of_cycle).collect()
 }
 
-/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended; after its fresh start a robot has
-/// more time.
+/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended.
 fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
     let sensed = trace.cycles[cycle].sensed[k];
-    cycle + 1 >= clock.max(START_CYCLES)
-        && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
+    cycle + 1 >= clock && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
 }
 
 #[cfg(test)]

@@ -25,17 +25,14 @@ pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
     Setting { world_width, ..Setting::default() }
 }
 
-/// Cycles in which robots settle into their shape after their fresh start. Their motion is ignored until the last of
-/// them is over, and the others sense their start values until then; otherwise a latch would lose its start value
-/// (docs/physics.md 14).
-pub const START_CYCLES: usize = 2;
-
 /// A swarm during its simulation.
 #[derive(Debug)]
 pub struct LiveSwarm {
     flock: Box<dyn Flock>,
     /// Cycles over which a displacement is measured; its sign is the output.
     window: usize,
+    /// Cycles at the start in which robots sense the start values of the others.
+    start: usize,
     /// Each robot's output as sensed by the others.
     outputs: Vec<bool>,
     /// Env steps of a cycle at whose end something is read, in order.
@@ -72,6 +69,7 @@ impl LiveSwarm {
         Self {
             flock,
             window,
+            start: assembly.start_cycles(),
             outputs: assembly.members.iter().map(|member| member.start).collect(),
             stops: steps(SAMPLE_STRIDE).chain(steps(stride)).collect(),
             stride,
@@ -82,7 +80,7 @@ impl LiveSwarm {
     /// Simulates a cycle with these bits on the input ports.
     ///
     /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0. From the
-    /// end of [`START_CYCLES`] on, this bit is the stimulus of its receivers during the next cycle (paper, section 4).
+    /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper, section 4).
     ///
     /// # Panics
     /// When there are not as many bits as the input ports have.
@@ -94,7 +92,7 @@ impl LiveSwarm {
         self.advance(&sensed);
         let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
         let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
-        if self.trace.cycles.len() + 1 >= START_CYCLES {
+        if self.trace.cycles.len() + 1 >= self.start {
             self.outputs.clone_from(&bits);
         }
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {

@@ -26,7 +26,7 @@ pub use cells::{cells, prefer};
 pub use characterize::{characterize, screen};
 pub use evaluate::{evaluate, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, STEADY_CYCLES, judge_logic, judge_swarm};
-pub use live::{LiveSwarm, START_CYCLES, SwarmSnapshot, setting};
+pub use live::{LiveSwarm, SwarmSnapshot, setting};
 pub use measure::{Measurement, measure};
 pub use recording::{Recorded, Recording, Room};
 pub use selection::{Nominee, Selected, Selection};

@@ -7,11 +7,8 @@
 //! unknown and none changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic
 //! simulation" (1989).
 
-use crate::model::Function;
-use crate::swarm::{Assembly, Member, START_CYCLES};
-
-/// The known value of a bit; `None` if it may be either.
-type Known = Option<bool>;
+use crate::circuit::known::{Known, answer};
+use crate::swarm::{Assembly, Member};
 
 /// A swarm during the rows of a test; its outputs are known as far as the clocks of its robots determine them.
 #[derive(Clone, Debug)]
@@ -19,6 +16,8 @@ pub struct Settling<'a> {
     members: &'a [Member],
     /// Cycles after which the output of each robot is correct, with the window over which it is measured.
     clocks: Vec<usize>,
+    /// Cycles at the start in which robots sense the start values of the others.
+    start: usize,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
     sensed: Vec<([Known; 2], usize)>,
     bits: Vec<Known>,
@@ -33,6 +32,7 @@ impl<'a> Settling<'a> {
         Self {
             members,
             clocks: members.iter().map(clock).collect(),
+            start: assembly.start_cycles(),
             sensed: vec![([None; 2], 0); members.len()],
             bits: vec![None; members.len()],
             cycles: 0,
@@ -44,7 +44,7 @@ impl<'a> Settling<'a> {
     pub fn cycles_to_settle(&self, inputs: &[bool], most: usize) -> Option<usize> {
         let mut ahead = self.clone();
         let mut settled = 1;
-        let longest = self.clocks.iter().copied().max().unwrap_or(1).max(START_CYCLES);
+        let longest = self.clocks.iter().copied().max().unwrap_or(1).max(self.start);
         for cycle in 1..=most + longest {
             let before = ahead.bits.clone();
             ahead.advance(inputs);
@@ -69,7 +69,7 @@ impl<'a> Settling<'a> {
 
     /// One cycle. In the first ones robots sense the start values of the others.
     fn advance(&mut self, inputs: &[bool]) {
-        let starting = self.cycles < START_CYCLES;
+        let starting = self.cycles < self.start;
         let others: Vec<Known> = match starting {
             true => self.members.iter().map(|member| Some(member.start)).collect(),
             false => self.bits.clone(),
@@ -96,20 +96,12 @@ impl<'a> Settling<'a> {
         let keeps = self.bits[robot] == answer && member.robot.character.glitch_rate == 0.0;
         // In one cycle a robot may react to its stimuli of that cycle, whatever it sensed before.
         let is_right = held >= clock || clock == 1 || keeps;
-        if self.cycles + 1 < START_CYCLES || !is_right { None } else { answer }
+        if self.cycles + 1 < self.start || !is_right { None } else { answer }
     }
 
     /// Whether every robot has sensed the same for as long as it needs. If its outputs were the same in the cycle
     /// before, they stay.
     fn is_at_rest(&self) -> bool {
-        self.cycles > START_CYCLES && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
+        self.cycles > self.start && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
     }
-}
-
-/// A function of bits that may be unknown.
-fn answer(function: Function, [a, b]: [Known; 2]) -> Known {
-    let either = |bit: Known| bit.map_or([false, true], |bit| [bit; 2]);
-    let mut outputs = either(a).into_iter().flat_map(|a| either(b).map(|b| function.output(a, b)));
-    let first = outputs.next();
-    if outputs.all(|output| Some(output) == first) { first } else { None }
 }

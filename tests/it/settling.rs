@@ -1,10 +1,10 @@
 //! The holds of rows: no longer than needed, and long enough whatever robots do before they have settled.
 
-use nbc::circuit::CellLibrary;
+use nbc::circuit::{CellLibrary, Delays, Timing};
 use nbc::model::{Function, Library};
 use nbc::session::{Session, TestOptions};
 use nbc::store::DiskWorld;
-use nbc::swarm::{Assembly, Level, START_CYCLES, Settling, StimulusSource, assemble};
+use nbc::swarm::{Assembly, Level, Settling, StimulusSource, assemble, cells};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -30,7 +30,7 @@ impl<'a> RandomSwarm<'a> {
     }
 
     fn cycle(&mut self, inputs: &[bool], random: &mut ChaCha8Rng) {
-        let starting = self.cycles < START_CYCLES;
+        let starting = self.cycles < self.assembly.start_cycles();
         let before = self.bits.clone();
         for (i, member) in self.assembly.members.iter().enumerate() {
             let sensed = member.senses.map(|signal| match signal {
@@ -44,7 +44,8 @@ impl<'a> RandomSwarm<'a> {
             let right = member.robot.function().output(sensed[0], sensed[1]);
             let character = &member.robot.character;
             let keeps = before[i] == (right, true) && character.glitch_rate == 0.0;
-            let is_certain = (held >= character.clock as usize || keeps) && self.cycles + 1 >= START_CYCLES;
+            let is_certain =
+                (held >= character.clock as usize || keeps) && self.cycles + 1 >= self.assembly.start_cycles();
             self.bits[i] = if is_certain { (right, true) } else { (random.random_range(0..2) == 1, false) };
         }
         self.cycles += 1;
@@ -66,15 +67,18 @@ fn robots(most: u32, random: &mut ChaCha8Rng) -> Library {
     Library { robots: Function::all().map(with_character).collect() }
 }
 
-/// Switches the inputs at random, and holds each row until it has settled, with random outputs before.
-fn check(assembly: &Assembly, random: &mut ChaCha8Rng) -> usize {
+/// Switches the inputs at random, and holds each row until it has settled, with random outputs before. No row takes
+/// longer than `bound` cycles.
+fn check(assembly: &Assembly, bound: u32, random: &mut ChaCha8Rng) -> usize {
     let mut settling = Settling::new(assembly, 1);
     let mut swarms: Vec<RandomSwarm> = (0..4).map(|_| RandomSwarm::new(assembly)).collect();
     let mut settled = 0;
-    for _ in 0..12 {
+    for row in 0..12 {
         let inputs: Vec<bool> = assembly.inputs.iter().map(|_| random.random_range(0..2) == 1).collect();
         let cycles = settling.cycles_to_settle(&inputs, 200);
         settled += usize::from(cycles.is_some());
+        let bound = bound as usize + if row == 0 { assembly.start_cycles() } else { 0 };
+        assert!(cycles.is_none_or(|cycles| cycles <= bound), "{cycles:?}, at most {bound} by static timing");
         for _ in 0..cycles.unwrap_or_else(|| random.random_range(1..9)) {
             settling.hold(&inputs, 1);
             for swarm in &mut swarms {
@@ -101,7 +105,8 @@ proptest! {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let netlist = mapped(&text(&elements), &CellLibrary::uniform(Function::all().filter(|f| f.arity() == 2)));
         let library = robots(most, &mut random);
-        check(&assemble(&netlist, &library).unwrap(), &mut random);
+        let bound = Timing::of(&netlist, &cells(&library), Delays::Clock).hold;
+        check(&assemble(&netlist, &library).unwrap(), bound, &mut random);
     }
 }
 
@@ -114,7 +119,8 @@ fn registers_of_quick_robots_settle_in_every_row() {
         &CellLibrary::uniform([Function::NAND, Function::NOT]),
     );
     let library = robots(1, &mut random);
-    assert_eq!(check(&assemble(&netlist, &library).unwrap(), &mut random), 12);
+    let bound = Timing::of(&netlist, &cells(&library), Delays::Clock).hold;
+    assert_eq!(check(&assemble(&netlist, &library).unwrap(), bound, &mut random), 12);
 }
 
 /// The mean and the longest hold of the rows of a circuit of the gallery.
@@ -160,4 +166,22 @@ fn the_rows_of_the_gallery_are_short() {
         println!("{circuit}: {mean:.1} cycles a row on average, {longest} at most");
         assert!(mean <= most, "{circuit}: {mean} cycles a row on average, expected {most} at most");
     }
+}
+
+#[test]
+fn slow_robots_that_drive_each_other_keep_their_start_values() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let netlist = mapped(
+        "circuit memory(a, clk) -> (q) {\n    q = register[start = 1](a, clk)\n}\n",
+        &CellLibrary::uniform([Function::NAND, Function::NOT]),
+    );
+    let mut library = robots(1, &mut random);
+    library.robots.iter_mut().for_each(|robot| robot.character.clock = 4);
+    let assembly = assemble(&netlist, &library).unwrap();
+    assert_eq!(assembly.start_cycles(), 4);
+    let mut settling = Settling::new(&assembly, 1);
+    let start: Vec<Option<bool>> = assembly.members.iter().map(|member| Some(member.start)).collect();
+    assert_eq!(settling.cycles_to_settle(&[false, false], 100), Some(4));
+    settling.hold(&[false, false], 4);
+    assert_eq!(settling.bits(), start);
 }
