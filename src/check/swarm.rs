@@ -7,7 +7,7 @@ use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::Expected;
 use crate::diag::Diagnostic;
-use crate::model::{Hold, Swarm};
+use crate::model::{Hold, RegisterStyle, Swarm};
 use crate::syntax::tree::{RecordDeclaration, ValueKind, ValueSyntax};
 
 /// The default library of a swarm; the prelude declares it.
@@ -41,8 +41,12 @@ pub(crate) fn swarm(
         }
         _ => Err(quantity::wrong_kind(Expected::Time("3 cycles"), value.span)),
     });
+    let registers = fields.read("registers", RegisterStyle::MasterSlave, |value| {
+        fields::choice(value, &[("master_slave", RegisterStyle::MasterSlave), ("pulsed", RegisterStyle::Pulsed)])
+    });
     faults.extend(fields.finish());
-    Some(Swarm { name: source.name.text.clone(), span: source.name.span, circuit: circuit?, library, hold, window })
+    let (name, span) = (source.name.text.clone(), source.name.span);
+    Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers })
 }
 
 fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {

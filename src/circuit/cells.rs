@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::circuit::{NetId, Netlist};
 use crate::model::Function;
 
 /// The data of the robot that computes a function.
@@ -15,12 +16,14 @@ pub struct CellKind {
     pub settle: [[u32; 4]; 4],
     /// Smallest displacement in the correct direction at the end of a hold, in voxels per cycle.
     pub margin: f64,
+    /// Whether its output may change for a while when its inputs switch, although it is to stay.
+    pub glitches: bool,
 }
 
 impl CellKind {
-    /// A kind whose output is correct `clock` cycles after every switch.
-    pub fn uniform(clock: u32, margin: f64) -> Self {
-        Self { cost: 1, clock, settle: [[clock; 4]; 4], margin }
+    /// A kind without glitches whose output is correct `clock` cycles after every switch.
+    pub const fn uniform(clock: u32, margin: f64) -> Self {
+        Self { cost: 1, clock, settle: [[clock; 4]; 4], margin, glitches: false }
     }
 
     /// Cycles from a change of `pin` (0 or 1) to `value` until the output stays at `output`; none if that cannot
@@ -66,6 +69,12 @@ impl CellLibrary {
     /// Whether there is a cell of that function.
     pub fn contains(&self, function: Function) -> bool {
         self.kinds.contains_key(&function)
+    }
+
+    /// The kind of each cell of a netlist; a cell of no kind takes one cycle.
+    pub fn kinds_of<'a>(&'a self, netlist: &'a Netlist) -> impl Fn(NetId) -> &'a CellKind {
+        const OTHER: CellKind = CellKind::uniform(1, 0.0);
+        move |id| netlist.cell(id).and_then(|cell| self.get(cell.function)).unwrap_or(&OTHER)
     }
 
     /// The functions in order of their bits.

@@ -7,7 +7,8 @@
 use petgraph::Direction::Outgoing;
 use petgraph::visit::NodeIndexable;
 
-use crate::circuit::{NetId, Netlist};
+use crate::circuit::NetId;
+use crate::circuit::netlist::NetGraph;
 
 /// A node that has not been visited.
 const NEW: u32 = 0;
@@ -15,8 +16,8 @@ const NEW: u32 = 0;
 const DONE: u32 = u32::MAX;
 
 /// The state of the search; it visits each node once.
-pub struct Components<'n> {
-    netlist: &'n Netlist,
+pub struct Components<'g> {
+    graph: &'g NetGraph,
     /// When each node was visited, or [`NEW`] or [`DONE`].
     met: Vec<u32>,
     /// For each visited node, the earliest node that it leads back to.
@@ -26,11 +27,11 @@ pub struct Components<'n> {
     open: Vec<NetId>,
 }
 
-impl<'n> Components<'n> {
-    /// A new search.
-    pub fn new(netlist: &'n Netlist) -> Self {
-        let nodes = netlist.graph().node_bound();
-        Self { netlist, met: vec![NEW; nodes], low: vec![NEW; nodes], clock: NEW, open: Vec::new() }
+impl<'g> Components<'g> {
+    /// A new search of a netlist's graph.
+    pub fn new(graph: &'g NetGraph) -> Self {
+        let nodes = graph.node_bound();
+        Self { graph, met: vec![NEW; nodes], low: vec![NEW; nodes], clock: NEW, open: Vec::new() }
     }
 
     /// The components that `roots` lead to by way of nodes that are `inside`, listeners before their drivers.
@@ -46,7 +47,7 @@ impl<'n> Components<'n> {
 
     /// Follows every way from a node that is new.
     fn follow(&mut self, root: NetId, inside: &impl Fn(NetId) -> bool, components: &mut Vec<Vec<NetId>>) {
-        let graph = self.netlist.graph();
+        let graph = self.graph;
         let listeners = |node: NetId| graph.neighbors_directed(node, Outgoing).detach();
         self.meet(root);
         let mut way = vec![(root, listeners(root))];
@@ -92,10 +93,11 @@ impl<'n> Components<'n> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::circuit::Netlist;
     use crate::model::Function;
 
     fn all(netlist: &Netlist) -> Vec<Vec<NetId>> {
-        Components::new(netlist).from(netlist.ids(), |_| true)
+        Components::new(netlist.graph()).from(netlist.ids(), |_| true)
     }
 
     #[test]
@@ -107,7 +109,7 @@ mod tests {
         netlist.drive(one, 1, two);
         let output = netlist.add_output("q", two);
         assert_eq!(all(&netlist), [vec![output], vec![one, two], vec![a]]);
-        let open = Components::new(&netlist).from(netlist.ids(), |id| id != two);
+        let open = Components::new(netlist.graph()).from(netlist.ids(), |id| id != two);
         assert_eq!(open, [vec![one], vec![a], vec![output]]);
     }
 

@@ -3,11 +3,11 @@
 use crate::model::Function;
 
 /// The known value of a bit; `None` if it may be either.
-pub type Known = Option<bool>;
+pub type TernaryBit = Option<bool>;
 
 /// The value of a function where its inputs determine it.
-pub fn answer(function: Function, [a, b]: [Known; 2]) -> Known {
-    let either = |bit: Known| bit.map_or([false, true], |bit| [bit; 2]);
+pub fn answer(function: Function, [a, b]: [TernaryBit; 2]) -> TernaryBit {
+    let either = |bit: TernaryBit| bit.map_or([false, true], |bit| [bit; 2]);
     let mut outputs = either(a).into_iter().flat_map(|a| either(b).map(|b| function.output(a, b)));
     let first = outputs.next();
     if outputs.all(|output| Some(output) == first) { first } else { None }

@@ -17,7 +17,7 @@ pub struct Loops {
 impl Loops {
     /// Finds the loops.
     pub fn of(netlist: &Netlist) -> Self {
-        let mut components = Components::new(netlist).from(netlist.ids(), |_| true);
+        let mut components = Components::new(netlist.graph()).from(netlist.ids(), |_| true);
         components.reverse();
         let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
         for mut component in components {
@@ -39,13 +39,13 @@ impl Loops {
     /// In [`Loops::order`] nothing waits for a memory element here.
     pub fn memory(netlist: &Netlist) -> Self {
         let mut loops = Self { cores: Vec::new(), core_of: BTreeMap::new(), order: Vec::new() };
-        let mut rest = Components::new(netlist);
+        let mut rest = Components::new(netlist.graph());
         for core in Self::of(netlist).cores {
             let kept = memory_of(netlist, &core, &mut rest);
             loops.core_of.extend(kept.iter().map(|&id| (id, loops.cores.len())));
             loops.cores.push(kept);
         }
-        let components = Components::new(netlist).from(netlist.ids(), |id| !loops.core_of.contains_key(&id));
+        let components = Components::new(netlist.graph()).from(netlist.ids(), |id| !loops.core_of.contains_key(&id));
         loops.order = loops.cores.concat();
         loops.order.extend(components.into_iter().rev().flatten());
         loops

@@ -49,12 +49,15 @@ pub enum Node {
     Cell(Cell),
 }
 
+/// The graph of a netlist: the weight of an edge is the listener's pin.
+pub type NetGraph = StableDiGraph<Node, u8, u32>;
+
 /// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.
 #[derive(Clone, Debug, Default)]
 pub struct Netlist {
     /// The circuit's name.
     pub name: String,
-    graph: StableDiGraph<Node, u8, u32>,
+    graph: NetGraph,
     inputs: Vec<NetId>,
     outputs: Vec<NetId>,
 }
@@ -215,7 +218,7 @@ impl Netlist {
     }
 
     /// The graph itself, for petgraph's algorithms: an edge's weight is the listener's pin.
-    pub fn graph(&self) -> &StableDiGraph<Node, u8, u32> {
+    pub fn graph(&self) -> &NetGraph {
         &self.graph
     }
 

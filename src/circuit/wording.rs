@@ -3,6 +3,8 @@
 use std::error::Error;
 use std::fmt;
 
+use crate::circuit::netlist::Netlist;
+use crate::circuit::storage::WhyUnphased;
 use crate::diag::suggest::alternatives;
 use crate::model::Function;
 
@@ -143,3 +145,17 @@ impl fmt::Display for Oscillation {
 }
 
 impl Error for Oscillation {}
+
+impl WhyUnphased {
+    /// The reason in words, with the names of a netlist's nets.
+    pub fn explain(self, netlist: &Netlist) -> String {
+        match self {
+            Self::NoEnable => "no net closes it".to_owned(),
+            Self::Race => "its state depends on delays when it closes".to_owned(),
+            Self::Glitch(cell) => format!("`{}` may glitch while it is closed", netlist.net_name(cell)),
+            Self::ManyInputs => "it has too many inputs to try all their values".to_owned(),
+            Self::ManyEnables => "the circuit has too many enables to try all their values".to_owned(),
+            Self::StaysOpen => "a loop passes it while it is open".to_owned(),
+        }
+    }
+}

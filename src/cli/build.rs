@@ -7,14 +7,15 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::circuit::formats::{Design, blif, dot, verilog};
-use crate::circuit::timing::fan_out;
+use crate::circuit::timing::{PulsedRegisters, fan_out};
 use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::diag::counted;
 use crate::model::Column;
-use crate::report::{Document, Schema};
+use crate::report::{Document, PhaseTiming, Schema};
 use crate::session::{CompileOptions, Mapping, Session};
 use crate::store::{self, DiskWorld};
 
@@ -22,6 +23,7 @@ const EXAMPLES: &str = "\
 Examples:
   nbc build circuits/latch.nb                    the netlist as text
   nbc build circuits/latch.nb --emit blif -o latch.blif
+  nbc build circuits/counter.nb --emit timing    the times of its clock
   nbc build adder.nb --circuit 'adder[8]' --cells nand,not --emit json";
 
 /// Compile a circuit to robots, prove the result, and print its netlist
@@ -55,7 +57,9 @@ enum Emit {
     Verilog,
     /// A graph for Graphviz
     Dot,
-    /// JSON with cells, levels, hold, critical path and races
+    /// The slowest path, and the times of clocks and inputs
+    Timing,
+    /// JSON with cells, levels, hold, critical path, clocks and races
     Json,
 }
 
@@ -100,14 +104,23 @@ fn emit(emit: Emit, mapping: Mapping) -> String {
         Emit::Blif => blif::write(&Design { logic: mapped, registers: Vec::new() }),
         Emit::Verilog => verilog::write(&Design { logic: mapped, registers: Vec::new() }),
         Emit::Dot => dot::write(&mapped),
+        Emit::Timing => describe_timing(&mapped, &mapping.cells, mapping.registers.as_ref()),
         Emit::Json => {
-            let document = Document::new(Schema::Build, describe(&mapped, &mapping.cells));
+            let document = Document::new(Schema::Build, describe(&mapped, &mapping.cells, mapping.registers.as_ref()));
             serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
         }
     }
 }
 
-fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
+fn describe_timing(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRegisters>) -> String {
+    let timing = Timing::of(mapped, library, Delays::Clock);
+    let path: Vec<String> = timing.critical_path.iter().map(|&id| mapped.net_name(id)).collect();
+    let settles =
+        format!("timing   settles within {}: {}\n", counted(timing.hold as usize, "cycle"), path.join(" -> "));
+    settles + &PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers).describe()
+}
+
+fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRegisters>) -> serde_json::Value {
     let timing = Timing::of(mapped, library, Delays::Clock);
     let name = |id: &NetId| mapped.net_name(*id);
     let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
@@ -139,6 +152,7 @@ fn describe(mapped: &Netlist, library: &CellLibrary) -> serde_json::Value {
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
         "memory": memory.collect::<Vec<_>>(),
+        "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers),
         "proved": true,
         "races": races(mapped).map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
     })

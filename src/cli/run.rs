@@ -13,9 +13,11 @@ use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use crate::diag::Diagnostic;
 use crate::model::{CircuitTest, Robot, Simulation};
 use crate::report::{
-    self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
+    self, Document, PageSwarm, PhaseTiming, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
+use crate::session::{
+    Checked, CompileOptions, Mapping, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun,
+};
 use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
 
@@ -282,6 +284,7 @@ fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {
         assembly: &swarm.compiled.assembly,
         schematic: &drawn.schematic,
         spacetime: &drawn.spacetime,
+        timing: timing(drawn.ran).describe(),
     }
 }
 
@@ -319,5 +322,7 @@ fn result<'a>(source: &'a str, drawn: &'a [Drawn<'a>]) -> RunResult<'a> {
 
 fn timing(ran: &Ran) -> SwarmTiming {
     let compiled = &ran.swarm().compiled;
-    SwarmTiming::of(&compiled.mapping.netlist, &compiled.timing, &compiled.assembly)
+    let Mapping { netlist, cells, registers, .. } = &compiled.mapping;
+    let phases = PhaseTiming::of(netlist, &compiled.timing, cells.kinds_of(netlist), registers.as_ref());
+    SwarmTiming::of(netlist, &compiled.timing, &compiled.assembly, phases)
 }

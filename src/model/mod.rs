@@ -32,7 +32,7 @@ pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use palette::Palette;
-pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Program, Simulation, Swarm};
+pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Program, RegisterStyle, Simulation, Swarm};
 pub use robot::{Character, Library, Provenance, Robot, Transition};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;

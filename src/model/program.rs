@@ -68,6 +68,18 @@ pub struct Swarm {
     pub hold: Hold,
     /// The number of cycles over which a robot's output is measured; the paper's is 1.
     pub window: u32,
+    /// What its registers are made of.
+    pub registers: RegisterStyle,
+}
+
+/// What registers are made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegisterStyle {
+    /// Two latches each, as written.
+    #[default]
+    MasterSlave,
+    /// One latch each, and a generator of pulses for all, where that is proved safe.
+    Pulsed,
 }
 
 /// The time for which inputs are held.

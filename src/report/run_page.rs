@@ -37,6 +37,8 @@ pub struct PageSwarm<'a> {
     pub schematic: &'a Svg,
     /// The swarm in space and time.
     pub spacetime: &'a Svg,
+    /// Its static timing, as text.
+    pub timing: String,
 }
 
 /// The page of a run of the source file with that name.
@@ -117,11 +119,13 @@ fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
         "<section id=\"swarm-{number}\">\n<h2>{heading}</h2>\n{table}\
          <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" \
          aria-live=\"polite\"></div></div>\n{left_out}{player}\
-         <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n</section>\n",
+         <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n\
+         <details><summary>Timing, in cycles</summary>\n<pre>{timing}</pre></details>\n</section>\n",
         heading = swarm.outcome.heading(),
         table = swarm.outcome.table(),
         schematic = picture(swarm.schematic, "schematic"),
         spacetime = picture(swarm.spacetime, "paths of the robots over time"),
+        timing = escape(&swarm.timing),
     )
 }
 

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::circuit::timing::fan_out;
 use crate::circuit::{Memory, NetId, Netlist, Timing};
 use crate::diag::counted;
+use crate::report::phases::PhaseTiming;
 use crate::swarm::{Assembly, Member};
 
 /// The static timing of a swarm, in cycles after its inputs switched.
@@ -20,6 +21,8 @@ pub struct SwarmTiming {
     pub robots: Vec<RobotTiming>,
     /// The timing requirements of the memory elements.
     pub memory: Vec<MemoryTimes>,
+    /// The registers and clocks.
+    pub phases: PhaseTiming,
 }
 
 /// A net of the slowest path.
@@ -65,8 +68,8 @@ pub struct MemoryTimes {
 }
 
 impl SwarmTiming {
-    /// The timing of a mapped netlist and the robots that play it.
-    pub fn of(mapped: &Netlist, timing: &Timing, assembly: &Assembly) -> Self {
+    /// The timing of a mapped netlist, of the robots that play it and of its registers.
+    pub fn of(mapped: &Netlist, timing: &Timing, assembly: &Assembly, phases: PhaseTiming) -> Self {
         let players: BTreeMap<NetId, &Member> = mapped.cells().map(|(id, _)| id).zip(&assembly.members).collect();
         let clock = |id: NetId| players.get(&id).map_or(0, |member| member.robot.character.clock);
         let listeners: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
@@ -95,6 +98,7 @@ impl SwarmTiming {
             critical_path: timing.critical_path.iter().map(step).collect(),
             robots: players.iter().map(robot).collect(),
             memory: Memory::all(mapped, timing, clock).into_iter().map(times).collect(),
+            phases,
         }
     }
 
@@ -107,6 +111,7 @@ impl SwarmTiming {
         let path: Vec<String> = self.critical_path.iter().map(step).collect();
         let mut text =
             format!("timing   settles within {}: {}\n", counted(self.hold as usize, "cycle"), path.join(" -> "));
+        text += &self.phases.describe();
         for MemoryTimes { nets, pulse, setup, hold } in &self.memory {
             let nets = nets.join(" ");
             text.push_str(&format!("memory   {nets}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n"));

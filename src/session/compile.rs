@@ -1,9 +1,9 @@
 //! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
 
-use crate::circuit::timing::Delays;
+use crate::circuit::timing::{Delays, Pulsed, PulsedRegisters};
 use crate::circuit::{CellLibrary, MapOptions, Netlist, Proof, Timing, elaborate, map_with, prove};
 use crate::diag::Diagnostic;
-use crate::model::{Instance, Program};
+use crate::model::{Instance, Program, RegisterStyle};
 use crate::session::plan::Plan;
 use crate::session::wording::{ChoiceError, SwarmWarning, for_circuit};
 use crate::source::Span;
@@ -18,8 +18,23 @@ pub struct Mapping {
     pub netlist: Netlist,
     /// The available cells.
     pub cells: CellLibrary,
-    /// How the two netlists were proved equal.
+    /// How the two netlists were proved equal, before registers became pulsed latches.
     pub proof: Proof,
+    /// The registers, if they were to be pulsed latches.
+    pub registers: Option<PulsedRegisters>,
+}
+
+impl Mapping {
+    /// The same circuit with registers of another style.
+    fn with_registers(self, style: RegisterStyle) -> Self {
+        match style {
+            RegisterStyle::MasterSlave => self,
+            RegisterStyle::Pulsed => {
+                let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
+                Self { netlist, registers: Some(registers), ..self }
+            }
+        }
+    }
 }
 
 /// A circuit compiled to a swarm.
@@ -49,7 +64,7 @@ pub struct Compiled {
 pub fn synthesize(source: Netlist, cells: &CellLibrary, options: MapOptions) -> Result<Mapping, Diagnostic> {
     let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
     match prove(&source, &netlist) {
-        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof }),
+        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None }),
         Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
     }
 }
@@ -63,10 +78,12 @@ pub(super) fn map(
     circuit: &Instance,
     cells: &CellLibrary,
     options: MapOptions,
+    style: RegisterStyle,
     place: Span,
 ) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate(program, circuit)?;
-    synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
+    let mapping = synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])?;
+    Ok(mapping.with_registers(style))
 }
 
 /// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
@@ -79,7 +96,7 @@ pub(super) fn compile(
     options: MapOptions,
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let mapping = map(program, &plan.circuit, &swarm::cells(&plan.library), options, place)?;
+    let mapping = map(program, &plan.circuit, &swarm::cells(&plan.library), options, plan.registers, place)?;
     let timing = Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock);
     let assembly = swarm::assemble(&mapping.netlist, &plan.library).expect("the netlist was mapped onto this library");
     let weak_robots = swarm::weak_robots(&assembly);

@@ -33,7 +33,7 @@ pub use test::{TestCase, TestOptions, TestRun};
 
 use crate::circuit::CellLibrary;
 use crate::diag::Diagnostics;
-use crate::model::{CircuitTest, Instance, Library, Simulation};
+use crate::model::{CircuitTest, Instance, Library, RegisterStyle, Simulation};
 use crate::sim::Simulator;
 use crate::source::SourceWorld;
 use crate::swarm::{self, Level, LiveSwarm, Room};
@@ -119,8 +119,10 @@ impl Session {
     /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = plan::plan(self.supply(), &checked.program, circuit, options);
-        let cells = swarm::cells(&plan.map_err(|faults| checked.fail(faults))?.library);
-        self.map_onto(checked, circuit, &cells, options)
+        let plan = plan.map_err(|faults| checked.fail(faults))?;
+        let (cells, place) = (swarm::cells(&plan.library), checked.place(circuit));
+        let mapping = compile::map(&checked.program, circuit, &cells, options.mapping(), plan.registers, place);
+        mapping.map_err(|faults| checked.fail(faults))
     }
 
     /// Elaborates a circuit, maps it onto cells that need not be of robots, and proves the result.
@@ -134,7 +136,8 @@ impl Session {
         cells: &CellLibrary,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
-        let mapping = compile::map(&checked.program, circuit, cells, options.mapping(), checked.place(circuit));
+        let (style, place) = (RegisterStyle::default(), checked.place(circuit));
+        let mapping = compile::map(&checked.program, circuit, cells, options.mapping(), style, place);
         mapping.map_err(|faults| checked.fail(faults))
     }
 

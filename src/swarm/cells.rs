@@ -35,8 +35,10 @@ pub(super) fn choose(library: &Library, function: Function) -> Option<(&Robot, b
 
 fn kind(library: &Library, function: Function) -> Option<CellKind> {
     let (robot, exchanged) = choose(library, function)?;
-    let mut kind = CellKind::uniform(robot.character.clock, robot.character.margin);
-    for transition in &robot.character.settle {
+    let character = &robot.character;
+    let mut kind = CellKind::uniform(character.clock, character.margin);
+    kind.glitches = character.glitch_rate != 0.0;
+    for transition in &character.settle {
         let index = |pattern: Pattern| {
             let index = pattern.pair_index();
             if exchanged { (index & 1) << 1 | index >> 1 } else { index }

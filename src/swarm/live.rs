@@ -80,7 +80,8 @@ impl LiveSwarm {
     /// Simulates a cycle with these bits on the input ports.
     ///
     /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0. From the
-    /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper, section 4).
+    /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper,
+    /// section 4).
     ///
     /// # Panics
     /// When there are not as many bits as the input ports have.

@@ -7,7 +7,7 @@
 //! unknown and none changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic
 //! simulation" (1989).
 
-use crate::circuit::known::{Known, answer};
+use crate::circuit::known::{TernaryBit, answer};
 use crate::swarm::{Assembly, Member};
 
 /// A swarm during the rows of a test; its outputs are known as far as the clocks of its robots determine them.
@@ -19,8 +19,8 @@ pub struct Settling<'a> {
     /// Cycles at the start in which robots sense the start values of the others.
     start: usize,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
-    sensed: Vec<([Known; 2], usize)>,
-    bits: Vec<Known>,
+    sensed: Vec<([TernaryBit; 2], usize)>,
+    bits: Vec<TernaryBit>,
     cycles: usize,
 }
 
@@ -70,7 +70,7 @@ impl<'a> Settling<'a> {
     /// One cycle. In the first ones robots sense the start values of the others.
     fn advance(&mut self, inputs: &[bool]) {
         let starting = self.cycles < self.start;
-        let others: Vec<Known> = match starting {
+        let others: Vec<TernaryBit> = match starting {
             true => self.members.iter().map(|member| Some(member.start)).collect(),
             false => self.bits.clone(),
         };
@@ -89,7 +89,7 @@ impl<'a> Settling<'a> {
     }
 
     /// The known output of a robot at the end of a cycle.
-    fn output(&self, robot: usize, pattern: [Known; 2], held: usize) -> Known {
+    fn output(&self, robot: usize, pattern: [TernaryBit; 2], held: usize) -> TernaryBit {
         let member = &self.members[robot];
         let answer = answer(member.robot.function(), pattern);
         let clock = self.clocks[robot];

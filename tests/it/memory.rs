@@ -15,8 +15,8 @@ use crate::language::programs;
 
 /// The inputs of a random circuit.
 const INPUTS: [&str; 4] = ["a", "b", "clk", "en"];
-const CLOCK: usize = 2;
-const ENABLE: usize = 3;
+pub const CLOCK: usize = 2;
+pub const ENABLE: usize = 3;
 
 /// The inputs of a memory element; nets are numbered `a` and `b` first, then the elements.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ enum Kind {
 pub struct Element {
     kind: Kind,
     data: Data,
-    start: bool,
+    pub start: bool,
 }
 
 impl Data {
@@ -88,7 +88,7 @@ pub fn text(elements: &[Element]) -> String {
 }
 
 /// The state for new inputs: first registers whose clock rose store their data, then latches follow.
-fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [bool]) {
+pub fn next(elements: &[Element], before: &[bool], inputs: &[bool], state: &mut [bool]) {
     let old = state.to_vec();
     for (i, element) in elements.iter().enumerate() {
         if let Kind::Register(inverted) = element.kind
@@ -138,7 +138,7 @@ pub fn elements() -> impl Strategy<Value = Vec<Element>> {
 }
 
 /// Checks a text without its warnings, such as that of an unused input.
-fn program(text: &str) -> Program {
+pub fn program(text: &str) -> Program {
     let mut sources = Sources::default();
     let file = sources.add("memory.nb", text);
     let checked = check::check(&MemoryWorld::default(), &mut sources, file);
@@ -175,7 +175,7 @@ fn remembers(elements: &[Element], netlist: &Netlist, random: &mut ChaCha8Rng) {
     }
 }
 
-fn libraries() -> [CellLibrary; 3] {
+pub fn libraries() -> [CellLibrary; 3] {
     let all = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
     [
         CellLibrary::uniform([Function::NAND, Function::NOT]),

@@ -112,6 +112,7 @@ fn page_of(trace: &SwarmTrace) -> String {
         assembly: &assembly,
         schematic: &schematic,
         spacetime: &spacetime,
+        timing: "settles within <5> cycles\n".to_owned(),
     };
     report::draw_run_page("circuits/<latch>.nb", &[test(), test()], Scheme::Paper)
 }

@@ -172,7 +172,7 @@ fn the_rows_of_the_gallery_are_short() {
 fn slow_robots_that_drive_each_other_keep_their_start_values() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let netlist = mapped(
-        "circuit memory(a, clk) -> (q) {\n    q = register[start = 1](a, clk)\n}\n",
+        "circuit memory(a, clk) -> (q) {\n    q = register[start = 0](a, clk)\n}\n",
         &CellLibrary::uniform([Function::NAND, Function::NOT]),
     );
     let mut library = robots(1, &mut random);
