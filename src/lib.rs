@@ -64,6 +64,18 @@ pub mod syntax;
 pub use circuit::{Effort, MappingObjective};
 
 /// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
+/// # let checked = session.open("a.nb")?;
+/// let compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
+/// let netlist: &nbc::Netlist = &compiled.mapping.netlist;
+/// let cells = netlist.ids().filter(|&id| matches!(netlist.node(id), nbc::Node::Cell(_)));
+/// assert_eq!(cells.count(), 1);
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use circuit::{Netlist, Node};
+
+/// ```
 /// use nbc::{MemoryWorld, Session, Severity};
 /// let mut session = Session::new(MemoryWorld::default());
 /// session.update("a.nb", 1, "circuit f(a) -> (q) { q = b }");
@@ -93,6 +105,40 @@ pub use diag::Diagnostics;
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use evolve::{Archive, Elite, Search};
+
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # session.update("run.nb", 1, "evolution mine { from: gates, box: 3 x 2 }");
+/// # let checked = session.open("run.nb")?;
+/// use nbc::{Behavior, Candidate, CandidateOutcome, Scores};
+/// let mut search = nbc::Search::new(checked.program.evolution("mine").unwrap(), 1);
+/// let candidates: Vec<Candidate> = search.ask();
+/// let displacement = [1.0, 1.0, 1.0, -1.0];
+/// let scores = Scores { fitness: [4.0, 1.0], behavior: Behavior::of(&displacement), displacement };
+/// search.tell(&candidates, &vec![CandidateOutcome::Measured(scores); candidates.len()]);
+/// assert!(!search.archive().is_empty());
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use evolve::{Candidate, CandidateOutcome, Scores};
+
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # session.update("run.nb", 1, "evolution mine { from: gates }");
+/// # let checked = session.open("run.nb")?;
+/// let descriptor = nbc::Descriptor::new(checked.program.evolution("mine").unwrap());
+/// let body = nbc::Body::parse(&["33333", "55555", "00000", "00000", "00000"], &nbc::Palette::paper()).unwrap();
+/// let niche: nbc::NicheKey = descriptor.niche(&body, "RRRL".parse().unwrap());
+/// assert_eq!(niche.0, [1, 0, 0, 7]);
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use evolve::{Descriptor, NicheKey};
+
+/// ```
+/// let body = nbc::Body::parse(&["33"], &nbc::Palette::paper()).unwrap();
+/// let why: nbc::Undeveloped = nbc::validate(&body).unwrap_err();
+/// assert_eq!(why.to_string(), "the body has 2 actuators, expected at least 3");
+/// ```
+pub use evolve::{Undeveloped, validate};
 
 /// ```
 /// use std::sync::Arc;
@@ -135,6 +181,58 @@ pub use model::Evolution;
 pub use model::{Fault, Pattern, Schedule, Setting, Trajectory, Trial};
 
 /// ```
+/// assert_eq!(nbc::CYCLE_STEPS, 84);
+/// ```
+pub use model::CYCLE_STEPS;
+
+/// ```
+/// use nbc::{Axis, Behavior, Count};
+/// let nand: Behavior = "RRRL".parse().unwrap();
+/// assert_eq!(nand.function().name(), "nand");
+/// let axes = [Axis::Count { of: Count::Voxels, bins: 4 }, Axis::Behavior];
+/// assert_eq!(axes.len(), 2);
+/// ```
+pub use model::{Axis, Behavior, Count};
+
+/// ```
+/// use nbc::{Pattern, Schedule, Spell};
+/// let spells = vec![Spell { pattern: Pattern::PAIRS[1], steps: 840 }];
+/// assert_eq!(nbc::read_schedule("schedule", "01*10")?, Schedule { spells });
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use model::Spell;
+
+/// ```
+/// use nbc::{Body, Palette, Setting, SettingError};
+/// let body = Body::parse(&["343"], &Palette::paper()).unwrap();
+/// let narrow = Setting { world_width: 2, ..Setting::default() };
+/// assert_eq!(narrow.check(&body), Err(SettingError::NarrowWorld { width: 2, columns: 3 }));
+/// ```
+pub use model::SettingError;
+
+/// ```
+/// use nbc::{Body, Palette, Scheme, Svg};
+/// let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
+/// let picture: Svg = nbc::draw_portrait("a body", &body, Scheme::Safe);
+/// assert!(picture.finish().starts_with("<svg"));
+/// ```
+pub use report::{Scheme, Svg, draw_portrait};
+
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
+/// # let checked = session.open("a.nb")?;
+/// let compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
+/// let timing: nbc::SwarmTiming = compiled.swarm_timing();
+/// assert_eq!(timing.robots[0].slack, 0);
+/// let mut swarm = session.swarm(&compiled);
+/// swarm.step(&[true]);
+/// assert!(nbc::draw_swarm(swarm.trace()).finish().starts_with("<svg"));
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use report::{SwarmTiming, draw_swarm};
+
+/// ```
 /// use nbc::{Checked, MemoryWorld, Session};
 /// let mut session = Session::new(MemoryWorld::default());
 /// session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
@@ -158,10 +256,14 @@ pub use session::Choice;
 /// # session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
 /// # let checked = session.open("a.nb")?;
 /// let compiled: nbc::Compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
-/// assert_eq!(compiled.assembly.members.len(), 1);
+/// let member: &nbc::Member = &compiled.assembly.members[0];
+/// assert_eq!(member.robot.function().name(), "not");
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use session::{CompileOptions, Compiled};
+pub use {
+    session::{CompileOptions, Compiled},
+    swarm::Member,
+};
 
 /// ```
 /// struct Until(u64);
@@ -198,7 +300,10 @@ pub use session::Session;
 /// assert!(row.passed);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use session::{TestOptions, TestRun};
+pub use {
+    model::CircuitTest,
+    session::{TestOptions, TestRun},
+};
 
 /// ```no_run
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -211,6 +316,13 @@ pub use session::{TestOptions, TestRun};
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use session::SimulationRun;
+
+/// ```
+/// let schedule: nbc::Schedule = nbc::read_schedule("schedule", "00*10 01*56steps")?;
+/// assert_eq!(schedule.steps(), 896);
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use session::read_schedule;
 
 /// ```no_run
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -233,6 +345,18 @@ pub use session::run_file;
 pub use sim::Simulator;
 
 /// ```
+/// use nbc::{Body, Flock, Palette, Pattern, Setting, Simulator, Snapshot};
+/// let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
+/// let mut flock: Box<dyn Flock> = Simulator::default().flock(&Setting::default(), &[body]);
+/// let start: Snapshot = flock.snapshot(0);
+/// flock.advance(&[Pattern::PAIRS[1]], 84);
+/// assert_eq!(flock.clock(0), 84);
+/// flock.restore(0, &start);
+/// assert_eq!(flock.center(0), start.center);
+/// ```
+pub use sim::{Flock, Snapshot};
+
+/// ```
 /// use nbc::{MemoryWorld, OverlayWorld, SourceWorld};
 /// let mut below = MemoryWorld::default();
 /// below.insert("a.nb", "circuit f(a) -> (q) { q = a }");
@@ -250,12 +374,13 @@ pub use source::{MemoryWorld, OverlayWorld, SourceWorld};
 pub use store::DiskWorld;
 
 /// ```no_run
-/// let bytes = std::fs::read("out/gates/seed-1/checkpoint.json").unwrap();
-/// let checkpoint = nbc::Checkpoint::read("checkpoint.json", &bytes).unwrap();
+/// use std::path::Path;
+/// let checkpoint = nbc::Checkpoint::open(Path::new("out/gates/seed-1/checkpoint.nbc")).unwrap().unwrap();
 /// println!("{} env steps", checkpoint.env_steps);
+/// nbc::write_file(Path::new("out/version.txt"), checkpoint.version.as_bytes()).unwrap();
 /// ```
 #[cfg(feature = "disk")]
-pub use store::Checkpoint;
+pub use store::{Checkpoint, write_file};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -283,6 +408,27 @@ pub use swarm::LiveSwarm;
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use swarm::evolve_generation;
+
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # session.update("run.nb", 1, "evolution mine { from: gates, box: 3 x 2, fixed: 1 cycles }");
+/// # let checked = session.open("run.nb")?;
+/// use nbc::{Simulator, Work};
+/// let evolution = checked.program.evolution("mine").unwrap();
+/// let body = nbc::Body::parse(&["343", "563"], &nbc::Palette::paper()).unwrap();
+/// let outcomes = nbc::evaluate_bodies(&Simulator::default(), evolution, vec![body]);
+/// assert_eq!(outcomes.len(), 1);
+/// let search = nbc::Search::new(evolution, 1);
+/// let (outcomes, work): (_, Work) = nbc::evaluate(&Simulator::default(), &search, &search.ask());
+/// assert_eq!((outcomes.len(), work.env_steps > 0), (17, true));
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use swarm::{Work, evaluate, evaluate_bodies};
+
+/// ```
+/// let session = nbc::Session::new(nbc::MemoryWorld::default()).with_poses(nbc::Room::SWARM);
+/// ```
+pub use swarm::Room;
 
 /// ```
 /// use nbc::{Level, TestOptions};

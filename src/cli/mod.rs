@@ -23,7 +23,6 @@ mod progress;
 mod robots;
 mod run;
 mod run_folder;
-mod schedule;
 mod simulate;
 mod status;
 mod synth;

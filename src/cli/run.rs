@@ -11,13 +11,11 @@ use crate::cli::timings::{Chore, Timings};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use crate::diag::Diagnostic;
-use crate::model::{CircuitTest, Robot, Simulation};
+use crate::model::{CircuitTest, Simulation};
 use crate::report::{
-    self, Document, PageSwarm, PhaseTiming, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
+    self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{
-    Checked, CompileOptions, Mapping, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun,
-};
+use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
 use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
 
@@ -242,9 +240,7 @@ fn stems(runs: &[Ran]) -> Vec<String> {
 
 fn drawings(ran: &Ran, scheme: Scheme) -> Drawn<'_> {
     let SwarmRun { compiled, trace } = ran.swarm();
-    let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
-    let schematic = report::draw_schematic(&compiled.mapping.netlist, &robots, &compiled.timing.critical_path, scheme);
-    Drawn { ran, spacetime: report::draw_swarm(trace), schematic, files: Vec::new() }
+    Drawn { ran, spacetime: report::draw_swarm(trace), schematic: compiled.schematic(scheme), files: Vec::new() }
 }
 
 /// Draws a run and writes the drawings, the waveforms and the table of the cycles.
@@ -273,7 +269,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// The page of a test or simulation that was run.
 pub(super) fn run_page(source: &str, ran: &Ran, scheme: Scheme) -> String {
-    report::draw_run_page(source, &[page_swarm(&drawings(ran, scheme))], scheme)
+    session::run_page(source, &[(ran.outcome(), ran.swarm())], scheme)
 }
 
 fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {
@@ -321,8 +317,5 @@ fn result<'a>(source: &'a str, drawn: &'a [Drawn<'a>]) -> RunResult<'a> {
 }
 
 fn timing(ran: &Ran) -> SwarmTiming {
-    let compiled = &ran.swarm().compiled;
-    let Mapping { netlist, cells, registers, .. } = &compiled.mapping;
-    let phases = PhaseTiming::of(netlist, &compiled.timing, cells.kinds_of(netlist), registers.as_ref());
-    SwarmTiming::of(netlist, &compiled.timing, &compiled.assembly, phases)
+    ran.swarm().compiled.swarm_timing()
 }

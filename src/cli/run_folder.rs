@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::cli::Failure;
 use crate::diag::Diagnostic;
 use crate::source::FileError;
-use crate::store::{self, Checkpoint, MAX_CHECKPOINT_BYTES, MAX_PROGRESS_BYTES};
+use crate::store::{self, Checkpoint, MAX_PROGRESS_BYTES};
 
 /// The file in a run's folder that it is resumed from.
 pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
@@ -14,12 +14,7 @@ pub(super) const PROGRESS: &str = "progress.jsonl";
 
 /// The checkpoint at a path, if there is one.
 pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {
-    let name = path.display().to_string();
-    match store::read(path, MAX_CHECKPOINT_BYTES) {
-        Ok(bytes) => Checkpoint::read(&name, &bytes).map(Some).map_err(Failure::plain),
-        Err(FileError::NotFound) => Ok(None),
-        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&name, &error))),
-    }
+    Checkpoint::open(path).map_err(Failure::plain)
 }
 
 /// The bytes of a file of progress; empty if there is no file.

@@ -5,15 +5,13 @@ use serde::Serialize;
 
 use crate::cli::robots::read_body;
 use crate::cli::wording::{RunWarning, UsageError};
-use crate::cli::{Context, Failure, OutputFormat, Status, schedule};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::{Diagnostic, counted};
-use crate::model::{Body, CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
+use crate::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Schema, TextTable};
+use crate::session::read_schedule;
 use crate::sim::Simulator;
 use crate::source::Sources;
-
-/// The most ground voxels in a row.
-const MAX_WORLD_WIDTH: usize = 1_000_000;
 
 /// Simulate one robot under a schedule of stimuli
 #[derive(Args)]
@@ -55,10 +53,10 @@ impl SimulateArguments {
     /// # Errors
     /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let schedule = read_schedule(&self.schedule)?;
+        let schedule = read_schedule("--schedule", &self.schedule)?;
         let setting = Setting { world_width: self.world_width, start_x: self.start_x };
         let body = read_body(&self.robot)?;
-        check_place(&setting, &body)?;
+        setting.check(&body).map_err(UsageError::Setting)?;
         let trajectory =
             Simulator::default().run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
@@ -71,28 +69,6 @@ impl SimulateArguments {
     }
 }
 
-fn read_schedule(text: &str) -> Result<Schedule, Failure> {
-    let mut sources = Sources::default();
-    let id = sources.add("--schedule", text);
-    schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
-}
-
-/// Checks that the body stands on the ground of the world.
-fn check_place(setting: &Setting, body: &Body) -> Result<(), UsageError> {
-    let (world, width) = (setting.world_width, body.width());
-    if world > MAX_WORLD_WIDTH {
-        return Err(UsageError::WideWorld { width: world, most: MAX_WORLD_WIDTH });
-    }
-    if world < width {
-        return Err(UsageError::NarrowWorld { width: world, columns: width });
-    }
-    let start = setting.start_column(width);
-    if start > world - width {
-        return Err(UsageError::OffGround { start, most: world - width, columns: width, width: world });
-    }
-    Ok(())
-}
-
 /// The warning for a robot that left its ground: from then on it falls, or creeps along the plane below.
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
@@ -103,30 +79,18 @@ fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic>
 impl<'a> Outcome<'a> {
     fn of(schedule: &Schedule, trajectory: &'a Trajectory) -> Self {
         Self {
-            displacement: displacements(schedule, trajectory),
+            displacement: trajectory.displacements(schedule),
             com_x: &trajectory.com_x,
             unstable_at: trajectory.fault.map(|fault| fault.env_step),
         }
     }
 }
 
-/// Voxels walked in each entry that was simulated to its end.
-fn displacements(schedule: &Schedule, trajectory: &Trajectory) -> Vec<Option<f64>> {
-    let mut start = 0;
-    let walked = schedule.spells.iter().map(|spell| {
-        let end = start + spell.steps as usize;
-        let walked = Some(trajectory.com_x.get(end)? - trajectory.com_x[start]);
-        start = end;
-        walked
-    });
-    walked.chain(std::iter::repeat(None)).take(schedule.spells.len()).collect()
-}
-
 fn describe(schedule: &Schedule, trajectory: &Trajectory) -> String {
     use Align::{Left, Right};
     let mut table =
         TextTable::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
-    for (spell, walked) in schedule.spells.iter().zip(displacements(schedule, trajectory)) {
+    for (spell, walked) in schedule.spells.iter().zip(trajectory.displacements(schedule)) {
         let length = match spell.steps % CYCLE_STEPS {
             0 => counted((spell.steps / CYCLE_STEPS) as usize, "cycle"),
             _ => counted(spell.steps as usize, "step"),

@@ -2,8 +2,7 @@
 
 use crate::diag::suggest::alternatives;
 use crate::diag::{Code, Diagnostic, Severity, Suggestion, counted};
-use crate::model::Behavior;
-use crate::source::Span;
+use crate::model::{Behavior, SettingError};
 
 /// A command line that is invalid, or output that cannot be written; `path` is as the user wrote it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,12 +25,8 @@ pub(in crate::cli) enum UsageError {
     UnknownRobot { name: String },
     /// A number of threads that is not a number.
     Threads { variable: &'static str, found: String },
-    /// A ground that is too wide.
-    WideWorld { width: usize, most: usize },
-    /// A ground narrower than the body.
-    NarrowWorld { width: usize, columns: usize },
-    /// A start beyond the ground.
-    OffGround { start: usize, most: usize, columns: usize, width: usize },
+    /// A ground that a body cannot stand on.
+    Setting(SettingError),
 }
 
 /// A client of the language server that breaks the protocol.
@@ -86,13 +81,13 @@ impl From<UsageError> for Diagnostic {
                 bad(format!("the environment variable `{variable}` is `{found}`, expected a number of threads"))
                     .with_help("unset it to use every core")
             }
-            UsageError::WideWorld { width, most } => {
+            UsageError::Setting(SettingError::WideWorld { width, most }) => {
                 bad(format!("`--world-width {width}` is too wide, expected at most {most}"))
             }
-            UsageError::NarrowWorld { width, columns } => {
+            UsageError::Setting(SettingError::NarrowWorld { width, columns }) => {
                 bad(format!("`--world-width {width}` is too narrow for a body of {}", counted(columns, "column")))
             }
-            UsageError::OffGround { start, most, columns, width } => bad(format!(
+            UsageError::Setting(SettingError::OffGround { start, most, columns, width }) => bad(format!(
                 "`--start-x {start}` is off the ground, expected at most {most} for {} on {}",
                 counted(columns, "column"),
                 counted(width, "voxel")
@@ -191,56 +186,6 @@ impl From<RunWarning> for Diagnostic {
             ),
         };
         Self { severity: Severity::Warning, ..Self::without_place(code, message).with_help(help) }
-    }
-}
-
-/// A schedule of stimuli on the command line that cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::cli) enum ScheduleError {
-    /// No entries.
-    Empty,
-    /// Too many env steps in all.
-    TooLong { steps: u64, most: u64 },
-    /// An entry without `*`.
-    NoDuration { entry: String },
-    /// A pattern that is not one of two stimuli.
-    Pattern { found: String },
-    /// A duration that is not a number of cycles or env steps.
-    NotADuration { found: String },
-    /// A duration of zero.
-    NoTime { found: String },
-    /// An entry that is too long.
-    LongEntry { found: String, most: u64 },
-}
-
-impl ScheduleError {
-    /// The error at its place in the option.
-    pub(in crate::cli) fn at(self, span: Span) -> Diagnostic {
-        let (message, label) = match self {
-            Self::Empty => ("the schedule is empty".to_owned(), "expected an entry such as `01*10`".to_owned()),
-            Self::TooLong { steps, most } => {
-                (format!("the schedule of {steps} env steps is too long"), format!("expected at most {most}"))
-            }
-            Self::NoDuration { entry } => (
-                format!("missing duration after `{entry}`"),
-                format!("expected `*` and a number, for example `{entry}*10`"),
-            ),
-            Self::Pattern { found } => {
-                (format!("invalid stimulus pattern `{found}`"), "expected 00, 01, 10 or 11".to_owned())
-            }
-            Self::NotADuration { found } => (
-                format!("`{found}` is not a duration"),
-                "expected a number of cycles, or of env steps as in `56steps`".to_owned(),
-            ),
-            Self::NoTime { found } => {
-                (format!("the duration `{found}` is too short"), "expected at least 1".to_owned())
-            }
-            Self::LongEntry { found, most } => {
-                (format!("the duration `{found}` is too long"), format!("expected at most {most} env steps"))
-            }
-        };
-        Diagnostic::new(Code::BadSchedule, message, span, label)
-            .with_help("write stimuli, `*` and a duration: `01*10` is ten cycles, `01*56steps` is 56 env steps")
     }
 }
 

@@ -30,6 +30,25 @@ impl Body {
         Self { width, height, codes, palette }
     }
 
+    /// A body of `height` rows of `width` codes, row by row from the top, which need not be valid.
+    ///
+    /// # Errors
+    /// [`BodyError`] names the first error.
+    pub fn from_codes(width: usize, height: usize, codes: &[u8], palette: &Arc<Palette>) -> Result<Self, BodyError> {
+        if width > Self::MAX_SIDE || height > Self::MAX_SIDE {
+            return Err(BodyError::TooLarge { width, height, most: Self::MAX_SIDE });
+        }
+        let highest = palette.materials().len() as u8;
+        if let Some(place) = codes.iter().position(|&code| code > highest) {
+            let (row, column) = (place / width + 1, place % width + 1);
+            return Err(BodyError::CodeRange { row, column, code: codes[place], highest });
+        }
+        if codes.iter().all(|&code| code == 0) {
+            return Err(BodyError::Empty);
+        }
+        Ok(Self::new(width, height, codes.to_vec(), Arc::clone(palette)))
+    }
+
     /// A square body of the paper's eight materials in turn, for measurements of speed. Different values of `shift`
     /// make different bodies.
     pub fn patchwork(side: usize, shift: usize) -> Self {
@@ -174,6 +193,20 @@ mod tests {
         check(&["000", "000"], Err("the body has no voxels"));
         check(&["33", "3"], Err("row 2 has 1 voxels, expected 2 as in row 1"));
         check(&["39"], Err("row 1, column 2: `9` is not a material code; expected 0 to 8"));
+    }
+
+    #[test]
+    fn invalid_codes_are_reported() {
+        let check = |width: usize, height: usize, codes: &[u8], expected: &str| {
+            let found = Body::from_codes(width, height, codes, &Palette::paper()).map_err(|error| error.to_string());
+            assert_eq!(found, Err(expected.to_owned()));
+        };
+        check(2, 1, &[0, 0], "the body has no voxels");
+        check(0, 0, &[], "the body has no voxels");
+        check(2, 2, &[3, 3, 3, 200], "row 2, column 2: 200 is not a material code; expected 0 to 8");
+        check(101, 1, &[3; 101], "the body is 101 x 1, expected at most 100 x 100");
+        let codes = Body::parse(&["012", "345"], &Palette::paper()).unwrap();
+        assert_eq!(Body::from_codes(3, 2, &[0, 1, 2, 3, 4, 5], &Palette::paper()), Ok(codes));
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub use stimulus::Pattern;
 pub use test::{CircuitTest, Reference, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
-pub use wording::{BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError};
+pub use wording::{BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError, SettingError};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Body, Schedule};
+use super::{Body, Schedule, SettingError};
 
 /// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,25 @@ impl Default for Setting {
 }
 
 impl Setting {
+    /// The most ground voxels in a row.
+    pub const MAX_WIDTH: usize = 1_000_000;
+
+    /// Checks that a body stands on the ground at its start.
+    ///
+    /// # Errors
+    /// When the ground is too wide or too narrow, or the body would start beside it.
+    pub fn check(&self, body: &Body) -> Result<(), SettingError> {
+        let (width, columns) = (self.world_width, body.width());
+        if width > Self::MAX_WIDTH {
+            return Err(SettingError::WideWorld { width, most: Self::MAX_WIDTH });
+        }
+        if width < columns {
+            return Err(SettingError::NarrowWorld { width, columns });
+        }
+        let (start, most) = (self.start_column(columns), width - columns);
+        if start > most { Err(SettingError::OffGround { start, most, columns, width }) } else { Ok(()) }
+    }
+
     /// The start column of a body of that many columns.
     pub fn start_column(&self, body_width: usize) -> usize {
         self.start_x.unwrap_or_else(|| (self.world_width / 2).saturating_sub(body_width / 2))
@@ -47,6 +66,20 @@ pub struct Trajectory {
     pub com_y: Vec<f64>,
     /// The fault that ended it early, if any.
     pub fault: Option<Fault>,
+}
+
+impl Trajectory {
+    /// Voxels walked in each spell of the trial's schedule; `None` for spells that were not simulated to their end.
+    pub fn displacements(&self, schedule: &Schedule) -> Vec<Option<f64>> {
+        let mut start = 0;
+        let walked = schedule.spells.iter().map(|spell| {
+            let end = start + spell.steps as usize;
+            let walked = Some(self.com_x.get(end)? - self.com_x.get(start)?);
+            start = end;
+            walked
+        });
+        walked.collect()
+    }
 }
 
 /// A simulation that failed.

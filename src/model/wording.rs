@@ -28,6 +28,17 @@ pub enum BodyError {
         /// The highest valid code.
         highest: char,
     },
+    /// A number that is not a material code of the palette.
+    CodeRange {
+        /// The row, from 1.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The number found.
+        code: u8,
+        /// The highest valid code.
+        highest: u8,
+    },
     /// More rows or columns than allowed.
     TooLarge {
         /// Columns.
@@ -48,6 +59,9 @@ impl fmt::Display for BodyError {
             }
             Self::UnknownCode { row, column, digit, highest } => {
                 write!(f, "row {row}, column {column}: `{digit}` is not a material code; expected 0 to {highest}")
+            }
+            Self::CodeRange { row, column, code, highest } => {
+                write!(f, "row {row}, column {column}: {code} is not a material code; expected 0 to {highest}")
             }
             Self::TooLarge { width, height, most } => {
                 write!(f, "the body is {width} x {height}, expected at most {most} x {most}")
@@ -206,3 +220,53 @@ impl fmt::Display for PatternError {
 }
 
 impl Error for PatternError {}
+
+/// The reason why a body cannot stand on a ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettingError {
+    /// A ground that is too wide.
+    WideWorld {
+        /// Its voxels.
+        width: usize,
+        /// The most voxels.
+        most: usize,
+    },
+    /// A ground narrower than the body.
+    NarrowWorld {
+        /// Its voxels.
+        width: usize,
+        /// The body's columns.
+        columns: usize,
+    },
+    /// A start beyond the ground.
+    OffGround {
+        /// The start column.
+        start: usize,
+        /// The last valid one.
+        most: usize,
+        /// The body's columns.
+        columns: usize,
+        /// The ground's voxels.
+        width: usize,
+    },
+}
+
+impl fmt::Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WideWorld { width, most } => {
+                write!(f, "the world width {width} is too large, expected at most {most}")
+            }
+            Self::NarrowWorld { width, columns } => {
+                write!(f, "the world width {width} is too small, expected at least the body's {columns}")
+            }
+            Self::OffGround { start, most, columns, width } => write!(
+                f,
+                "the start column {start} is off the ground, expected at most {most} for a body of width {columns} in a \
+                 world of {width}"
+            ),
+        }
+    }
+}
+
+impl Error for SettingError {}

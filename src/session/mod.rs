@@ -9,9 +9,11 @@ mod documents;
 mod formatted;
 mod observer;
 mod options;
+mod pictures;
 mod plan;
 mod report;
 mod robots;
+mod schedule;
 mod simulation;
 mod swarm_run;
 mod test;
@@ -25,8 +27,10 @@ pub use compile::{Compiled, Mapping, synthesize};
 pub use formatted::Formatted;
 pub use observer::Observer;
 pub use options::{CompileOptions, RUNS};
+pub use pictures::run_page;
 pub use plan::Plan;
 pub use report::RunReport;
+pub use schedule::read_schedule;
 pub use simulation::SimulationRun;
 pub use swarm_run::{RunEnd, SwarmRun};
 pub use test::{TestCase, TestOptions, TestRun};
@@ -35,7 +39,8 @@ use crate::circuit::CellLibrary;
 use crate::diag::Diagnostics;
 use crate::model::{CircuitTest, Instance, Library, RegisterStyle, Simulation};
 use crate::sim::Simulator;
-use crate::source::SourceWorld;
+use crate::source::{SourceWorld, Sources};
+use crate::store;
 use crate::swarm::{self, Level, LiveSwarm, Room};
 use documents::Documents;
 use robots::Supply;
@@ -107,6 +112,15 @@ impl Session {
     /// The robots that come with the program.
     pub fn shipped(&self) -> &Library {
         self.supply().shipped()
+    }
+
+    /// The robots of a folder of the world, best first.
+    ///
+    /// # Errors
+    /// When the folder or one of its robot files cannot be read.
+    pub fn library(&self, folder: &str) -> Result<Library, Diagnostics> {
+        let read = store::read_library(self.documents.world(), folder);
+        read.map_err(|list| Diagnostics { list, sources: Sources::default() })
     }
 
     fn supply(&self) -> Supply<'_> {
@@ -224,13 +238,26 @@ impl Session {
         observer: &mut dyn Observer,
     ) -> Result<RunReport, Diagnostics> {
         let checked = self.open(path)?;
+        self.run_checked(&checked, options, observer)
+    }
+
+    /// Runs every test and every simulation of a checked source in physics.
+    ///
+    /// # Errors
+    /// When its circuits cannot be compiled. A test that fails is no error.
+    pub fn run_checked(
+        &self,
+        checked: &Checked,
+        options: &CompileOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, Diagnostics> {
         let test_options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
         let mut report = RunReport { tests: Vec::new(), simulations: Vec::new() };
         for test in &checked.program.tests {
-            report.tests.extend(self.test(&checked, test, &test_options, observer)?);
+            report.tests.extend(self.test(checked, test, &test_options, observer)?);
         }
         for simulation in &checked.program.simulations {
-            report.simulations.push(self.simulate(&checked, simulation, options, observer)?);
+            report.simulations.push(self.simulate(checked, simulation, options, observer)?);
         }
         Ok(report)
     }

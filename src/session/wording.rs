@@ -91,3 +91,53 @@ impl SwarmWarning {
         }
     }
 }
+
+/// A schedule of stimuli that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ScheduleError {
+    /// No entries.
+    Empty,
+    /// Too many env steps in all.
+    TooLong { steps: u64, most: u64 },
+    /// An entry without `*`.
+    NoDuration { entry: String },
+    /// A pattern that is not one of two stimuli.
+    Pattern { found: String },
+    /// A duration that is not a number of cycles or env steps.
+    NotADuration { found: String },
+    /// A duration of zero.
+    NoTime { found: String },
+    /// An entry that is too long.
+    LongEntry { found: String, most: u64 },
+}
+
+impl ScheduleError {
+    /// The error at its place in the text.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let (message, label) = match self {
+            Self::Empty => ("the schedule is empty".to_owned(), "expected an entry such as `01*10`".to_owned()),
+            Self::TooLong { steps, most } => {
+                (format!("the schedule of {steps} env steps is too long"), format!("expected at most {most}"))
+            }
+            Self::NoDuration { entry } => (
+                format!("missing duration after `{entry}`"),
+                format!("expected `*` and a number, for example `{entry}*10`"),
+            ),
+            Self::Pattern { found } => {
+                (format!("invalid stimulus pattern `{found}`"), "expected 00, 01, 10 or 11".to_owned())
+            }
+            Self::NotADuration { found } => (
+                format!("`{found}` is not a duration"),
+                "expected a number of cycles, or of env steps as in `56steps`".to_owned(),
+            ),
+            Self::NoTime { found } => {
+                (format!("the duration `{found}` is too short"), "expected at least 1".to_owned())
+            }
+            Self::LongEntry { found, most } => {
+                (format!("the duration `{found}` is too long"), format!("expected at most {most} env steps"))
+            }
+        };
+        Diagnostic::new(Code::BadSchedule, message, span, label)
+            .with_help("write stimuli, `*` and a duration: `01*10` is ten cycles, `01*56steps` is 56 env steps")
+    }
+}

@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use crate::diag::Diagnostic;
 use crate::store::draft::{DraftFile, keep_owner_and_mode};
 
 /// Writes a file atomically: at any time, its path has either the old contents or all of `bytes`. A new file in the
@@ -13,6 +14,14 @@ use crate::store::draft::{DraftFile, keep_owner_and_mode};
 /// When the folder is missing or read-only, or the disk is full; the path is then as it was.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
+}
+
+/// Writes a file as [`write`] does.
+///
+/// # Errors
+/// A diagnostic that names the path and the reason.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+    write(path, bytes).map_err(|error| Diagnostic::unwritable(path, &error))
 }
 
 /// Like [`write`], for content that is made piece by piece.

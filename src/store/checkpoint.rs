@@ -1,11 +1,16 @@
 //! Checkpoints of evolution runs: a line with format and checksum, then the declaration and the state as JSON.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use crate::diag::Diagnostic;
 use crate::evolve::{Search, SearchState};
 use crate::model::Evolution;
+use crate::source::FileError;
+use crate::store::atomic::write_file;
 use crate::store::declared::Declared;
+use crate::store::disk::{MAX_CHECKPOINT_BYTES, read};
 use crate::store::first_checkpoint::FirstRecord;
 use crate::store::search_state::SearchRecord as StateRecord;
 use crate::store::wording::{CheckpointError, StateError};
@@ -53,6 +58,27 @@ impl Checkpoint {
         };
         let text = serde_json::to_string(&record).expect("a search can be written as JSON");
         format!("{MAGIC} {FORMAT} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
+    }
+
+    /// Writes a search's checkpoint file, whole or not at all.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn save(path: &Path, search: &Search, env_steps: u64, left_out: u64) -> Result<(), Diagnostic> {
+        write_file(path, &Self::print(search, env_steps, left_out))
+    }
+
+    /// Reads the checkpoint file at `path`; `None` if there is no such file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, and as [`Checkpoint::read`].
+    pub fn open(path: &Path) -> Result<Option<Self>, Diagnostic> {
+        let name = path.display().to_string();
+        match read(path, MAX_CHECKPOINT_BYTES) {
+            Ok(bytes) => Self::read(&name, &bytes).map(Some),
+            Err(FileError::NotFound) => Ok(None),
+            Err(error) => Err(Diagnostic::unreadable(&name, &error)),
+        }
     }
 
     /// Reads the bytes of a checkpoint file called `name`.

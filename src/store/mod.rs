@@ -29,7 +29,7 @@ mod yaml;
 mod yosys;
 
 #[cfg(feature = "disk")]
-pub use atomic::{create_folder, write, write_with};
+pub use atomic::{create_folder, write, write_file, write_with};
 #[cfg(feature = "disk")]
 pub use checkpoint::Checkpoint;
 #[cfg(feature = "disk")]
@@ -37,7 +37,7 @@ pub use circuit_file::{encode_circuit, read_circuit};
 #[cfg(feature = "disk")]
 pub use declared::Declared;
 #[cfg(feature = "disk")]
-pub use disk::{DiskWorld, MAX_CHECKPOINT_BYTES, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, read, read_text};
+pub use disk::{DiskWorld, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, read, read_text};
 pub use library::{best_first, read_library, shipped_library};
 #[cfg(feature = "disk")]
 pub use lock::{FolderLock, LockFault, lock_folder};

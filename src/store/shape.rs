@@ -83,7 +83,7 @@ pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -
 fn fault(file: &SourceFile, rows: &[String], error: BodyError) -> Diagnostic {
     let body = yaml::key_span(file, "body");
     let span = match error {
-        BodyError::Empty | BodyError::TooLarge { .. } => body,
+        BodyError::Empty | BodyError::CodeRange { .. } | BodyError::TooLarge { .. } => body,
         BodyError::Ragged { row, .. } => row_span(file, body, rows, row - 1).unwrap_or(body),
         BodyError::UnknownCode { row, column, .. } => row_span(file, body, rows, row - 1).map_or(body, |span| {
             let at =

@@ -1,8 +1,10 @@
 //! Evaluation of candidates by the paper's protocol, and the loop of asking, evaluating and telling (paper, Methods;
 //! docs/physics.md 10).
 
-use crate::evolve::{Candidate, CandidateOutcome, Scores, Search};
-use crate::model::{Behavior, Direction, Pattern, Schedule, SearchObjective, Setting, Trajectory, Trial};
+use crate::evolve::{Candidate, CandidateOrigin, CandidateOutcome, Scores, Search};
+use crate::model::{
+    Behavior, Body, Direction, Evolution, Genotype, Pattern, Schedule, SearchObjective, Setting, Trajectory, Trial,
+};
 use crate::sim::Simulator;
 use crate::swarm::{Work, gate};
 
@@ -22,6 +24,17 @@ pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]
     }
 }
 
+/// The result of each body for an empty archive, so that nothing is left out. Bodies must be valid (see
+/// [`crate::evolve::validate`]).
+pub fn evaluate_bodies(simulator: &Simulator, evolution: &Evolution, bodies: Vec<Body>) -> Vec<CandidateOutcome> {
+    let candidate = |(index, body): (u32, Body)| {
+        let genotype = Genotype { nodes: Vec::new(), links: Vec::new() };
+        Candidate { index, origin: CandidateOrigin::Random, genotype, body, undeveloped: 0 }
+    };
+    let candidates: Vec<Candidate> = (0..).zip(bodies).map(candidate).collect();
+    evaluate(simulator, &Search::new(evolution, 0), &candidates).0
+}
+
 /// Displacements under the four constant patterns, in voxels, or the fault of a simulation.
 ///
 /// # Errors
@@ -34,7 +47,7 @@ pub fn fixed_displacements(trajectories: &[Trajectory; 4]) -> Result<[f64; 4], c
 }
 
 /// The trials of a body under the four constant patterns.
-pub fn fixed_trials(body: &crate::model::Body, steps: u32) -> [Trial; 4] {
+pub fn fixed_trials(body: &Body, steps: u32) -> [Trial; 4] {
     Pattern::PAIRS.map(|pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, steps) })
 }
 

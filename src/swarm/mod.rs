@@ -24,7 +24,7 @@ pub use activity::{RowActivity, SimulationResult, activity};
 pub use assemble::{Assembly, Member, StimulusSource, assemble};
 pub use cells::{cells, prefer};
 pub use characterize::{characterize, screen};
-pub use evaluate::{evaluate, evolve_generation, fixed_displacements, fixed_trials};
+pub use evaluate::{evaluate, evaluate_bodies, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, STEADY_CYCLES, judge_logic, judge_swarm};
 pub use live::{LiveSwarm, SwarmSnapshot, setting};
 pub use measure::{Measurement, measure};

@@ -11,7 +11,7 @@ use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Tr
 use nbc::sim::Simulator;
 use nbc::source::MemoryWorld;
 use nbc::store::lock_folder;
-use nbc::swarm::evaluate;
+use nbc::swarm::{evaluate, evaluate_bodies};
 use proptest::prelude::*;
 
 use crate::cli::Bench;
@@ -286,6 +286,17 @@ fn declared(name: &str) -> Evolution {
     let mut world = MemoryWorld::default();
     world.insert("runs.nb", RUNS);
     Session::new(world).checked("runs.nb").program.evolution(name).unwrap().clone()
+}
+
+#[test]
+fn bodies_are_evaluated_as_candidates_of_an_empty_archive_are() {
+    for name in ["walks", "turns"] {
+        let search = Search::new(&Evolution { generations: 1, ..declared(name) }, 4);
+        let candidates = search.ask();
+        let bodies = candidates.iter().map(|candidate| candidate.body.clone()).collect();
+        let (expected, _) = evaluate(&Simulator::default(), &search, &candidates);
+        assert_eq!(evaluate_bodies(&Simulator::default(), search.evolution(), bodies), expected, "{name}");
+    }
 }
 
 #[test]

@@ -2,12 +2,12 @@
 
 use clap::Args;
 
+use crate::cli::Failure;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::DrawError;
-use crate::cli::{Failure, schedule};
 use crate::model::{Behavior, CYCLE_STEPS, Schedule};
 use crate::report::Scheme;
-use crate::source::Sources;
+use crate::session::read_schedule;
 
 /// The default schedule of robots: every pattern as long as in the paper.
 const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
@@ -52,9 +52,7 @@ impl Order {
     }
 
     pub(super) fn schedule(&self) -> Result<Schedule, Failure> {
-        let mut sources = Sources::default();
-        let id = sources.add("--schedule", self.schedule.as_deref().unwrap_or(SCHEDULE));
-        schedule::parse(sources.file(id)).map_err(|faults| Failure::input(faults, sources))
+        Ok(read_schedule("--schedule", self.schedule.as_deref().unwrap_or(SCHEDULE))?)
     }
 
     /// The env step of a pose: the end of the schedule, or the cycle of `--at`.

@@ -121,8 +121,7 @@ impl<'a> EvolutionRun<'a> {
 
     fn save(&self) -> Result<(), Failure> {
         let path = self.folder.join(CHECKPOINT);
-        let bytes = Checkpoint::print(&self.search, self.work.env_steps, self.work.left_out);
-        store::write(&path, &bytes).map_err(|error| Failure::unwritable(&path, &error))
+        Checkpoint::save(&path, &self.search, self.work.env_steps, self.work.left_out).map_err(Failure::plain)
     }
 
     fn append(&self, line: &EvolutionLine) -> Result<(), Failure> {

@@ -3,8 +3,6 @@
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::model::Robot;
-use crate::report;
 
 pub(super) struct SchematicPicture;
 
@@ -26,9 +24,6 @@ impl PictureKind for SchematicPicture {
     }
 
     fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        let compiled = order.compiled()?;
-        let robots: Vec<&Robot> = compiled.assembly.members.iter().map(|member| &member.robot).collect();
-        let (netlist, path) = (&compiled.mapping.netlist, &compiled.timing.critical_path);
-        Ok(Drawing::Picture(report::draw_schematic(netlist, &robots, path, order.scheme())))
+        Ok(Drawing::Picture(order.compiled()?.schematic(order.scheme())))
     }
 }

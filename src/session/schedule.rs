@@ -1,18 +1,25 @@
-//! Schedules of a single robot as written on the command line: `00*10 01*56steps`.
+//! Schedules of a single robot as users write them: `00*10 01*56steps`.
 
-use crate::cli::wording::ScheduleError;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::{CYCLE_STEPS, Pattern, Schedule, Spell};
-use crate::source::{SourceFile, Span};
+use crate::session::wording::ScheduleError;
+use crate::source::{SourceFile, Sources, Span};
 
 /// The most env steps of a schedule.
 const MAX_STEPS: u64 = 10_000_000;
 
 /// Reads a schedule of two stimuli: entries parted by blanks, each two stimulus bits, `*`, and cycles or env steps.
+/// `name` is what the text is called in messages.
 ///
 /// # Errors
 /// A diagnostic for each entry that is wrong, at its place.
-pub(super) fn parse(file: &SourceFile) -> Result<Schedule, Vec<Diagnostic>> {
+pub fn read_schedule(name: &str, text: &str) -> Result<Schedule, Diagnostics> {
+    let mut sources = Sources::default();
+    let id = sources.add(name, text);
+    parse(sources.file(id)).map_err(|list| Diagnostics { list, sources })
+}
+
+fn parse(file: &SourceFile) -> Result<Schedule, Vec<Diagnostic>> {
     let (mut spells, mut faults) = (Vec::new(), Vec::new());
     for span in words(file) {
         match parse_entry(file, span) {
