@@ -345,6 +345,21 @@ pub use session::run_file;
 pub use sim::Simulator;
 
 /// ```
+/// use std::sync::Arc;
+/// use nbc::{Body, FaultKind, Monitor, Palette, Pattern, Schedule, Setting, Simulator, Trial};
+/// let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
+/// let trial = Trial { body, schedule: Schedule::constant(Pattern::PAIRS[0], 84) };
+/// let monitor = Arc::new(Monitor::default());
+/// let simulator = Simulator::monitored(monitor.clone());
+/// simulator.run_trials(&Setting::default(), &[trial.clone()]);
+/// assert_eq!(monitor.env_steps(), 84);
+/// monitor.stop();
+/// let fault = simulator.run_trials(&Setting::default(), &[trial])[0].fault.unwrap();
+/// assert_eq!((fault.env_step, fault.kind), (1, FaultKind::Stopped));
+/// ```
+pub use {model::FaultKind, sim::Monitor};
+
+/// ```
 /// use nbc::{Body, Flock, Palette, Pattern, Setting, Simulator, Snapshot};
 /// let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
 /// let mut flock: Box<dyn Flock> = Simulator::default().flock(&Setting::default(), &[body]);

@@ -99,4 +99,6 @@ pub enum FaultKind {
     Unstable,
     /// A position was no finite number.
     NonFinite,
+    /// It was ended from outside.
+    Stopped,
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::model::{Body, Setting, Trajectory, Trial};
 use crate::sim::backend::lanes::LaneBackend;
 use crate::sim::backend::{Backend, Flock};
+use crate::sim::monitor::Monitor;
 
 /// The back end of simulations. The default is the fastest kernel of this processor; results do not depend on it.
 #[derive(Clone, Debug)]
@@ -22,6 +23,11 @@ impl Simulator {
     /// Simulation by a back end.
     pub fn new(backend: impl Backend + 'static) -> Self {
         Self { backend: Arc::new(backend) }
+    }
+
+    /// The default simulator, followed by `monitor`, which can end its simulations.
+    pub fn monitored(monitor: Arc<Monitor>) -> Self {
+        Self::new(LaneBackend { monitor: Some(monitor), ..LaneBackend::default() })
     }
 
     /// Robots that are advanced step by step, one for each body; see [`Backend::flock`].

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use nbc::model::{
-    Body, Drive, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trajectory,
+    Body, Drive, Fault, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trajectory,
     Trial,
 };
-use nbc::sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Simulator};
+use nbc::sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Monitor, Simulator};
 use proptest::prelude::*;
 
 /// Every kernel of this processor.
@@ -103,7 +103,7 @@ fn a_faulting_lane_does_not_change_its_neighbors() {
     let (setting, palette) = (Setting::default(), broken_palette());
     let constants = Constants { greatest_target: f64::MAX, ..Constants::default() };
     let simulate = |kernel, trials: &[Trial]| {
-        Simulator::new(LaneBackend { constants, kernel, meter: None }).run_trials(&setting, trials)
+        Simulator::new(LaneBackend { constants, kernel, ..LaneBackend::default() }).run_trials(&setting, trials)
     };
     let sound = Body::parse(&["343", "363", "507"], &palette).unwrap();
     let broken = Body::parse(&["349", "363", "507"], &palette).unwrap();
@@ -127,6 +127,53 @@ fn a_faulting_lane_does_not_change_its_neighbors() {
             assert_eq!(bits(alone), bits(found), "{kernel:?}");
         }
     }
+}
+
+#[test]
+fn a_stopped_simulation_has_the_same_bits_up_to_its_end() {
+    let body = |rows: &[&str]| Body::parse(rows, &Palette::paper()).unwrap();
+    let bodies = [body(&["343", "563"]), body(&["33333"]), body(&["343", "363", "507"])];
+    let trial = |body: &Body| Trial { body: body.clone(), schedule: Schedule::constant(Pattern::PAIRS[1], 4000) };
+    let trials: Vec<Trial> = bodies.iter().map(trial).collect();
+    let whole = Simulator::default().run_trials(&Setting::default(), &trials);
+    let monitor = Arc::new(Monitor::default());
+    let cut = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while monitor.env_steps() < 500 {
+                std::thread::yield_now();
+            }
+            monitor.stop();
+        });
+        Simulator::monitored(monitor.clone()).run_trials(&Setting::default(), &trials)
+    });
+    assert!(monitor.env_steps() < 12_000, "the end came early");
+    for (cut, whole) in cut.iter().zip(&whole) {
+        let steps = cut.com_x.len();
+        assert_eq!(cut.fault, Some(Fault { env_step: steps as u32, kind: FaultKind::Stopped }));
+        assert_eq!((&cut.com_x[..], &cut.com_y[..]), (&whole.com_x[..steps], &whole.com_y[..steps]));
+    }
+}
+
+#[test]
+fn a_stopped_flock_can_be_restored() {
+    let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
+    let bodies = vec![body; 3];
+    let monitor = Arc::new(Monitor::default());
+    let mut flock = Simulator::monitored(monitor.clone()).flock(&Setting::default(), &bodies);
+    flock.advance(&[Pattern::PAIRS[2]; 3], 50);
+    let states: Vec<_> = (0..3).map(|robot| flock.snapshot(robot)).collect();
+    monitor.stop();
+    flock.advance(&[Pattern::PAIRS[1]; 3], 50);
+    assert_eq!(flock.fault(2), Some(Fault { env_step: 51, kind: FaultKind::Stopped }));
+    let mut other = Simulator::default().flock(&Setting::default(), &bodies);
+    for (robot, state) in states.iter().enumerate() {
+        other.restore(robot, state);
+    }
+    other.advance(&[Pattern::PAIRS[1]; 3], 50);
+    let schedule = nbc::read_schedule("schedule", "10*50steps 01*50steps").unwrap();
+    let trial = Trial { body: bodies[0].clone(), schedule };
+    let whole = Simulator::default().run_trials(&Setting::default(), &[trial]).remove(0);
+    assert_eq!(other.center(2).map(f64::to_bits), [whole.com_x[100], whole.com_y[100]].map(f64::to_bits));
 }
 
 #[test]

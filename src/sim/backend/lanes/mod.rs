@@ -27,6 +27,7 @@ use crate::model::{Body, Setting, Trajectory, Trial};
 use crate::sim::backend::{Backend, Flock};
 use crate::sim::constants::Constants;
 use crate::sim::meter::Meter;
+use crate::sim::monitor::Monitor;
 
 pub use kernel::{InstructionSet, Kernel};
 
@@ -42,12 +43,14 @@ pub struct LaneBackend {
     pub kernel: Kernel,
     /// Measures the time of each part, at the cost of a few percent of speed.
     pub meter: Option<Arc<Meter>>,
+    /// Follows simulations, and can end them.
+    pub monitor: Option<Arc<Monitor>>,
 }
 
 impl LaneBackend {
     fn world(&self, setting: &Setting) -> World {
-        let Self { constants, kernel, meter } = self.clone();
-        World { constants, kernel, width: setting.world_width, meter }
+        let Self { constants, kernel, meter, monitor } = self.clone();
+        World { constants, kernel, width: setting.world_width, meter, monitor }
     }
 }
 

@@ -81,6 +81,13 @@ impl Run {
         }
     }
 
+    /// Ends it before its next env step, unless it is done.
+    pub fn stop(&mut self) {
+        if !self.is_done() {
+            self.fault = Some(Fault { env_step: self.clock + 1, kind: FaultKind::Stopped });
+        }
+    }
+
     fn count_down(&mut self) {
         self.clock += 1;
         let spell = self.spells.last_mut().expect("a run that is not done has a spell");

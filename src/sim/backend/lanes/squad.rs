@@ -1,6 +1,7 @@
 //! Runs in the lanes of one batch. The batch is kept between calls, because laying it out costs as much as some env
 //! steps.
 
+use crate::model::{Fault, FaultKind};
 use crate::sim::backend::lanes::kernel::Ground;
 use crate::sim::backend::lanes::lane_batch::LaneBatch;
 use crate::sim::backend::lanes::run::Run;
@@ -60,6 +61,9 @@ impl Squad {
     /// Simulates until the first of the runs that had something to do is done, calling `record` with each of them after
     /// each of its env steps.
     pub fn advance(&mut self, world: &World, mut record: impl FnMut(usize, &Run)) {
+        if world.is_stopped() {
+            return self.stop();
+        }
         self.load(world);
         let Some(batch) = &mut self.batch else { return };
         batch.resume();
@@ -81,11 +85,21 @@ impl Squad {
             if self.lanes.iter().all(|&run| self.runs[run].fault.is_none()) {
                 batch.save();
             }
+            world.count(self.lanes.len());
+            if world.is_stopped() {
+                self.lanes.iter().for_each(|&run| self.runs[run].stop());
+            }
         }
         batch.lap(Part::Bookkeeping);
         if self.lanes.iter().any(|&run| self.runs[run].fault.is_some()) {
             self.unload();
         }
+    }
+
+    /// Ends the runs that are not done.
+    fn stop(&mut self) {
+        self.runs.iter_mut().for_each(Run::stop);
+        self.unload();
     }
 
     /// Puts runs with a schedule into lanes, unless they are already there.
@@ -109,7 +123,7 @@ impl Squad {
         for (lane, run) in self.lanes.drain(..).enumerate() {
             let run = &mut self.runs[run];
             match run.fault {
-                None => batch.unload(lane, &mut run.state),
+                None | Some(Fault { kind: FaultKind::Stopped, .. }) => batch.unload(lane, &mut run.state),
                 Some(_) => batch.unload_saved(lane, &mut run.state),
             }
         }

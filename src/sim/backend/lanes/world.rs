@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::sim::backend::lanes::kernel::Kernel;
 use crate::sim::constants::Constants;
 use crate::sim::meter::Meter;
+use crate::sim::monitor::Monitor;
 
 /// The data shared by simulations with the same setting.
 #[derive(Clone, Debug)]
@@ -17,4 +18,20 @@ pub struct World {
     pub width: usize,
     /// Measures the time of each part, if requested.
     pub meter: Option<Arc<Meter>>,
+    /// Follows simulations, if requested.
+    pub monitor: Option<Arc<Monitor>>,
+}
+
+impl World {
+    /// Whether simulations are to end now.
+    pub fn is_stopped(&self) -> bool {
+        self.monitor.as_ref().is_some_and(|monitor| monitor.is_stopped())
+    }
+
+    /// Counts an env step of that many robots.
+    pub fn count(&self, robots: usize) {
+        if let Some(monitor) = &self.monitor {
+            monitor.count(robots);
+        }
+    }
 }
