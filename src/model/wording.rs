@@ -262,8 +262,8 @@ impl fmt::Display for SettingError {
             }
             Self::OffGround { start, most, columns, width } => write!(
                 f,
-                "the start column {start} is off the ground, expected at most {most} for a body of width {columns} in a \
-                 world of {width}"
+                "the start column {start} is off the ground, expected at most {most} for a body of width {columns} in \
+                 a world of {width}"
             ),
         }
     }

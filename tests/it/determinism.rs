@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use nbc::model::{
-    Body, Drive, Fault, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trajectory,
-    Trial,
+    Body, Drive, Fault, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell,
+    Trajectory, Trial,
 };
 use nbc::sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Monitor, Simulator};
 use proptest::prelude::*;

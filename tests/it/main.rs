@@ -36,6 +36,7 @@ mod physics;
 mod pictures;
 mod plots;
 mod pulsed;
+mod python;
 mod redundant;
 mod runs;
 mod schemas;

@@ -1,0 +1,507 @@
+"""Circuits: from source files to swarms of robots, their tests, timing and pictures."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _nbc
+from .errors import Diagnostic, Interrupted, diagnostics_of
+from .evolution import Evolution
+from .physics import count
+from .progress import Progress, reporting
+
+__all__ = ["Circuit", "Compiled", "Port", "Program", "Report", "Swarm", "TestResult", "load", "loads"]
+
+Path = Union[str, "os.PathLike[str]"]
+Row = Union[Mapping[str, int], Sequence[int]]
+
+
+@dataclass(frozen=True)
+class Port:
+    """An input or output port with its width in bits."""
+
+    name: str
+    width: int
+
+
+@dataclass(frozen=True)
+class TestResult:
+    """The verdict of a test, for one swarm or at the level of logic."""
+
+    __test__ = False  # pytest would collect the class for its name.
+
+    circuit: str
+    title: str
+    passed: bool
+    level: str
+    """``logic`` or ``physics``."""
+    swarm: Optional[str]
+    """The declared swarm that was tested, if there is one."""
+    file: str
+    line: int
+    text: str = field(repr=False)
+    """The truth table with expected and observed outputs, and the failures."""
+    rows: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    """The rows: ``inputs``, ``expected``, ``observed``, ``passed``, ``cycles``, ``line``, and the robots at fault."""
+    warnings: Tuple[Diagnostic, ...] = field(repr=False)
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        color = "#1a7f37" if self.passed else "#b42318"
+        return f'<pre style="border-left:4px solid {color};padding-left:1em">{html.escape(self.text)}</pre>'
+
+
+@dataclass(frozen=True)
+class Report:
+    """The page of a run: every swarm with its verdict, schematic, spacetime diagram and a player."""
+
+    results: Tuple[TestResult, ...]
+    page: str = field(repr=False)
+    """The page, one self-contained HTML text."""
+
+    @property
+    def passed(self) -> bool:
+        """Whether all tests passed."""
+        return all(result.passed for result in self.results)
+
+    def save(self, path: Path) -> None:
+        """Writes the page, whole or not at all."""
+        _nbc.write_file(os.fspath(path), self.page)
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.page, quote=True)
+        return f'<iframe srcdoc="{page}" style="width:100%;height:720px;border:0"></iframe>'
+
+
+class Program:
+    """A source file without errors: its circuits, tests and evolutions."""
+
+    def __init__(self, path: str, text: Optional[str]) -> None:
+        self.path = path
+        """The path that was given."""
+        self._text = text
+        self._native = _nbc.Program(path, text, False)
+
+    @property
+    def warnings(self) -> Tuple[Diagnostic, ...]:
+        """Its warnings."""
+        return diagnostics_of(json.loads(self._native.diagnostics()))
+
+    @property
+    def circuits(self) -> Mapping[str, Circuit]:
+        """The circuits of the file itself by name. ``circuits["adder[8]"]`` is an instance of a circuit with
+        parameters."""
+        return _Circuits({name: Circuit(self, name) for name in self._names()})
+
+    @property
+    def evolutions(self) -> Mapping[str, Evolution]:
+        """The evolutions by name, those of the prelude included."""
+        return {name: Evolution._of(native) for name, native in self._native.evolutions()}
+
+    @property
+    def tests(self) -> Tuple[Mapping[str, Any], ...]:
+        """The declared tests: ``circuit``, ``title``, ``file`` and ``line`` of each."""
+        return tuple(json.loads(self._native.tests()))
+
+    def compile(
+        self,
+        circuit: Optional[str] = None,
+        *,
+        library: Optional[Path] = None,
+        swarm: Optional[str] = None,
+        objective: str = "area",
+        effort: str = "normal",
+        runs: Path = "out",
+    ) -> Compiled:
+        """Compiles a circuit to a swarm of robots, and proves that the swarm's logic is equal to the source.
+
+        Args:
+            circuit: its name, by default the last one of the file.
+            library: a folder of robot files, or ``shipped``; by default what the file declares.
+            swarm: a declared swarm, if there are several for the circuit.
+            objective: what mapping minimizes: ``area``, ``delay`` or ``margin`` (of risk).
+            effort: ``fast``, ``normal`` or ``high``.
+            runs: the folder of evolution runs that the file's libraries may be from.
+
+        Raises:
+            NbcError: when the circuit cannot be built, or the library lacks a gate.
+        """
+        options = _options(library, swarm, objective, effort, runs)
+        return Compiled(self, self._native.compile(circuit, options))
+
+    def test(
+        self,
+        name: Optional[str] = None,
+        *,
+        level: Optional[str] = None,
+        library: Optional[Path] = None,
+        swarm: Optional[str] = None,
+        objective: str = "area",
+        effort: str = "normal",
+        runs: Path = "out",
+        progress: Progress = False,
+    ) -> List[TestResult]:
+        """Runs the tests of the file, each once for each swarm that is declared for its circuit.
+
+        Args:
+            name: only tests of this circuit or title.
+            level: ``logic`` or ``physics``; by default physics for swarms of fewer than 40 robots.
+            progress: whether to show a tqdm bar, or a function of the cycles done and all cycles of a swarm.
+
+        The other arguments are those of `compile`. A test that fails is a result, not an exception.
+
+        Raises:
+            Interrupted: on Ctrl-C, with the results of the tests before.
+        """
+        options = _options(library, swarm, objective, effort, runs)
+        results: List[TestResult] = []
+        try:
+            for number, test in enumerate(self.tests):
+                if name is None or name in (test["circuit"], test["title"]):
+                    results += self._test(number, level, progress, options)
+        except KeyboardInterrupt:
+            raise Interrupted(results) from None
+        if name is not None and not results:
+            raise KeyError(name)
+        return results
+
+    def run(
+        self,
+        *,
+        library: Optional[Path] = None,
+        swarm: Optional[str] = None,
+        objective: str = "area",
+        effort: str = "normal",
+        runs: Path = "out",
+        safe_colors: bool = False,
+        progress: Progress = False,
+    ) -> Report:
+        """Runs every test and simulation of the file in physics, and makes the page of ``nbc run``.
+
+        Args:
+            safe_colors: whether to use colors that people with any color vision can tell apart.
+
+        The other arguments are those of `test`.
+        """
+        options = _options(library, swarm, objective, effort, runs)
+        recorded = _nbc.Program(self.path, self._text, True)
+        with reporting(progress, " cycles") as report:
+            try:
+                return _report(*recorded.run(options, safe_colors, report))
+            except Interrupted as interrupt:
+                interrupt.result = _report(*interrupt.result)
+                raise
+
+    def report(self, path: Path, **options: Any) -> Report:
+        """Runs the file as `run` does, and writes the page."""
+        report = self.run(**options)
+        report.save(path)
+        return report
+
+    def _names(self) -> List[str]:
+        return [circuit["name"] for circuit in json.loads(self._native.circuits())]
+
+    def _test(
+        self, number: int, level: Optional[str], progress: Progress, options: Optional[Dict[str, Any]] = None
+    ) -> List[TestResult]:
+        options = _options(None, None, "area", "normal", "out") if options is None else options
+        with reporting(progress, " cycles") as report:
+            records = self._native.test(number, level, options, report)
+        return [_result(record) for record in json.loads(records)]
+
+    def __repr__(self) -> str:
+        return f"<Program {self.path}: {', '.join(self._names()) or 'no circuits'}>"
+
+
+class _Circuits(Dict[str, "Circuit"]):
+    """Circuits by name; instances of circuits with parameters are made on demand."""
+
+    def __missing__(self, name: str) -> Circuit:
+        base = self.get(name.split("[")[0])
+        if base is None:
+            raise KeyError(f"there is no circuit `{name}`; there are {', '.join(self)}")
+        return Circuit(base.program, name)
+
+
+class Circuit:
+    """A circuit of a program."""
+
+    def __init__(self, program: Program, name: str) -> None:
+        self.program = program
+        """Its program."""
+        self.name = name
+        """Its name."""
+
+    def compile(self, **options: Any) -> Compiled:
+        """Compiles it; see `Program.compile`."""
+        return self.program.compile(self.name, **options)
+
+    def test(self, **options: Any) -> List[TestResult]:
+        """Runs its tests; see `Program.test`."""
+        return self.program.test(self.name, **options)
+
+    def __repr__(self) -> str:
+        return f"<Circuit {self.name} of {self.program.path}>"
+
+
+class Compiled:
+    """A circuit compiled to a swarm of robots. In a notebook it is shown as its schematic."""
+
+    def __init__(self, program: Program, native: _nbc.Compiled) -> None:
+        self.program = program
+        """Its program."""
+        self._native = native
+        summary = json.loads(native.summary())
+        self.name: str = summary["circuit"]
+        """The circuit's name."""
+        self.swarm_name: Optional[str] = summary["swarm"]
+        """The declared swarm, if there is one."""
+        self.inputs: Tuple[Port, ...] = tuple(Port(**port) for port in summary["inputs"])
+        """The input ports."""
+        self.outputs: Tuple[Port, ...] = tuple(Port(**port) for port in summary["outputs"])
+        """The output ports."""
+        self.robots: Tuple[Mapping[str, Any], ...] = tuple(summary["robots"])
+        """The robots: the net that each drives, its name, function, behavior, body and materials."""
+        self.warnings: Tuple[Diagnostic, ...] = diagnostics_of(summary["warnings"])
+        """Warnings, for example about robots that make errors."""
+        self._window = int(summary["window"])
+
+    @property
+    def timing(self) -> Mapping[str, Any]:
+        """Static timing in cycles: ``hold``, ``critical_path``, ``robots`` (arrival, required, slack, fan-out), and
+        ``memory`` (pulse, set-up and hold of latches)."""
+        timing: Mapping[str, Any] = json.loads(self._native.timing())
+        return timing
+
+    @property
+    def netlist(self) -> Any:
+        """The netlist of robots as a networkx MultiDiGraph; see `graph`."""
+        return self.graph()
+
+    def graph(self, *, as_written: bool = False) -> Any:
+        """The netlist as a networkx MultiDiGraph.
+
+        A node is a port, a constant or a cell, with the attributes ``net`` (its name), ``kind`` and ``function``. An
+        edge runs from a driver to a listener, with the attribute ``pin``.
+
+        Args:
+            as_written: the netlist of the source, before it is mapped to robots.
+        """
+        import networkx
+
+        record = json.loads(self._native.netlist(as_written))
+        graph = networkx.MultiDiGraph(name=record["name"])
+        for node in record["nodes"]:
+            graph.add_node(node.pop("id"), **node)
+        graph.add_edges_from((driver, listener, {"pin": pin}) for driver, listener, pin in record["edges"])
+        return graph
+
+    def schematic(self, *, safe_colors: bool = False) -> str:
+        """The circuit with its robots as gates, as SVG."""
+        return self._native.schematic(safe_colors)
+
+    def swarm(self) -> Swarm:
+        """A swarm at its start."""
+        return Swarm(self)
+
+    def test(self, **options: Any) -> List[TestResult]:
+        """Runs the circuit's tests; see `Program.test`."""
+        return self.program.test(self.name, **options)
+
+    def report(self, path: Path, **options: Any) -> Report:
+        """Runs the program, and writes the page; see `Program.report`."""
+        return self.program.report(path, **options)
+
+    def _repr_svg_(self) -> str:
+        return self.schematic()
+
+    def __repr__(self) -> str:
+        return f"<Compiled {self.name}: {len(self.robots)} robots>"
+
+
+class Swarm:
+    """A swarm in full physics, simulated cycle by cycle. In a notebook it is shown in space and time.
+
+    There is ground for a thousand cycles. If Ctrl-C ends a call, the cycle that is being simulated is completed.
+
+    >>> import nbc
+    >>> inverter = nbc.loads("circuit inverter(a) -> (q) { q = not a }").compile()
+    >>> with inverter.swarm() as swarm:
+    ...     swarm.run([{"a": 1}, {"a": 0}])
+    [{'q': 0}, {'q': 1}]
+    """
+
+    def __init__(self, compiled: Compiled) -> None:
+        self.compiled = compiled
+        """What it is made of."""
+        self._native = compiled._native.swarm()
+
+    def step(self, values: Optional[Row] = None, *, cycles: int = 1, **ports: int) -> Dict[str, int]:
+        """Simulates cycles with these values on the input ports, and returns those of the output ports.
+
+        Args:
+            values: a mapping from port to value, or values in the order of the ports; or name the ports:
+                ``step(d=1, e=0)``. The value of a bus is a whole number.
+            cycles: how many cycles the values are held.
+
+        Raises:
+            ValueError: for missing or unknown ports, and values that do not fit.
+        """
+        row = self._row(ports if values is None else values)
+        outputs = self._native.step([row] * count(cycles, "cycles", least=1), None)
+        return self._values(self.compiled.outputs, outputs[-1])
+
+    def run(
+        self, rows: Iterable[Row], *, hold: Optional[int] = None, progress: Progress = False
+    ) -> List[Dict[str, int]]:
+        """Holds each row of input values until all robots have settled, and returns the outputs at its end.
+
+        Args:
+            rows: the values of the input ports; see `step`.
+            hold: cycles of each row; by default those of static timing, and two more.
+            progress: whether to show a tqdm bar, or a function of the cycles done and all cycles.
+        """
+        held = int(self.compiled.timing["hold"]) + self.compiled._window + 1 if hold is None else hold
+        each = count(held, "hold", least=1)
+        packed = [self._row(row) for row in rows]
+        with reporting(progress, " cycles") as report:
+            outputs = self._native.step([row for row in packed for _ in range(each)], report)
+        return [self._values(self.compiled.outputs, row) for row in outputs[each - 1 :: each]]
+
+    @property
+    def cycles(self) -> int:
+        """Cycles done."""
+        return self._native.cycles()
+
+    @property
+    def inputs(self) -> npt.NDArray[np.bool_]:
+        """The bits of the input ports in each cycle, shape (cycles, bits)."""
+        return self._native.bits()[0]
+
+    @property
+    def bits(self) -> npt.NDArray[np.bool_]:
+        """The output of each robot at the end of each cycle, shape (cycles, robots)."""
+        return self._native.bits()[1]
+
+    @property
+    def outputs(self) -> npt.NDArray[np.bool_]:
+        """The bits of the output ports at the end of each cycle, shape (cycles, bits)."""
+        return self._native.bits()[2]
+
+    @property
+    def paths(self) -> npt.NDArray[np.float64]:
+        """Horizontal places of the robots' centers of mass in voxels, shape (robots, 12 * cycles + 1)."""
+        return self._native.paths()[0]
+
+    def spacetime(self) -> str:
+        """Each robot's path with its stimuli, as SVG."""
+        return self._native.spacetime()
+
+    def reset(self) -> None:
+        """Starts again."""
+        self._native.close()
+        self._native = self.compiled._native.swarm()
+
+    def close(self) -> None:
+        """Frees the robots. Later calls raise ValueError."""
+        self._native.close()
+
+    def __enter__(self) -> Swarm:
+        return self
+
+    def __exit__(
+        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+    ) -> None:
+        self.close()
+
+    def _row(self, row: Row) -> List[bool]:
+        ports = self.compiled.inputs
+        if not isinstance(row, Mapping):
+            if len(row) != len(ports):
+                raise ValueError(f"{len(row)} values, expected {len(ports)}: {', '.join(port.name for port in ports)}")
+            row = {port.name: value for port, value in zip(ports, row)}
+        unknown = set(row) - {port.name for port in ports}
+        missing = [port.name for port in ports if port.name not in row]
+        if unknown or missing:
+            fault = f"unknown port `{min(unknown)}`" if unknown else f"missing value of `{missing[0]}`"
+            raise ValueError(f"{fault}; the input ports are {', '.join(port.name for port in ports)}")
+        bits: List[bool] = []
+        for port in ports:
+            value = count(row[port.name], f"the value of `{port.name}`", most=2**port.width - 1)
+            bits += [bool(value >> bit & 1) for bit in reversed(range(port.width))]
+        return bits
+
+    @staticmethod
+    def _values(ports: Sequence[Port], bits: Sequence[bool]) -> Dict[str, int]:
+        values, rest = {}, list(bits)
+        for port in ports:
+            own, rest = rest[: port.width], rest[port.width :]
+            values[port.name] = int("".join("1" if bit else "0" for bit in own), 2)
+        return values
+
+    def _repr_svg_(self) -> Optional[str]:
+        return self.spacetime() if self.cycles else None
+
+
+def load(path: Path) -> Program:
+    """Reads and checks a source file.
+
+    Raises:
+        NbcError: when it cannot be read or has errors; its diagnostics have all of them with their places.
+    """
+    return Program(os.fspath(path), None)
+
+
+def loads(text: str, path: str = "program.nb") -> Program:
+    """Checks a source text as if it were in a file of that path.
+
+    >>> import nbc
+    >>> try:
+    ...     nbc.loads("circuit f(a) -> (q) { q = b }")
+    ... except nbc.NbcError as error:
+    ...     print(error.diagnostics[0].code, error.diagnostics[0].span)
+    unknown program.nb:1:27
+    """
+    return Program(path, text)
+
+
+def _options(
+    library: Optional[Path], swarm: Optional[str], objective: str, effort: str, runs: Path
+) -> Dict[str, Any]:
+    return {
+        "library": None if library is None else os.fspath(library),
+        "swarm": swarm,
+        "objective": objective,
+        "effort": effort,
+        "runs": os.fspath(runs),
+    }
+
+
+def _report(page: str, records: str) -> Report:
+    return Report(tuple(_result(record) for record in json.loads(records)), page)
+
+
+def _result(record: Mapping[str, Any]) -> TestResult:
+    verdict = record["verdict"]
+    return TestResult(
+        circuit=verdict["circuit"],
+        title=verdict["title"],
+        passed=verdict["passed"],
+        level=verdict["level"],
+        swarm=verdict["swarm"],
+        file=verdict["file"],
+        line=verdict["line"],
+        text=record["text"],
+        rows=tuple(verdict["rows"]),
+        warnings=diagnostics_of(record["warnings"]),
+    )

@@ -1,0 +1,203 @@
+"""Declarations of evolutions, and evaluation of bodies by their protocol."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _nbc
+from .bodies import Bodies, pack
+from .errors import Interrupted
+from .progress import Progress, reporting
+
+__all__ = ["Evaluation", "Evolution", "evaluate"]
+
+Field = Union[str, int, Sequence[str]]
+
+
+class Evolution:
+    """A declared evolution: box, materials, protocol, archive and search.
+
+    What is not given has the value of ``base``, by default the paper's run. Values are those of the language; see
+    docs/evolution.md.
+
+    >>> import nbc
+    >>> run = nbc.Evolution(box=(5, 5), objective="gate", descriptors=["voxels in 4 bins", "behavior"])
+    >>> run.axes
+    (('voxels', 4), ('behavior', 16))
+    """
+
+    def __init__(
+        self,
+        *,
+        base: str = "gates",
+        name: str = "evolution_in_python",
+        box: Optional[Tuple[int, int]] = None,
+        generations: Optional[int] = None,
+        batch: Optional[int] = None,
+        newcomers: Optional[int] = None,
+        objective: Optional[str] = None,
+        symmetry: Optional[str] = None,
+        niche: Optional[str] = None,
+        fixed: Optional[str] = None,
+        descriptors: Optional[Sequence[str]] = None,
+        rules: Optional[str] = None,
+    ) -> None:
+        """Declares an evolution.
+
+        Args:
+            base: the evolution that the other values are from: ``gates`` is the paper's.
+            name: its name, which checkpoints have.
+            box: columns and rows of the bodies.
+            generations: how many generations make it complete.
+            batch: offspring in each generation.
+            newcomers: fresh random bodies in each generation.
+            objective: ``distance`` (the paper's) or ``gate``.
+            symmetry: ``none`` or ``npn``.
+            niche: ``dominance`` (the paper's) or for example ``pareto(4)``.
+            fixed: the length of a fixed simulation, for example ``10 cycles``.
+            descriptors: the axes of the archive, for example ``["voxels in 4 bins", "behavior"]``.
+            rules: ``paper`` or ``code``, where the paper's text and code differ.
+
+        Raises:
+            NbcError: for values that the language does not have.
+        """
+        fields: Dict[str, Optional[Field]] = {
+            "from": base,
+            "box": None if box is None else f"{box[0]} x {box[1]}",
+            "generations": generations,
+            "batch": batch,
+            "newcomers": newcomers,
+            "objective": objective,
+            "symmetry": symmetry,
+            "niche": niche,
+            "fixed": fixed,
+            "descriptors": None if descriptors is None else f"[{', '.join(descriptors)}]",
+            "as": rules,
+        }
+        lines = [f"    {key}: {value}," for key, value in fields.items() if value is not None]
+        self._declare(f"evolution {name} {{\n" + "\n".join(lines) + "\n}\n", "evolution in Python")
+
+    @classmethod
+    def parse(cls, text: str, file: str = "evolution in Python") -> Evolution:
+        """The last evolution that a text in the language declares; the paper's if it declares none.
+
+        Raises:
+            NbcError: when the text has errors; ``file`` is its name in their places.
+        """
+        evolution = cls.__new__(cls)
+        evolution._declare(text, file)
+        return evolution
+
+    def _declare(self, text: str, file: str) -> None:
+        self._native = _nbc.Evolution(text, file)
+
+    @classmethod
+    def _of(cls, native: _nbc.Evolution) -> Evolution:
+        evolution = cls.__new__(cls)
+        evolution._native = native
+        return evolution
+
+    @property
+    def fields(self) -> Mapping[str, Any]:
+        """All values, also those that were not given."""
+        fields: Mapping[str, Any] = json.loads(self._native.to_json())
+        return fields
+
+    @property
+    def axes(self) -> Tuple[Tuple[str, int], ...]:
+        """The name and the number of bins of each axis of the archive."""
+        return tuple(self._native.axes())
+
+    @property
+    def box(self) -> Tuple[int, int]:
+        """Columns and rows of the bodies."""
+        fields = self.fields
+        return fields["width"], fields["height"]
+
+    def __repr__(self) -> str:
+        fields = self.fields
+        return f"<Evolution {fields['name']}: {fields['width']} x {fields['height']}, {fields['objective']}>"
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The results of N bodies by the protocol of an evolution."""
+
+    outcome: npt.NDArray[np.str_]
+    """For each body ``measured``; ``inconsistent`` if it walks one way under a constant pattern and the other way under
+    the same pattern in the long simulation, or hopeless as a gate; ``surpassed`` if it cannot enter its niche;
+    ``faulty`` if a simulation failed; ``stopped`` if Ctrl-C ended it. Shape (N,)."""
+    fitness: npt.NDArray[np.float64] = field(repr=False)
+    """The two fitnesses, shape (N, 2); NaN for bodies that were not measured."""
+    displacement: npt.NDArray[np.float64] = field(repr=False)
+    """Voxels walked in the fixed simulations under the patterns 00, 01, 10, 11, shape (N, 4)."""
+    behavior: npt.NDArray[np.str_] = field(repr=False)
+    """A letter L or R for each of the four patterns, such as ``RRRL`` for nand; shape (N,)."""
+    niche: Optional[npt.NDArray[np.int32]] = field(default=None, repr=False)
+    """The bin on each axis of the archive, from 0; on the axis ``behavior`` the bits of the function. -1 for bodies
+    that were not measured. Shape (N, axes)."""
+
+    @property
+    def measured(self) -> npt.NDArray[np.bool_]:
+        """Whether each body has scores, shape (N,)."""
+        has_scores: npt.NDArray[np.bool_] = self.outcome == "measured"
+        return has_scores
+
+    def __len__(self) -> int:
+        return len(self.outcome)
+
+
+def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress: Progress = False) -> Evaluation:
+    """Evaluates bodies by the protocol of an evolution, as for an empty archive, on all cores.
+
+    The paper's protocol (``objective="distance"``) lets each body walk under the four constant patterns, then through
+    all of them. The gate objective scores switches of the inputs.
+
+    Args:
+        bodies: bodies of the evolution's box; see `simulate`.
+        evolution: the evolution; by default the paper's, with the box of the bodies.
+        progress: see `simulate`.
+
+    Raises:
+        TypeError, ValueError: as `simulate`, and for bodies of another box.
+        Interrupted: on Ctrl-C, with the results so far.
+
+    >>> import nbc
+    >>> nand = next(robot for robot in nbc.library() if robot.name == "nand_5x5")
+    >>> result = nbc.evaluate([nand], nbc.Evolution(objective="gate"))
+    >>> result.behavior.tolist()
+    ['RRRL']
+    """
+    codes, shapes = pack(bodies)
+    if evolution is None:
+        _nbc.check_bodies(codes, shapes)
+        evolution = Evolution(box=(int(shapes[0][1]), int(shapes[0][0])) if len(shapes) else None)
+    if not isinstance(evolution, Evolution):
+        raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
+    with reporting(progress, " env steps") as report:
+        try:
+            return of_arrays(_nbc.evaluate(codes, shapes, evolution._native, report))
+        except Interrupted as interrupt:
+            interrupt.result = of_arrays(interrupt.result)
+            raise
+
+
+def of_arrays(arrays: Mapping[str, Any]) -> Evaluation:
+    """An evaluation of the native half."""
+    return Evaluation(
+        outcome=np.array(arrays["outcome"], dtype="U12"),
+        fitness=arrays["fitness"],
+        displacement=arrays["displacement"],
+        behavior=np.array(arrays["behavior"], dtype="U4"),
+        niche=arrays["niche"],
+    )
+
+
+def letters(behavior: Any) -> List[str]:
+    """Behaviors as a list of texts."""
+    return [str(word) for word in np.asarray(behavior).tolist()]

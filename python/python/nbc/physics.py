@@ -1,0 +1,265 @@
+"""Physics: bodies under stimuli, from a fresh start or step by step."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Type, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _nbc
+from .bodies import Bodies, Material, pack, pack_materials
+from .errors import Interrupted
+from .progress import Progress, reporting
+
+__all__ = ["CYCLE_STEPS", "Flock", "Schedule", "Trajectories", "simulate"]
+
+CYCLE_STEPS: int = _nbc.CYCLE_STEPS
+"""Env steps of one actuation cycle of the paper."""
+
+Schedule = Union[str, Sequence[Tuple[str, int]]]
+"""Stimuli over time: ``"00*10 01*56steps"`` (ten cycles of pattern 00, then 56 env steps of pattern 01), or pairs of a
+pattern and a number of env steps, ``[("00", 840), ("01", 56)]``. A pattern has a digit for each stimulus, stimulus 1
+first."""
+
+FAULTS = np.dtype([("env_step", "u4"), ("kind", "U10")])
+MOST_STEPS = 10_000_000
+
+
+@dataclass(frozen=True)
+class Trajectories:
+    """What N bodies did under a schedule of S spells (entries) and T - 1 env steps. Lengths are in voxels."""
+
+    displacement: npt.NDArray[np.float64]
+    """Voxels walked in each spell, shape (N, S); NaN in spells that were not simulated to their end."""
+    com: Optional[npt.NDArray[np.float64]] = field(repr=False)
+    """Center of mass at the start and after each env step, shape (N, T, 2); NaN after a fault.
+    Ctrl-C may leave fewer env steps. None if not recorded."""
+    faults: npt.NDArray[Any] = field(repr=False)
+    """For each body the env step that was abandoned (0 for none) and the reason: ``unstable`` or ``non_finite``, or
+    ``stopped`` if Ctrl-C ended it. A structured array of shape (N,) with the fields ``env_step`` and ``kind``."""
+    poses: Optional[List[npt.NDArray[np.float64]]] = field(default=None, repr=False)
+    """With ``record="poses"``: for each body its P points every ``stride`` env steps, shape (frames, P, 2)."""
+    voxels: Optional[List[npt.NDArray[np.intp]]] = field(default=None, repr=False)
+    """With ``record="poses"``: for each body the four points of each voxel in reading order, shape (V, 4): top left,
+    top right, bottom right, bottom left."""
+
+    @property
+    def ok(self) -> npt.NDArray[np.bool_]:
+        """Whether each body was simulated to the end, shape (N,)."""
+        ended: npt.NDArray[np.bool_] = self.faults["env_step"] == 0
+        return ended
+
+    def __len__(self) -> int:
+        return len(self.faults)
+
+
+def simulate(
+    bodies: Bodies,
+    schedule: Schedule,
+    *,
+    materials: Optional[Sequence[Material]] = None,
+    world_width: int = 500,
+    start_x: Optional[int] = None,
+    record: Optional[str] = "com",
+    stride: int = 12,
+    progress: Progress = False,
+) -> Trajectories:
+    """Simulates each body from a fresh start under a schedule, on all cores.
+
+    The results are those of ``nbc simulate``, to the last bit, for any number of bodies and cores. The lock of the
+    interpreter is released, and Ctrl-C ends the call with `Interrupted`, which has the results so far.
+
+    Args:
+        bodies: an integer array (N, H, W), or a list of bodies of any sizes.
+        schedule: the stimuli over time, for all bodies.
+        materials: the materials of the codes; by default the paper's.
+        world_width: ground voxels in a row.
+        start_x: the ground column of each body's left column; by default the middle of the world.
+        record: ``"com"`` keeps the path of the center of mass, ``"poses"`` also all points every ``stride`` env steps
+            (which takes about twice the time), None only displacements.
+        stride: env steps between poses.
+        progress: whether to show a tqdm bar, or a function of the env steps done and all env steps.
+
+    Raises:
+        TypeError: for arrays that are not of integers, and arguments of other types.
+        ValueError: for wrong shapes, codes that are not materials, bodies that are empty or not in one piece, and
+            worlds without room for a body.
+        MemoryError: when the paths would need more than 8 GiB.
+        NbcError: for a schedule that cannot be read; its diagnostics have the places in the text.
+
+    >>> import nbc
+    >>> walk = nbc.simulate([["343", "563"]], "00*2 11*1")
+    >>> walk.displacement.shape, walk.com.shape
+    ((1, 2), (1, 253, 2))
+    """
+    if record not in (None, "com", "poses"):
+        raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None")
+    codes, shapes = pack(bodies)
+    words = pack_schedule(schedule)
+    place = (count(world_width, "world_width"), None if start_x is None else count(start_x, "start_x"))
+    native = pack_materials(materials)
+    with reporting(progress, " env steps") as report:
+        try:
+            arrays = _nbc.simulate(codes, shapes, native, words, *place, record is not None, report)
+        except Interrupted as interrupt:
+            interrupt.result = _trajectories(interrupt.result)
+            raise
+    if record != "poses":
+        return _trajectories(arrays)
+    every = count(stride, "stride", least=1)
+    flat, voxels = _nbc.record_poses(codes, shapes, native, words, *place, every, None)
+    corners = [np.array(each, dtype=np.intp).reshape(-1, 4) for each in voxels]
+    frames = len(arrays["com"][0, ::every]) if flat else 0
+    return _trajectories(arrays, [points.reshape(frames, -1, 2) for points in flat], corners)
+
+
+class Flock:
+    """Robots that are advanced step by step, each alone in its own simulation with its own stimuli.
+
+    For those who close loops of their own. A flock can be used from several threads: calls wait for each other. It is
+    closed with `close` or at the end of a ``with`` block.
+
+    >>> import nbc
+    >>> with nbc.Flock([["343", "563"]]) as flock:
+    ...     flock.advance("01", 84)
+    ...     flock.com.shape, flock.clock.tolist()
+    ((1, 2), [84])
+    """
+
+    def __init__(
+        self,
+        bodies: Bodies,
+        *,
+        materials: Optional[Sequence[Material]] = None,
+        world_width: int = 500,
+        start_x: Optional[int] = None,
+    ) -> None:
+        """Puts a robot for each body at its start; arguments and errors are those of `simulate`."""
+        codes, shapes = pack(bodies)
+        start = None if start_x is None else count(start_x, "start_x")
+        width = count(world_width, "world_width")
+        self._native = _nbc.Flock(codes, shapes, pack_materials(materials), width, start)
+
+    def __len__(self) -> int:
+        return len(self._native)
+
+    def advance(self, patterns: Union[str, Sequence[str], npt.NDArray[Any]], steps: int = CYCLE_STEPS) -> None:
+        """Simulates more env steps.
+
+        The clock of the actuators continues from call to call. A robot with a fault stays as it was. If Ctrl-C ends the
+        call, the flock is as it was before.
+
+        Args:
+            patterns: a pattern for all robots (``"01"``), or one for each: a sequence of N patterns, or an array of
+                shape (N, stimuli) of zeros and ones.
+            steps: env steps, by default one cycle.
+        """
+        self._native.advance(self._patterns(patterns), count(steps, "steps", most=MOST_STEPS))
+
+    @property
+    def com(self) -> npt.NDArray[np.float64]:
+        """Centers of mass in voxels, shape (N, 2)."""
+        return self._native.centers()
+
+    @property
+    def clock(self) -> npt.NDArray[np.uint32]:
+        """Env steps that each robot has done, shape (N,)."""
+        return self._native.clocks()
+
+    @property
+    def faults(self) -> npt.NDArray[Any]:
+        """For each robot the env step that was abandoned (0 for none) and the reason, as in `Trajectories`."""
+        return np.array(self._native.faults(), dtype=FAULTS)
+
+    def poses(self) -> List[npt.NDArray[np.float64]]:
+        """The points of each robot in voxels, shape (P, 2) each."""
+        return self._native.poses()
+
+    def voxels(self, robot: int) -> npt.NDArray[np.intp]:
+        """The four points of each voxel of a robot, by their rows in its pose, shape (V, 4)."""
+        number = operator.index(robot)
+        if not 0 <= number < len(self):
+            raise IndexError(f"robot {number} of {len(self)}")
+        return np.array(self._native.voxels(number), dtype=np.intp).reshape(-1, 4)
+
+    def snapshot(self) -> _nbc.FlockState:
+        """The state of all robots, for `restore`."""
+        return self._native.snapshot()
+
+    def restore(self, state: _nbc.FlockState) -> None:
+        """Sets all robots to an earlier state of this flock, or of one with the same bodies."""
+        self._native.restore(state)
+
+    def close(self) -> None:
+        """Frees the robots. Later calls raise ValueError."""
+        self._native.close()
+
+    def __enter__(self) -> Flock:
+        return self
+
+    def __exit__(
+        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+    ) -> None:
+        self.close()
+
+    def _patterns(self, patterns: Union[str, Sequence[str], npt.NDArray[Any]]) -> List[str]:
+        if isinstance(patterns, str):
+            return [patterns] * len(self)
+        if isinstance(patterns, np.ndarray) and patterns.dtype.kind in "biu":
+            if patterns.ndim != 2 or len(patterns) != len(self):
+                raise ValueError(f"patterns has the shape {patterns.shape}, expected ({len(self)}, stimuli)")
+            if not np.isin(patterns, (0, 1)).all():
+                raise ValueError("patterns has values other than 0 and 1")
+            return ["".join("1" if bit else "0" for bit in row) for row in patterns]
+        if isinstance(patterns, np.ndarray) and patterns.dtype.kind != "U":
+            raise TypeError(f"patterns has the dtype {patterns.dtype}, expected integers, booleans or text")
+        return [_pattern(pattern) for pattern in patterns]
+
+
+def pack_schedule(schedule: Schedule) -> Union[str, List[Tuple[str, int]]]:
+    """A schedule as the native half reads it."""
+    if isinstance(schedule, str):
+        return schedule
+    if not isinstance(schedule, Sequence):
+        raise TypeError(f"schedule is of type {type(schedule).__name__}, expected a text or pairs")
+    spells = []
+    for entry in schedule:
+        if isinstance(entry, str) or not isinstance(entry, Sequence) or len(entry) != 2:
+            raise ValueError(f"the schedule has the entry {entry!r}, expected a pattern and a number of env steps")
+        spells.append((_pattern(entry[0]), count(entry[1], "the length of a spell", least=1, most=MOST_STEPS)))
+    if not spells:
+        raise ValueError("the schedule is empty")
+    if sum(steps for _, steps in spells) > MOST_STEPS:
+        raise ValueError(f"the schedule is too long, expected at most {MOST_STEPS} env steps")
+    return spells
+
+
+def count(value: Any, name: str, least: int = 0, most: int = 2**31) -> int:
+    """A whole number in a range."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}, expected a whole number") from None
+    if not least <= number <= most:
+        raise ValueError(f"{name} is {number}, expected {least} to {most}")
+    return number
+
+
+def _pattern(pattern: Any) -> str:
+    if not isinstance(pattern, str):
+        raise TypeError(f"{pattern!r} is not a pattern; expected digits such as '01'")
+    return str(pattern)
+
+
+def _trajectories(
+    arrays: Mapping[str, Any],
+    poses: Optional[List[npt.NDArray[np.float64]]] = None,
+    voxels: Optional[List[npt.NDArray[np.intp]]] = None,
+) -> Trajectories:
+    faults = np.empty(len(arrays["fault_step"]), dtype=FAULTS)
+    faults["env_step"], faults["kind"] = arrays["fault_step"], arrays["fault_kind"]
+    return Trajectories(arrays["displacement"], arrays["com"], faults, poses, voxels)

@@ -1,0 +1,51 @@
+//! Exceptions: diagnostics of the library become `nbc.NbcError`, other bad values `ValueError`.
+
+use std::any::Any;
+
+use nbc::{Diagnostic, Diagnostics};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+/// The exception `name` of `nbc.errors`, made of these arguments.
+fn exception<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+    let made = py.import("nbc.errors").and_then(|module| module.getattr(name)?.call1(arguments));
+    made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// The exception for diagnostics.
+pub fn diagnosed(py: Python<'_>, found: &Diagnostics) -> PyErr {
+    let data = serde_json::Value::from(found.json()).to_string();
+    exception(py, "_diagnosed", (found.to_string(), data))
+}
+
+/// The exception for a diagnostic without a place.
+pub fn without_place(py: Python<'_>, found: Diagnostic) -> PyErr {
+    diagnosed(py, &Diagnostics::from(found))
+}
+
+/// The exception for a panic, which is a fault of the library.
+pub fn internal(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+    exception(py, "InternalError", (format!("a fault of nbc itself: {text}"),))
+}
+
+/// The exception for an interrupted call with a partial result, if there is one.
+pub fn interrupted<'py>(py: Python<'py>, reason: PyErr, partial: Option<Bound<'py, PyAny>>) -> PyErr {
+    match partial {
+        Some(partial) if reason.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) => {
+            exception(py, "Interrupted", (partial,))
+        }
+        _ => reason,
+    }
+}
+
+/// `ValueError`.
+pub fn bad_value(message: impl Into<String>) -> PyErr {
+    PyValueError::new_err(message.into())
+}
+
+/// The exception for a value that another thread has at this moment and this process never will.
+pub fn forked(what: &str) -> PyErr {
+    PyRuntimeError::new_err(format!("the {what} was in use when this process was forked; make a new one here"))
+}

@@ -1,0 +1,51 @@
+//! Declarations of evolutions.
+
+use nbc::{Axis, Count, MemoryWorld, Session};
+use pyo3::prelude::*;
+
+use crate::errors::{bad_value, diagnosed, without_place};
+
+/// A declared evolution.
+#[pyclass(frozen)]
+pub struct Evolution(pub nbc::Evolution);
+
+#[pymethods]
+impl Evolution {
+    /// The last evolution declared in a text, or the paper's; `file` is what the text is called in messages.
+    #[new]
+    fn new(py: Python<'_>, text: &str, file: &str) -> PyResult<Self> {
+        let mut session = Session::new(MemoryWorld::default());
+        session.update(file, 1, text);
+        let checked = session.open(file).map_err(|found| diagnosed(py, &found))?;
+        let last = checked.program.evolutions.last().cloned();
+        last.map(Self).ok_or_else(|| bad_value("the text declares no evolution"))
+    }
+
+    /// All fields, as JSON.
+    fn to_json(&self) -> String {
+        serde_json::to_string(&self.0).expect("an evolution can be written as JSON")
+    }
+
+    /// The name and the number of bins of each axis of the archive.
+    fn axes(&self) -> Vec<(&'static str, usize)> {
+        self.0.descriptors.iter().map(axis).collect()
+    }
+}
+
+/// Name and bins of an axis.
+pub fn axis(axis: &Axis) -> (&'static str, usize) {
+    match *axis {
+        Axis::Behavior => ("behavior", 16),
+        Axis::Count { of: Count::Voxels, bins } => ("voxels", bins),
+        Axis::Count { of: Count::Active, bins } => ("active", bins),
+        Axis::Count { of: Count::Sensory, bins } => ("sensory", bins),
+    }
+}
+
+/// The exception for a checkpoint that is not there.
+pub fn no_checkpoint(py: Python<'_>, path: &std::path::Path) -> PyErr {
+    match nbc::Checkpoint::open(path) {
+        Err(found) => without_place(py, found),
+        Ok(_) => pyo3::exceptions::PyFileNotFoundError::new_err(format!("there is no checkpoint `{}`", path.display())),
+    }
+}

@@ -1,0 +1,153 @@
+//! Robots that are advanced step by step.
+
+use nbc::{Flock as Robots, Pattern, Snapshot};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::bodies::{bodies, palette};
+use crate::errors::bad_value;
+use crate::physics::{fault_words, pattern, setting};
+use crate::slot::Slot;
+use crate::work::Watch;
+
+/// Robots, each alone in its own simulation.
+#[pyclass(frozen)]
+pub struct Flock {
+    robots: Slot<Setup>,
+    size: usize,
+}
+
+/// Bodies with their simulation. A simulator that was stopped stays so, and with it its robots: after an interrupt they
+/// are made again.
+struct Setup {
+    bodies: Vec<nbc::Body>,
+    setting: nbc::Setting,
+    watch: std::sync::Arc<Watch>,
+    robots: Box<dyn Robots>,
+}
+
+impl Setup {
+    fn new(bodies: Vec<nbc::Body>, setting: nbc::Setting) -> Self {
+        let watch = Watch::over(0);
+        let robots = watch.simulator().flock(&setting, &bodies);
+        Self { bodies, setting, watch, robots }
+    }
+
+    fn snapshots(&self) -> Vec<Snapshot> {
+        (0..self.robots.len()).map(|robot| self.robots.snapshot(robot)).collect()
+    }
+
+    fn restore(&mut self, snapshots: &[Snapshot]) {
+        for (robot, snapshot) in snapshots.iter().enumerate() {
+            self.robots.restore(robot, snapshot);
+        }
+    }
+
+    /// Simulates, or, if this is interrupted, leaves everything as it was.
+    fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
+        let before = self.snapshots();
+        self.robots.advance(patterns, env_steps);
+        if self.watch.is_stopped() {
+            *self = Self::new(std::mem::take(&mut self.bodies), self.setting);
+            self.restore(&before);
+        }
+    }
+}
+
+/// The state of the robots of a flock.
+#[pyclass(frozen)]
+pub struct FlockState(Vec<Snapshot>);
+
+#[pymethods]
+impl Flock {
+    #[new]
+    fn new(
+        codes: PyReadonlyArray1<'_, u8>,
+        shapes: PyReadonlyArray2<'_, u64>,
+        materials: Option<&str>,
+        world_width: usize,
+        start_x: Option<usize>,
+    ) -> PyResult<Self> {
+        let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
+        let setting = setting(world_width, start_x, &bodies)?;
+        Ok(Self { size: bodies.len(), robots: Slot::new("flock", Setup::new(bodies, setting)) })
+    }
+
+    fn __len__(&self) -> usize {
+        self.size
+    }
+
+    /// Simulates env steps, robot `i` under `patterns[i]`.
+    fn advance(&self, py: Python<'_>, patterns: Vec<String>, env_steps: u32) -> PyResult<()> {
+        if patterns.len() != self.size {
+            let (found, expected) = (patterns.len(), self.size);
+            return Err(bad_value(format!("{found} patterns, expected {expected}: one for each robot")));
+        }
+        let patterns = patterns.into_iter().map(pattern).collect::<PyResult<Vec<Pattern>>>()?;
+        let watch = self.robots.with(py, |setup| Ok(setup.watch.clone()))?;
+        self.robots.run(py, &watch, None, move |setup, _| setup.advance(&patterns, env_steps))?.finished()
+    }
+
+    /// Centers of mass.
+    fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let centers: Vec<f64> = self
+            .robots
+            .with(py, |setup| Ok((0..setup.robots.len()).flat_map(|robot| setup.robots.center(robot)).collect()))?;
+        centers.into_pyarray(py).reshape([self.size, 2])
+    }
+
+    /// Env steps that each robot has done.
+    fn clocks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u32>>> {
+        let clocks: Vec<u32> = self
+            .robots
+            .with(py, |setup| Ok((0..setup.robots.len()).map(|robot| setup.robots.clock(robot)).collect()))?;
+        Ok(clocks.into_pyarray(py))
+    }
+
+    /// Env step and kind of each robot's fault.
+    fn faults(&self, py: Python<'_>) -> PyResult<Vec<(u32, &'static str)>> {
+        self.robots
+            .with(py, |setup| Ok((0..setup.robots.len()).map(|robot| fault_words(setup.robots.fault(robot))).collect()))
+    }
+
+    /// The points of each robot.
+    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+        let points: Vec<Vec<[f64; 2]>> = self
+            .robots
+            .with(py, |setup| Ok((0..setup.robots.len()).map(|robot| setup.robots.points(robot)).collect()))?;
+        let array = |points: Vec<[f64; 2]>| {
+            let count = points.len();
+            points.into_iter().flatten().collect::<Vec<f64>>().into_pyarray(py).reshape([count, 2])
+        };
+        points.into_iter().map(array).collect()
+    }
+
+    /// The four points of each voxel of a robot, by their places in its pose.
+    fn voxels(&self, py: Python<'_>, robot: usize) -> PyResult<Vec<[usize; 4]>> {
+        self.robots
+            .with(py, |setup| Ok(setup.robots.lattice(robot).voxels().iter().map(|voxel| voxel.corners).collect()))
+    }
+
+    /// The state of all robots.
+    fn snapshot(&self, py: Python<'_>) -> PyResult<FlockState> {
+        self.robots.with(py, |setup| Ok(FlockState(setup.snapshots())))
+    }
+
+    /// Sets all robots to an earlier state.
+    fn restore(&self, py: Python<'_>, state: &FlockState) -> PyResult<()> {
+        self.robots.with(py, |setup| {
+            let points = |snapshot: &Snapshot| snapshot.state.position.len();
+            let own: Vec<usize> = setup.snapshots().iter().map(points).collect();
+            if own != state.0.iter().map(points).collect::<Vec<_>>() {
+                return Err(bad_value("the state is of other bodies"));
+            }
+            setup.restore(&state.0);
+            Ok(())
+        })
+    }
+
+    /// Ends the simulation.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        self.robots.close(py)
+    }
+}

@@ -1,0 +1,233 @@
+//! Trials: bodies under a schedule, from a fresh start.
+
+use std::collections::BTreeSet;
+
+use nbc::{Body, Fault, FaultKind, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::bodies::{bodies, palette};
+use crate::errors::{bad_value, diagnosed, interrupted};
+use crate::work::{self, Ended, Watch};
+
+/// The most env steps of trials that are simulated in one go; their trajectories are in memory at the same time.
+const GROUP_STEPS: u64 = 20_000_000;
+
+/// The most memory of recorded paths.
+const MOST_BYTES: u64 = 1 << 33;
+
+/// The fault of a simulation that was not begun.
+pub const STOPPED: Fault = Fault { env_step: 1, kind: FaultKind::Stopped };
+
+/// A schedule as Python gives it: text, or patterns with env steps.
+#[derive(FromPyObject)]
+pub enum ScheduleWords {
+    /// `00*10 01*56steps`
+    Text(String),
+    /// Patterns as digits, and env steps.
+    Spells(Vec<(String, u32)>),
+}
+
+impl ScheduleWords {
+    /// The schedule.
+    ///
+    /// # Errors
+    /// When it is invalid.
+    pub fn read(self, py: Python<'_>) -> PyResult<Schedule> {
+        let spells = match self {
+            Self::Text(text) => return nbc::read_schedule("schedule", &text).map_err(|found| diagnosed(py, &found)),
+            Self::Spells(spells) => spells,
+        };
+        let spell = |(digits, steps)| Ok(Spell { pattern: pattern(digits)?, steps });
+        Ok(Schedule { spells: spells.into_iter().map(spell).collect::<PyResult<_>>()? })
+    }
+}
+
+/// A pattern of digits.
+pub fn pattern(digits: String) -> PyResult<Pattern> {
+    Pattern::try_from(digits).map_err(|error| bad_value(error.to_string()))
+}
+
+/// The setting, in which each of the bodies stands on the ground.
+pub fn setting(world_width: usize, start_x: Option<usize>, bodies: &[Body]) -> PyResult<Setting> {
+    let setting = Setting { world_width, start_x };
+    for (i, body) in bodies.iter().enumerate() {
+        setting.check(body).map_err(|error| bad_value(format!("bodies[{i}]: {error}")))?;
+    }
+    Ok(setting)
+}
+
+/// Env step and kind of a fault; 0 and nothing for none.
+pub fn fault_words(fault: Option<Fault>) -> (u32, &'static str) {
+    let word = |kind| match kind {
+        FaultKind::Unstable => "unstable",
+        FaultKind::NonFinite => "non_finite",
+        FaultKind::Stopped => "stopped",
+    };
+    fault.map_or((0, ""), |fault| (fault.env_step, word(fault.kind)))
+}
+
+/// The results of trials, row after row.
+#[derive(Default)]
+struct Results {
+    displacement: Vec<f64>,
+    paths: Vec<Vec<f64>>,
+    faults: Vec<Option<Fault>>,
+}
+
+impl Results {
+    fn push(&mut self, trajectory: &Trajectory, schedule: &Schedule, record_com: bool) {
+        self.displacement.extend(trajectory.displacements(schedule).into_iter().map(|moved| moved.unwrap_or(f64::NAN)));
+        self.faults.push(trajectory.fault);
+        if record_com {
+            self.paths.push(trajectory.com_x.iter().zip(&trajectory.com_y).flat_map(|(&x, &y)| [x, y]).collect());
+        }
+    }
+
+    /// The paths side by side, and the moments of each. After an interrupt these are as many as the longest path has.
+    fn com(&mut self, schedule: &Schedule) -> (Vec<f64>, usize) {
+        let whole = 2 * (schedule.steps() as usize + 1);
+        let is_stopped = |fault: &Option<Fault>| fault.is_some_and(|fault| fault.kind == FaultKind::Stopped);
+        let longest = self.paths.iter().map(Vec::len).max().unwrap_or(whole);
+        let row = if self.faults.iter().any(is_stopped) { longest } else { whole };
+        let mut com = Vec::with_capacity(row * self.paths.len());
+        for path in std::mem::take(&mut self.paths) {
+            com.extend(path.into_iter().chain(std::iter::repeat(f64::NAN)).take(row));
+        }
+        (com, row / 2)
+    }
+}
+
+/// Results as arrays.
+fn arrays<'py>(
+    py: Python<'py>,
+    spells: usize,
+    (results, com): (Results, Option<(Vec<f64>, usize)>),
+) -> PyResult<Bound<'py, PyDict>> {
+    let robots = results.faults.len();
+    let arrays = PyDict::new(py);
+    arrays.set_item("displacement", results.displacement.into_pyarray(py).reshape([robots, spells])?)?;
+    let com = com.map(|(com, moments)| com.into_pyarray(py).reshape([robots, moments, 2])).transpose()?;
+    arrays.set_item("com", com)?;
+    let (steps, kinds): (Vec<u32>, Vec<&str>) = results.faults.into_iter().map(fault_words).unzip();
+    arrays.set_item("fault_step", steps.into_pyarray(py))?;
+    arrays.set_item("fault_kind", kinds)?;
+    Ok(arrays)
+}
+
+/// Simulates each body from a fresh start under the schedule.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "the Python half names them")]
+pub fn simulate<'py>(
+    py: Python<'py>,
+    codes: PyReadonlyArray1<'py, u8>,
+    shapes: PyReadonlyArray2<'py, u64>,
+    materials: Option<&str>,
+    schedule: ScheduleWords,
+    world_width: usize,
+    start_x: Option<usize>,
+    record_com: bool,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
+    let (setting, schedule) = (setting(world_width, start_x, &bodies)?, schedule.read(py)?);
+    let steps = u64::from(schedule.steps());
+    let needed = if record_com { 16 * bodies.len() as u64 * (steps + 1) } else { 0 };
+    if needed > MOST_BYTES {
+        let size = needed >> 30;
+        let message = format!("the paths would need {size} GiB; simulate fewer bodies at once, or with `record=None`");
+        return Err(PyMemoryError::new_err(message));
+    }
+    let watch = Watch::over(steps * bodies.len() as u64);
+    let group = (GROUP_STEPS / steps.max(1)).max(1) as usize;
+    let spells = schedule.spells.len();
+    let ended = work::run(py, &watch, progress.as_ref(), move |watch| {
+        let (simulator, mut results) = (watch.simulator(), Results::default());
+        for bodies in bodies.chunks(group) {
+            if watch.is_stopped() {
+                let stopped = Trajectory { fault: Some(STOPPED), ..Trajectory::default() };
+                bodies.iter().for_each(|_| results.push(&stopped, &schedule, record_com));
+                continue;
+            }
+            let trial = |body: &Body| Trial { body: body.clone(), schedule: schedule.clone() };
+            let trials: Vec<Trial> = bodies.iter().map(trial).collect();
+            let trajectories = simulator.run_trials(&setting, &trials);
+            trajectories.iter().for_each(|trajectory| results.push(trajectory, &schedule, record_com));
+        }
+        let com = record_com.then(|| results.com(&schedule));
+        (results, com)
+    })?;
+    match ended {
+        Ended::Done(results) => arrays(py, spells, results),
+        Ended::Interrupted(reason, partial) => {
+            let partial = partial.map(|results| arrays(py, spells, results)).transpose()?;
+            Err(interrupted(py, reason, partial.map(Bound::into_any)))
+        }
+    }
+}
+
+/// The frames of a robot: its points in each, frame after frame.
+type Frames = Vec<f64>;
+
+/// The poses of each body under the schedule, every `stride` env steps: a flat array for each, and the four points of
+/// each voxel.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "the Python half names them")]
+pub fn record_poses<'py>(
+    py: Python<'py>,
+    codes: PyReadonlyArray1<'py, u8>,
+    shapes: PyReadonlyArray2<'py, u64>,
+    materials: Option<&str>,
+    schedule: ScheduleWords,
+    world_width: usize,
+    start_x: Option<usize>,
+    stride: u32,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(Vec<Bound<'py, PyArray1<f64>>>, Vec<Vec<[usize; 4]>>)> {
+    let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
+    let (setting, schedule) = (setting(world_width, start_x, &bodies)?, schedule.read(py)?);
+    let watch = Watch::over(u64::from(schedule.steps()) * bodies.len() as u64);
+    let ended = work::run(py, &watch, progress.as_ref(), move |watch| {
+        let mut flock = watch.simulator().flock(&setting, &bodies);
+        let mut frames: Vec<Frames> = vec![Vec::new(); bodies.len()];
+        let mut record = |flock: &dyn nbc::Flock| {
+            for (robot, frames) in frames.iter_mut().enumerate() {
+                frames.extend(flock.points(robot).into_iter().flatten());
+            }
+        };
+        record(&*flock);
+        for (pattern, steps, is_frame) in stretches(&schedule, stride) {
+            flock.advance(&vec![pattern; bodies.len()], steps);
+            if is_frame {
+                record(&*flock);
+            }
+        }
+        let corners = |robot| flock.lattice(robot).voxels().iter().map(|voxel| voxel.corners).collect();
+        let voxels: Vec<Vec<[usize; 4]>> = (0..flock.len()).map(corners).collect();
+        (frames, voxels)
+    })?;
+    let (frames, voxels) = ended.finished()?;
+    Ok((frames.into_iter().map(|frames| frames.into_pyarray(py)).collect(), voxels))
+}
+
+/// The stretches of env steps between frames and changes of the pattern, and whether a frame ends each.
+fn stretches(schedule: &Schedule, stride: u32) -> Vec<(Pattern, u32, bool)> {
+    let all = schedule.steps();
+    let mut ends: BTreeSet<u32> = (1..=all / stride).map(|frame| frame * stride).collect();
+    let changes = schedule.spells.iter().scan(0, |at, spell| {
+        *at += spell.steps;
+        Some(*at)
+    });
+    let changes: Vec<u32> = changes.collect();
+    ends.extend(&changes);
+    let mut before = 0;
+    let stretch = |end: u32| {
+        let spell = changes.iter().position(|&change| before < change).unwrap_or_default();
+        let steps = end - before;
+        before = end;
+        (schedule.spells[spell].pattern, steps, end % stride == 0)
+    };
+    ends.into_iter().map(stretch).filter(|&(_, steps, _)| steps > 0).collect()
+}

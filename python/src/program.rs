@@ -1,0 +1,187 @@
+//! Checked source files: circuits, tests, evolutions.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, Level, MappingObjective, Room, RunReport, Session};
+use nbc::{TestOptions, TestRun};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+
+use crate::circuits::Compiled;
+use crate::errors::{bad_value, diagnosed, internal, interrupted, without_place};
+use crate::evolution::Evolution;
+use crate::work::{self, Ended, Watch};
+
+/// A source file without errors.
+#[pyclass(frozen)]
+pub struct Program {
+    session: Arc<Session>,
+    checked: Arc<Checked>,
+}
+
+/// How a circuit becomes a swarm, as Python gives it.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Compiling {
+    library: Option<String>,
+    swarm: Option<String>,
+    objective: String,
+    effort: String,
+    runs: String,
+}
+
+impl Compiling {
+    fn options(self, py: Python<'_>, session: &Session) -> PyResult<CompileOptions> {
+        let robots = match self.library.as_deref() {
+            None => None,
+            Some("shipped") => Some(session.shipped().clone()),
+            Some(folder) => Some(session.library(folder).map_err(|found| diagnosed(py, &found))?),
+        };
+        let objective = match self.objective.as_str() {
+            "area" => MappingObjective::Area,
+            "delay" => MappingObjective::Delay,
+            "margin" => MappingObjective::Margin,
+            word => return Err(bad_value(format!("invalid objective `{word}`; expected area, delay or margin"))),
+        };
+        let effort = match self.effort.as_str() {
+            "fast" => Effort::Fast,
+            "normal" => Effort::Normal,
+            "high" => Effort::High,
+            word => return Err(bad_value(format!("invalid effort `{word}`; expected fast, normal or high"))),
+        };
+        Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs: self.runs })
+    }
+}
+
+#[pymethods]
+impl Program {
+    /// Reads and checks a file of the disk, or `text` in its place.
+    #[new]
+    fn new(py: Python<'_>, path: &str, text: Option<String>, poses: bool) -> PyResult<Self> {
+        let mut session = Session::new(DiskWorld);
+        if poses {
+            session = session.with_poses(Room::SWARM);
+        }
+        if let Some(text) = text {
+            session.update(path, 1, text);
+        }
+        let opened = work::run(py, &Watch::over(0), None, {
+            let path = path.to_owned();
+            move |_| {
+                let opened = session.open(&path);
+                (session, opened)
+            }
+        })?;
+        let (session, opened) = opened.finished()?;
+        let checked = opened.map_err(|found| diagnosed(py, &found))?;
+        Ok(Self { session: Arc::new(session), checked })
+    }
+
+    /// Its warnings, as JSON.
+    fn diagnostics(&self) -> String {
+        Value::from(self.checked.json()).to_string()
+    }
+
+    /// The circuits of the file itself with their ports, as JSON.
+    fn circuits(&self) -> String {
+        let own = self.checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == self.checked.file);
+        own.map(|circuit| json!({ "name": circuit.name })).collect::<Value>().to_string()
+    }
+
+    /// Its tests, as JSON.
+    fn tests(&self) -> String {
+        let record = |test: &nbc::CircuitTest| {
+            let nbc::CircuitTest { title, circuit, file, line, .. } = test;
+            json!({ "title": title, "circuit": circuit.to_string(), "file": file, "line": line })
+        };
+        self.checked.program.tests.iter().map(record).collect::<Value>().to_string()
+    }
+
+    /// Its evolutions.
+    fn evolutions(&self) -> Vec<(String, Evolution)> {
+        let evolutions = self.checked.program.evolutions.iter();
+        evolutions.map(|evolution| (evolution.name.clone(), Evolution(evolution.clone()))).collect()
+    }
+
+    /// Compiles a circuit to a swarm.
+    fn compile(&self, py: Python<'_>, circuit: Option<String>, compiling: Compiling) -> PyResult<Compiled> {
+        let options = compiling.options(py, &self.session)?;
+        let choice = Choice { circuit, swarm: options.swarm.clone() };
+        let instance = self.checked.circuit(&choice).map_err(|found| diagnosed(py, &found))?;
+        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let compiled = work::run(py, &Watch::over(0), None, move |_| session.compile(&checked, &instance, &options))?;
+        let compiled = compiled.finished()?.map_err(|found| diagnosed(py, &found))?;
+        Ok(Compiled::new(self.session.clone(), self.checked.clone(), compiled))
+    }
+
+    /// Runs a test: its results as JSON, each with its text.
+    fn test(
+        &self,
+        py: Python<'_>,
+        test: usize,
+        level: Option<&str>,
+        compiling: Compiling,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let compile = compiling.options(py, &self.session)?;
+        let options = TestOptions { level: level.map(read_level).transpose()?, compile };
+        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let ran = work::run(py, &Watch::over(0), progress.as_ref(), move |watch| {
+            session.test(&checked, &checked.program.tests[test], &options, &mut watch.observer())
+        })?;
+        let runs = ran.finished()?.map_err(|found| diagnosed(py, &found))?;
+        runs.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>().map(|records| records.to_string())
+    }
+
+    /// Runs every test and simulation in physics: the page, and the results as JSON.
+    fn run(
+        &self,
+        py: Python<'_>,
+        compiling: Compiling,
+        safe_colors: bool,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String)> {
+        let options = compiling.options(py, &self.session)?;
+        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let ran = work::run(py, &Watch::over(0), progress.as_ref(), move |watch| {
+            let report = session.run_checked(&checked, &options, &mut watch.observer());
+            report.map(|report| (report.page(&checked.path, crate::bodies::scheme(safe_colors)), report))
+        })?;
+        let records = |(page, report): (String, RunReport)| {
+            let tests = report.tests.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>()?;
+            Ok((page, tests.to_string()))
+        };
+        match ran {
+            Ended::Done(ran) => records(ran.map_err(|found| diagnosed(py, &found))?),
+            Ended::Interrupted(reason, partial) => {
+                let partial = partial.and_then(Result::ok).map(records).transpose()?;
+                let partial = partial.map(|partial| partial.into_bound_py_any(py)).transpose()?;
+                Err(interrupted(py, reason, partial))
+            }
+        }
+    }
+}
+
+impl Program {
+    fn record(&self, py: Python<'_>, run: &TestRun) -> PyResult<Value> {
+        let verdict = serde_json::to_value(&run.verdict).map_err(|error| internal(py, &error.to_string()))?;
+        let warnings = nbc::Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() }.json();
+        Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings }))
+    }
+}
+
+fn read_level(word: &str) -> PyResult<Level> {
+    match word {
+        "logic" => Ok(Level::Logic),
+        "physics" => Ok(Level::Physics),
+        word => Err(bad_value(format!("invalid level `{word}`; expected logic or physics"))),
+    }
+}
+
+/// Writes a file, whole or not at all.
+#[pyfunction]
+pub fn write_file(py: Python<'_>, path: &str, text: &str) -> PyResult<()> {
+    nbc::write_file(Path::new(path), text.as_bytes()).map_err(|found| without_place(py, found))
+}

@@ -1,0 +1,47 @@
+//! The threads that simulate.
+
+use std::process;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// The pool of a process.
+struct Pool {
+    process: u32,
+    pool: Arc<ThreadPool>,
+}
+
+/// The pool of this process. A forked process inherits the value without its threads, and makes a pool of its own.
+static POOL: Mutex<Option<Pool>> = Mutex::new(None);
+
+fn make(threads: usize) -> PyResult<Arc<ThreadPool>> {
+    let made = ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("nbc-{i}")).build();
+    made.map(Arc::new).map_err(|error| PyRuntimeError::new_err(format!("cannot start threads: {error}")))
+}
+
+/// The pool of this process, made at its first use.
+pub fn pool() -> PyResult<Arc<ThreadPool>> {
+    let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = known.as_ref().filter(|known| known.process == process::id()) {
+        return Ok(known.pool.clone());
+    }
+    replace(&mut known, 0)
+}
+
+fn replace(known: &mut Option<Pool>, threads: usize) -> PyResult<Arc<ThreadPool>> {
+    let pool = make(threads)?;
+    let old = known.replace(Pool { process: process::id(), pool: pool.clone() });
+    // The threads of another process cannot be ended from here.
+    if let Some(old) = old.filter(|old| old.process != process::id()) {
+        std::mem::forget(old);
+    }
+    Ok(pool)
+}
+
+/// Uses that many threads from now on; 0 stands for all cores.
+#[pyfunction]
+pub fn set_threads(threads: usize) -> PyResult<()> {
+    replace(&mut POOL.lock().unwrap_or_else(PoisonError::into_inner), threads).map(|_| ())
+}

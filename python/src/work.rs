@@ -1,0 +1,142 @@
+//! Long work: done by the threads of the package without the lock of the interpreter, while the caller's thread answers
+//! Ctrl-C and shows progress.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+use nbc::{Monitor, Observer, Simulator};
+use pyo3::prelude::*;
+
+use crate::errors::internal;
+use crate::threads::pool;
+
+/// The time from look to look for Ctrl-C.
+const POLL: Duration = Duration::from_millis(20);
+/// The time that interrupted work has to hand over its partial result.
+const GRACE: Duration = Duration::from_millis(120);
+
+/// What the caller's thread and the work know of each other.
+#[derive(Default)]
+pub struct Watch {
+    /// Ends the work, and counts env steps.
+    pub monitor: Arc<Monitor>,
+    done: AtomicU64,
+    all: AtomicU64,
+}
+
+impl Watch {
+    /// A watch over that much work.
+    pub fn over(all: u64) -> Arc<Self> {
+        Arc::new(Self { all: AtomicU64::new(all), ..Self::default() })
+    }
+
+    /// A simulator whose work is counted, and ends with an interrupt.
+    pub fn simulator(&self) -> Simulator {
+        Simulator::monitored(self.monitor.clone())
+    }
+
+    /// Whether the work is to end.
+    pub fn is_stopped(&self) -> bool {
+        self.monitor.is_stopped()
+    }
+
+    /// An observer for the calls of a session.
+    pub fn observer(&self) -> impl Observer + '_ {
+        Observing(self)
+    }
+
+    /// Parts done, and all parts.
+    fn progress(&self) -> (u64, u64) {
+        (self.done.load(Ordering::Relaxed).max(self.monitor.env_steps()), self.all.load(Ordering::Relaxed))
+    }
+}
+
+struct Observing<'a>(&'a Watch);
+
+impl Observer for Observing<'_> {
+    fn progress(&mut self, done: u64, all: u64) {
+        self.0.done.store(done, Ordering::Relaxed);
+        self.0.all.store(all, Ordering::Relaxed);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.0.is_stopped()
+    }
+}
+
+/// How work ended.
+pub enum Ended<T> {
+    /// It was done.
+    Done(T),
+    /// It was interrupted; with the partial result, if it came in time.
+    Interrupted(PyErr, Option<T>),
+}
+
+impl<T> Ended<T> {
+    /// The result.
+    ///
+    /// # Errors
+    /// The exception of the interrupt.
+    pub fn finished(self) -> PyResult<T> {
+        match self {
+            Self::Done(value) => Ok(value),
+            Self::Interrupted(reason, _) => Err(reason),
+        }
+    }
+}
+
+/// Does the work. `progress`, if it is one, is called with parts done and all parts.
+///
+/// # Errors
+/// When the threads cannot be started, and for a fault of the library.
+pub fn run<T: Send + 'static>(
+    py: Python<'_>,
+    watch: &Arc<Watch>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Watch) -> T + Send + 'static,
+) -> PyResult<Ended<T>> {
+    let (sender, mut receiver) = channel();
+    let shared = watch.clone();
+    pool()?.spawn(move || {
+        // The receiver is gone if the caller could not wait.
+        let _ = sender.send(catch_unwind(AssertUnwindSafe(|| work(&shared))));
+    });
+    let mut shown = (0, 0);
+    loop {
+        let found;
+        (receiver, found) = wait(py, receiver, POLL);
+        let reason = match found {
+            Ok(Ok(value)) => return Ok(Ended::Done(value)),
+            Ok(Err(panic)) => return Err(internal(py, &*panic)),
+            Err(RecvTimeoutError::Disconnected) => return Err(internal(py, &"the work has no result")),
+            Err(RecvTimeoutError::Timeout) => attend(py, watch, progress, &mut shown).err(),
+        };
+        if let Some(reason) = reason {
+            watch.monitor.stop();
+            let partial = wait(py, receiver, GRACE).1.ok().and_then(Result::ok);
+            return Ok(Ended::Interrupted(reason, partial));
+        }
+    }
+}
+
+/// Waits for a value without the lock of the interpreter.
+fn wait<T: Send>(py: Python<'_>, receiver: Receiver<T>, time: Duration) -> (Receiver<T>, Result<T, RecvTimeoutError>) {
+    py.detach(move || {
+        let found = receiver.recv_timeout(time);
+        (receiver, found)
+    })
+}
+
+/// Looks for Ctrl-C, and reports progress if there is any.
+fn attend(py: Python<'_>, watch: &Watch, progress: Option<&Bound<'_, PyAny>>, shown: &mut (u64, u64)) -> PyResult<()> {
+    py.check_signals()?;
+    let now = watch.progress();
+    if let Some(progress) = progress.filter(|_| now != *shown) {
+        *shown = now;
+        progress.call1(now)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,145 @@
+"""Circuits, swarms, tests and pictures."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+
+import nbc
+
+INVERTER = "circuit inverter(a) -> (q) { q = not a }"
+ADDER = "circuit add(a[2], b[2]) -> (s[2]) { s = a + b }"
+
+
+@pytest.fixture(scope="module")
+def latch():
+    from conftest import ROOT
+
+    return nbc.load(ROOT / "circuits/latch.nb").circuits["d_latch"].compile()
+
+
+def test_a_latch_remembers(latch):
+    assert len(latch.robots) == 5 and [port.name for port in latch.inputs] == ["d", "e"]
+    with latch.swarm() as swarm:
+        rows = [{"d": 0, "e": 1}, {"d": 1, "e": 1}, (1, 0), (0, 0), (0, 1)]
+        assert [row["q"] for row in swarm.run(rows)] == [0, 1, 1, 1, 0]
+        cycles = swarm.cycles
+        assert swarm.bits.shape == (cycles, 5) and swarm.inputs.shape == swarm.outputs.shape == (cycles, 2)
+        assert swarm.paths.shape == (5, 12 * cycles + 1)
+        assert swarm.step(d=1, e=1, cycles=10) == {"q": 1, "nq": 0}
+        assert ElementTree.fromstring(swarm.spacetime()).tag.endswith("svg")
+        swarm.reset()
+        assert swarm.cycles == 0 and swarm._repr_svg_() is None
+    with pytest.raises(ValueError, match="the swarm is closed"):
+        swarm.step(d=0, e=0)
+
+
+def test_tests_are_those_of_the_program(program, root):
+    results = nbc.load(root / "circuits/latch.nb").test(level="physics")
+    found = json.loads(program("test", "circuits/latch.nb", "--physics", "--format", "json"))
+    rows = found["tests"][0]["rows"]
+    assert [row["observed"] for row in results[0].rows] == [row["observed"] for row in rows]
+    assert results[0].passed and results[0].level == "physics" and "follows d while e is on" in str(results[0])
+
+
+def test_netlist_and_timing(latch):
+    graph = latch.netlist
+    kinds = [data["kind"] for _, data in graph.nodes(data=True)]
+    assert kinds.count("cell") == 5 and kinds.count("input") == kinds.count("output") == 2
+    cells = [node for node, data in graph.nodes(data=True) if data["kind"] == "cell"]
+    assert all(graph.in_degree(node) in (1, 2) for node in cells)
+    assert len(latch.graph(as_written=True)) > len(graph) - 2
+    timing = latch.timing
+    assert timing["hold"] > 0 and len(timing["robots"]) == 5 and timing["memory"]
+    assert ElementTree.fromstring(latch.schematic(safe_colors=True)).tag.endswith("svg")
+
+
+def test_buses_are_numbers():
+    swarm = nbc.loads(ADDER).compile(effort="fast").swarm()
+    assert swarm.run([dict(a=1, b=2), dict(a=3, b=2)]) == [{"s": 3}, {"s": 1}]
+    with pytest.raises(ValueError, match="the value of `a` is 4, expected 0 to 3"):
+        swarm.step(a=4, b=0)
+
+
+def test_options_of_compiling(tmp_path, latch):
+    program = nbc.loads(INVERTER)
+    assert program.compile(objective="delay", effort="high", library="shipped").robots[0]["function"] == "not"
+    for options, message in (
+        (dict(objective="beauty"), "invalid objective `beauty`; expected area, delay or margin"),
+        (dict(effort="much"), "invalid effort"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            program.compile(**options)
+    with pytest.raises(nbc.NbcError) as caught:
+        program.compile(library=tmp_path)
+    assert caught.value.diagnostics[0].code == "incomplete-library"
+    with pytest.raises(nbc.NbcError):
+        program.compile(library=tmp_path / "none")
+    with pytest.raises(nbc.NbcError):
+        program.compile("other")
+    with pytest.raises(KeyError, match="there is no circuit `other`; there are inverter"):
+        program.circuits["other"]
+    assert latch.warnings == () and program.warnings == ()
+
+
+def test_step_wants_each_port_once(latch):
+    swarm = latch.swarm()
+    for use, message in (
+        (lambda: swarm.step(d=1), "missing value of `e`"),
+        (lambda: swarm.step(d=1, e=1, f=1), "unknown port `f`"),
+        (lambda: swarm.step((1,)), "1 values, expected 2: d, e"),
+        (lambda: swarm.step(d=2, e=0), "the value of `d` is 2, expected 0 to 1"),
+        (lambda: swarm.step(d=1, e=1, cycles=0), "cycles is 0"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            use()
+    with pytest.raises(TypeError, match="expected a whole number"):
+        swarm.step(d=float("nan"), e=0)
+    assert swarm.cycles == 0
+
+
+def test_every_error_of_a_source_is_in_the_exception(tmp_path):
+    with pytest.raises(nbc.NbcError) as caught:
+        nbc.loads("circuit f(a) -> (q) { q = b }\ncircuit g(a) -> (q) { q = c }", "two.nb")
+    places = [(one.code, one.span.file, one.span.line, one.span.column) for one in caught.value.diagnostics
+              if one.severity == "error"]
+    assert places == [("unknown", "two.nb", 1, 27), ("unknown", "two.nb", 2, 27)]
+    with pytest.raises(nbc.NbcError) as caught:
+        nbc.load(tmp_path / "none.nb")
+    assert caught.value.diagnostics[0].code == "unreadable" and caught.value.diagnostics[0].span is None
+
+
+def test_failing_tests_are_results():
+    program = nbc.loads(INVERTER + '\ntest inverter "wrong" { a | q\n 0 | 0\n 1 | 0 }')
+    (result,) = program.test(level="logic")
+    assert not result.passed and [row["passed"] for row in result.rows] == [False, True]
+    assert "FAIL" in result.text and "FAIL" in result._repr_html_()
+    assert program.test("wrong", level="logic")[0].title == "wrong"
+    with pytest.raises(ValueError, match="invalid level `dream`"):
+        program.test(level="dream")
+    with pytest.raises(KeyError):
+        program.test("right")
+
+
+def test_a_report_is_a_page_with_a_player(tmp_path, root):
+    program = nbc.load(root / "circuits/sr_latch.nb")
+    report = program.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    assert report.passed and page == report.page and page.startswith("<!") and "<script" in page
+    assert report._repr_html_().startswith("<iframe srcdoc=")
+    with pytest.raises(nbc.NbcError):
+        report.save(tmp_path / "no/folder.html")
+
+
+def test_evolutions_of_a_file(root):
+    runs = nbc.load(root / "library/evolve.nb").evolutions
+    assert runs["gates5"].fields["objective"] == "gate" and "gates" in runs
+    assert np.array(runs["gates7"].box).tolist() == [7, 7]
+
+
+def test_pictures_of_robots():
+    robot = nbc.library()[0]
+    assert ElementTree.fromstring(robot._repr_svg_()).tag.endswith("svg")

@@ -1,0 +1,44 @@
+"""Evaluation by the paper's protocol and the gate objective."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import nbc
+
+
+def test_the_papers_protocol_is_what_its_simulations_say():
+    bodies = np.array([robot.body for robot in nbc.library() if robot.body.shape == (5, 5)][:6])
+    result = nbc.evaluate(bodies)
+    fixed = np.stack([nbc.simulate(bodies, f"{p}*10").displacement[:, 0] for p in ("00", "01", "10", "11")], axis=1)
+    sweep = nbc.simulate(bodies, "00*10 01*10 10*10 11*10").displacement
+    consistent = ((fixed > 0) == (sweep > 0)).all(axis=1)
+    np.testing.assert_array_equal(result.outcome == "measured", consistent)
+    np.testing.assert_array_equal(result.displacement[consistent], fixed[consistent])
+    np.testing.assert_array_equal(result.fitness[consistent, 1], np.abs(fixed[consistent]).min(axis=1))
+    np.testing.assert_allclose(result.fitness[consistent, 0], np.abs(sweep[consistent]).sum(axis=1), rtol=1e-15)
+    letters = ["".join("LR"[int(d > 0)] for d in row) for row in fixed[consistent]]
+    assert result.behavior[consistent].tolist() == letters
+    assert np.isnan(result.fitness[~consistent]).all() and (result.niche[~consistent] == -1).all()
+
+
+def test_the_library_is_made_of_gates():
+    robots = [robot for robot in nbc.library() if robot.body.shape == (5, 5)]
+    result = nbc.evaluate(robots, nbc.Evolution(objective="gate"))
+    assert result.measured.all()
+    assert result.behavior.tolist() == [robot.behavior for robot in robots]
+    assert (result.fitness[:, 0] > 0.5).all(), "every output is right from some cycle on"
+
+
+def test_niches_count_voxels():
+    run = nbc.Evolution(descriptors=["voxels in 5 bins", "active in 5 bins", "sensory in 5 bins", "behavior"])
+    result = nbc.evaluate([["33333", "55555", "33333", "44444", "66666"]], run)
+    if result.measured[0]:
+        assert result.niche[0, :3].tolist() == [4, 3, 2]
+    assert run.axes == (("voxels", 5), ("active", 5), ("sensory", 5), ("behavior", 16))
+
+
+def test_a_passive_body_is_inconsistent_or_stands_still():
+    result = nbc.evaluate([["22222"] * 5])
+    assert result.outcome[0] in ("measured", "inconsistent")
+    assert not result.measured[0] or result.behavior[0] == "LLLL"

@@ -1,0 +1,72 @@
+"""Everything that readers may copy runs: examples, docstrings, the guide and its notebook."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import os
+import pkgutil
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import nbc
+
+EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
+MODULES = ["nbc"] + [f"nbc.{module.name}" for module in pkgutil.iter_modules(nbc.__path__) if module.name != "_nbc"]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_docstrings(name):
+    found = doctest.testmod(importlib.import_module(name), optionflags=doctest.NORMALIZE_WHITESPACE)
+    assert found.failed == 0
+
+
+def test_every_public_name_has_a_docstring():
+    silent = [name for name in nbc.__all__ if not name.startswith("__") and name.isidentifier()
+              and not getattr(getattr(nbc, name), "__doc__", None)]
+    assert silent == []
+
+
+@pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.py")), ids=lambda path: path.stem)
+def test_examples(example, tmp_path):
+    if "evolution_gym" in example.name:
+        pytest.importorskip("evogym")
+    environment = {**os.environ, "NBC_EXAMPLE": "short", "MPLBACKEND": "agg"}
+    done = subprocess.run([sys.executable, str(example)], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_guide(root, tmp_path, monkeypatch):
+    """The blocks of docs/python.md, one after another as one program."""
+    text = (root / "docs/python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)
+    assert len(blocks) > 8
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    (tmp_path / "circuits").symlink_to(root / "circuits")
+    namespace: dict = {"__name__": "guide"}
+    for number, block in enumerate(blocks):
+        exec(compile(block, f"docs/python.md, block {number + 1}", "exec"), namespace)
+
+
+def test_the_notebook(root, tmp_path):
+    import nbclient
+    import nbformat
+
+    notebook = nbformat.read(EXAMPLES / "latch.ipynb", as_version=4)
+    (tmp_path / "circuits").symlink_to(root / "circuits")
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    kinds = [kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})]
+    assert kinds.count("image/svg+xml") >= 3 and "text/html" in kinds
+
+
+def test_types():
+    mypy = pytest.importorskip("mypy.api")
+    package = Path(__file__).resolve().parents[1]
+    out, errors, status = mypy.run(["--config-file", str(package / "pyproject.toml"), str(package / "python/nbc"),
+                                    str(package / "examples")])
+    assert status == 0, out + errors

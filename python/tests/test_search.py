@@ -1,0 +1,126 @@
+"""Searches, archives and checkpoints."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import nbc
+
+RUN = dict(box=(3, 3), batch=6, newcomers=1, generations=6, fixed="2 cycles")
+TEXT = "evolution small { from: gates, box: 3 x 3, batch: 6, newcomers: 1, generations: 6, fixed: 2 cycles }"
+
+
+@pytest.fixture(scope="module")
+def run():
+    return nbc.Evolution(**RUN)
+
+
+@pytest.fixture(scope="module")
+def done(run):
+    return nbc.evolve(run, seed=3)
+
+
+def test_asking_and_telling_is_what_evolve_does(run, done):
+    search = nbc.Search(run, seed=3)
+    while not search.is_done:
+        candidates = search.ask()
+        assert candidates.bodies.shape == (len(candidates), 3, 3) and candidates.generation == search.generation
+        np.testing.assert_array_equal(candidates.bodies, search.ask().bodies)
+        search.tell(candidates, search.evaluate(candidates))
+    assert search.summary == done.summary
+    assert (search.archive.elites == done.archive.elites).all()
+
+
+def test_an_archive_is_an_array_and_a_frame(done):
+    archive = done.archive
+    assert len(archive) == done.summary["archive"]["filled"] > 0
+    assert archive.elites["body"].shape[1:] == (3, 3)
+    again = nbc.evaluate(archive.elites["body"], done.evolution)
+    np.testing.assert_array_equal(again.displacement, archive.elites["displacement"])
+    np.testing.assert_array_equal(again.fitness, archive.elites["fitness"])
+    np.testing.assert_array_equal(again.niche, archive.elites["niche"])
+    frame = archive.frame()
+    assert len(frame) == len(archive) and frame["fitness_1"].max() == archive.elites["fitness"][:, 0].max()
+    assert frame["body"][0].split() == nbc.rows(archive.elites["body"][0])
+    heat = archive.heatmap("voxels", "behavior")
+    assert heat.shape == (16, 4) and np.nanmax(heat) == archive.elites["fitness"][:, 0].max()
+    with pytest.raises(ValueError, match="no axis `size`"):
+        archive.heatmap("size", "voxels")
+
+
+def test_a_run_resumes_to_the_same_archive(run, done, tmp_path):
+    file = tmp_path / "run.nbc"
+    nbc.evolve(run, seed=3, generations=2, checkpoint=file)
+    assert nbc.read_archive(file).axes == run.axes
+    resumed = nbc.evolve(run, seed=3, checkpoint=file)
+    assert resumed.summary == done.summary
+    assert (nbc.read_archive(file).elites == done.archive.elites).all()
+    with pytest.raises(ValueError, match="belongs to seed 3, expected seed 4"):
+        nbc.evolve(run, seed=4, checkpoint=file)
+    with pytest.raises(nbc.NbcError, match="different declaration"):
+        nbc.Search.resume(file, nbc.Evolution(box=(4, 4)))
+
+
+def test_checkpoints_are_those_of_the_program(program, tmp_path):
+    source = tmp_path / "small.nb"
+    source.write_text(TEXT)
+    program("evolve", source, "--out", tmp_path / "out")
+    theirs = nbc.read_archive(tmp_path / "out/small/seed-1/checkpoint.nbc")
+    ours = nbc.evolve(nbc.Evolution.parse(TEXT), seed=1)
+    assert (theirs.elites == ours.archive.elites).all()
+    ours.save(tmp_path / "out/small/seed-1/checkpoint.nbc")
+    exported = program("export", tmp_path / "out/small/seed-1", "--format", "json")
+    assert json.loads(exported)["elites"]
+
+
+def test_own_evaluations_are_checked(run):
+    search = nbc.Search(run, seed=1)
+    candidates = search.ask()
+    good = search.evaluate(candidates)
+    size = len(candidates)
+    everything = dataclasses.replace(
+        good,
+        outcome=np.full(size, "measured"),
+        fitness=np.ones((size, 2)),
+        displacement=np.ones((size, 4)),
+        behavior=np.full(size, "RRRL"),
+    )
+    wrong = [
+        (dict(fitness=np.ones((size, 3))), r"fitness has the shape"),
+        (dict(fitness=np.full((size, 2), np.nan)), "must be finite numbers"),
+        (dict(behavior=np.full(size, "RRXL")), "`RRXL` is not a behavior"),
+        (dict(outcome=np.full(size, "great")), "invalid outcome `great`"),
+        (dict(outcome=np.full(size - 1, "measured")), "outcome has the shape"),
+    ]
+    for change, message in wrong:
+        with pytest.raises(ValueError, match=message):
+            search.tell(candidates, dataclasses.replace(everything, **change))
+    with pytest.raises(ValueError, match="of another search"):
+        nbc.Search(run, seed=1).tell(candidates, everything)
+    search.tell(candidates, everything)
+    with pytest.raises(ValueError, match="of generation 0, expected 1: ask again"):
+        search.tell(candidates, everything)
+    assert len(search.archive) > 0
+    search.close()
+    with pytest.raises(ValueError, match="the search is closed"):
+        search.ask()
+
+
+def test_damaged_and_missing_checkpoints(run, tmp_path):
+    with pytest.raises(FileNotFoundError):
+        nbc.read_archive(tmp_path / "none.nbc")
+    with pytest.raises(FileNotFoundError):
+        nbc.Search.resume(tmp_path / "none.nbc", run)
+    (tmp_path / "bad.nbc").write_bytes(b"\x00\xff nothing")
+    with pytest.raises(nbc.NbcError) as caught:
+        nbc.read_archive(tmp_path / "bad.nbc")
+    assert caught.value.diagnostics[0].code == "checkpoint"
+    with pytest.raises(nbc.NbcError) as caught:
+        nbc.Search(run).save(tmp_path / "no/such/folder/run.nbc")
+    assert caught.value.diagnostics[0].code == "unwritable"
+    with pytest.raises(ValueError, match="seed is -1"):
+        nbc.Search(run, seed=-1)
