@@ -33,6 +33,9 @@ pub(super) enum Passage {
     Closed,
 }
 
+/// The first change of each net by its number, in cycles; `None` if it does not change.
+type FirstChanges = Vec<Option<u32>>;
+
 /// The values of the roots of latches.
 pub(super) type RootValues = BTreeMap<NetId, bool>;
 
@@ -163,7 +166,7 @@ struct Races<'a, F> {
     kind: &'a F,
     /// For each enable, the time by which it closes and the first change of each net: after the root, and after each
     /// inverter on the way from it, as far as the two ways part there.
-    firsts: BTreeMap<NetId, Vec<(u32, Vec<Option<u32>>)>>,
+    firsts: BTreeMap<NetId, Vec<(u32, FirstChanges)>>,
 }
 
 impl<'k, F: Fn(NetId) -> &'k CellKind> Races<'_, F> {
@@ -191,7 +194,7 @@ pub(super) fn earliest(
     passages: &[Passage],
     sources: &[NetId],
     avoided: &[NetId],
-) -> Vec<Option<u32>> {
+) -> FirstChanges {
     let mut silent = vec![false; netlist.graph().node_bound()];
     let closed = storage.latches.iter().zip(passages).filter(|(_, passage)| **passage == Passage::Closed);
     closed.flat_map(|(latch, _)| &latch.cells).chain(avoided).for_each(|cell| silent[cell.index()] = true);
