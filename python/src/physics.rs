@@ -170,6 +170,8 @@ pub fn simulate<'py>(
 
 /// The frames of a robot: its points in each, frame after frame.
 type Frames = Vec<f64>;
+/// The frames of each robot, and the four points of each of its voxels.
+type Poses<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Vec<Vec<[usize; 4]>>);
 
 /// The poses of each body under the schedule, every `stride` env steps: a flat array for each, and the four points of
 /// each voxel.
@@ -185,7 +187,7 @@ pub fn record_poses<'py>(
     start_x: Option<usize>,
     stride: u32,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(Vec<Bound<'py, PyArray1<f64>>>, Vec<Vec<[usize; 4]>>)> {
+) -> PyResult<Poses<'py>> {
     let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
     let (setting, schedule) = (setting(world_width, start_x, &bodies)?, schedule.read(py)?);
     let watch = Watch::over(u64::from(schedule.steps()) * bodies.len() as u64);
@@ -227,7 +229,7 @@ fn stretches(schedule: &Schedule, stride: u32) -> Vec<(Pattern, u32, bool)> {
         let spell = changes.iter().position(|&change| before < change).unwrap_or_default();
         let steps = end - before;
         before = end;
-        (schedule.spells[spell].pattern, steps, end % stride == 0)
+        (schedule.spells[spell].pattern, steps, end.is_multiple_of(stride))
     };
     ends.into_iter().map(stretch).filter(|&(_, steps, _)| steps > 0).collect()
 }

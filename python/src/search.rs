@@ -198,9 +198,12 @@ impl Search {
     }
 }
 
+/// The arrays of an archive, and the name and bins of each axis.
+type ArchiveOnAxes<'py> = (Bound<'py, PyDict>, Vec<(&'static str, usize)>);
+
 /// The archive of a checkpoint: its arrays and its axes.
 #[pyfunction]
-pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<(Bound<'_, PyDict>, Vec<(&'static str, usize)>)> {
+pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<ArchiveOnAxes<'_>> {
     let read = Checkpoint::open(&path).map_err(|found| without_place(py, found))?;
     let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
     let niches = checkpoint.state.niches.iter();
