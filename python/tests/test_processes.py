@@ -57,14 +57,15 @@ def test_a_flock_in_use_is_refused_in_a_fork():
         import os, threading, nbc
         flock = nbc.Flock([["343", "563"]] * 8)
         flock.advance("00", 1)
-        worker = threading.Thread(target=lambda: flock.advance("01", 100_000))
-        worker.start()
         while True:
+            worker = threading.Thread(target=lambda: flock.advance("01", 20_000))
+            worker.start()
             reader = threading.Thread(target=lambda: flock.com)
             reader.start()
             reader.join(0.1)
             if reader.is_alive():
                 break
+            worker.join()
         child = os.fork()
         if child == 0:
             try:
