@@ -58,6 +58,8 @@ pub struct Finder {
     pub off: Vec<u64>,
     /// The signals that a candidate may read.
     pub divisors: Vec<Signal>,
+    /// Whether exclusive ors are candidates.
+    pub exclusive: bool,
     /// The candidates found.
     pub found: Vec<Replacement>,
     /// The words in which the gate matters; those that refute most come first.
@@ -74,6 +76,7 @@ impl Finder {
             on: Vec::new(),
             off: Vec::new(),
             divisors: Vec::new(),
+            exclusive: true,
             found: Vec::new(),
             hot: Vec::new(),
             ands: Vec::new(),
@@ -109,7 +112,9 @@ impl Finder {
         }
         self.find_pairs(rows, off, true, outer, random);
         self.find_pairs(rows, on, false, outer, random);
-        self.find_exclusive(rows, on, off, outer);
+        if self.exclusive {
+            self.find_exclusive(rows, on, off, outer);
+        }
     }
 
     /// Orders the words so that most signals are refuted by the first ones.

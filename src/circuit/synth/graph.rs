@@ -41,6 +41,8 @@ pub struct Graph<'p> {
     /// Workspace for walks over the removed gates.
     pending: Vec<Signal>,
     touched: Vec<Signal>,
+    /// Workspace for the gates whose values may have changed.
+    stale: Vec<bool>,
 }
 
 impl<'p> Graph<'p> {
@@ -62,6 +64,7 @@ impl<'p> Graph<'p> {
             leaving: None,
             pending: Vec::new(),
             touched: Vec::new(),
+            stale: Vec::new(),
         };
         let zero = vec![0; width];
         let one = vec![!0; width];
@@ -235,13 +238,17 @@ impl<'p> Graph<'p> {
         Some(root)
     }
 
-    /// Computes a gate's values from those of its pins.
-    fn simulate(&mut self, signal: Signal) {
+    /// Computes a gate's values from those of its pins; returns whether they change.
+    fn simulate(&mut self, signal: Signal) -> bool {
         let GraphNode { function, pins: [a, b], .. } = self.nodes[signal as usize];
         let (a, b, out) = (a as usize * self.width, b as usize * self.width, signal as usize * self.width);
+        let mut changed = 0;
         for i in 0..self.width {
-            self.values[out + i] = word(function, self.values[a + i], self.values[b + i]);
+            let value = word(function, self.values[a + i], self.values[b + i]);
+            changed |= value ^ self.values[out + i];
+            self.values[out + i] = value;
         }
+        changed != 0
     }
 
     /// Marks the gate that is about to be removed, so that no new gate reads it.
@@ -377,15 +384,20 @@ impl<'p> Graph<'p> {
         }
     }
 
-    /// Computes all values and stages again, in order.
-    pub fn refresh(&mut self) {
+    /// Computes stages and arrivals again, in order, and the values of the gates that read `root` where they change.
+    pub fn refresh(&mut self, root: Signal) {
+        self.stale.clear();
+        self.stale.resize(self.nodes.len(), false);
+        self.fanout[root as usize].iter().for_each(|&reader| self.stale[reader as usize] = true);
         for i in 0..self.order.len() {
             let signal = self.order[i];
-            self.simulate(signal);
-            let stage = self.nodes[signal as usize].pins.map(|pin| self.nodes[pin as usize].stage);
-            self.nodes[signal as usize].stage = stage[0].max(stage[1]);
             let GraphNode { function, pins, .. } = self.nodes[signal as usize];
+            let stage = pins.map(|pin| self.nodes[pin as usize].stage);
+            self.nodes[signal as usize].stage = stage[0].max(stage[1]);
             self.nodes[signal as usize].arrival = self.arrival(function, pins);
+            if self.stale[signal as usize] && self.simulate(signal) {
+                self.fanout[signal as usize].iter().for_each(|&reader| self.stale[reader as usize] = true);
+            }
         }
     }
 

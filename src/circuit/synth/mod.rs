@@ -4,9 +4,11 @@ mod candidates;
 pub mod exact;
 pub mod graph;
 mod parts;
+mod phases;
 pub mod prices;
 pub mod reduce;
 mod roam;
+mod shared_pairs;
 mod surroundings;
 pub mod walk;
 

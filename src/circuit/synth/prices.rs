@@ -32,9 +32,24 @@ impl Prices {
             _ => 0,
         };
         let kind = |function| (function, CellKind { cost: price(function), ..CellKind::uniform(1, 1.0) });
-        Self::of(
-            &Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT).map(kind).collect(),
-        )
+        Self::of(&complete().map(kind).collect())
+    }
+
+    /// Prices between the abstract ones and these: every function is one cell, and each inverter in it costs half.
+    pub fn halfway(&self) -> Self {
+        let price = |function: Function| match function {
+            Function::NOT => 1,
+            Function::XOR | Function::XNOR => 2 * self.cost(function).unwrap_or(4) - 1,
+            _ => 1 + self.cost(function).unwrap_or(3),
+        };
+        let kind = |function| (function, CellKind { cost: price(function), ..CellKind::uniform(1, 1.0) });
+        Self::of(&complete().map(kind).collect())
+    }
+
+    /// The cost of the cheapest function of two signals that is not an exclusive or.
+    pub fn unit(&self) -> u32 {
+        let both = [Function::AND, Function::NAND, Function::OR, Function::NOR];
+        both.into_iter().filter_map(|function| self.cost(function)).min().unwrap_or(1).max(1)
     }
 
     /// The cost of a cell.
@@ -61,4 +76,9 @@ impl Prices {
     pub fn cost(&self, function: Function) -> Option<u32> {
         self.recipes.cost(function)
     }
+}
+
+/// The functions of two inputs, and the inverter.
+fn complete() -> impl Iterator<Item = Function> {
+    Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT)
 }

@@ -10,9 +10,11 @@ use crate::circuit::synth::candidates::below;
 use crate::circuit::synth::exact::{self, ExactResult};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::parts::in_parts;
+use crate::circuit::synth::phases::assign_phases;
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::roam::roam;
-use crate::circuit::synth::walk::{self, Pace, WalkPlan};
+use crate::circuit::synth::shared_pairs::share_pairs;
+use crate::circuit::synth::walk::{self, MANY_GATES, Pace, WalkPlan};
 use crate::model::Function;
 
 /// The most inputs of a network that is searched as a whole.
@@ -22,10 +24,8 @@ const SMALL_INPUTS: usize = 4;
 const SMALL_STARTS: usize = 6;
 /// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 600;
-/// Above this number of gates, a search without a second one gets this share of the work at normal effort, instead of
-/// 2.
-const MANY_GATES: usize = 150;
-const SHARE_ALONE: u64 = 4;
+/// Above this number of gates, high effort makes fewer rounds.
+const FULL_ROUNDS_GATES: usize = 1_500;
 /// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
 const WHOLE_WORK: u64 = 1_200_000_000;
 /// The gates of a part of a wide network whose gates are seen in their surroundings, or in samples of the patterns.
@@ -113,35 +113,47 @@ impl Course<'_> {
         direct: &Network,
         random: &mut ChaCha8Rng,
     ) -> Result<Network, Function> {
-        let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
-        let gates = direct.gates.len();
-        let normal = self.effort == Effort::Normal;
-        if normal && !is_narrow(direct) && gates > MANY_GATES {
-            return self.search_gates(network, direct, 1, random);
+        if direct.gates.len() > MANY_GATES && self.effort != Effort::Fast {
+            return self.search_large(network, direct, random);
         }
-        let alone = exclusive <= 1 && normal && gates > MANY_GATES;
-        let best = self.search(direct, if alone { SHARE_ALONE } else { 2 }, random);
+        let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
+        let best = self.search(direct, 2, random);
         if exclusive <= 1 || self.effort == Effort::Fast && !is_narrow(direct) {
             return Ok(best);
         }
-        let other = self.search_gates(network, direct, 1, random)?;
+        // An exclusive or is counted as slightly less than its cells.
+        let ideal = Prices::abstracted(2 * exclusive - 1);
+        let few = Course { prices: &ideal, ..*self }.search(&cover(network, &ideal, self.stages)?, 1, random);
+        let mapped = cover(&few, self.prices, self.stages)?;
+        let other = self.search(&cheaper(direct.clone(), mapped, self.prices), 2, random);
         Ok(cheaper(best, other, self.prices))
     }
 
-    /// Minimizes the number of gates of any kind, an exclusive or counted as slightly less than its cells, then the
-    /// number of cells. Where inverters are free, a search is stuck less often.
-    fn search_gates(
-        &self,
-        network: &Network,
-        direct: &Network,
-        share: u64,
-        random: &mut ChaCha8Rng,
-    ) -> Result<Network, Function> {
+    /// Minimizes the number of gates of any kind, where inverters are free and a search is stuck less often, then the
+    /// cost with inverters of half the price, then the cost.
+    fn search_large(&self, network: &Network, direct: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
         let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
         let ideal = Prices::abstracted(if exclusive > 1 { 2 * exclusive - 1 } else { 2 });
-        let few = Course { prices: &ideal, ..*self }.search(&cover(network, &ideal, self.stages)?, share, random);
-        let mapped = cover(&few, self.prices, self.stages)?;
-        Ok(self.search(&cheaper(direct.clone(), mapped, self.prices), 2 * share, random))
+        let start = (0..2).try_fold(cover(network, &ideal, self.stages)?, |now, _| {
+            Ok(cheaper(now.clone(), cover(&share_pairs(&now), &ideal, self.stages)?, &ideal))
+        })?;
+        let few = Course { prices: &ideal, ..*self }.search(&start, 1, random);
+        let mut best = self.in_phases(direct.clone(), &few, random)?;
+        let halfway = self.prices.halfway();
+        let start = cover(&best, &halfway, self.stages)?;
+        let few = Course { prices: &halfway, ..*self }.search(&start, 2, random);
+        best = self.in_phases(best, &few, random)?;
+        Ok(self.search(&best, 1, random))
+    }
+
+    /// The cheapest of a network of the library's cells and of two ways to make another network of these cells.
+    fn in_phases(&self, best: Network, other: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
+        let best = cheaper(best, cover(other, self.prices, self.stages)?, self.prices);
+        let phased = assign_phases(other, self.prices, random).map(|phased| cover(&phased, self.prices, self.stages));
+        Ok(match phased {
+            Some(phased) => cheaper(best, phased?, self.prices),
+            None => best,
+        })
     }
 
     /// The search for a network's width and the effort; `share` is its part of the work.
@@ -180,16 +192,8 @@ impl Course<'_> {
 
     /// Searches each gate's surroundings and then over samples of the patterns, in rounds.
     fn search_wide(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
-        let round = match self.effort {
-            Effort::Fast => Round { near: 2, most_near: 100_000, far: 0, most_far: 0, work: 0 },
-            Effort::Normal => Round { near: 50, most_near: 100_000, far: 16, most_far: 8_000, work: 2_400_000 },
-            Effort::High => Round { near: 40, most_near: 800_000, far: 30, most_far: 30_000, work: 9_000_000 },
-        };
-        let rounds = match self.effort {
-            Effort::Fast => 1,
-            Effort::Normal => 2 * share,
-            Effort::High => 6 * share,
-        };
+        let round = Round::of(self.effort);
+        let rounds = rounds(self.effort, share, network.gates.len());
         (0..rounds).fold(network.clone(), |best, _| {
             let gates = best.gates.len() as u64;
             let first = below(random, NEAR_GATES) + 1;
@@ -285,6 +289,14 @@ struct Round {
 }
 
 impl Round {
+    fn of(effort: Effort) -> Self {
+        match effort {
+            Effort::Fast => Self { near: 2, most_near: 100_000, far: 0, most_far: 0, work: 0 },
+            Effort::Normal => Self { near: 20, most_near: 100_000, far: 16, most_far: 8_000, work: 2_400_000 },
+            Effort::High => Self { near: 40, most_near: 400_000, far: 30, most_far: 20_000, work: 9_000_000 },
+        }
+    }
+
     /// The visits to a part of `part` gates of a network of `all` gates that see surroundings.
     fn near(&self, part: u64, all: u64) -> u64 {
         (self.near * part).min(self.most_near * part / all.max(1))
@@ -293,6 +305,15 @@ impl Round {
     /// The visits to a part that see samples.
     fn far(&self, part: u64, all: u64) -> u64 {
         (self.far * part).min(self.most_far * part / all.max(1)).min(self.work / part.max(1))
+    }
+}
+
+/// The number of rounds for a share of the work. High effort makes fewer in large networks, so that it always ends.
+fn rounds(effort: Effort, share: u64, gates: usize) -> u64 {
+    match effort {
+        Effort::Fast => 1,
+        Effort::Normal => 2 * share,
+        Effort::High => share * (6 * FULL_ROUNDS_GATES / gates.max(FULL_ROUNDS_GATES)).max(1) as u64,
     }
 }
 
@@ -333,6 +354,18 @@ mod tests {
         let carry = network.add(Function::OR, pairs);
         network.outputs = vec![sum, carry];
         assert_eq!(reduced(&network, "nand").gates.len(), 9);
+    }
+
+    #[test]
+    fn the_work_of_high_effort_is_bounded_for_any_size() {
+        let round = Round::of(Effort::High);
+        for gates in [200u64, 1_000, 2_000, 20_000, 100_000] {
+            let rounds = rounds(Effort::High, 4, gates as usize);
+            let parts = gates.div_ceil(FAR_GATES as u64);
+            let far = rounds * parts * round.far(gates / parts, gates) * (gates / parts);
+            let near = rounds * round.near(gates, gates);
+            assert!(far <= 300_000_000 && near <= 1_600_000, "{gates} gates take {far} and {near}");
+        }
     }
 
     #[test]

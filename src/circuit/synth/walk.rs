@@ -10,6 +10,7 @@ use crate::circuit::synth::candidates::{Finder, Replacement, Rows, TRIES, below}
 use crate::circuit::synth::graph::{Graph, every_pattern};
 use crate::circuit::synth::prices::Prices;
 use crate::circuit::synth::surroundings::Surroundings;
+use crate::model::Function;
 
 /// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +98,10 @@ pub fn improve_all(
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
     pace: Pace,
+    /// Whether a visit looks only for candidates that are likely to pay.
+    thrifty: bool,
+    /// The cost of an exclusive or.
+    exclusive: u32,
     /// The time at which the outputs must be correct.
     deadline: u32,
     /// The latest arrival of a replacement of the visited gate.
@@ -114,12 +119,16 @@ struct Walk<'p, 'r> {
     surroundings: Option<Surroundings>,
 }
 
+/// Above this number of gates, a visit looks only for candidates that are likely to pay.
+pub const MANY_GATES: usize = 150;
 /// The highest cost of making one gate earlier.
 const HURRY_PRICE: u32 = 6;
 
 impl<'p, 'r> Walk<'p, 'r> {
     fn new(graph: Graph<'p>, pace: Pace, random: &'r mut ChaCha8Rng) -> Self {
         Self {
+            thrifty: graph.order().len() > MANY_GATES,
+            exclusive: graph.prices().cost(Function::XOR).unwrap_or(0),
             deadline: graph.depth(),
             graph,
             pace,
@@ -182,7 +191,9 @@ impl<'p, 'r> Walk<'p, 'r> {
 
     /// Looks for a replacement of a gate that costs at most `slack`; returns whether the network changed.
     fn change(&mut self, gate: Signal, slack: u32) -> bool {
-        let deep = self.graph.released(gate) + slack >= 2;
+        let released = self.graph.released(gate) + slack;
+        let deep = released >= if self.thrifty { 2 * self.graph.prices().unit() } else { 2 };
+        self.finder.exclusive = !self.thrifty || released + 2 * self.graph.prices().unit() >= self.exclusive;
         match self.surroundings.take() {
             Some(mut surroundings) => {
                 self.look_around(&mut surroundings, gate, deep);
@@ -338,7 +349,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         };
         self.graph.substitute(gate, root);
         self.graph.sort();
-        self.graph.refresh();
+        self.graph.refresh(root);
         true
     }
 }
@@ -351,7 +362,6 @@ mod tests {
     use super::*;
     use crate::circuit::cells::CellLibrary;
     use crate::circuit::proof::equal;
-    use crate::model::Function;
 
     /// A network of these gates; each reads two of the signals before it.
     fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
