@@ -116,7 +116,7 @@ def test_an_evaluation_keeps_its_results():
     assert out.split("\n")[:2] == ["answered", "4000 True"]
 
 
-LONG_CALLS = ["nbc.simulate(bodies, [('00', 9_000_000)])", "nbc.Flock(bodies).advance('00', 10**7)"]
+LONG_CALLS = ["nbc.simulate(bodies, [('00', 9_000_000)], record=None)", "nbc.Flock(bodies).advance('00', 10**7)"]
 
 
 @pytest.mark.parametrize("call", LONG_CALLS)
