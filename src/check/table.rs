@@ -17,12 +17,7 @@ impl CircuitChecker<'_> {
     /// The table of these rows; `values` are the outputs that are expressions.
     pub(crate) fn table(&mut self, rows: &[tree::TableRowSyntax], values: &[ExpressionId], span: Span) -> Table {
         let mut table = Table { rows: Vec::new(), otherwise: None, span };
-        let mut values = values
-            .iter()
-            .map(|value| self.circuit.expressions[value.0 as usize].span)
-            .enumerate()
-            .collect::<Vec<_>>()
-            .into_iter();
+        let mut values = values.iter().enumerate();
         for row in rows {
             let output = match &row.output {
                 tree::TableOutputSyntax::Bits(word) => {
@@ -30,7 +25,8 @@ impl CircuitChecker<'_> {
                     TableOutput { value: OutputValue::Bits(bits), span: word.span }
                 }
                 tree::TableOutputSyntax::Value(_) => {
-                    let (index, span) = values.next().expect("every expression has its value");
+                    let (index, value) = values.next().expect("every expression has its value");
+                    let span = self.circuit.expressions[value.0 as usize].span;
                     TableOutput { value: OutputValue::Expression(index), span }
                 }
             };

@@ -1,6 +1,7 @@
-//! Netlists that the tests of this folder share.
+//! Netlists and networks that the tests of this folder share.
 
 use crate::circuit::Netlist;
+use crate::circuit::network::{Network, Signal};
 use crate::model::Function;
 
 /// The paper's D latch as elaboration writes it: two wires for the feedback.
@@ -34,4 +35,17 @@ pub fn full_adder() -> Netlist {
     netlist.add_output("sum", sum);
     netlist.add_output("carry", carry);
     netlist
+}
+
+/// A network of six inputs whose gates have the functions of these bits and listen to any earlier signals; the outputs
+/// show its last six signals.
+pub fn network(gates: &[(u8, u16, u16)]) -> Network {
+    let mut network = Network::new(6);
+    for &(bits, a, b) in gates {
+        let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
+        network.add(Function::new(bits % 16), pins);
+    }
+    let signals = network.signals() as Signal;
+    network.outputs = (signals - 6..signals).collect();
+    network
 }

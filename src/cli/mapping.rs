@@ -51,17 +51,17 @@ impl GoalArguments {
 impl MappingArguments {
     /// The library that the user chose, else that of the built-in robots.
     pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
-        Ok(self.chosen()?.unwrap_or_else(|| self.cells_of(&store::shipped_library())))
+        Ok(self.chosen()?.unwrap_or_else(|| self.cells_of(store::shipped_library())))
     }
 
-    fn cells_of(&self, robots: &Library) -> CellLibrary {
+    fn cells_of(&self, robots: Library) -> CellLibrary {
         swarm::cells(&swarm::prefer(robots, self.goal.options().objective))
     }
 
     /// The library that the user chose.
     pub(super) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
         Ok(Some(match (&self.library, &self.cells[..]) {
-            (Some(path), _) => self.cells_of(&robots::robots(path)?),
+            (Some(path), _) => self.cells_of(robots::robots(path)?),
             (None, []) => return Ok(None),
             (None, [all]) if all == "all" => CellLibrary::uniform(
                 Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),

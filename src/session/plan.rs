@@ -81,7 +81,7 @@ pub(super) fn of_swarm(
     Ok(Plan {
         circuit: circuit.clone(),
         swarm: declaration.map(|swarm| swarm.name.clone()),
-        library: swarm::prefer(&library, options.objective),
+        library: swarm::prefer(library, options.objective),
         hold: declaration.map_or(Hold::Auto, |swarm| swarm.hold),
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),

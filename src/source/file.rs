@@ -2,6 +2,29 @@
 
 use super::{FileId, Span};
 
+/// The first byte of each line of a text. `\n`, `\r\n` and `\r` end a line, as in the grammar.
+#[derive(Clone, Debug)]
+pub struct LineStarts(Vec<u32>);
+
+impl LineStarts {
+    /// The lines of a text.
+    pub fn of(text: &str) -> Self {
+        let bytes = text.as_bytes();
+        let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+        Self(std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at as u32 + 1)).collect())
+    }
+
+    /// The line of a byte, from 0.
+    pub fn line(&self, offset: usize) -> usize {
+        self.0.partition_point(|&start| start as usize <= offset) - 1
+    }
+
+    /// The first byte of a line, counted from 0; `None` if there are fewer lines.
+    pub fn start(&self, line: usize) -> Option<usize> {
+        self.0.get(line).map(|&start| start as usize)
+    }
+}
+
 /// A source file: its name as the user wrote it, and its text.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
@@ -11,7 +34,7 @@ pub struct SourceFile {
     pub name: String,
     /// The whole text.
     pub text: String,
-    line_starts: Vec<u32>,
+    lines: LineStarts,
 }
 
 /// A place for people; both numbers start at 1, and the column counts characters.
@@ -24,11 +47,16 @@ pub struct LineColumn {
 }
 
 impl SourceFile {
+    /// The first bytes of its lines.
+    pub fn lines(&self) -> &LineStarts {
+        &self.lines
+    }
+
     /// The place of a byte offset; an offset past the end is the end.
     pub fn line_column(&self, offset: usize) -> LineColumn {
         let offset = offset.min(self.text.len());
-        let line = self.line_starts.partition_point(|&start| start as usize <= offset) - 1;
-        let start = self.line_starts[line] as usize;
+        let line = self.lines.line(offset);
+        let start = self.lines.start(line).expect("the line of a byte exists");
         let column = self.text[start..offset].chars().count() + 1;
         LineColumn { line: line + 1, column }
     }
@@ -45,11 +73,7 @@ impl Sources {
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
         let text = text.into();
-        // A carriage return without a line feed ends a line, as in the grammar.
-        let bytes = text.as_bytes();
-        let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
-        let line_starts = std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at as u32 + 1)).collect();
-        self.files.push(SourceFile { id, name: name.into(), text, line_starts });
+        self.files.push(SourceFile { id, name: name.into(), lines: LineStarts::of(&text), text });
         id
     }
 

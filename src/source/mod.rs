@@ -6,7 +6,7 @@ mod span;
 mod verilog;
 mod world;
 
-pub use file::{LineColumn, SourceFile, Sources};
+pub use file::{LineColumn, LineStarts, SourceFile, Sources};
 pub use span::{FileId, Span};
 pub use verilog::{VerilogError, VerilogModules};
 pub use world::{FileError, MemoryWorld, OverlayWorld, SourceWorld};

@@ -5,8 +5,8 @@ use crate::model::{Character, Function, Library, Pattern, Robot};
 
 /// A library in which the robots that an objective prefers come first: those with the shortest clocks for the delay,
 /// and those with the widest margins for the margin. For the area all are equal, and the order stays.
-pub fn prefer(library: &Library, objective: MappingObjective) -> Library {
-    let mut robots = library.robots.clone();
+pub fn prefer(library: Library, objective: MappingObjective) -> Library {
+    let mut robots = library.robots;
     let faster = |a: &Character, b: &Character| a.clock.cmp(&b.clock);
     let wider = |a: &Character, b: &Character| b.margin.total_cmp(&a.margin);
     match objective {

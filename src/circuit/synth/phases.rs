@@ -335,6 +335,7 @@ mod tests {
 
     use super::*;
     use crate::circuit::cells::CellLibrary;
+    use crate::circuit::example::network;
     use crate::circuit::proof::equal;
     use crate::circuit::synth::reduce::{cost, cover};
 
@@ -350,13 +351,7 @@ mod tests {
             gates in prop::collection::vec(any::<(u8, u16, u16)>(), 1..60),
             names in prop::sample::select(vec!["nand", "nand and not", "nor or not", "and not xor"]),
         ) {
-            let mut network = Network::new(6);
-            for (bits, a, b) in gates {
-                let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
-                network.add(Function::new(bits % 16), pins);
-            }
-            let signals = network.signals() as Signal;
-            network.outputs = (signals.saturating_sub(6)..signals).collect();
+            let network = network(&gates);
             let prices = library(names);
             let made = assign_phases(&network, &prices, &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
             prop_assert!(equal(&network, &made).is_ok());

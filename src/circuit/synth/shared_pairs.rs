@@ -296,6 +296,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::circuit::example::network;
     use crate::circuit::proof::equal;
 
     proptest! {
@@ -303,13 +304,7 @@ mod tests {
 
         #[test]
         fn shared_pairs_keep_the_function(gates in prop::collection::vec(any::<(u8, u16, u16)>(), 1..60)) {
-            let mut network = Network::new(6);
-            for (bits, a, b) in gates {
-                let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
-                network.add(Function::new(bits % 16), pins);
-            }
-            let signals = network.signals() as Signal;
-            network.outputs = (signals.saturating_sub(6)..signals).collect();
+            let network = network(&gates);
             prop_assert!(equal(&network, &share_pairs(&network)).is_ok());
         }
     }

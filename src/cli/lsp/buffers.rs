@@ -6,6 +6,7 @@ use gen_lsp_types::{TextDocumentContentChangeEvent, Uri};
 
 use crate::cli::lsp::position::{Encoding, Lines};
 use crate::cli::lsp::uri;
+use crate::source::LineStarts;
 
 /// An open text.
 #[derive(Clone, Debug)]
@@ -42,7 +43,8 @@ impl Buffers {
         for change in changes {
             match change {
                 TextDocumentContentChangeEvent::TextDocumentContentChangePartial(change) => {
-                    let bytes = Lines::new(&buffer.text, encoding).bytes(change.range);
+                    let starts = LineStarts::of(&buffer.text);
+                    let bytes = Lines { text: &buffer.text, starts: &starts, encoding }.bytes(change.range);
                     buffer.text.replace_range(bytes, &change.text);
                 }
                 TextDocumentContentChangeEvent::TextDocumentContentChangeWholeDocument(change) => {

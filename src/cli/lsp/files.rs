@@ -49,7 +49,8 @@ impl Files<'_> {
 
     /// The lines of a file.
     pub(super) fn lines(&self, file: FileId) -> Lines<'_> {
-        Lines::new(&self.checked.sources.file(file).text, self.encoding)
+        let source = self.checked.sources.file(file);
+        Lines { text: &source.text, starts: source.lines(), encoding: self.encoding }
     }
 }
 

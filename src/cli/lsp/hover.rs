@@ -2,18 +2,23 @@
 
 use crate::check::{NameKind, NameUse};
 use crate::cli::lsp::files::Files;
-use crate::source::Span;
+use crate::source::{Sources, Span};
+use crate::syntax;
 
 /// The declaration of a name, with the comment above it.
 pub(super) fn text(files: &Files<'_>, found: NameUse) -> String {
-    let source = files.checked.sources.file(found.declared.file);
-    let declaration = match found.kind {
-        NameKind::Circuit => head(&source.text, found.declared),
-        NameKind::Net | NameKind::Number => format!("{} {}", found.kind.word(), entry(&source.text, found.declared)),
-        _ => whole(&source.text, found.declared),
+    let sources = &files.checked.sources;
+    let source = &sources.file(found.declared.file).text;
+    let around = declaration(sources, found.declared);
+    let (shown, commented) = match found.kind {
+        NameKind::Net | NameKind::Number => {
+            (format!("{} {}", found.kind.word(), entry(source, found.declared)), found.declared)
+        }
+        NameKind::Circuit => (head(sources.text(around)), around),
+        _ => (sources.text(around).to_owned(), around),
     };
-    let mut text = format!("```nb\n{declaration}\n```\n");
-    let comment = comment(&source.text, found.declared);
+    let mut text = format!("```nb\n{shown}\n```\n");
+    let comment = comment(source, commented);
     if !comment.is_empty() {
         text.push_str(&format!("\n{comment}\n"));
     }
@@ -23,16 +28,16 @@ pub(super) fn text(files: &Files<'_>, found: NameUse) -> String {
     text
 }
 
-/// The start of the line of a place.
-fn line_start(text: &str, place: Span) -> usize {
-    text[..place.start as usize].rfind('\n').map_or(0, |end| end + 1)
+/// The declaration around a name.
+fn declaration(sources: &Sources, name: Span) -> Span {
+    let tree = syntax::parse(sources, name.file).tree;
+    let mut around = tree.declarations.iter().map(|declaration| declaration.span);
+    around.find(|span| span.start <= name.start && name.end <= span.end).unwrap_or(name)
 }
 
-/// A circuit without its body.
-fn head(text: &str, place: Span) -> String {
-    let start = line_start(text, place);
-    let end = text[start..].find('{').map_or(text.len(), |end| start + end);
-    text[start..end].split_whitespace().collect::<Vec<_>>().join(" ")
+/// A circuit without its body, which begins at the first brace.
+fn head(declaration: &str) -> String {
+    declaration.split('{').next().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A port, a net or a number, with its width or value.
@@ -45,29 +50,10 @@ fn entry(text: &str, place: Span) -> &str {
     &text[place.start as usize..place.end as usize + end]
 }
 
-/// The lines of a declaration whose braces are balanced.
-fn whole(text: &str, place: Span) -> String {
-    let start = line_start(text, place);
-    let mut depth = 0;
-    let mut end = text.len();
-    for (at, character) in text[start..].char_indices() {
-        match character {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            _ => {}
-        }
-        let closes = character == '}' && depth == 0;
-        if closes || character == '\n' && depth == 0 {
-            end = start + at + usize::from(closes);
-            break;
-        }
-    }
-    text[start..end].trim_end().to_owned()
-}
-
 /// The comment in the lines just above a place.
 fn comment(text: &str, place: Span) -> String {
-    let mut lines: Vec<&str> = text[..line_start(text, place)]
+    let line = text[..place.start as usize].rfind('\n').map_or(0, |end| end + 1);
+    let mut lines: Vec<&str> = text[..line]
         .lines()
         .rev()
         .map_while(|line| line.trim_start().strip_prefix("//"))

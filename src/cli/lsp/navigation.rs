@@ -1,4 +1,4 @@
-//! From a name to its declaration and its uses, and new names.
+//! From a name to its uses, and new names.
 
 use gen_lsp_types::{DocumentHighlight, DocumentHighlightKind, Location, TextEdit, Uri, WorkspaceEdit};
 
@@ -6,11 +6,6 @@ use crate::check::NameUse;
 use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
 use crate::source::Span;
-
-/// The declaration of a name.
-pub(super) fn definition(files: &Files<'_>, found: NameUse) -> Location {
-    files.location(found.declared)
-}
 
 /// The places in the file of a name that mean the same.
 pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighlight> {

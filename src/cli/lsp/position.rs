@@ -2,6 +2,8 @@
 
 use gen_lsp_types::{Position, PositionEncodingKind, Range};
 
+use crate::source::LineStarts;
+
 /// The unit in which a client counts characters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Encoding {
@@ -34,26 +36,18 @@ impl Encoding {
     }
 }
 
-/// A text with the starts of its lines.
+/// A text with its lines.
 pub(super) struct Lines<'t> {
-    text: &'t str,
-    starts: Vec<usize>,
-    encoding: Encoding,
+    pub(super) text: &'t str,
+    pub(super) starts: &'t LineStarts,
+    pub(super) encoding: Encoding,
 }
 
-impl<'t> Lines<'t> {
-    /// The lines of a text; `\n`, `\r\n` and `\r` end a line.
-    pub(super) fn new(text: &'t str, encoding: Encoding) -> Self {
-        let bytes = text.as_bytes();
-        let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
-        let starts = std::iter::once(0).chain((0..bytes.len()).filter(ends).map(|at| at + 1)).collect();
-        Self { text, starts, encoding }
-    }
-
+impl Lines<'_> {
     /// The byte at a position; past the end of a line, its end.
     pub(super) fn offset(&self, position: Position) -> usize {
-        let Some(&start) = self.starts.get(position.line as usize) else { return self.text.len() };
-        let end = self.starts.get(position.line as usize + 1).copied().unwrap_or(self.text.len());
+        let Some(start) = self.starts.start(position.line as usize) else { return self.text.len() };
+        let end = self.starts.start(position.line as usize + 1).unwrap_or(self.text.len());
         let line = self.text[start..end].trim_end_matches(['\n', '\r']);
         let mut left = position.character as usize;
         for (at, character) in line.char_indices() {
@@ -69,8 +63,9 @@ impl<'t> Lines<'t> {
     /// The position of a byte.
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = offset.min(self.text.len());
-        let line = self.starts.partition_point(|&start| start <= offset) - 1;
-        let character = self.encoding.units(&self.text[self.starts[line]..offset]);
+        let line = self.starts.line(offset);
+        let start = self.starts.start(line).expect("the line of a byte exists");
+        let character = self.encoding.units(&self.text[start..offset]);
         Position { line: line as u32, character: character as u32 }
     }
 
@@ -95,7 +90,8 @@ mod tests {
     #[test]
     fn every_byte_of_a_character_has_its_position() {
         for (encoding, places) in [(Encoding::Utf16, [0, 1, 3, 4]), (Encoding::Utf8, [0, 1, 5, 7])] {
-            let lines = Lines::new(TEXT, encoding);
+            let starts = LineStarts::of(TEXT);
+            let lines = Lines { text: TEXT, starts: &starts, encoding };
             for (offset, character) in [0, 1, 5, 7].into_iter().zip(places) {
                 let position = Position { line: 0, character };
                 assert_eq!(lines.position(offset), position);
@@ -106,14 +102,16 @@ mod tests {
 
     #[test]
     fn lines_end_as_in_the_language() {
-        let lines = Lines::new(TEXT, Encoding::Utf16);
+        let starts = LineStarts::of(TEXT);
+        let lines = Lines { text: TEXT, starts: &starts, encoding: Encoding::Utf16 };
         assert_eq!(lines.position(10), Position { line: 2, character: 0 });
         assert_eq!(lines.offset(Position { line: 9, character: 0 }), TEXT.len());
     }
 
     #[test]
     fn a_position_past_the_end_of_a_line_is_its_end() {
-        let lines = Lines::new(TEXT, Encoding::Utf16);
+        let starts = LineStarts::of(TEXT);
+        let lines = Lines { text: TEXT, starts: &starts, encoding: Encoding::Utf16 };
         assert_eq!(lines.offset(Position { line: 0, character: 99 }), 7);
         assert_eq!(lines.offset(Position { line: 0, character: 2 }), 1, "inside a pair, its start");
     }

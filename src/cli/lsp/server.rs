@@ -7,7 +7,7 @@ use std::sync::Arc;
 use gen_lsp_types::{
     self as lsp, CodeActionRequest, CompletionRequest, DefinitionRequest, DocumentFormattingRequest,
     DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, HoverRequest, LspNotificationMethod,
-    LspRequestMethod, PrepareRenameRequest, PublishDiagnosticsParams, Range, ReferencesRequest, RenameRequest,
+    LspRequestMethod, PrepareRenameRequest, PublishDiagnosticsParams, ReferencesRequest, RenameRequest,
     TextDocumentPositionParams, TextEdit, Uri,
 };
 use lsp_server::{Connection, ErrorCode, Message, Notification, ProtocolError, Request, Response};
@@ -18,6 +18,7 @@ use crate::cli::lsp::files::Files;
 use crate::cli::lsp::position::{Encoding, Lines};
 use crate::cli::lsp::{completion, hover, navigation, outline, problems, uri};
 use crate::session::{Checked, Session};
+use crate::source::LineStarts;
 use crate::store::DiskWorld;
 use crate::syntax;
 
@@ -198,7 +199,7 @@ impl<'c> Server<'c> {
     fn name(&mut self, place: &TextDocumentPositionParams) -> Option<(Arc<Checked>, NameUse)> {
         let checked = self.checked(&place.text_document.uri)?;
         let file = checked.file?;
-        let offset = Lines::new(&checked.sources.file(file).text, self.encoding).offset(place.position);
+        let offset = self.files(&checked).lines(file).offset(place.position);
         let found = checked.uses.at(file, offset)?;
         Some((checked, found))
     }
@@ -218,7 +219,7 @@ impl<'c> Server<'c> {
 
     fn definition(&mut self, asked: lsp::DefinitionParams) -> Answer<DefinitionRequest> {
         Ok(self.name(&asked.text_document_position_params).map(|(checked, found)| {
-            let location = navigation::definition(&self.files(&checked), found);
+            let location = self.files(&checked).location(found.declared);
             lsp::DefinitionResponse::Definition(location.into())
         }))
     }
@@ -293,8 +294,9 @@ impl<'c> Server<'c> {
         if formatted.is_canonical {
             return Ok(Some(Vec::new()));
         }
-        let lines = Lines::new(&buffer.text, self.encoding);
-        let range = Range { start: lines.position(0), end: lines.position(buffer.text.len()) };
+        let starts = LineStarts::of(&buffer.text);
+        let lines = Lines { text: &buffer.text, starts: &starts, encoding: self.encoding };
+        let range = lines.range(0..buffer.text.len());
         Ok(Some(vec![TextEdit { range, new_text: formatted.text }]))
     }
 
