@@ -1,0 +1,124 @@
+// The tests that a program declares, with the lines of their rows. This needs no `nbc`, so that the test explorer has
+// items before anything ran. `nbc test --format json` reports the same lines.
+
+/** A `test` declaration. Lines count from 0. */
+export interface DeclaredTest {
+  /** The circuit as it is written, with its arguments: `ripple[3]`. */
+  circuit: string;
+  title: string;
+  line: number;
+  endLine: number;
+  /** The rows that are written; a test of all inputs has none. */
+  rows: DeclaredRow[];
+}
+
+/** A row of a test. */
+export interface DeclaredRow {
+  line: number;
+  /** The row as it is written, with single spaces. */
+  text: string;
+}
+
+/** A word, a text or a sign of the source. */
+interface Token {
+  kind: "word" | "text" | "sign";
+  text: string;
+  line: number;
+  start: number;
+}
+
+const TOKEN = /\/\/.*|"[^"]*"|\w+|[^\s\w]/g;
+
+/** The tests of a program, in order. A program with errors may have fewer. */
+export function declaredTests(source: string): DeclaredTest[] {
+  const tokens = source.split(/\r?\n/).flatMap(tokensOf);
+  const tests: DeclaredTest[] = [];
+  let depth = 0;
+  for (let at = 0; at < tokens.length; at++) {
+    const found = depth === 0 && is(tokens[at], "test") ? readTest(tokens, at) : undefined;
+    if (found !== undefined) {
+      tests.push(found.test);
+      at = found.last;
+    } else {
+      depth = Math.max(0, depth + nesting(tokens[at], "{", "}"));
+    }
+  }
+  return tests;
+}
+
+function tokensOf(text: string, line: number): Token[] {
+  const words = [...text.matchAll(TOKEN)].filter(match => !match[0].startsWith("//"));
+  return words.map(match => ({ kind: kindOf(match[0]), text: match[0], line, start: match.index }));
+}
+
+function kindOf(text: string): Token["kind"] {
+  return text.startsWith('"') && text.length > 1 ? "text" : /^\w/.test(text) ? "word" : "sign";
+}
+
+function is(token: Token | undefined, text: string): boolean {
+  return token !== undefined && token.kind !== "text" && token.text === text;
+}
+
+function nesting(token: Token | undefined, open: string, close: string): number {
+  return is(token, open) ? 1 : is(token, close) ? -1 : 0;
+}
+
+/** Reads the test that begins with the word at `start`; `last` is its last token. */
+function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: number } | undefined {
+  if (tokens[start + 1]?.kind !== "word") {
+    return undefined;
+  }
+  const name = afterInstance(tokens, start + 1);
+  const circuit = written(tokens.slice(start + 1, name + 1));
+  const titled = tokens[name + 1]?.kind === "text";
+  const title = titled ? tokens[name + 1]!.text.slice(1, -1) : "";
+  const at = name + (titled ? 2 : 1);
+  const allInputs = is(tokens[at], "for");
+  const body = allInputs ? at + 3 : at;
+  const against = allInputs && is(tokens[body], "against");
+  if (!against && !is(tokens[body], "{")) {
+    return undefined;
+  }
+  const last = against ? afterInstance(tokens, body + 1) : closing(tokens, body, "{", "}");
+  const rows = allInputs ? [] : rowsOf(tokens.slice(body + 1, last));
+  const endLine = tokens[last]!.line;
+  return { test: { circuit, title, line: tokens[start]!.line, endLine, rows }, last };
+}
+
+/** The last token of an instance such as `adder[8]`. */
+function afterInstance(tokens: Token[], at: number): number {
+  return is(tokens[at + 1], "[") ? closing(tokens, at + 1, "[", "]") : Math.min(at, tokens.length - 1);
+}
+
+/** The token that closes the bracket at `open`, or the last one. */
+function closing(tokens: Token[], open: number, opening: string, closing: string): number {
+  let depth = 0;
+  for (let at = open; at < tokens.length; at++) {
+    depth += nesting(tokens[at], opening, closing);
+    if (depth === 0) {
+      return at;
+    }
+  }
+  return tokens.length - 1;
+}
+
+/** The lines after the first one, which names the columns. */
+function rowsOf(tokens: Token[]): DeclaredRow[] {
+  const byLine = new Map<number, Token[]>();
+  for (const token of tokens) {
+    byLine.set(token.line, [...(byLine.get(token.line) ?? []), token]);
+  }
+  return [...byLine].slice(1).map(([line, row]) => ({ line, text: written(row) }));
+}
+
+/** Tokens as they are written, with single spaces for blanks and line ends. */
+function written(tokens: Token[]): string {
+  let text = "";
+  let end: { line: number; column: number } | undefined;
+  for (const token of tokens) {
+    const apart = end !== undefined && (end.line !== token.line || end.column !== token.start);
+    text += apart ? ` ${token.text}` : token.text;
+    end = { line: token.line, column: token.start + token.text.length };
+  }
+  return text;
+}

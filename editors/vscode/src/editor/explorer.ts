@@ -1,0 +1,178 @@
+// The test explorer: runs `nbc test` on saved files, and shows its results at the items.
+
+import * as vscode from "vscode";
+
+import { type Finished, run as runProgram } from "../core/child";
+import { type Failure, readFaults, readResults, type TestResult } from "../core/results";
+import { verdictOf } from "../core/verdicts";
+import { folderOf, save } from "./files";
+import { Items } from "./items";
+import type { Program } from "./program";
+
+/** The level at which tests run; `auto` leaves the choice to `nbc`. */
+export type Level = "auto" | "physics" | "logic";
+
+/** The tests to run, by the item of their file. */
+type Chosen = Map<vscode.TestItem, Set<vscode.TestItem>>;
+
+/** The test explorer of this window. */
+export class Explorer implements vscode.Disposable {
+  private readonly controller = vscode.tests.createTestController("nbc", "nbc");
+  readonly items = new Items(this.controller);
+
+  constructor(
+    private readonly program: Program,
+    private readonly log: vscode.LogOutputChannel,
+  ) {
+    this.profile("Run", () => vscode.workspace.getConfiguration("nbc").get<Level>("tests.level", "auto"), true);
+    this.profile("Run as Logic", () => "logic");
+    this.profile("Run in Physics", () => "physics");
+  }
+
+  dispose(): void {
+    this.items.dispose();
+    this.controller.dispose();
+  }
+
+  private profile(name: string, level: () => Level, isDefault = false): void {
+    const kind = vscode.TestRunProfileKind.Run;
+    const handler = (request: vscode.TestRunRequest, token: vscode.CancellationToken) =>
+      request.continuous ? this.follow(request, token, level) : this.run(request, level());
+    this.controller.createRunProfile(name, kind, handler, isDefault, undefined, true);
+  }
+
+  /** Runs the tests of a file each time when it is saved. */
+  private follow(request: vscode.TestRunRequest, token: vscode.CancellationToken, level: () => Level): void {
+    const saves = vscode.workspace.onDidSaveTextDocument(document => {
+      const files = [...this.chosen(request)].filter(([file]) => file.id === document.uri.toString());
+      const tests = files.flatMap(([, tests]) => [...tests]);
+      if (tests.length > 0) {
+        void this.run(new vscode.TestRunRequest(tests, undefined, request.profile, true), level());
+      }
+    });
+    token.onCancellationRequested(() => saves.dispose());
+  }
+
+  private async run(request: vscode.TestRunRequest, level: Level): Promise<void> {
+    const run = this.controller.createTestRun(request);
+    const chosen = this.chosen(request);
+    chosen.forEach(tests => tests.forEach(test => withRows(test).forEach(item => run.enqueued(item))));
+    try {
+      for (const [file, tests] of chosen) {
+        await this.runTests(run, file, [...tests], level);
+      }
+    } finally {
+      run.end();
+    }
+  }
+
+  /** Runs one file's tests, and reports those that were chosen. */
+  private async runTests(run: vscode.TestRun, file: vscode.TestItem, tests: vscode.TestItem[], level: Level) {
+    const all = tests.flatMap(withRows);
+    if (run.token.isCancellationRequested) {
+      all.forEach(item => run.skipped(item));
+      return;
+    }
+    all.forEach(item => run.started(item));
+    const results = await this.results(run, file.uri!, level);
+    if (typeof results === "string") {
+      all.forEach(item => run.errored(item, new vscode.TestMessage(results)));
+    } else if (results === undefined) {
+      all.forEach(item => run.skipped(item));
+    } else {
+      tests.forEach(test => this.report(run, test, results));
+    }
+  }
+
+  /** The results of a file; `undefined` if the run was stopped, or the reason why there are none. */
+  private async results(run: vscode.TestRun, file: vscode.Uri, level: Level) {
+    const program = await this.program.path();
+    if (program === undefined) {
+      return "`nbc` was not found";
+    }
+    if (!(await save(file))) {
+      return "the file could not be saved";
+    }
+    // Lines are those of the saved text.
+    await this.items.refresh(file);
+    const args = ["test", "--format", "json", ...(level === "auto" ? [] : [`--${level}`]), file.fsPath];
+    this.log.info(`${program} ${args.join(" ")}`);
+    try {
+      return resultsOf(await runProgram(program, args, folderOf(file), run.token));
+    } catch (error) {
+      return error instanceof Error ? error.message : String(error);
+    }
+  }
+
+  private report(run: vscode.TestRun, item: vscode.TestItem, results: TestResult[]): void {
+    const test = this.items.test(item);
+    const uri = item.uri!;
+    if (test === undefined) {
+      return;
+    }
+    const verdict = verdictOf(test, results);
+    settle(run, item, verdict.state, messages(uri, verdict.failures));
+    const rows = rowsOf(item);
+    verdict.rows.forEach(
+      ({ state, failures }, at) => rows[at] && settle(run, rows[at], state, messages(uri, failures)),
+    );
+    verdict.failures
+      .concat(verdict.rows.flatMap(row => row.failures))
+      .forEach(failure => run.appendOutput(`${failure.message.replaceAll("\n", "\r\n    ")}\r\n`, undefined, item));
+  }
+
+  /** The tests that a request names, by itself, by their file or by one of their rows. */
+  private chosen(request: vscode.TestRunRequest): Chosen {
+    const excluded = new Set(request.exclude);
+    const chosen: Chosen = new Map();
+    const choose = (item: vscode.TestItem): void => {
+      if (excluded.has(item)) {
+        return;
+      }
+      if (item.parent === undefined) {
+        item.children.forEach(choose);
+      } else if (this.items.test(item) === undefined) {
+        // Rows are a sequence: a test runs as a whole.
+        choose(item.parent);
+      } else {
+        chosen.set(item.parent, (chosen.get(item.parent) ?? new Set()).add(item));
+      }
+    };
+    (request.include ?? [...this.controller.items].map(([, item]) => item)).forEach(choose);
+    return chosen;
+  }
+}
+
+function resultsOf(finished: Finished): TestResult[] | string | undefined {
+  if (finished.stopped) {
+    return undefined;
+  }
+  const ran = finished.status === 0 || finished.status === 1;
+  return ran ? readResults(finished.stdout) : readFaults(finished.stdout, finished.stderr);
+}
+
+function settle(run: vscode.TestRun, item: vscode.TestItem, state: string, messages: vscode.TestMessage[]): void {
+  if (state === "passed") {
+    run.passed(item);
+  } else if (state === "failed") {
+    run.failed(item, messages);
+  } else {
+    run.errored(item, new vscode.TestMessage("nbc reported no result"));
+  }
+}
+
+function messages(file: vscode.Uri, failures: Failure[]): vscode.TestMessage[] {
+  return failures.map(({ message, expected, observed, line }) => {
+    const shown = vscode.TestMessage.diff(message, expected, observed);
+    shown.location = new vscode.Location(file, new vscode.Position(line - 1, 0));
+    return shown;
+  });
+}
+
+function rowsOf(test: vscode.TestItem): vscode.TestItem[] {
+  return [...test.children].map(([, row]) => row).sort((a, b) => (a.sortText! < b.sortText! ? -1 : 1));
+}
+
+function withRows(test: vscode.TestItem): vscode.TestItem[] {
+  return [test, ...rowsOf(test)];
+}

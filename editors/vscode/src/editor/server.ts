@@ -1,0 +1,105 @@
+// The language server `nbc lsp`, and the client that vscode-languageclient makes of this editor.
+
+import * as vscode from "vscode";
+import { ExecuteCommandRequest, LanguageClient, type LanguageClientOptions } from "vscode-languageclient/node";
+
+import { type Order, shownOf } from "../core/outcome";
+import type { Panel } from "./panel";
+import type { Program } from "./program";
+
+/** The files that a program can `use`. */
+const WATCHED = "**/*.{nb,blif,aig,aag,bench,v,sv}";
+
+/** The reason that the server gives for a run that the user stopped. */
+const CANCELLED = "cancelled";
+
+/** Keeps one language server running while there is an `nbc`. */
+export class Server implements vscode.Disposable {
+  private client: LanguageClient | undefined;
+  /** Starts and stops wait for each other. */
+  private last: Promise<void> = Promise.resolve();
+  private readonly watcher = vscode.workspace.createFileSystemWatcher(WATCHED);
+  private readonly subscription: vscode.Disposable;
+
+  constructor(
+    private readonly program: Program,
+    private readonly log: vscode.LogOutputChannel,
+    private readonly panel: Panel,
+  ) {
+    this.subscription = program.onDidMove(() => this.restart());
+  }
+
+  /** Stops the server, if it runs, and starts it. */
+  restart(): Promise<void> {
+    this.last = this.last.then(() => this.stop()).then(() => this.start());
+    return this.last.catch((error: unknown) => this.log.error(`the language server did not start: ${error}`));
+  }
+
+  /** Stops the server; the window closes. */
+  end(): Promise<void> {
+    this.last = this.last.then(() => this.stop());
+    return this.last;
+  }
+
+  /** Runs a command of the server on a whole file, as its lenses do on a declaration. */
+  async order(order: Order, file: vscode.Uri): Promise<void> {
+    await this.last;
+    const known = this.client?.initializeResult?.capabilities.executeCommandProvider?.commands ?? [];
+    if (!known.includes(order)) {
+      const missing = this.client === undefined ? "`nbc` was not found." : "This needs a newer `nbc`.";
+      await vscode.window.showErrorMessage(missing);
+      return;
+    }
+    // The server knows open texts only.
+    await vscode.workspace.openTextDocument(file);
+    await this.perform(order, [{ uri: file.toString() }]);
+  }
+
+  dispose(): void {
+    this.subscription.dispose();
+    this.watcher.dispose();
+  }
+
+  private async start(): Promise<void> {
+    const command = await this.program.path();
+    if (command === undefined) {
+      return;
+    }
+    this.client = new LanguageClient("nbc", "nbc", { command, args: ["lsp"] }, this.options());
+    await this.client.start();
+  }
+
+  private async stop(): Promise<void> {
+    const client = this.client;
+    this.client = undefined;
+    // A server that crashed has nothing to stop.
+    await client?.dispose().catch((error: unknown) => this.log.warn(String(error)));
+  }
+
+  private options(): LanguageClientOptions {
+    return {
+      documentSelector: [{ scheme: "file", language: "nb" }],
+      synchronize: { configurationSection: "nbc", fileEvents: this.watcher },
+      initializationOptions: vscode.workspace.getConfiguration("nbc"),
+      outputChannel: this.log,
+      middleware: { executeCommand: (command, args) => this.perform(command, args) },
+    };
+  }
+
+  /** Runs a command of the server, which shows its progress, and shows its result in the panel. */
+  private async perform(command: string, args: unknown[]): Promise<void> {
+    try {
+      const answer: unknown = await this.client?.sendRequest(ExecuteCommandRequest.type, { command, arguments: args });
+      const shown = shownOf(command, args[0], answer);
+      if (shown !== undefined) {
+        await this.panel.show(shown);
+      }
+    } catch (error) {
+      const reason = error instanceof Error ? error.message : String(error);
+      this.log.warn(`${command}: ${reason}`);
+      if (reason !== CANCELLED) {
+        await vscode.window.showErrorMessage(`nbc: ${reason}`);
+      }
+    }
+  }
+}

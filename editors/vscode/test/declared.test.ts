@@ -1,0 +1,84 @@
+// The tests that a program declares: as `nbc` reports them, and of texts that are being typed.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+
+import { declaredTests } from "../src/core/declared";
+import { readResults } from "../src/core/results";
+import { GALLERY, NBC } from "./nbc";
+
+test("the gallery's tests and rows are where nbc reports them", () => {
+  let rows = 0;
+  for (const file of GALLERY) {
+    const results = readResults(
+      execFileSync(NBC, ["test", "--logic", "--format", "json", file], {
+        encoding: "utf8",
+        stdio: ["ignore", "pipe", "ignore"],
+      }),
+    );
+    const declared = declaredTests(readFileSync(file, "utf8"));
+    const heads = declared.map(({ circuit, title, line }) => [circuit.replace(/\[.*/, ""), title, line + 1]);
+    const found = results.map(({ circuit, title, line }) => [circuit.replace(/\[.*/, ""), title, line]);
+    assert.deepEqual(heads, [...new Map(found.map(one => [String(one), one])).values()], file);
+    for (const [at, { rows: written }] of declared.entries()) {
+      if (written.length > 0) {
+        assert.deepEqual(
+          written.map(row => row.line + 1),
+          // A row with a rising edge is applied twice.
+          [...new Set(results.find(result => result.line === declared[at]!.line + 1)!.rows.map(row => row.line))],
+          file,
+        );
+        rows += written.length;
+      }
+    }
+  }
+  assert.ok(rows > 100, `${rows} rows were compared`);
+});
+
+test("each form of a test is read", () => {
+  const source = `//! test no "comment" { a | b
+circuit test_me(a) -> (q) { q = a } // test neither {
+test test_me "a { title" { // columns next
+    a   | q // the header
+
+    0   | 0 for 3 cycles
+    ^   | 4'd1   // "a comment"
+}
+test ripple[n = 3] for all inputs {
+    wide = {1'd0, a}
+}
+test mine "x" for all inputs against other[2]
+test ring { | q
+  | - for 30 cycles
+}
+`;
+  assert.deepEqual(declaredTests(source), [
+    {
+      circuit: "test_me",
+      title: "a { title",
+      line: 2,
+      endLine: 7,
+      rows: [
+        { line: 5, text: "0 | 0 for 3 cycles" },
+        { line: 6, text: "^ | 4'd1" },
+      ],
+    },
+    { circuit: "ripple[n = 3]", title: "", line: 8, endLine: 10, rows: [] },
+    { circuit: "mine", title: "x", line: 11, endLine: 11, rows: [] },
+    { circuit: "ring", title: "", line: 12, endLine: 14, rows: [{ line: 13, text: "| - for 30 cycles" }] },
+  ]);
+});
+
+test("texts that are being typed have the tests that are complete so far", () => {
+  const whole = 'test a "t" {\n x | q\n 0 | 1\n}\ntest b[2] for all inputs against c\n';
+  for (let end = 0; end <= whole.length; end++) {
+    const tests = declaredTests(whole.slice(0, end));
+    assert.ok(tests.length <= 2 && (end < 15 || tests.length >= 1), whole.slice(0, end));
+  }
+  assert.deepEqual(
+    declaredTests('test "x" {\n}\n}}}\ntest\ntest a { q\n').map(({ circuit }) => circuit),
+    ["a"],
+  );
+});
