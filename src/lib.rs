@@ -57,6 +57,20 @@ pub mod swarm;
 pub mod syntax;
 
 /// ```
+/// use nbc::{CancelFlag, CompileOptions};
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }");
+/// # let checked = session.open("a.nb")?;
+/// let cancel = CancelFlag::default();
+/// let options = CompileOptions { cancel: cancel.clone(), ..CompileOptions::default() };
+/// std::thread::spawn(move || cancel.raise());
+/// let compiled = session.compile(&checked, &"f".into(), &options)?;
+/// assert_eq!(compiled.assembly.members.len(), 1);
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use circuit::CancelFlag;
+
+/// ```
 /// use nbc::{CompileOptions, Effort, MappingObjective};
 /// let fast = CompileOptions { objective: MappingObjective::Delay, effort: Effort::High, ..CompileOptions::default() };
 /// assert_eq!(fast.runs, "out");

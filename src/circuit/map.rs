@@ -20,7 +20,7 @@ use crate::model::Function;
 /// # Errors
 /// As [`map_with`].
 pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError> {
-    map_with(netlist, library, MapOptions::default())
+    map_with(netlist, library, &MapOptions::default())
 }
 
 /// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by
@@ -28,7 +28,7 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
 ///
 /// # Errors
 /// When the netlist is not well formed or the library cannot make a function of the circuit.
-pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
+pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
     let cells = netlist.cells().count();
     if cells as u64 > MAX_CELLS {
         return Err(MapError::TooLarge { cells, most: MAX_CELLS });
@@ -46,10 +46,10 @@ pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: MapOptions) -
 }
 
 /// Maps with the robots of the widest margins that suffice for this circuit.
-fn map_widest(source: &Netlist, library: &CellLibrary, options: MapOptions) -> Result<Netlist, MapError> {
+fn map_widest(source: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
     let mut margins: Vec<f64> = library.kinds().map(|(_, kind)| kind.margin).collect();
     margins.sort_by(f64::total_cmp);
-    let options = MapOptions { objective: MappingObjective::Area, ..options };
+    let options = &MapOptions { objective: MappingObjective::Area, ..options.clone() };
     let wide = margins.into_iter().rev().map(|margin| library.with_margin(margin));
     let mapped = wide.map(|wide| map_with(source, &wide, options)).find(Result::is_ok);
     mapped.unwrap_or_else(|| map_with(source, library, options))
@@ -82,7 +82,7 @@ impl<'a> Mapper<'a> {
         }
     }
 
-    fn map(mut self, options: MapOptions) -> Result<Netlist, MapError> {
+    fn map(mut self, options: &MapOptions) -> Result<Netlist, MapError> {
         for &id in self.source.inputs() {
             let net = self.mapped.add_input(self.source.net_name(id));
             self.net.insert(id, net);
@@ -283,7 +283,7 @@ mod tests {
         library.insert(Function::XOR, CellKind::uniform(1, 0.1));
         library.insert(Function::NAND, CellKind::uniform(1, 2.0));
         let cells = |objective| {
-            let mapped = map_with(&full_adder(), &library, MapOptions { objective, ..MapOptions::default() }).unwrap();
+            let mapped = map_with(&full_adder(), &library, &MapOptions { objective, ..MapOptions::default() }).unwrap();
             let margins = mapped.cells().map(|(_, cell)| library.get(cell.function).unwrap().margin);
             (mapped.cells().count(), margins.fold(f64::INFINITY, f64::min))
         };
@@ -302,7 +302,7 @@ mod tests {
         netlist.add_output("y", sum);
         let library = library("nand not");
         let hold = |objective| {
-            let mapped = map_with(&netlist, &library, MapOptions { objective, ..MapOptions::default() }).unwrap();
+            let mapped = map_with(&netlist, &library, &MapOptions { objective, ..MapOptions::default() }).unwrap();
             crate::circuit::Timing::of(&mapped, &library, crate::circuit::Delays::Clock).hold
         };
         let (area, delay) = (hold(MappingObjective::Area), hold(MappingObjective::Delay));

@@ -1,5 +1,6 @@
 //! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
+mod cancel;
 pub mod cells;
 mod components;
 pub mod correspondence;
@@ -28,6 +29,7 @@ pub mod synth;
 pub mod timing;
 mod wording;
 
+pub use cancel::CancelFlag;
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
 pub use elaborate::{Inspector, elaborate, elaborate_reference, is_same_instance};

@@ -1,4 +1,6 @@
-//! Options of mapping: what is minimized, and the amount of search.
+//! Options of mapping: what is minimized, the amount of search, and its early end.
+
+use crate::circuit::cancel::CancelFlag;
 
 /// What to minimize.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,10 +27,12 @@ pub enum Effort {
 }
 
 /// How to map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct MapOptions {
     /// What to minimize.
     pub objective: MappingObjective,
     /// The amount of search.
     pub effort: Effort,
+    /// Ends the search early.
+    pub cancel: CancelFlag,
 }

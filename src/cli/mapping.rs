@@ -38,12 +38,12 @@ pub(super) struct GoalArguments {
 impl GoalArguments {
     /// How to map.
     pub(super) fn options(&self) -> MapOptions {
-        MapOptions { objective: self.objective.into(), effort: self.effort.into() }
+        MapOptions { objective: self.objective.into(), effort: self.effort.into(), ..MapOptions::default() }
     }
 
     /// These options with the goal.
     pub(super) fn with(&self, options: CompileOptions) -> CompileOptions {
-        let MapOptions { objective, effort } = self.options();
+        let MapOptions { objective, effort, .. } = self.options();
         CompileOptions { objective, effort, ..options }
     }
 }

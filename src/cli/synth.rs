@@ -136,7 +136,7 @@ impl SynthArguments {
         };
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let options = self.mapping.options();
-        let mapped = synthesize(source.clone(), &library, options).map_err(Failure::plain)?.netlist;
+        let mapped = synthesize(source.clone(), &library, &options).map_err(Failure::plain)?.netlist;
         let result = Design { logic: mapped, registers: if expand { Vec::new() } else { design.registers.clone() } };
         if let (Some(path), Some(target)) = (&self.output, target) {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
@@ -146,7 +146,7 @@ impl SynthArguments {
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, crate::circuit::CellKind::uniform(1, 1.0));
-            let found = synthesize(source.clone(), &more, options).map_err(Failure::plain)?;
+            let found = synthesize(source.clone(), &more, &options).map_err(Failure::plain)?;
             let cells = found.netlist.cells().count();
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
         }

@@ -61,7 +61,7 @@ pub struct Compiled {
 ///
 /// # Panics
 /// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
-pub fn synthesize(source: Netlist, cells: &CellLibrary, options: MapOptions) -> Result<Mapping, Diagnostic> {
+pub fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
     let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
     match prove(&source, &netlist) {
         Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None }),
@@ -77,7 +77,7 @@ pub(super) fn map(
     program: &Program,
     circuit: &Instance,
     cells: &CellLibrary,
-    options: MapOptions,
+    options: &MapOptions,
     style: RegisterStyle,
     place: Span,
 ) -> Result<Mapping, Vec<Diagnostic>> {
@@ -93,7 +93,7 @@ pub(super) fn map(
 pub(super) fn compile(
     program: &Program,
     plan: Plan,
-    options: MapOptions,
+    options: &MapOptions,
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let mapping = map(program, &plan.circuit, &swarm::cells(&plan.library), options, plan.registers, place)?;

@@ -135,7 +135,7 @@ impl Session {
         let plan = plan::plan(self.supply(), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let (cells, place) = (swarm::cells(&plan.library), checked.place(circuit));
-        let mapping = compile::map(&checked.program, circuit, &cells, options.mapping(), plan.registers, place);
+        let mapping = compile::map(&checked.program, circuit, &cells, &options.mapping(), plan.registers, place);
         mapping.map_err(|faults| checked.fail(faults))
     }
 
@@ -151,7 +151,7 @@ impl Session {
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
         let (style, place) = (RegisterStyle::default(), checked.place(circuit));
-        let mapping = compile::map(&checked.program, circuit, cells, options.mapping(), style, place);
+        let mapping = compile::map(&checked.program, circuit, cells, &options.mapping(), style, place);
         mapping.map_err(|faults| checked.fail(faults))
     }
 
@@ -168,7 +168,7 @@ impl Session {
     ) -> Result<Compiled, Diagnostics> {
         let plan = plan::plan(self.supply(), &checked.program, circuit, options);
         let compiled =
-            plan.and_then(|plan| compile::compile(&checked.program, plan, options.mapping(), checked.place(circuit)));
+            plan.and_then(|plan| compile::compile(&checked.program, plan, &options.mapping(), checked.place(circuit)));
         compiled.map_err(|faults| checked.fail(faults))
     }
 

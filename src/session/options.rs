@@ -1,6 +1,6 @@
 //! The options of compiling.
 
-use crate::circuit::{Effort, MapOptions, MappingObjective};
+use crate::circuit::{CancelFlag, Effort, MapOptions, MappingObjective};
 use crate::model::Library;
 
 /// The default folder of evolution runs.
@@ -19,18 +19,20 @@ pub struct CompileOptions {
     pub effort: Effort,
     /// The folder of evolution runs; the robots of `from: NAME` are in its `NAME/robots`.
     pub runs: String,
+    /// Ends the search in mapping early.
+    pub cancel: CancelFlag,
 }
 
 impl Default for CompileOptions {
     fn default() -> Self {
-        let MapOptions { objective, effort } = MapOptions::default();
-        Self { swarm: None, robots: None, objective, effort, runs: RUNS.to_owned() }
+        let MapOptions { objective, effort, cancel } = MapOptions::default();
+        Self { swarm: None, robots: None, objective, effort, runs: RUNS.to_owned(), cancel }
     }
 }
 
 impl CompileOptions {
     /// The options of mapping.
     pub fn mapping(&self) -> MapOptions {
-        MapOptions { objective: self.objective, effort: self.effort }
+        MapOptions { objective: self.objective, effort: self.effort, cancel: self.cancel.clone() }
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn compiled(
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let swarm = program.swarm(&simulation.swarm).expect("a simulation names a swarm of its program");
     let plan = plan::of_swarm(supply, program, &swarm.circuit, Some(swarm), options)?;
-    compile::compile(program, plan, options.mapping(), simulation.span)
+    compile::compile(program, plan, &options.mapping(), simulation.span)
 }
 
 /// Runs a simulation in full physics.

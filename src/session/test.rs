@@ -79,7 +79,7 @@ pub(super) fn cases<'a>(
     }
     let mut cases = Vec::new();
     for plan in plans(supply, program, &test.circuit, &options.compile)? {
-        let compiled = compile(program, plan, options.compile.mapping(), test.span)?;
+        let compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
         }

@@ -52,7 +52,7 @@ fn abc_proves_every_written_blif_of_the_benchmarks() {
     for path in files() {
         let design = read(&path);
         for (name, library) in libraries() {
-            let logic = map_with(&design.logic, &library, options).unwrap();
+            let logic = map_with(&design.logic, &library, &options).unwrap();
             prove(&design.logic, &logic).unwrap();
             let written = folder.path().join(format!("{}-{name}.blif", path.file_stem().unwrap().display()));
             fs::write(&written, blif::write(&Design { logic, registers: design.registers.clone() })).unwrap();
@@ -105,7 +105,7 @@ impl Row {
         let mut row = Self { name, cells: [0; 3], seconds: [0.0; 3], abc: [None; 3], optimum: [None; 3] };
         for (i, (_, library)) in libraries().into_iter().enumerate() {
             let started = seconds_used();
-            let mapped = map_with(&design.logic, &library, MapOptions { effort, ..MapOptions::default() }).unwrap();
+            let mapped = map_with(&design.logic, &library, &MapOptions { effort, ..MapOptions::default() }).unwrap();
             prove(&design.logic, &mapped).unwrap();
             row.seconds[i] = seconds_used() - started;
             row.cells[i] = mapped.cells().count();
@@ -193,7 +193,7 @@ fn functions_of_four_variables_need_as_many_gates_as_in_knuth() {
         if done[usize::from(truth)] {
             continue;
         }
-        let network = reduce(&sum_of_products(4, truth.into()), &[], &library, options).unwrap();
+        let network = reduce(&sum_of_products(4, truth.into()), &[], &library, &options).unwrap();
         let gates = network.gates.iter().filter(|gate| gate.function != Function::NOT).count();
         for variant in variants(truth) {
             counts[gates] += usize::from(!std::mem::replace(&mut done[usize::from(variant)], true));

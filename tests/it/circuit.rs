@@ -5,7 +5,7 @@ use nbc::circuit::network::Network;
 use nbc::circuit::synth::exact::{self, ExactResult};
 use nbc::circuit::synth::prices::Prices;
 use nbc::circuit::synth::reduce;
-use nbc::circuit::{CellLibrary, MapOptions, Netlist};
+use nbc::circuit::{CancelFlag, CellLibrary, MapOptions, Netlist};
 use nbc::model::Function;
 use nbc::source::FileId;
 use rand::{Rng, SeedableRng};
@@ -29,7 +29,7 @@ pub fn sum_of_products(inputs: usize, truth: u32) -> Network {
 
 /// The total number of cells for these functions of three inputs, at normal effort.
 fn total(library: &CellLibrary, truths: impl Iterator<Item = u32>) -> usize {
-    let cells = |truth| reduce(&sum_of_products(3, truth), &[], library, MapOptions::default()).unwrap().gates.len();
+    let cells = |truth| reduce(&sum_of_products(3, truth), &[], library, &MapOptions::default()).unwrap().gates.len();
     truths.map(cells).sum()
 }
 
@@ -55,8 +55,8 @@ fn any_library_makes_functions_with_the_fewest_cells() {
             continue;
         }
         let wanted = sum_of_products(3, 1 + random.next_u32() % 254);
-        let made = reduce(&wanted, &[], &library, MapOptions::default()).unwrap().gates.len();
-        match exact::fewer(&wanted, &Prices::of(&library), 24, 2_000_000) {
+        let made = reduce(&wanted, &[], &library, &MapOptions::default()).unwrap().gates.len();
+        match exact::fewer(&wanted, &Prices::of(&library), 24, 2_000_000, &CancelFlag::default()) {
             ExactResult::Made(fewest) => assert_eq!(made, fewest.gates.len(), "{library:?} {wanted:?}"),
             ExactResult::Impossible => panic!("a complete library makes every function"),
             ExactResult::Unknown => continue,

@@ -118,7 +118,7 @@ fn compare(cells: &str, most: usize, step: usize) -> Vec<u8> {
     let mut beyond = Vec::new();
     for truth in (0..=255u8).filter(|&truth| representative(truth) == truth).step_by(step) {
         let wanted = sum_of_products(3, truth.into());
-        let made = reduce(&wanted, &[], &library, MapOptions::default()).unwrap().gates.len();
+        let made = reduce(&wanted, &[], &library, &MapOptions::default()).unwrap().gates.len();
         match fewest[usize::from(truth)] {
             Some(fewest) => assert_eq!(made, fewest, "{truth:#04x} of `{cells}`"),
             None => {

@@ -5,6 +5,7 @@
 //! interchangeable inputs are distinguished by the first cell (Knuth, The Art of Computer Programming 7.1.2, for the
 //! principle).
 
+use crate::circuit::cancel::CancelFlag;
 use crate::circuit::network::{Network, Signal, counting_word};
 use crate::circuit::synth::prices::Prices;
 use crate::model::Function;
@@ -27,21 +28,21 @@ pub enum ExactResult {
 }
 
 /// A network of fewer than `below` cells with the outputs of another network, with the minimal number of cells; visits
-/// at most `nodes` partial sequences. All cells must have the same cost.
-pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64) -> ExactResult {
+/// at most `nodes` partial sequences, none after `cancel`. All cells must have the same cost.
+pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64, cancel: &CancelFlag) -> ExactResult {
     let outputs = truths(network);
     let given = &START[..2 + network.inputs];
     let mut targets: Vec<u8> = outputs.iter().copied().filter(|truth| !given.contains(truth)).collect();
     targets.sort_unstable();
     targets.dedup();
     let operations = Operation::all(prices);
-    let mut search = Search::new(given, &targets, &operations, nodes);
+    let mut search = Search::new(given, &targets, &operations, nodes, cancel);
     let least = targets.len() as u32;
     for cells in least..below.min(MOST_CELLS as u32) {
         if search.extend(cells) {
             return ExactResult::Made(search.network(&outputs));
         }
-        if search.nodes == 0 {
+        if search.is_over() {
             return ExactResult::Unknown;
         }
     }
@@ -136,10 +137,11 @@ struct Search<'a> {
     least: Set,
     /// Partial sequences that may still be visited.
     nodes: u64,
+    cancel: &'a CancelFlag,
 }
 
 impl<'a> Search<'a> {
-    fn new(given: &'a [u8], targets: &'a [u8], operations: &[Operation], nodes: u64) -> Self {
+    fn new(given: &'a [u8], targets: &'a [u8], operations: &[Operation], nodes: u64, cancel: &'a CancelFlag) -> Self {
         let mut made = Set::default();
         given.iter().for_each(|&value| insert(&mut made, value));
         Self {
@@ -154,7 +156,13 @@ impl<'a> Search<'a> {
             closing: vec![None; 256],
             least: least_images(targets),
             nodes,
+            cancel,
         }
+    }
+
+    /// Whether no more sequences are visited.
+    fn is_over(&self) -> bool {
+        self.nodes == 0 || self.cancel.is_raised()
     }
 
     /// Adds `left` cells that make every target; returns whether this is possible.
@@ -163,7 +171,7 @@ impl<'a> Search<'a> {
         if missing == 0 {
             return self.unused == 0;
         }
-        if missing > left || self.nodes == 0 || left == 2 && self.targets.len() == 1 && !self.can_close() {
+        if missing > left || self.is_over() || left == 2 && self.targets.len() == 1 && !self.can_close() {
             return false;
         }
         self.nodes -= 1;
@@ -333,7 +341,8 @@ mod tests {
         let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
         let prices = Prices::of(&library);
         let network = wanted(targets);
-        let ExactResult::Made(made) = fewer(&network, &prices, MOST_CELLS as u32, u64::MAX) else {
+        let ExactResult::Made(made) = fewer(&network, &prices, MOST_CELLS as u32, u64::MAX, &CancelFlag::default())
+        else {
             panic!("a complete library makes every function");
         };
         assert_eq!(truths(&made), targets);
@@ -394,8 +403,11 @@ mod tests {
 
     #[test]
     fn impossible_and_aborted_searches_are_distinguished() {
+        let (never, now) = (CancelFlag::default(), CancelFlag::default());
+        now.raise();
         let prices = Prices::of(&CellLibrary::uniform([Function::NAND]));
-        assert_eq!(fewer(&wanted(&[0x96]), &prices, 8, u64::MAX), ExactResult::Impossible);
-        assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, 100), ExactResult::Unknown);
+        assert_eq!(fewer(&wanted(&[0x96]), &prices, 8, u64::MAX, &never), ExactResult::Impossible);
+        assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, 100, &never), ExactResult::Unknown);
+        assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, u64::MAX, &now), ExactResult::Unknown);
     }
 }

@@ -3,6 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use crate::circuit::cancel::CancelFlag;
 use crate::circuit::cells::CellLibrary;
 use crate::circuit::network::{Network, Signal};
 use crate::circuit::options::{Effort, MapOptions, MappingObjective};
@@ -45,10 +46,10 @@ pub fn reduce(
     network: &Network,
     stages: &[u32],
     library: &CellLibrary,
-    options: MapOptions,
+    options: &MapOptions,
 ) -> Result<Network, Function> {
     let target = Prices::of(library);
-    let course = Course { prices: &target, stages, effort: options.effort };
+    let course = Course { prices: &target, stages, effort: options.effort, cancel: &options.cancel };
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_796e_7468);
     let direct = cover(network, &target, stages)?;
     if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
@@ -103,9 +104,15 @@ struct Course<'a> {
     /// The number of kept cells before each input.
     stages: &'a [u32],
     effort: Effort,
+    cancel: &'a CancelFlag,
 }
 
-impl Course<'_> {
+impl<'a> Course<'a> {
+    /// A walk that never climbs and never turns back.
+    fn calm(&self, visits: u64) -> WalkPlan<'a> {
+        WalkPlan { cancel: Some(self.cancel), ..WalkPlan::calm(visits) }
+    }
+
     /// The search for the library's prices, and the search that first minimizes the number of gates of any kind.
     fn search_both_ways(
         &self,
@@ -178,7 +185,7 @@ impl Course<'_> {
         };
         let words = (1u64 << network.inputs).div_ceil(64);
         let visits = visits.min(WHOLE_WORK / (words * gates.max(1)));
-        let calm = WalkPlan::calm(visits * share);
+        let calm = self.calm(visits * share);
         let bold = WalkPlan { climb: 400, patience: visits / 4, ..calm };
         let mut walk = || {
             let first = walk::improve_all(network, self.prices, self.stages, calm, random);
@@ -199,7 +206,7 @@ impl Course<'_> {
             let first = below(random, NEAR_GATES) + 1;
             let near = self.no_dearer(best, |best| {
                 in_parts(best, self.stages, first, NEAR_GATES, |part, stages| {
-                    let plan = WalkPlan::calm(round.near(part.gates.len() as u64, gates));
+                    let plan = self.calm(round.near(part.gates.len() as u64, gates));
                     walk::improve(part, self.prices, stages, &[], plan, random)
                 })
             });
@@ -209,7 +216,7 @@ impl Course<'_> {
             let first = below(random, FAR_GATES) + 1;
             self.no_dearer(near, |near| {
                 in_parts(near, self.stages, first, FAR_GATES, |part, stages| {
-                    let plan = WalkPlan::calm(round.far(part.gates.len() as u64, gates));
+                    let plan = self.calm(round.far(part.gates.len() as u64, gates));
                     roam(part, self.prices, stages, plan, random)
                 })
             })
@@ -233,7 +240,7 @@ impl Course<'_> {
         if best.inputs > exact::MOST_INPUTS || !combinational || !self.prices.are_even() {
             return best;
         }
-        match exact::fewer(&best, self.prices, cost(&best, self.prices), nodes) {
+        match exact::fewer(&best, self.prices, cost(&best, self.prices), nodes, self.cancel) {
             ExactResult::Made(network) => network,
             ExactResult::Impossible | ExactResult::Unknown => best,
         }
@@ -242,7 +249,7 @@ impl Course<'_> {
     /// Makes gates earlier where that costs nothing, so that a network of the same cells settles sooner.
     fn shorten(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let visits = (SHORTENING_VISITS * network.gates.len() as u64).min(MOST_SHORTENING);
-        let plan = WalkPlan { pace: Pace::Shorten, ..WalkPlan::calm(visits) };
+        let plan = WalkPlan { pace: Pace::Shorten, ..self.calm(visits) };
         match is_narrow(network) {
             true => walk::improve_all(network, self.prices, self.stages, plan, random),
             false => walk::improve(network, self.prices, self.stages, &[], plan, random),
@@ -261,7 +268,7 @@ impl Course<'_> {
         let mut now = network.clone();
         for _ in 0..rounds {
             for pace in [Pace::Hurry, Pace::Keep] {
-                let plan = WalkPlan { pace, ..WalkPlan::calm((10 * now.gates.len() as u64).min(3_000)) };
+                let plan = WalkPlan { pace, ..self.calm((10 * now.gates.len() as u64).min(3_000)) };
                 now = match is_narrow(&now) {
                     true => walk::improve_all(&now, self.prices, self.stages, plan, random),
                     false => roam(&now, self.prices, self.stages, plan, random),
@@ -325,13 +332,14 @@ fn depth(network: &Network, prices: &Prices) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::circuit::proof::equal;
 
     fn library(names: &str) -> CellLibrary {
         CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
     }
 
     fn reduced(network: &Network, cells: &str) -> Network {
-        reduce(network, &[], &library(cells), MapOptions::default()).unwrap()
+        reduce(network, &[], &library(cells), &MapOptions::default()).unwrap()
     }
 
     #[test]
@@ -380,8 +388,32 @@ mod tests {
         let three = network.add(excluded, [two, high]);
         network.outputs = vec![zero, one, two, three];
         let library = library("and nota_and_b a_and_notb");
-        let reduced = reduce(&network, &[], &library, MapOptions::default()).unwrap();
+        let reduced = reduce(&network, &[], &library, &MapOptions::default()).unwrap();
         assert_eq!((reduced.gates.len(), depth(&reduced, &Prices::of(&library))), (6, 2));
+    }
+
+    #[test]
+    fn a_cancelled_search_ends_with_a_network_of_the_same_function() {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for inputs in [3, 14] {
+            let mut network = Network::new(inputs);
+            for i in 0..200 {
+                let pins = [below(&mut random, 2 + inputs + i), 2 + below(&mut random, inputs + i)];
+                network.add([Function::XOR, Function::AND, Function::OR][i % 3], pins.map(|pin| pin as Signal));
+            }
+            let signals = network.signals() as Signal;
+            network.outputs = (signals - 6..signals).collect();
+            let library = library("nand not");
+            for objective in [MappingObjective::Area, MappingObjective::Delay] {
+                let options = MapOptions { objective, effort: Effort::High, ..MapOptions::default() };
+                options.cancel.raise();
+                let cancelled = reduce(&network, &[], &library, &options).unwrap();
+                assert!(equal(&network, &cancelled).is_ok());
+                assert!(cancelled.gates.iter().all(|gate| library.contains(gate.function)));
+                let whole = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
+                assert!(cancelled.gates.len() > reduce(&network, &[], &library, &whole).unwrap().gates.len());
+            }
+        }
     }
 
     #[test]

@@ -19,7 +19,16 @@ const MOST_SIGNALS: usize = 6;
 
 /// Searches for a cheaper network in `plan.visits` visits, each call of the solver counted as one. Every network that
 /// it passes through is proved equal to the first.
-pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: WalkPlan, random: &mut ChaCha8Rng) -> Network {
+pub fn roam(
+    network: &Network,
+    prices: &Prices,
+    stages: &[u32],
+    plan: WalkPlan<'_>,
+    random: &mut ChaCha8Rng,
+) -> Network {
+    if plan.is_cancelled() {
+        return network.clone();
+    }
     let mut samples = Samples::new(network.inputs, random);
     let [mut batch, least, most] = BATCH;
     let mut now = network.clone();
@@ -28,6 +37,9 @@ pub fn roam(network: &Network, prices: &Prices, stages: &[u32], plan: WalkPlan, 
     while work < plan.visits && !now.gates.is_empty() {
         let short = WalkPlan { visits: batch, ..plan };
         let next = walk::improve(&now, prices, stages, &samples.words, short, random);
+        if plan.is_cancelled() {
+            break;
+        }
         let calls = comparison.calls();
         let compared = comparison.compare(&next);
         work += batch + (comparison.calls() - calls) as u64;

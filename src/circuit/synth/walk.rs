@@ -5,6 +5,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
+use crate::circuit::cancel::CancelFlag;
 use crate::circuit::network::{Network, Signal, word};
 use crate::circuit::synth::candidates::{Finder, Replacement, Rows, TRIES, below};
 use crate::circuit::synth::graph::{Graph, every_pattern};
@@ -14,7 +15,7 @@ use crate::model::Function;
 
 /// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
-pub struct WalkPlan {
+pub struct WalkPlan<'a> {
     /// Gates to visit.
     pub visits: u64,
     /// One of this number of visits may make the network slightly more expensive; 0 for never.
@@ -23,6 +24,8 @@ pub struct WalkPlan {
     pub patience: u64,
     /// Whether time matters, and how.
     pub pace: Pace,
+    /// Ends the walk early, if there is one.
+    pub cancel: Option<&'a CancelFlag>,
 }
 
 /// The role of delay in the walk.
@@ -39,10 +42,15 @@ pub enum Pace {
     Shorten,
 }
 
-impl WalkPlan {
+impl WalkPlan<'_> {
     /// A walk that never climbs and never turns back.
     pub fn calm(visits: u64) -> Self {
-        Self { visits, climb: 0, patience: u64::MAX, pace: Pace::Any }
+        Self { visits, climb: 0, patience: u64::MAX, pace: Pace::Any, cancel: None }
+    }
+
+    /// Whether the walk is to end.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(CancelFlag::is_raised)
     }
 }
 
@@ -53,21 +61,21 @@ pub fn improve(
     prices: &Prices,
     stages: &[u32],
     patterns: &[Vec<u64>],
-    plan: WalkPlan,
+    plan: WalkPlan<'_>,
     random: &mut ChaCha8Rng,
 ) -> Network {
     let graph = Graph::new(network, prices, stages, patterns);
     let mut walk = Walk::new(graph, plan.pace, random);
     walk.surroundings = patterns.is_empty().then(Surroundings::default);
     if plan.pace == Pace::Hurry {
-        (0..plan.visits).for_each(|_| walk.hurry());
+        (0..plan.visits).take_while(|_| !plan.is_cancelled()).for_each(|_| walk.hurry());
         return walk.graph.network();
     }
     let mut best = walk.graph.network();
     let mut best_cost = walk.graph.cost();
     let mut best_at = 0;
     for visit in 0..plan.visits {
-        if walk.graph.order().is_empty() {
+        if walk.graph.order().is_empty() || plan.is_cancelled() {
             break;
         }
         let slack = u32::from(plan.climb > 0 && walk.below(plan.climb as usize) == 0);
@@ -88,7 +96,7 @@ pub fn improve_all(
     network: &Network,
     prices: &Prices,
     stages: &[u32],
-    plan: WalkPlan,
+    plan: WalkPlan<'_>,
     random: &mut ChaCha8Rng,
 ) -> Network {
     improve(network, prices, stages, &every_pattern(network.inputs), plan, random)
