@@ -7,6 +7,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::errors::bad_value;
+use crate::work::at_once;
 
 /// The palette of these materials, as JSON; the paper's if there are none.
 pub fn palette(materials: Option<&str>) -> PyResult<Arc<Palette>> {
@@ -47,13 +48,18 @@ pub fn bodies(
 
 /// Checks bodies as a simulation in the paper's world does.
 #[pyfunction]
-pub fn check_bodies(codes: PyReadonlyArray1<'_, u8>, shapes: PyReadonlyArray2<'_, u64>) -> PyResult<()> {
-    bodies(&codes, &shapes, &Palette::paper()).map(|_| ())
+pub fn check_bodies(
+    py: Python<'_>,
+    codes: PyReadonlyArray1<'_, u8>,
+    shapes: PyReadonlyArray2<'_, u64>,
+) -> PyResult<()> {
+    at_once(py, || bodies(&codes, &shapes, &Palette::paper()).map(|_| ()))
 }
 
 /// Why each body cannot be tried in an evolution; empty for those that can.
 #[pyfunction]
 pub fn invalid_bodies(
+    py: Python<'_>,
     codes: PyReadonlyArray1<'_, u8>,
     shapes: PyReadonlyArray2<'_, u64>,
     materials: Option<&str>,
@@ -70,7 +76,7 @@ pub fn invalid_bodies(
         };
         Ok(reason)
     };
-    shapes.as_array().outer_iter().map(reason).collect()
+    at_once(py, || shapes.as_array().outer_iter().map(reason).collect())
 }
 
 /// The paper's materials, as JSON.
@@ -101,15 +107,18 @@ pub fn shipped_robots() -> String {
 /// The picture of a body as SVG.
 #[pyfunction]
 pub fn draw_body(
+    py: Python<'_>,
     title: &str,
     codes: PyReadonlyArray1<'_, u8>,
     shapes: PyReadonlyArray2<'_, u64>,
     materials: Option<&str>,
     safe_colors: bool,
 ) -> PyResult<String> {
-    let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
-    let body = bodies.first().ok_or_else(|| bad_value("expected one body"))?;
-    Ok(nbc::draw_portrait(title, body, scheme(safe_colors)).finish())
+    at_once(py, || {
+        let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
+        let body = bodies.first().ok_or_else(|| bad_value("expected one body"))?;
+        Ok(nbc::draw_portrait(title, body, scheme(safe_colors)).finish())
+    })
 }
 
 /// The color scheme.

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use crate::bodies::scheme;
 use crate::errors::internal;
 use crate::swarm::Swarm;
+use crate::work::at_once;
 
 /// A circuit compiled to a swarm.
 #[pyclass(frozen)]
@@ -28,7 +29,34 @@ impl Compiled {
 #[pymethods]
 impl Compiled {
     /// Circuit, swarm, ports, proof, robots and warnings, as JSON.
-    fn summary(&self) -> String {
+    fn summary(&self, py: Python<'_>) -> PyResult<String> {
+        at_once(py, || Ok(self.summary_json()))
+    }
+
+    /// Nodes and edges of the netlist of cells, or of the netlist as written, as JSON.
+    fn netlist(&self, py: Python<'_>, as_written: bool) -> PyResult<String> {
+        at_once(py, || Ok(self.netlist_json(as_written)))
+    }
+
+    /// The static timing, as JSON.
+    fn timing(&self, py: Python<'_>) -> PyResult<String> {
+        let timing = || serde_json::to_string(&self.compiled.swarm_timing());
+        at_once(py, || timing().map_err(|error| internal(py, &error.to_string())))
+    }
+
+    /// The schematic as SVG.
+    fn schematic(&self, py: Python<'_>, safe_colors: bool) -> PyResult<String> {
+        at_once(py, || Ok(self.compiled.schematic(scheme(safe_colors)).finish()))
+    }
+
+    /// The swarm at its start.
+    fn swarm(&self, py: Python<'_>) -> PyResult<Swarm> {
+        at_once(py, || Ok(Swarm::new(self.session.swarm(&self.compiled))))
+    }
+}
+
+impl Compiled {
+    fn summary_json(&self) -> String {
         let nbc::Compiled { plan, mapping, assembly, warnings, .. } = &*self.compiled;
         let warnings = nbc::Diagnostics { list: warnings.clone(), sources: self.checked.sources.clone() }.json();
         let robot = |member: &nbc::Member| {
@@ -54,8 +82,7 @@ impl Compiled {
         summary.to_string()
     }
 
-    /// Nodes and edges of the netlist of cells, or of the netlist as written, as JSON.
-    fn netlist(&self, as_written: bool) -> String {
+    fn netlist_json(&self, as_written: bool) -> String {
         let mapping = &self.compiled.mapping;
         let netlist = if as_written { &mapping.source } else { &mapping.netlist };
         let node = |id| {
@@ -73,20 +100,5 @@ impl Compiled {
         let edges: Vec<Value> = netlist.ids().flat_map(pins).collect();
         json!({ "name": netlist.name, "nodes": netlist.ids().map(node).collect::<Vec<_>>(), "edges": edges })
             .to_string()
-    }
-
-    /// The static timing, as JSON.
-    fn timing(&self, py: Python<'_>) -> PyResult<String> {
-        serde_json::to_string(&self.compiled.swarm_timing()).map_err(|error| internal(py, &error.to_string()))
-    }
-
-    /// The schematic as SVG.
-    fn schematic(&self, safe_colors: bool) -> String {
-        self.compiled.schematic(scheme(safe_colors)).finish()
-    }
-
-    /// The swarm at its start.
-    fn swarm(&self) -> Swarm {
-        Swarm::new(self.session.swarm(&self.compiled))
     }
 }

@@ -30,14 +30,9 @@ pub fn internal(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
     exception(py, "InternalError", (format!("a fault of nbc itself: {text}"),))
 }
 
-/// The exception for an interrupted call with a partial result, if there is one.
-pub fn interrupted<'py>(py: Python<'py>, reason: PyErr, partial: Option<Bound<'py, PyAny>>) -> PyErr {
-    match partial {
-        Some(partial) if reason.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) => {
-            exception(py, "Interrupted", (partial,))
-        }
-        _ => reason,
-    }
+/// The exception for an interrupted call with a partial result.
+pub fn interrupted(py: Python<'_>, partial: Bound<'_, PyAny>) -> PyErr {
+    exception(py, "Interrupted", (partial,))
 }
 
 /// `ValueError`.

@@ -6,10 +6,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::bodies::bodies;
-use crate::errors::{bad_value, interrupted};
+use crate::errors::bad_value;
 use crate::evolution::Evolution;
 use crate::physics::{STOPPED, setting};
-use crate::work::{self, Ended, Watch};
+use crate::work::{self, Watch, at_once};
 
 /// Bodies that are evaluated in one go, so that an interrupt keeps the results of those before.
 const GROUP: usize = 256;
@@ -99,7 +99,7 @@ pub fn evaluate<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let evolution = evolution.0.clone();
-    let bodies = bodies(&codes, &shapes, &evolution.palette)?;
+    let bodies = at_once(py, || bodies(&codes, &shapes, &evolution.palette))?;
     let (width, height) = (evolution.width, evolution.height);
     if let Some(i) = bodies.iter().position(|body| (body.width(), body.height()) != (width, height)) {
         return Err(bad_value(format!("bodies[{i}] must be {height} rows of {width} codes, the box of the evolution")));
@@ -115,11 +115,5 @@ pub fn evaluate<'py>(
         });
         evaluated.flatten().collect::<Vec<_>>()
     })?;
-    match ended {
-        Ended::Done(outcomes) => into_python(py, &declared, &kept, &outcomes),
-        Ended::Interrupted(reason, partial) => {
-            let partial = partial.map(|outcomes| into_python(py, &declared, &kept, &outcomes)).transpose()?;
-            Err(interrupted(py, reason, partial.map(Bound::into_any)))
-        }
-    }
+    ended.or_partial(py, |outcomes| into_python(py, &declared, &kept, &outcomes))
 }

@@ -4,6 +4,7 @@ use nbc::{Axis, Count, MemoryWorld, Session};
 use pyo3::prelude::*;
 
 use crate::errors::{bad_value, diagnosed, without_place};
+use crate::work::at_once;
 
 /// A declared evolution.
 #[pyclass(frozen)]
@@ -14,11 +15,13 @@ impl Evolution {
     /// The last evolution declared in a text, or the paper's; `file` is what the text is called in messages.
     #[new]
     fn new(py: Python<'_>, text: &str, file: &str) -> PyResult<Self> {
-        let mut session = Session::new(MemoryWorld::default());
-        session.update(file, 1, text);
-        let checked = session.open(file).map_err(|found| diagnosed(py, &found))?;
-        let last = checked.program.evolutions.last().cloned();
-        last.map(Self).ok_or_else(|| bad_value("the text declares no evolution"))
+        at_once(py, || {
+            let mut session = Session::new(MemoryWorld::default());
+            session.update(file, 1, text);
+            let checked = session.open(file).map_err(|found| diagnosed(py, &found))?;
+            let last = checked.program.evolutions.last().cloned();
+            last.map(Self).ok_or_else(|| bad_value("the text declares no evolution"))
+        })
     }
 
     /// All fields, as JSON.

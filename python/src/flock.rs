@@ -8,7 +8,7 @@ use crate::bodies::{bodies, palette};
 use crate::errors::bad_value;
 use crate::physics::{fault_words, pattern, setting};
 use crate::slot::Slot;
-use crate::work::Watch;
+use crate::work::{self, Watch, at_once};
 
 /// Robots, each alone in its own simulation.
 #[pyclass(frozen)]
@@ -62,15 +62,17 @@ pub struct FlockState(Vec<Snapshot>);
 impl Flock {
     #[new]
     fn new(
+        py: Python<'_>,
         codes: PyReadonlyArray1<'_, u8>,
         shapes: PyReadonlyArray2<'_, u64>,
         materials: Option<&str>,
         world_width: usize,
         start_x: Option<usize>,
     ) -> PyResult<Self> {
-        let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
-        let setting = setting(world_width, start_x, &bodies)?;
-        Ok(Self { size: bodies.len(), robots: Slot::new("flock", Setup::new(bodies, setting)) })
+        let bodies = at_once(py, || bodies(&codes, &shapes, &palette(materials)?))?;
+        let (size, setting) = (bodies.len(), setting(world_width, start_x, &bodies)?);
+        let made = work::run(py, &Watch::over(0), None, move |_| Setup::new(bodies, setting))?;
+        Ok(Self { size, robots: Slot::new("flock", made.finished()?) })
     }
 
     fn __len__(&self) -> usize {
@@ -144,6 +146,14 @@ impl Flock {
             setup.restore(&state.0);
             Ok(())
         })
+    }
+
+    /// Panics at work on the robots as a fault of the library would: at once or in a thread. For the tests.
+    fn panic(&self, py: Python<'_>, at_once: bool) -> PyResult<()> {
+        if at_once {
+            return self.robots.with(py, |_| panic!("a test at once"));
+        }
+        self.robots.run(py, &Watch::over(0), None, |_, _| panic!("a test in a thread"))?.finished()
     }
 
     /// Ends the simulation.

@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::bodies::{bodies, palette};
-use crate::errors::{bad_value, diagnosed, interrupted};
-use crate::work::{self, Ended, Watch};
+use crate::errors::{bad_value, diagnosed};
+use crate::work::{self, Watch, at_once};
 
 /// The most env steps of trials that are simulated in one go; their trajectories are in memory at the same time.
 const GROUP_STEPS: u64 = 20_000_000;
@@ -69,6 +69,90 @@ pub fn fault_words(fault: Option<Fault>) -> (u32, &'static str) {
     fault.map_or((0, ""), |fault| (fault.env_step, word(fault.kind)))
 }
 
+/// The trials of a call, as Python gives them.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct TrialArguments<'py> {
+    codes: PyReadonlyArray1<'py, u8>,
+    shapes: PyReadonlyArray2<'py, u64>,
+    materials: Option<String>,
+    schedule: ScheduleWords,
+    world_width: usize,
+    start_x: Option<usize>,
+}
+
+/// Bodies under a schedule, each in a world of its own.
+struct Experiment {
+    bodies: Vec<Body>,
+    setting: Setting,
+    schedule: Schedule,
+}
+
+impl TrialArguments<'_> {
+    /// The experiment.
+    ///
+    /// # Errors
+    /// When a body, a material, the schedule or the world is invalid.
+    fn read(self, py: Python<'_>) -> PyResult<Experiment> {
+        at_once(py, || {
+            let bodies = bodies(&self.codes, &self.shapes, &palette(self.materials.as_deref())?)?;
+            let setting = setting(self.world_width, self.start_x, &bodies)?;
+            Ok(Experiment { bodies, setting, schedule: self.schedule.read(py)? })
+        })
+    }
+}
+
+impl Experiment {
+    /// Its env steps, of all bodies together.
+    fn env_steps(&self) -> u64 {
+        u64::from(self.schedule.steps()) * self.bodies.len() as u64
+    }
+
+    /// The memory of the paths in bytes.
+    fn path_bytes(&self) -> u64 {
+        16 * (self.env_steps() + self.bodies.len() as u64)
+    }
+
+    /// Simulates the bodies, some at a time, until the end or an interrupt.
+    fn simulate(&self, watch: &Watch, record_com: bool) -> Results {
+        let (simulator, mut results) = (watch.simulator(), Results::default());
+        let group = (GROUP_STEPS / u64::from(self.schedule.steps()).max(1)).max(1) as usize;
+        for bodies in self.bodies.chunks(group) {
+            if watch.is_stopped() {
+                let stopped = Trajectory { fault: Some(STOPPED), ..Trajectory::default() };
+                bodies.iter().for_each(|_| results.push(&stopped, &self.schedule, record_com));
+                continue;
+            }
+            let trial = |body: &Body| Trial { body: body.clone(), schedule: self.schedule.clone() };
+            let trials: Vec<Trial> = bodies.iter().map(trial).collect();
+            let trajectories = simulator.run_trials(&self.setting, &trials);
+            trajectories.iter().for_each(|trajectory| results.push(trajectory, &self.schedule, record_com));
+        }
+        results
+    }
+
+    /// The frames of each robot, and the four points of each of its voxels.
+    fn record(&self, watch: &Watch, stride: u32) -> (Vec<Frames>, Vec<Vec<[usize; 4]>>) {
+        let mut flock = watch.simulator().flock(&self.setting, &self.bodies);
+        let mut frames: Vec<Frames> = vec![Vec::new(); self.bodies.len()];
+        let mut record = |flock: &dyn nbc::Flock| {
+            for (robot, frames) in frames.iter_mut().enumerate() {
+                frames.extend(flock.points(robot).into_iter().flatten());
+            }
+        };
+        record(&*flock);
+        for (pattern, steps, is_frame) in stretches(&self.schedule, stride) {
+            flock.advance(&vec![pattern; self.bodies.len()], steps);
+            if is_frame {
+                record(&*flock);
+            }
+        }
+        let corners = |robot| flock.lattice(robot).voxels().iter().map(|voxel| voxel.corners).collect();
+        let voxels = (0..flock.len()).map(corners).collect();
+        (frames, voxels)
+    }
+}
+
 /// The results of trials, row after row.
 #[derive(Default)]
 struct Results {
@@ -119,53 +203,26 @@ fn arrays<'py>(
 
 /// Simulates each body from a fresh start under the schedule.
 #[pyfunction]
-#[allow(clippy::too_many_arguments, reason = "the Python half names them")]
 pub fn simulate<'py>(
     py: Python<'py>,
-    codes: PyReadonlyArray1<'py, u8>,
-    shapes: PyReadonlyArray2<'py, u64>,
-    materials: Option<&str>,
-    schedule: ScheduleWords,
-    world_width: usize,
-    start_x: Option<usize>,
+    trials: TrialArguments<'py>,
     record_com: bool,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
-    let (setting, schedule) = (setting(world_width, start_x, &bodies)?, schedule.read(py)?);
-    let steps = u64::from(schedule.steps());
-    let needed = if record_com { 16 * bodies.len() as u64 * (steps + 1) } else { 0 };
-    if needed > MOST_BYTES {
-        let size = needed >> 30;
+    let experiment = trials.read(py)?;
+    if record_com && experiment.path_bytes() > MOST_BYTES {
+        let size = experiment.path_bytes() >> 30;
         let message = format!("the paths would need {size} GiB; simulate fewer bodies at once, or with `record=None`");
         return Err(PyMemoryError::new_err(message));
     }
-    let watch = Watch::over(steps * bodies.len() as u64);
-    let group = (GROUP_STEPS / steps.max(1)).max(1) as usize;
-    let spells = schedule.spells.len();
+    let watch = Watch::over(experiment.env_steps());
+    let spells = experiment.schedule.spells.len();
     let ended = work::run(py, &watch, progress.as_ref(), move |watch| {
-        let (simulator, mut results) = (watch.simulator(), Results::default());
-        for bodies in bodies.chunks(group) {
-            if watch.is_stopped() {
-                let stopped = Trajectory { fault: Some(STOPPED), ..Trajectory::default() };
-                bodies.iter().for_each(|_| results.push(&stopped, &schedule, record_com));
-                continue;
-            }
-            let trial = |body: &Body| Trial { body: body.clone(), schedule: schedule.clone() };
-            let trials: Vec<Trial> = bodies.iter().map(trial).collect();
-            let trajectories = simulator.run_trials(&setting, &trials);
-            trajectories.iter().for_each(|trajectory| results.push(trajectory, &schedule, record_com));
-        }
-        let com = record_com.then(|| results.com(&schedule));
+        let mut results = experiment.simulate(watch, record_com);
+        let com = record_com.then(|| results.com(&experiment.schedule));
         (results, com)
     })?;
-    match ended {
-        Ended::Done(results) => arrays(py, spells, results),
-        Ended::Interrupted(reason, partial) => {
-            let partial = partial.map(|results| arrays(py, spells, results)).transpose()?;
-            Err(interrupted(py, reason, partial.map(Bound::into_any)))
-        }
-    }
+    ended.or_partial(py, |results| arrays(py, spells, results))
 }
 
 /// The frames of a robot: its points in each, frame after frame.
@@ -176,40 +233,15 @@ type Poses<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Vec<Vec<[usize; 4]>>);
 /// The poses of each body under the schedule, every `stride` env steps: a flat array for each, and the four points of
 /// each voxel.
 #[pyfunction]
-#[allow(clippy::too_many_arguments, reason = "the Python half names them")]
 pub fn record_poses<'py>(
     py: Python<'py>,
-    codes: PyReadonlyArray1<'py, u8>,
-    shapes: PyReadonlyArray2<'py, u64>,
-    materials: Option<&str>,
-    schedule: ScheduleWords,
-    world_width: usize,
-    start_x: Option<usize>,
+    trials: TrialArguments<'py>,
     stride: u32,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Poses<'py>> {
-    let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
-    let (setting, schedule) = (setting(world_width, start_x, &bodies)?, schedule.read(py)?);
-    let watch = Watch::over(u64::from(schedule.steps()) * bodies.len() as u64);
-    let ended = work::run(py, &watch, progress.as_ref(), move |watch| {
-        let mut flock = watch.simulator().flock(&setting, &bodies);
-        let mut frames: Vec<Frames> = vec![Vec::new(); bodies.len()];
-        let mut record = |flock: &dyn nbc::Flock| {
-            for (robot, frames) in frames.iter_mut().enumerate() {
-                frames.extend(flock.points(robot).into_iter().flatten());
-            }
-        };
-        record(&*flock);
-        for (pattern, steps, is_frame) in stretches(&schedule, stride) {
-            flock.advance(&vec![pattern; bodies.len()], steps);
-            if is_frame {
-                record(&*flock);
-            }
-        }
-        let corners = |robot| flock.lattice(robot).voxels().iter().map(|voxel| voxel.corners).collect();
-        let voxels: Vec<Vec<[usize; 4]>> = (0..flock.len()).map(corners).collect();
-        (frames, voxels)
-    })?;
+    let experiment = trials.read(py)?;
+    let watch = Watch::over(experiment.env_steps());
+    let ended = work::run(py, &watch, progress.as_ref(), move |watch| experiment.record(watch, stride))?;
     let (frames, voxels) = ended.finished()?;
     Ok((frames.into_iter().map(|frames| frames.into_pyarray(py)).collect(), voxels))
 }

@@ -5,14 +5,13 @@ use std::sync::Arc;
 
 use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, Level, MappingObjective, Room, RunReport, Session};
 use nbc::{TestOptions, TestRun};
-use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 use crate::circuits::Compiled;
-use crate::errors::{bad_value, diagnosed, internal, interrupted, without_place};
+use crate::errors::{bad_value, diagnosed, internal, without_place};
 use crate::evolution::Evolution;
-use crate::work::{self, Ended, Watch};
+use crate::work::{self, Watch, at_once};
 
 /// A source file without errors.
 #[pyclass(frozen)]
@@ -33,7 +32,7 @@ pub struct Compiling {
 }
 
 impl Compiling {
-    fn options(self, py: Python<'_>, session: &Session) -> PyResult<CompileOptions> {
+    fn options(self, py: Python<'_>, session: &Session, watch: &Watch) -> PyResult<CompileOptions> {
         let robots = match self.library.as_deref() {
             None => None,
             Some("shipped") => Some(session.shipped().clone()),
@@ -51,7 +50,8 @@ impl Compiling {
             "high" => Effort::High,
             word => return Err(bad_value(format!("invalid effort `{word}`; expected fast, normal or high"))),
         };
-        Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs: self.runs })
+        let cancel = watch.cancel.clone();
+        Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs: self.runs, cancel })
     }
 }
 
@@ -80,8 +80,8 @@ impl Program {
     }
 
     /// Its warnings, as JSON.
-    fn diagnostics(&self) -> String {
-        Value::from(self.checked.json()).to_string()
+    fn diagnostics(&self, py: Python<'_>) -> PyResult<String> {
+        at_once(py, || Ok(Value::from(self.checked.json()).to_string()))
     }
 
     /// The circuits of the file itself with their ports, as JSON.
@@ -107,11 +107,12 @@ impl Program {
 
     /// Compiles a circuit to a swarm.
     fn compile(&self, py: Python<'_>, circuit: Option<String>, compiling: Compiling) -> PyResult<Compiled> {
-        let options = compiling.options(py, &self.session)?;
+        let watch = Watch::over(0);
+        let options = compiling.options(py, &self.session, &watch)?;
         let choice = Choice { circuit, swarm: options.swarm.clone() };
         let instance = self.checked.circuit(&choice).map_err(|found| diagnosed(py, &found))?;
         let (session, checked) = (self.session.clone(), self.checked.clone());
-        let compiled = work::run(py, &Watch::over(0), None, move |_| session.compile(&checked, &instance, &options))?;
+        let compiled = work::run(py, &watch, None, move |_| session.compile(&checked, &instance, &options))?;
         let compiled = compiled.finished()?.map_err(|found| diagnosed(py, &found))?;
         Ok(Compiled::new(self.session.clone(), self.checked.clone(), compiled))
     }
@@ -125,10 +126,11 @@ impl Program {
         compiling: Compiling,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<String> {
-        let compile = compiling.options(py, &self.session)?;
+        let watch = Watch::over(0);
+        let compile = compiling.options(py, &self.session, &watch)?;
         let options = TestOptions { level: level.map(read_level).transpose()?, compile };
         let (session, checked) = (self.session.clone(), self.checked.clone());
-        let ran = work::run(py, &Watch::over(0), progress.as_ref(), move |watch| {
+        let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
             session.test(&checked, &checked.program.tests[test], &options, &mut watch.observer())
         })?;
         let runs = ran.finished()?.map_err(|found| diagnosed(py, &found))?;
@@ -143,9 +145,10 @@ impl Program {
         safe_colors: bool,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<(String, String)> {
-        let options = compiling.options(py, &self.session)?;
+        let watch = Watch::over(0);
+        let options = compiling.options(py, &self.session, &watch)?;
         let (session, checked) = (self.session.clone(), self.checked.clone());
-        let ran = work::run(py, &Watch::over(0), progress.as_ref(), move |watch| {
+        let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
             let report = session.run_checked(&checked, &options, &mut watch.observer());
             report.map(|report| (report.page(&checked.path, crate::bodies::scheme(safe_colors)), report))
         })?;
@@ -153,22 +156,17 @@ impl Program {
             let tests = report.tests.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>()?;
             Ok((page, tests.to_string()))
         };
-        match ran {
-            Ended::Done(ran) => records(ran.map_err(|found| diagnosed(py, &found))?),
-            Ended::Interrupted(reason, partial) => {
-                let partial = partial.and_then(Result::ok).map(records).transpose()?;
-                let partial = partial.map(|partial| partial.into_bound_py_any(py)).transpose()?;
-                Err(interrupted(py, reason, partial))
-            }
-        }
+        ran.or_partial(py, |ran| records(ran.map_err(|found| diagnosed(py, &found))?))
     }
 }
 
 impl Program {
     fn record(&self, py: Python<'_>, run: &TestRun) -> PyResult<Value> {
-        let verdict = serde_json::to_value(&run.verdict).map_err(|error| internal(py, &error.to_string()))?;
-        let warnings = nbc::Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() }.json();
-        Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings }))
+        at_once(py, || {
+            let verdict = serde_json::to_value(&run.verdict).map_err(|error| internal(py, &error.to_string()))?;
+            let warnings = nbc::Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() };
+            Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings.json() }))
+        })
     }
 }
 
@@ -183,5 +181,5 @@ fn read_level(word: &str) -> PyResult<Level> {
 /// Writes a file, whole or not at all.
 #[pyfunction]
 pub fn write_file(py: Python<'_>, path: &str, text: &str) -> PyResult<()> {
-    nbc::write_file(Path::new(path), text.as_bytes()).map_err(|found| without_place(py, found))
+    at_once(py, || nbc::write_file(Path::new(path), text.as_bytes()).map_err(|found| without_place(py, found)))
 }

@@ -13,7 +13,7 @@ use crate::errors::{bad_value, without_place};
 use crate::evaluation;
 use crate::evolution::{Evolution, axis, no_checkpoint};
 use crate::slot::Slot;
-use crate::work::Watch;
+use crate::work::{Watch, at_once};
 
 /// The number of the next search, so that its candidates are known as its own.
 static NEXT: AtomicU64 = AtomicU64::new(0);
@@ -86,19 +86,21 @@ impl Search {
 #[pymethods]
 impl Search {
     #[new]
-    fn new(evolution: &Evolution, seed: u64) -> Self {
-        Self::of(nbc::Search::new(&evolution.0, seed), Work::default())
+    fn new(py: Python<'_>, evolution: &Evolution, seed: u64) -> PyResult<Self> {
+        at_once(py, || Ok(Self::of(nbc::Search::new(&evolution.0, seed), Work::default())))
     }
 
     /// The search of a checkpoint.
     #[staticmethod]
     fn resume(py: Python<'_>, path: PathBuf, evolution: &Evolution) -> PyResult<Self> {
-        let read = Checkpoint::open(&path).map_err(|found| without_place(py, found))?;
-        let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
-        let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
-        let (name, seed) = (path.display().to_string(), checkpoint.state.seed);
-        let search = checkpoint.resume(&name, &evolution.0, seed).map_err(|found| without_place(py, found))?;
-        Ok(Self::of(search, work))
+        at_once(py, || {
+            let read = Checkpoint::open(&path).map_err(|found| without_place(py, found))?;
+            let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
+            let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
+            let (name, seed) = (path.display().to_string(), checkpoint.state.seed);
+            let search = checkpoint.resume(&name, &evolution.0, seed).map_err(|found| without_place(py, found))?;
+            Ok(Self::of(search, work))
+        })
     }
 
     /// Writes a checkpoint.
@@ -204,13 +206,15 @@ type ArchiveOnAxes<'py> = (Bound<'py, PyDict>, Vec<(&'static str, usize)>);
 /// The archive of a checkpoint: its arrays and its axes.
 #[pyfunction]
 pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<ArchiveOnAxes<'_>> {
-    let read = Checkpoint::open(&path).map_err(|found| without_place(py, found))?;
-    let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
-    let niches = checkpoint.state.niches.iter();
-    let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
-    let axes: Vec<(&'static str, usize)> = checkpoint.declared.axes.iter().map(axis).collect();
-    let depth = checkpoint.state.niches.first().map_or(axes.len(), |(key, _)| key.0.len());
-    Ok((archive(py, elites, depth)?, axes))
+    at_once(py, || {
+        let read = Checkpoint::open(&path).map_err(|found| without_place(py, found))?;
+        let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
+        let niches = checkpoint.state.niches.iter();
+        let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
+        let axes: Vec<(&'static str, usize)> = checkpoint.declared.axes.iter().map(axis).collect();
+        let depth = checkpoint.state.niches.first().map_or(axes.len(), |(key, _)| key.0.len());
+        Ok((archive(py, elites, depth)?, axes))
+    })
 }
 
 /// Elites as arrays, a row for each.

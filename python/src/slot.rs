@@ -8,7 +8,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::errors::{bad_value, forked};
-use crate::work::{self, Ended, Watch};
+use crate::work::{self, Ended, Watch, at_once};
 
 /// The time from look to look for Ctrl-C.
 const POLL: Duration = Duration::from_millis(20);
@@ -89,10 +89,10 @@ impl<T: Send + 'static> Slot<T> {
     /// Reads or changes the value at once.
     ///
     /// # Errors
-    /// When the value is closed or lost, and the errors of `work`.
+    /// When the value is closed or lost, the errors of `work`, and for a fault of the library.
     pub fn with<R>(&self, py: Python<'_>, work: impl FnOnce(&mut T) -> PyResult<R>) -> PyResult<R> {
         let mut lease = self.take(py)?;
-        work(lease.value.as_mut().expect("a lease has its value"))
+        at_once(py, move || work(lease.value.as_mut().expect("a lease has its value")))
     }
 
     /// Drops the value. A closed one stays closed.

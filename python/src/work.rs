@@ -5,24 +5,27 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
 use std::time::Duration;
 
-use nbc::{Monitor, Observer, Simulator};
+use nbc::{CancelFlag, Monitor, Observer, Simulator};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::errors::internal;
+use crate::errors::{internal, interrupted};
 use crate::threads::pool;
 
 /// The time from look to look for Ctrl-C.
 const POLL: Duration = Duration::from_millis(20);
-/// The time that interrupted work has to hand over its partial result.
-const GRACE: Duration = Duration::from_millis(120);
 
 /// What the caller's thread and the work know of each other.
 #[derive(Default)]
 pub struct Watch {
-    /// Ends the work, and counts env steps.
-    pub monitor: Arc<Monitor>,
+    /// Ends simulations, and counts env steps.
+    monitor: Arc<Monitor>,
+    /// Ends searches of mapping.
+    pub cancel: CancelFlag,
     done: AtomicU64,
     all: AtomicU64,
 }
@@ -36,6 +39,12 @@ impl Watch {
     /// A simulator whose work is counted, and ends with an interrupt.
     pub fn simulator(&self) -> Simulator {
         Simulator::monitored(self.monitor.clone())
+    }
+
+    /// Ends the work soon.
+    fn stop(&self) {
+        self.monitor.stop();
+        self.cancel.raise();
     }
 
     /// Whether the work is to end.
@@ -71,21 +80,60 @@ impl Observer for Observing<'_> {
 pub enum Ended<T> {
     /// It was done.
     Done(T),
-    /// It was interrupted; with the partial result, if it came in time.
-    Interrupted(PyErr, Option<T>),
+    /// It was interrupted. It stops soon, and then sends its partial result.
+    Interrupted(PyErr, Receiver<thread::Result<T>>),
 }
 
-impl<T> Ended<T> {
+impl<T: Send> Ended<T> {
     /// The result.
     ///
     /// # Errors
-    /// The exception of the interrupt.
+    /// The exception of the interrupt, at once.
     pub fn finished(self) -> PyResult<T> {
         match self {
             Self::Done(value) => Ok(value),
             Self::Interrupted(reason, _) => Err(reason),
         }
     }
+
+    /// The result as Python has it.
+    ///
+    /// # Errors
+    /// Those of `show`; after Ctrl-C, `nbc.Interrupted` with the partial result. Another Ctrl-C does not wait for it.
+    pub fn or_partial<'py, R: IntoPyObject<'py>>(
+        self,
+        py: Python<'py>,
+        show: impl FnOnce(T) -> PyResult<R>,
+    ) -> PyResult<R> {
+        let (reason, mut receiver) = match self {
+            Self::Done(value) => return show(value),
+            Self::Interrupted(reason, receiver) => (reason, receiver),
+        };
+        if !reason.is_instance_of::<PyKeyboardInterrupt>(py) {
+            return Err(reason);
+        }
+        loop {
+            let found;
+            (receiver, found) = wait(py, receiver, POLL);
+            match found {
+                Ok(Ok(value)) => {
+                    let partial = show(value).and_then(|shown| shown.into_bound_py_any(py));
+                    return Err(partial.map_or(reason, |partial| interrupted(py, partial)));
+                }
+                Ok(Err(panic)) => return Err(internal(py, &*panic)),
+                Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+                Err(RecvTimeoutError::Disconnected) => return Err(reason),
+            }
+        }
+    }
+}
+
+/// Does short work on the caller's thread.
+///
+/// # Errors
+/// Those of the work, and for a fault of the library.
+pub fn at_once<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(internal(py, &*panic)))
 }
 
 /// Does the work. `progress`, if it is one, is called with parts done and all parts.
@@ -115,9 +163,8 @@ pub fn run<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => attend(py, watch, progress, &mut shown).err(),
         };
         if let Some(reason) = reason {
-            watch.monitor.stop();
-            let partial = wait(py, receiver, GRACE).1.ok().and_then(Result::ok);
-            return Ok(Ended::Interrupted(reason, partial));
+            watch.stop();
+            return Ok(Ended::Interrupted(reason, receiver));
         }
     }
 }

@@ -1,4 +1,8 @@
-"""Ctrl-C: answered at once, without lost results. Each case is a process of its own, which gets a real signal."""
+"""Ctrl-C: answered soon, without lost results. Each case is a process of its own, which gets a real signal.
+
+No test measures time. Where a call does not end by itself within hours, the end of its process shows that the signal
+ended it.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +13,14 @@ import textwrap
 
 import pytest
 
-# Generous for a busy machine; the answer itself is asserted to be quick by the work that remains.
-LONGEST = 120
+# Ends a test that hangs, on a machine of any load.
+LONGEST = 1800
 
 START = """
-import os, signal, threading, time
+import os, signal, threading
 import numpy as np
 import nbc
-bodies = np.full((64, 5, 5), 3, dtype=np.uint8)
+bodies = np.full((8, 4, 4), 3, dtype=np.uint8)
 def interrupt(): os.kill(os.getpid(), signal.SIGINT)
 class Once:
     "Interrupts at the first progress."
@@ -24,7 +28,6 @@ class Once:
     def __call__(self, done, all):
         self.calls += 1
         if self.calls == 1:
-            self.at = time.monotonic()
             interrupt()
 """
 
@@ -37,13 +40,11 @@ def run(body: str) -> str:
 
 
 def test_a_simulation_keeps_its_results():
-    # Without an interrupt these trials take minutes: 64 bodies, 100,000 cycles each.
+    # Without an interrupt these trials take hours: 8 bodies, 100,000 cycles each.
     out = run("""
-        once = Once()
         try:
-            nbc.simulate(bodies, [("00", 84)] + [("01", 84 * 2000)] * 50, progress=once, record=None)
+            nbc.simulate(bodies, [("00", 84)] + [("01", 84 * 2000)] * 50, progress=Once(), record=None)
         except nbc.Interrupted as end:
-            print("answered" if time.monotonic() - once.at < 5 else "late")
             result = end.result
             stopped = result.faults["kind"] == "stopped"
             print(len(result), bool(stopped.all()), result.displacement.shape)
@@ -52,12 +53,23 @@ def test_a_simulation_keeps_its_results():
             print(bool((first[np.isfinite(first)] == expected).all()))
         print(nbc.simulate(bodies, "00*1").ok.all())
     """)
-    assert out.split("\n")[:4] == ["answered", "64 True (64, 51)", "True", "True"]
+    assert out.splitlines() == ["8 True (8, 51)", "True", "True"]
+
+
+def test_an_error_of_a_progress_function_ends_the_call():
+    out = run("""
+        def fail(done, all): raise OSError("no display")
+        try:
+            nbc.simulate(bodies, [("01", 84 * 100_000)], progress=fail, record=None)
+        except OSError as error:
+            print(error)
+    """)
+    assert out == "no display\n"
 
 
 def test_a_search_is_as_before_and_an_evolution_keeps_its_generations(tmp_path):
     out = run(f"""
-        run = nbc.Evolution(box=(3, 3), batch=8, generations=1000, fixed="10 cycles")
+        run = nbc.Evolution(box=(3, 3), batch=4, newcomers=1, generations=1000, fixed="1 cycles")
         try:
             nbc.evolve(run, seed=2, checkpoint={str(tmp_path / "run.nbc")!r}, progress=Once())
         except nbc.Interrupted as end:
@@ -78,8 +90,8 @@ def test_a_flock_is_as_before():
         flock = nbc.Flock(bodies)
         flock.advance("01", 10)
         before, clock = flock.com, flock.clock
-        threading.Timer(0.3, interrupt).start()
         try:
+            threading.Timer(0.3, interrupt).start()
             flock.advance("01", 10_000_000)
         except KeyboardInterrupt:
             print(bool((flock.com == before).all() and (flock.clock == clock).all()))
@@ -106,14 +118,60 @@ def test_a_swarm_keeps_its_cycles():
 def test_an_evaluation_keeps_its_results():
     out = run("""
         many = np.random.default_rng(1).integers(1, 9, size=(4000, 5, 5), dtype=np.uint8)
-        once = Once()
         try:
-            nbc.evaluate(many, progress=once)
+            nbc.evaluate(many, progress=Once())
         except nbc.Interrupted as end:
-            print("answered" if time.monotonic() - once.at < 5 else "late")
             print(len(end.result), bool((end.result.outcome == "stopped").any()))
     """)
-    assert out.split("\n")[:2] == ["answered", "4000 True"]
+    assert out == "4000 True\n"
+
+
+def test_poses_that_are_interrupted_leave_the_results_of_the_simulation():
+    out = run("""
+        import nbc.physics
+        def record_poses(*arguments): raise KeyboardInterrupt
+        expected = nbc.simulate(bodies, "01*1").com
+        nbc.physics._nbc.record_poses = record_poses
+        try:
+            nbc.simulate(bodies, "01*1", record="poses")
+        except nbc.Interrupted as end:
+            print(bool((end.result.com == expected).all()), end.result.poses)
+    """)
+    assert out == "True None\n"
+
+
+def large_circuit(gates: int, inputs: int = 30) -> str:
+    """The source of a circuit whose synthesis takes hours at high effort."""
+    words = [f"i{i}" for i in range(inputs)]
+    ports = ", ".join(words)
+    lines = []
+    for i in range(gates):
+        one, two = words[-1 - (7 * i) % inputs], words[-1 - (11 * i + 5) % (inputs - 1)]
+        lines.append(f"n{i} = {('xor', 'and', 'or', 'nand')[i * i % 11 % 4]}({one}, {two if two != one else words[0]})")
+        words.append(f"n{i}")
+    lines += [f"o{i} = {word}" for i, word in enumerate(words[-inputs:])]
+    outputs = ", ".join(f"o{i}" for i in range(inputs))
+    return f"circuit large({ports}) -> ({outputs}) {{\n" + "\n".join(lines) + "\n}\n"
+
+
+@pytest.mark.parametrize("call", ["compile(effort='high')", "test(level='physics', effort='high')"])
+def test_an_interrupted_compilation_does_not_go_on(tmp_path, call):
+    source = tmp_path / "large.nb"
+    inputs = 30
+    row = " ".join("0" * inputs) + " | " + " ".join("-" * inputs)
+    ports = " ".join(f"i{i}" for i in range(inputs)) + " | " + " ".join(f"o{i}" for i in range(inputs))
+    source.write_text(large_circuit(1000, inputs) + f"test large {{ {ports}\n {row} }}\n")
+    # With one thread, the simulation waits for the end of the compilation.
+    out = run(f"""
+        nbc.set_threads(1)
+        program = nbc.load({str(source)!r})
+        try:
+            threading.Timer(0.3, interrupt).start()
+            program.{call}
+        except KeyboardInterrupt:
+            print(nbc.simulate(bodies, "00*1").ok.all())
+    """)
+    assert out == "True\n"
 
 
 LONG_CALLS = ["nbc.simulate(bodies, [('00', 9_000_000)], record=None)", "nbc.Flock(bodies).advance('00', 10**7)"]

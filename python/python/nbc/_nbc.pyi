@@ -1,6 +1,6 @@
 """The native half; see the modules that use it."""
 
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,14 @@ _Bools = npt.NDArray[np.bool_]
 _Schedule = Union[str, Sequence[Tuple[str, int]]]
 _Report = Optional[Callable[[int, int], Any]]
 _Options = Mapping[str, Optional[str]]
+
+class _Trials(TypedDict):
+    codes: _Codes
+    shapes: _Shapes
+    materials: Optional[str]
+    schedule: _Schedule
+    world_width: int
+    start_x: Optional[int]
 
 class Candidates:
     generation: int
@@ -46,6 +54,7 @@ class Flock:
     def voxels(self, robot: int) -> List[List[int]]: ...
     def snapshot(self) -> FlockState: ...
     def restore(self, state: FlockState) -> None: ...
+    def panic(self, at_once: bool) -> None: ...
     def close(self) -> None: ...
 
 class FlockState: ...
@@ -95,27 +104,11 @@ def invalid_bodies(codes: _Codes, shapes: _Shapes, materials: Optional[str]) -> 
 def paper_materials() -> str: ...
 def read_checkpoint(path: str) -> Tuple[Dict[str, Any], List[Tuple[str, int]]]: ...
 def record_poses(
-    codes: _Codes,
-    shapes: _Shapes,
-    materials: Optional[str],
-    schedule: _Schedule,
-    world_width: int,
-    start_x: Optional[int],
-    stride: int,
-    progress: _Report,
+    trials: _Trials, stride: int, progress: _Report
 ) -> Tuple[List[_Floats], List[List[List[int]]]]: ...
 def set_threads(threads: int) -> None:
     """Uses that many threads from now on; 0 stands for all cores."""
 
 def shipped_robots() -> str: ...
-def simulate(
-    codes: _Codes,
-    shapes: _Shapes,
-    materials: Optional[str],
-    schedule: _Schedule,
-    world_width: int,
-    start_x: Optional[int],
-    record_com: bool,
-    progress: _Report,
-) -> Dict[str, Any]: ...
+def simulate(trials: _Trials, record_com: bool, progress: _Report) -> Dict[str, Any]: ...
 def write_file(path: str, text: str) -> None: ...

@@ -7,7 +7,7 @@ import json
 import os
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, TypedDict, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -18,10 +18,31 @@ from .evolution import Evolution
 from .physics import count
 from .progress import Progress, reporting
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 __all__ = ["Circuit", "Compiled", "Port", "Program", "Report", "Swarm", "TestResult", "load", "loads"]
 
 Path = Union[str, "os.PathLike[str]"]
 Row = Union[Mapping[str, int], Sequence[int]]
+
+
+class _Compiling(TypedDict, total=False):
+    library: Optional[Path]
+    swarm: Optional[str]
+    objective: str
+    effort: str
+    runs: Path
+
+
+class _Testing(_Compiling, total=False):
+    level: Optional[str]
+    progress: Progress
+
+
+class _Running(_Compiling, total=False):
+    safe_colors: bool
+    progress: Progress
 
 
 @dataclass(frozen=True)
@@ -202,7 +223,7 @@ class Program:
                 interrupt.result = _report(*interrupt.result)
                 raise
 
-    def report(self, path: Path, **options: Any) -> Report:
+    def report(self, path: Path, **options: Unpack[_Running]) -> Report:
         """Runs the file as `run` does, and writes the page."""
         report = self.run(**options)
         report.save(path)
@@ -242,11 +263,11 @@ class Circuit:
         self.name = name
         """Its name."""
 
-    def compile(self, **options: Any) -> Compiled:
+    def compile(self, **options: Unpack[_Compiling]) -> Compiled:
         """Compiles it; see `Program.compile`."""
         return self.program.compile(self.name, **options)
 
-    def test(self, **options: Any) -> List[TestResult]:
+    def test(self, **options: Unpack[_Testing]) -> List[TestResult]:
         """Runs its tests; see `Program.test`."""
         return self.program.test(self.name, **options)
 
@@ -314,11 +335,11 @@ class Compiled:
         """A swarm at its start."""
         return Swarm(self)
 
-    def test(self, **options: Any) -> List[TestResult]:
+    def test(self, **options: Unpack[_Testing]) -> List[TestResult]:
         """Runs the circuit's tests; see `Program.test`."""
         return self.program.test(self.name, **options)
 
-    def report(self, path: Path, **options: Any) -> Report:
+    def report(self, path: Path, **options: Unpack[_Running]) -> Report:
         """Runs the program, and writes the page; see `Program.report`."""
         return self.program.report(path, **options)
 

@@ -66,7 +66,10 @@ class NbcError(Exception):
 
 
 class InternalError(NbcError):
-    """A fault of nbc itself. Please report it with the call that led to it."""
+    """A fault of nbc itself. Please report it with the call that led to it.
+
+    A `Flock`, `Search` or `Swarm` that was in use is lost: its later calls raise RuntimeError. All others work on.
+    """
 
 
 class Interrupted(KeyboardInterrupt):

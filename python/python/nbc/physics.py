@@ -98,20 +98,28 @@ def simulate(
     """
     if record not in (None, "com", "poses"):
         raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None")
+    every = count(stride, "stride", least=1)
     codes, shapes = pack(bodies)
-    words = pack_schedule(schedule)
-    place = (count(world_width, "world_width"), None if start_x is None else count(start_x, "start_x"))
-    native = pack_materials(materials)
+    trials: _nbc._Trials = {
+        "codes": codes,
+        "shapes": shapes,
+        "materials": pack_materials(materials),
+        "schedule": pack_schedule(schedule),
+        "world_width": count(world_width, "world_width"),
+        "start_x": None if start_x is None else count(start_x, "start_x"),
+    }
     with reporting(progress, " env steps") as report:
         try:
-            arrays = _nbc.simulate(codes, shapes, native, words, *place, record is not None, report)
+            arrays = _nbc.simulate(trials, record is not None, report)
         except Interrupted as interrupt:
             interrupt.result = _trajectories(interrupt.result)
             raise
     if record != "poses":
         return _trajectories(arrays)
-    every = count(stride, "stride", least=1)
-    flat, voxels = _nbc.record_poses(codes, shapes, native, words, *place, every, None)
+    try:
+        flat, voxels = _nbc.record_poses(trials, every, None)
+    except KeyboardInterrupt:
+        raise Interrupted(_trajectories(arrays)) from None
     corners = [np.array(each, dtype=np.intp).reshape(-1, 4) for each in voxels]
     frames = len(arrays["com"][0, ::every]) if flat else 0
     return _trajectories(arrays, [points.reshape(frames, -1, 2) for points in flat], corners)
