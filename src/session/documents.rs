@@ -14,7 +14,14 @@ pub(super) struct Documents {
     revisions: BTreeMap<String, u64>,
     /// The results that are still valid, by path.
     known: BTreeMap<String, Known>,
+    translations: Translations,
 }
+
+/// The last translation of each Verilog file with its text, by path. One that reads other files is not kept.
+type Translations = BTreeMap<String, (String, VerilogModules)>;
+
+/// What makes a Verilog text read other files.
+const READING: [&str; 2] = ["`include", "$readmem"];
 
 /// A checked source with its dependencies.
 struct Known {
@@ -25,7 +32,12 @@ struct Known {
 
 impl Documents {
     pub(super) fn new(world: Box<dyn SourceWorld + Send + Sync>) -> Self {
-        Self { world: OverlayWorld::new(world), revisions: BTreeMap::new(), known: BTreeMap::new() }
+        Self {
+            world: OverlayWorld::new(world),
+            revisions: BTreeMap::new(),
+            known: BTreeMap::new(),
+            translations: Translations::new(),
+        }
     }
 
     /// The world that sources and robots are read from.
@@ -54,8 +66,10 @@ impl Documents {
             return known.checked.clone();
         }
         let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
-        let asking = Asking { world: &self.world, asked: RefCell::default() };
+        let translations = RefCell::new(std::mem::take(&mut self.translations));
+        let asking = Asking { world: &self.world, asked: RefCell::default(), translations };
         let checked = Arc::new(Checked::read(&asking, path, revision));
+        self.translations = asking.translations.into_inner();
         let known = Known { checked: checked.clone(), asked: asking.asked.into_inner() };
         self.known.insert(path.to_owned(), known);
         checked
@@ -69,10 +83,11 @@ impl Documents {
     }
 }
 
-/// A world that records what was read.
+/// A world that records what was read, and translates no text twice.
 struct Asking<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
+    translations: RefCell<Translations>,
 }
 
 impl Asking<'_> {
@@ -93,7 +108,15 @@ impl SourceWorld for Asking<'_> {
     }
 
     fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        self.world.translate_verilog(path, text)
+        let known = self.translations.borrow().get(path).filter(|(known, _)| known == text).cloned();
+        if let Some((_, modules)) = known {
+            return Ok(modules);
+        }
+        let modules = self.world.translate_verilog(path, text)?;
+        if !READING.iter().any(|word| text.contains(word)) {
+            self.translations.borrow_mut().insert(path.to_owned(), (text.to_owned(), modules.clone()));
+        }
+        Ok(modules)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -108,6 +131,8 @@ impl SourceWorld for Asking<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
     use super::*;
     use crate::source::MemoryWorld;
 
@@ -152,6 +177,45 @@ mod tests {
         assert!(documents.checked("a.nb").has_errors());
         documents.update("b.nb", 1, INVERTER);
         assert_eq!(documents.checked("a.nb").diagnostics, []);
+    }
+
+    /// A world with a translator that counts its work.
+    struct Translating(MemoryWorld, Arc<AtomicUsize>);
+
+    impl SourceWorld for Translating {
+        fn read(&self, path: &str) -> Result<String, FileError> {
+            self.0.read(path)
+        }
+
+        fn translate_verilog(&self, _: &str, _: &str) -> Result<VerilogModules, VerilogError> {
+            self.1.fetch_add(1, Ordering::Relaxed);
+            let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
+            Ok(VerilogModules { blif, tops: vec!["f".to_owned()] })
+        }
+
+        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+            self.0.list(folder)
+        }
+    }
+
+    #[test]
+    fn a_verilog_text_is_translated_again_only_when_it_changes_or_reads_files() {
+        let mut world = MemoryWorld::default();
+        world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
+        world.insert("f.v", "module f(input a, output q);");
+        let count = Arc::new(AtomicUsize::new(0));
+        let mut documents = Documents::new(Box::new(Translating(world, count.clone())));
+        let mut check = |path, text: &str| {
+            documents.update(path, 0, text);
+            assert_eq!(documents.checked("a.nb").diagnostics, []);
+            count.load(Ordering::Relaxed)
+        };
+        let changed = "use \"f.v\"\ncircuit g(a) -> (q) { q = not f(a) }";
+        assert_eq!(check("a.nb", changed), 1);
+        assert_eq!(check("a.nb", &format!("{changed}\n")), 1);
+        assert_eq!(check("f.v", "module f(input b, output q);"), 2);
+        assert_eq!(check("f.v", "`include \"g.vh\""), 3);
+        assert_eq!(check("a.nb", changed), 4);
     }
 
     #[test]

@@ -52,6 +52,28 @@ fn synthesis_names_the_registers_that_it_removes() {
     abc_agrees(&bench, "dsec", "twice.bench", "once.blif");
 }
 
+/// The robots of a circuit of a program, and the tests of the program at the level of logic.
+fn robots(program: &str) -> usize {
+    let bench = Bench::new();
+    bench.file("a.nb", program);
+    assert_eq!(bench.run(&["test", "a.nb", "--logic"]).status, 0);
+    let json = bench.run(&["build", "a.nb", "--circuit", "both", "--emit", "json"]).expect_json();
+    json["cells"].as_array().unwrap().len()
+}
+
+#[test]
+fn two_counters_that_count_the_same_are_one() {
+    let both = |other: &str| {
+        format!(
+            "circuit count[start = 0](clk) -> (q[2]) {{\n    q = register[start = start](q xor {{q[0], 1}}, clk)\n}}\n\
+             circuit both(clk) -> (x[2], y[2]) {{\n    x = count(clk)\n    y = {other}(clk)\n}}\n\
+             test both {{\n    clk | x  y\n    0   | 00 --\n    1   | 01 --\n    0   | 01 --\n    1   | 10 --\n}}\n"
+        )
+    };
+    let (equal, unequal) = (robots(&both("count")), robots(&both("count[start = 1]")));
+    assert!(equal <= unequal / 2 + 1, "{equal} robots if both start alike, else {unequal}");
+}
+
 #[test]
 fn a_program_uses_a_circuit_without_them() {
     let bench = Bench::new();

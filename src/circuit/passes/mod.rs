@@ -2,11 +2,13 @@
 
 mod dissolve_wires;
 mod fold_constants;
+mod merge_registers;
 mod share;
 mod sweep;
 
 pub use dissolve_wires::DissolveWires;
 pub use fold_constants::FoldConstants;
+pub use merge_registers::MergeRegisters;
 pub use share::Share;
 pub use sweep::Sweep;
 
@@ -28,6 +30,8 @@ pub const ORDER: &[&dyn Pass] = &[
     // Before sharing: constants make different cells equal.
     &FoldConstants,
     &Share,
+    // After sharing, which merges their clocks.
+    &MergeRegisters,
     // Last, because other passes leave cells without receivers.
     &Sweep,
 ];

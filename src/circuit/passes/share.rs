@@ -28,23 +28,33 @@ impl Pass for Share {
     }
 }
 
-/// The function of a node and the nets it reads, with the pins of a cell in order of their numbers.
+/// The function of a constant or cell and the nets it reads, with the pins of a cell in order of their numbers.
 fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
+    function(netlist, id).map(|function| ordered(function, netlist.pins(id)))
+}
+
+/// The function of a constant or a cell.
+pub(super) fn function(netlist: &Netlist, id: NetId) -> Option<Function> {
     match netlist.node(id) {
-        Node::Constant(value) => Some((if *value { Function::ONE } else { Function::ZERO }, Vec::new())),
-        Node::Cell(cell) => {
-            let pins = netlist.pins(id);
-            match pins[..] {
-                [a, b] if b < a => Some((cell.function.swapped(), vec![b, a])),
-                _ => Some((cell.function, pins)),
-            }
-        }
+        Node::Constant(value) => Some(if *value { Function::ONE } else { Function::ZERO }),
+        Node::Cell(cell) => Some(cell.function),
         _ => None,
     }
 }
 
+/// A function with its pins in ascending order.
+pub(super) fn ordered<T: Ord>(function: Function, mut pins: Vec<T>) -> (Function, Vec<T>) {
+    match pins[..] {
+        [ref a, ref b] if b < a => {
+            pins.reverse();
+            (function.swapped(), pins)
+        }
+        _ => (function, pins),
+    }
+}
+
 /// Moves the receivers of `id` to `first`, which takes over the name if it has none.
-fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
+pub(super) fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
     for (listener, pin) in netlist.fanout(id) {
         netlist.drive(listener, pin, first);
     }

@@ -1,7 +1,7 @@
 //! Circuits and their statements.
 
 use crate::source::Span;
-use crate::syntax::format::expression::{expression, index, size};
+use crate::syntax::format::expression::{index, size};
 use crate::syntax::format::layout::{LayoutPiece, layout};
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{
@@ -54,15 +54,19 @@ impl Printer<'_> {
             }
             _ => statement.span.end,
         };
+        let pieces = match &statement.kind {
+            StatementKind::Drive { value, .. } => self.pieces(body, *value),
+            _ => Vec::new(),
+        };
         self.item_with_inside(statement.span, head, |printer| match &statement.kind {
             StatementKind::Nets(_) => printer.write(left),
             StatementKind::For { statements, .. } => {
                 printer.write(left);
                 printer.block(statement.span.end, |printer| printer.statements(body, statements));
             }
-            StatementKind::Drive { value, .. } => {
+            StatementKind::Drive { .. } => {
                 printer.write(&format!("{left:width$} = "));
-                let text = layout(&expression(body, *value), printer.column(), printer.indent);
+                let text = layout(&pieces, printer.column(), printer.indent);
                 printer.write(&text);
             }
         });

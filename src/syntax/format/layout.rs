@@ -10,6 +10,15 @@ pub(super) enum LayoutPiece {
     Text(String),
     /// A possible break of the surrounding group: this text on one line, else a line break.
     Break(&'static str),
+    /// Like a break, before a row of a table: there is no comma at the end of a line.
+    RowBreak(&'static str),
+    /// A comment, after which its group is broken.
+    Comment {
+        /// Where it begins in the source.
+        start: u32,
+        /// The comment, with the space before it.
+        text: String,
+    },
     /// Like a break, but it also ends the group's indentation.
     EndBreak(&'static str),
     /// Spaces that are printed only if the surrounding group is broken.
@@ -33,6 +42,7 @@ pub(super) fn layout(pieces: &[LayoutPiece], column: usize, indent: usize) -> St
                 out.push_str(text);
                 column += text.chars().count();
             }
+            LayoutPiece::Comment { text, .. } => out.push_str(text),
             LayoutPiece::Open => {
                 let outer = groups.iter().rev().find_map(|group| *group).unwrap_or(indent);
                 let inside_flat = matches!(groups.last(), Some(None));
@@ -45,7 +55,7 @@ pub(super) fn layout(pieces: &[LayoutPiece], column: usize, indent: usize) -> St
                 column += spaces;
             }
             LayoutPiece::Pad(_) => {}
-            LayoutPiece::Break(flat) | LayoutPiece::EndBreak(flat) => match broken {
+            LayoutPiece::Break(flat) | LayoutPiece::RowBreak(flat) | LayoutPiece::EndBreak(flat) => match broken {
                 None => {
                     out.push_str(flat);
                     column += flat.len();
@@ -53,18 +63,14 @@ pub(super) fn layout(pieces: &[LayoutPiece], column: usize, indent: usize) -> St
                 Some(inner) => {
                     let end = matches!(piece, LayoutPiece::EndBreak(_));
                     column = if end { inner - super::printer::INDENT } else { inner };
-                    out.push_str(if flat.starts_with(',') && !in_rows(pieces, at) { ",\n" } else { "\n" });
+                    let is_comma = matches!(piece, LayoutPiece::Break(flat) if flat.starts_with(','));
+                    out.push_str(if is_comma { ",\n" } else { "\n" });
                     out.extend(std::iter::repeat_n(' ', column));
                 }
             },
         }
     }
     out
-}
-
-/// Whether a broken comma separates rows, which end with their lines.
-fn in_rows(pieces: &[LayoutPiece], at: usize) -> bool {
-    matches!(pieces.get(at + 1), Some(LayoutPiece::Text(text)) if text.ends_with(':'))
 }
 
 /// The width of each group on one line, including the text after it up to the next possible break.
@@ -81,10 +87,12 @@ fn flat_widths(pieces: &[LayoutPiece]) -> Vec<usize> {
                 total += width;
                 after += width;
             }
-            LayoutPiece::Break(flat) | LayoutPiece::EndBreak(flat) => {
+            LayoutPiece::Break(flat) | LayoutPiece::RowBreak(flat) | LayoutPiece::EndBreak(flat) => {
                 total += flat.len();
                 after = 0;
             }
+            // Too wide for all groups that it is in.
+            LayoutPiece::Comment { .. } => total += WIDTH + 1,
             LayoutPiece::Pad(_) => {}
             LayoutPiece::Close => ends.push(total - after),
             LayoutPiece::Open => {

@@ -154,6 +154,22 @@ mod tests {
     }
 
     #[test]
+    fn comments_in_tables_stay_at_their_rows() {
+        check(
+            "circuit f(a, b) -> (q) {\n// before\nq = table(a, b) { // zeros\n00: 0 // nothing\n// ones\n11: table(a) \
+             {0: 0 // low\n 1: 1}\nelse: 0,\n// the end\n} // behind\n// last\n}",
+            "circuit f(a, b) -> (q) {\n    // before\n    q = table(a, b) {\n        // zeros\n        00:   0  // \
+             nothing\n        // ones\n        11:   table(a) {\n            0: 0  // low\n            1: 1\n        \
+             }\n        else: 0\n        // the end\n    }  // behind\n    // last\n}\n",
+        );
+        check(
+            "circuit f(a) -> (q) { q = nand(a, // one\n table(a) { 0: 1\n// two\n else: 0 }) }",
+            "circuit f(a) -> (q) {\n    // one\n    q = nand(\n        a,\n        table(a) {\n            0:    1\n            // \
+             two\n            else: 0\n        }\n    )\n}\n",
+        );
+    }
+
+    #[test]
     fn long_expressions_are_broken_at_their_operands() {
         let name = "a_rather_long_name_of_a_net";
         let text = format!("circuit f(a) -> (q) {{ q = nand({name}, {name}, {name} and {name}) or {name} }}");

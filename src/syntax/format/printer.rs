@@ -1,6 +1,11 @@
 //! The output of the formatter: lines with their indentation, and the comments and blank lines of the source.
 
+use std::collections::BTreeSet;
+
 use crate::source::Span;
+use crate::syntax::format::expression::{Written, expression};
+use crate::syntax::format::layout::LayoutPiece;
+use crate::syntax::tree::{BodySyntax, ExpressionSyntaxId};
 
 /// Spaces per level of indentation.
 pub(super) const INDENT: usize = 4;
@@ -11,6 +16,8 @@ pub(super) struct Printer<'a> {
     comments: &'a [Span],
     /// The index of the first comment that is not yet printed.
     next: usize,
+    /// The places of comments that are printed inside a piece of text.
+    placed: BTreeSet<u32>,
     out: String,
     pub(super) indent: usize,
     /// The end of the last printed item in the source; `None` at the start of a block.
@@ -21,7 +28,16 @@ pub(super) struct Printer<'a> {
 
 impl<'a> Printer<'a> {
     pub(super) fn new(source: &'a str, comments: &'a [Span]) -> Self {
-        Self { source, comments, next: 0, out: String::new(), indent: 0, last: None, separate: false }
+        Self {
+            source,
+            comments,
+            next: 0,
+            placed: BTreeSet::new(),
+            out: String::new(),
+            indent: 0,
+            last: None,
+            separate: false,
+        }
     }
 
     /// The whole text, with the comments after the last declaration.
@@ -113,11 +129,24 @@ impl<'a> Printer<'a> {
     /// Prints the comments that begin before a place, each on its own line.
     pub(super) fn comments_until(&mut self, place: u32) {
         while let Some(comment) = self.comments.get(self.next).filter(|comment| comment.start < place) {
-            self.new_line(comment.start);
-            self.write(self.source[comment.range()].trim_end());
-            self.last = Some(comment.end);
+            if !self.placed.contains(&comment.start) {
+                self.new_line(comment.start);
+                self.write(self.source[comment.range()].trim_end());
+                self.last = Some(comment.end);
+            }
             self.next += 1;
         }
+    }
+
+    /// The pieces of an expression. The comments in them are not printed again.
+    pub(super) fn pieces(&mut self, body: &BodySyntax, id: ExpressionSyntaxId) -> Vec<LayoutPiece> {
+        let pieces = expression(Written { body, source: self.source, comments: self.comments }, id);
+        let starts = pieces.iter().filter_map(|piece| match piece {
+            LayoutPiece::Comment { start, .. } => Some(*start),
+            _ => None,
+        });
+        self.placed.extend(starts);
+        pieces
     }
 
     /// Prints the next comment if it follows the last printed item on the same line.
