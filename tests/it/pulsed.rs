@@ -80,7 +80,7 @@ fn counts(body: &str, library: &CellLibrary) -> (usize, usize, Vec<WhyKept>) {
 fn data_that_change_too_early_are_delayed_by_two_cells() {
     let shift = "circuit memory(a, clk) -> (q[4]) {\n    q = register({q[2..0], a}, clk)\n}\n";
     assert_eq!(counts(shift, &quick()), (4, 6, vec![]));
-    let toggle = "circuit memory(clk) -> (q[2]) {\n    q = register(not q, clk)\n}\n";
+    let toggle = "circuit memory(clk) -> (q[2]) {\n    q = register[start = 1](not q, clk)\n}\n";
     assert_eq!(counts(toggle, &quick()), (2, 0, vec![]));
 }
 
@@ -88,7 +88,7 @@ fn data_that_change_too_early_are_delayed_by_two_cells() {
 fn registers_stay_flip_flops_where_pulses_are_not_proved() {
     let mut slow = quick();
     slow.insert(Function::NAND, CellKind::uniform(2, 1.0));
-    let toggle = "circuit memory(clk) -> (q[2]) {\n    q = register(not q, clk)\n}\n";
+    let toggle = "circuit memory(clk) -> (q[2]) {\n    q = register[start = 1](not q, clk)\n}\n";
     assert_eq!(counts(toggle, &slow), (0, 0, vec![WhyKept::FastData; 2]));
     let other = CellLibrary::uniform([Function::AND, Function::OR, Function::NOT]);
     assert_eq!(counts(toggle, &other), (0, 0, vec![WhyKept::OtherForm; 2]));

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use batsat::SolverInterface;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
@@ -49,9 +50,9 @@ impl Comparison {
         Ok(())
     }
 
-    /// The number of calls of the solver so far.
-    pub fn calls(&self) -> usize {
-        self.sweep.calls
+    /// The work of the solver so far: its calls, and its propagations.
+    pub fn work(&self) -> [u64; 2] {
+        [self.sweep.calls as u64, self.sweep.solver.batsat_ref().num_propagations()]
     }
 
     /// The number of signals that were compared so far.

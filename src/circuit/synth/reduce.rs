@@ -299,7 +299,7 @@ impl Round {
     fn of(effort: Effort) -> Self {
         match effort {
             Effort::Fast => Self { near: 2, most_near: 100_000, far: 0, most_far: 0, work: 0 },
-            Effort::Normal => Self { near: 20, most_near: 100_000, far: 16, most_far: 8_000, work: 2_400_000 },
+            Effort::Normal => Self { near: 26, most_near: 130_000, far: 20, most_far: 10_000, work: 3_000_000 },
             Effort::High => Self { near: 40, most_near: 400_000, far: 30, most_far: 20_000, work: 9_000_000 },
         }
     }

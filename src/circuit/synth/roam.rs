@@ -14,11 +14,13 @@ const WORDS: usize = 32;
 const MOST_WORDS: usize = 128;
 /// Visits between two proofs: initial, smallest and largest number.
 const BATCH: [u64; 3] = [32, 8, 1_000];
+/// Propagations of the solver that take about as long as a visit.
+const PROPAGATIONS: u64 = 4_000;
 /// The most signals that a comparison collects, as a multiple of those of the network.
 const MOST_SIGNALS: usize = 6;
 
-/// Searches for a cheaper network in `plan.visits` visits, each call of the solver counted as one. Every network that
-/// it passes through is proved equal to the first.
+/// Searches for a cheaper network in `plan.visits` visits. Each call of the solver counts as one, and so do
+/// [`PROPAGATIONS`] of its propagations. Every network that it passes through is proved equal to the first.
 pub fn roam(
     network: &Network,
     prices: &Prices,
@@ -40,9 +42,10 @@ pub fn roam(
         if plan.is_cancelled() {
             break;
         }
-        let calls = comparison.calls();
+        let before = comparison.work();
         let compared = comparison.compare(&next);
-        work += batch + (comparison.calls() - calls) as u64;
+        let [calls, propagations] = [0, 1].map(|i| comparison.work()[i] - before[i]);
+        work += batch + calls + propagations / PROPAGATIONS;
         match compared {
             Ok(()) => {
                 now = next;

@@ -1,7 +1,7 @@
 //! Circuits and their statements.
 
 use crate::source::Span;
-use crate::syntax::format::expression::{index, size};
+use crate::syntax::format::expression::{Written, expression, index, size};
 use crate::syntax::format::layout::{LayoutPiece, layout};
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{
@@ -55,9 +55,13 @@ impl Printer<'_> {
             _ => statement.span.end,
         };
         let pieces = match &statement.kind {
-            StatementKind::Drive { value, .. } => self.pieces(body, *value),
+            StatementKind::Drive { value, .. } => {
+                let (source, comments) = self.source();
+                expression(Written { body, source, comments }, *value)
+            }
             _ => Vec::new(),
         };
+        self.place(places(&pieces));
         self.item_with_inside(statement.span, head, |printer| match &statement.kind {
             StatementKind::Nets(_) => printer.write(left),
             StatementKind::For { statements, .. } => {
@@ -71,6 +75,14 @@ impl Printer<'_> {
             }
         });
     }
+}
+
+/// Where the comments in pieces begin.
+fn places(pieces: &[LayoutPiece]) -> impl Iterator<Item = u32> {
+    pieces.iter().filter_map(|piece| match piece {
+        LayoutPiece::Comment { start, .. } => Some(*start),
+        _ => None,
+    })
 }
 
 /// The text before the `=` or the block of a statement.

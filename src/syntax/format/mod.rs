@@ -164,8 +164,8 @@ mod tests {
         );
         check(
             "circuit f(a) -> (q) { q = nand(a, // one\n table(a) { 0: 1\n// two\n else: 0 }) }",
-            "circuit f(a) -> (q) {\n    // one\n    q = nand(\n        a,\n        table(a) {\n            0:    1\n            // \
-             two\n            else: 0\n        }\n    )\n}\n",
+            "circuit f(a) -> (q) {\n    // one\n    q = nand(\n        a,\n        table(a) {\n            0:    1\n \
+             \x20          // two\n            else: 0\n        }\n    )\n}\n",
         );
     }
 

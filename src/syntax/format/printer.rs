@@ -3,9 +3,6 @@
 use std::collections::BTreeSet;
 
 use crate::source::Span;
-use crate::syntax::format::expression::{Written, expression};
-use crate::syntax::format::layout::LayoutPiece;
-use crate::syntax::tree::{BodySyntax, ExpressionSyntaxId};
 
 /// Spaces per level of indentation.
 pub(super) const INDENT: usize = 4;
@@ -138,15 +135,14 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The pieces of an expression. The comments in them are not printed again.
-    pub(super) fn pieces(&mut self, body: &BodySyntax, id: ExpressionSyntaxId) -> Vec<LayoutPiece> {
-        let pieces = expression(Written { body, source: self.source, comments: self.comments }, id);
-        let starts = pieces.iter().filter_map(|piece| match piece {
-            LayoutPiece::Comment { start, .. } => Some(*start),
-            _ => None,
-        });
+    /// The source, and the places of its comments.
+    pub(super) fn source(&self) -> (&'a str, &'a [Span]) {
+        (self.source, self.comments)
+    }
+
+    /// Leaves out the comments at these places, because they are inside a piece of text.
+    pub(super) fn place(&mut self, starts: impl IntoIterator<Item = u32>) {
         self.placed.extend(starts);
-        pieces
     }
 
     /// Prints the next comment if it follows the last printed item on the same line.
