@@ -1,6 +1,6 @@
 // Bundles the extension into dist/, with the notices of the packages that are in it; with --tests, the tests into build/.
 
-import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 
 import { build } from "esbuild";
@@ -37,6 +37,8 @@ function notices(files) {
 }
 
 async function tests() {
+  // What is there is run, so tests of before must not be.
+  rmSync("build/test", { recursive: true, force: true });
   const files = readdirSync("test").filter(file => file.endsWith(".test.ts"));
   await build({
     ...common,
@@ -44,7 +46,9 @@ async function tests() {
     outdir: "build/test",
     format: "esm",
     outExtension: { ".js": ".mjs" },
-    banner: { js: "import { createRequire } from 'node:module'; const require = createRequire(import.meta.url);" },
+    banner: {
+      js: "import { createRequire as requireOf } from 'node:module'; const require = requireOf(import.meta.url);",
+    },
     sourcemap: "inline",
   });
 }

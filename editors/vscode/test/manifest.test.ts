@@ -41,6 +41,16 @@ test("the version is that of the project, and the files of the manifest exist", 
   files.forEach(file => assert.ok(existsSync(file), file));
 });
 
+test("the bundle has the notices of its packages", () => {
+  const notices = readFileSync("dist/NOTICES.txt", "utf8");
+  const bundle = JSON.parse(readFileSync("package-lock.json", "utf8")).packages;
+  const packed = Object.entries<{ dev?: boolean; version: string }>(bundle).filter(([name, { dev }]) => name && !dev);
+  assert.ok(packed.length > 5);
+  for (const [folder, { version }] of packed) {
+    assert.ok(notices.includes(`\n${folder.replace("node_modules/", "")} ${version} (`), folder);
+  }
+});
+
 test("a workspace that is not trusted cannot name the program", () => {
   const { supported, restrictedConfigurations } = manifest.capabilities.untrustedWorkspaces;
   assert.equal(supported, "limited");

@@ -83,7 +83,8 @@ export class Items implements vscode.Disposable {
     }
     const known = this.controller.items.get(key);
     const item = known ?? this.controller.createTestItem(key, path.basename(file.fsPath), file);
-    item.description = vscode.workspace.asRelativePath(vscode.Uri.joinPath(file, ".."));
+    const folder = path.dirname(vscode.workspace.asRelativePath(file));
+    item.description = folder === "." ? "" : folder;
     const names = new Map<string, number>();
     const children = tests.map((test, at) => {
       const name = `${test.circuit} ${test.title}`;

@@ -1,7 +1,14 @@
 // The language server `nbc lsp`, and the client that vscode-languageclient makes of this editor.
 
 import * as vscode from "vscode";
-import { ExecuteCommandRequest, LanguageClient, type LanguageClientOptions } from "vscode-languageclient/node";
+import {
+  CodeLensRequest,
+  DidChangeConfigurationNotification,
+  ExecuteCommandRequest,
+  InlayHintRequest,
+  LanguageClient,
+  type LanguageClientOptions,
+} from "vscode-languageclient/node";
 
 import { type Order, shownOf } from "../core/outcome";
 import type { Panel } from "./panel";
@@ -19,20 +26,27 @@ export class Server implements vscode.Disposable {
   /** Starts and stops wait for each other. */
   private last: Promise<void> = Promise.resolve();
   private readonly watcher = vscode.workspace.createFileSystemWatcher(WATCHED);
-  private readonly subscription: vscode.Disposable;
+  private readonly subscriptions: vscode.Disposable[];
 
   constructor(
     private readonly program: Program,
     private readonly log: vscode.LogOutputChannel,
     private readonly panel: Panel,
   ) {
-    this.subscription = program.onDidMove(() => this.restart());
+    this.subscriptions = [
+      this.watcher,
+      program.onDidMove(() => this.restart()),
+      vscode.workspace.onDidChangeConfiguration(change => change.affectsConfiguration("nbc") && this.tellSettings()),
+    ];
   }
 
   /** Stops the server, if it runs, and starts it. */
   restart(): Promise<void> {
-    this.last = this.last.then(() => this.stop()).then(() => this.start());
-    return this.last.catch((error: unknown) => this.log.error(`the language server did not start: ${error}`));
+    this.last = this.last
+      .then(() => this.stop())
+      .then(() => this.start())
+      .catch((error: unknown) => this.log.error(`the language server did not start: ${error}`));
+    return this.last;
   }
 
   /** Stops the server; the window closes. */
@@ -56,8 +70,7 @@ export class Server implements vscode.Disposable {
   }
 
   dispose(): void {
-    this.subscription.dispose();
-    this.watcher.dispose();
+    this.subscriptions.forEach(one => one.dispose());
   }
 
   private async start(): Promise<void> {
@@ -76,11 +89,26 @@ export class Server implements vscode.Disposable {
     await client?.dispose().catch((error: unknown) => this.log.warn(String(error)));
   }
 
+  /** Tells the server its settings, and asks again for the lenses and hints that they switch on and off. */
+  private async tellSettings(): Promise<void> {
+    // The next server starts with them.
+    await this.last;
+    const client = this.client;
+    if (!client?.isRunning()) {
+      return;
+    }
+    await client.sendNotification(DidChangeConfigurationNotification.type, { settings: { nbc: settings() } });
+    for (const document of vscode.workspace.textDocuments) {
+      client.getFeature(CodeLensRequest.method).getProvider(document)?.onDidChangeCodeLensEmitter.fire();
+      client.getFeature(InlayHintRequest.method).getProvider(document)?.onDidChangeInlayHints.fire();
+    }
+  }
+
   private options(): LanguageClientOptions {
     return {
       documentSelector: [{ scheme: "file", language: "nb" }],
-      synchronize: { configurationSection: "nbc", fileEvents: this.watcher },
-      initializationOptions: vscode.workspace.getConfiguration("nbc"),
+      synchronize: { fileEvents: this.watcher },
+      initializationOptions: settings(),
       outputChannel: this.log,
       middleware: { executeCommand: (command, args) => this.perform(command, args) },
     };
@@ -102,4 +130,8 @@ export class Server implements vscode.Disposable {
       }
     }
   }
+}
+
+function settings(): vscode.WorkspaceConfiguration {
+  return vscode.workspace.getConfiguration("nbc");
 }
