@@ -20,6 +20,8 @@ START = """
 import os, signal, threading
 import numpy as np
 import nbc
+# A shell starts programs in the background with Ctrl-C ignored, and with them these tests.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 bodies = np.full((8, 4, 4), 3, dtype=np.uint8)
 def interrupt(): os.kill(os.getpid(), signal.SIGINT)
 class Once:
@@ -121,9 +123,10 @@ def test_an_evaluation_keeps_its_results():
         try:
             nbc.evaluate(many, progress=Once())
         except nbc.Interrupted as end:
-            print(len(end.result), bool((end.result.outcome == "stopped").any()))
+            stopped = end.result.outcome == "stopped"
+            print(len(end.result), bool(stopped.any()), bool((stopped == (end.result.faults["kind"] == "stopped")).all()))
     """)
-    assert out == "4000 True\n"
+    assert out == "4000 True True\n"
 
 
 def test_poses_that_are_interrupted_leave_the_results_of_the_simulation():

@@ -132,7 +132,15 @@ def test_a_flock_can_be_used_from_several_threads(walkers):
 
 def test_progress_is_reported(walkers):
     seen = []
-    nbc.simulate(np.repeat(walkers, 40, axis=0), "00*20", progress=lambda done, all: seen.append((done, all)))
-    assert seen and all(0 < done <= all == 480 * 1680 for done, all in seen)
+    nbc.simulate(np.repeat(walkers, 4, axis=0), "00*20", progress=lambda done, all: seen.append((done, all)))
+    assert seen and all(0 < done <= all == 48 * 1680 for done, all in seen)
     assert seen == sorted(seen)
     nbc.simulate(walkers, "00*1", progress=True)
+
+
+def test_poses_are_half_of_the_progress(walkers):
+    seen = []
+    many = np.repeat(walkers, 4, axis=0)
+    nbc.simulate(many, "00*10", record="poses", progress=lambda done, all: seen.append((done, all)))
+    assert seen == sorted(seen) and all(all_ == 2 * 48 * 840 for _, all_ in seen)
+    assert seen[0][0] <= 48 * 840 < seen[-1][0]
