@@ -10,10 +10,12 @@ on the machine matters little. Needs Evolution Gym (Python up to 3.10).
 
 from __future__ import annotations
 
+import os
 import platform
 import sys
 import time
 from importlib.metadata import version
+from pathlib import Path
 from typing import Callable, Tuple
 
 import numpy as np
@@ -60,6 +62,14 @@ def timed(work: Callable[[], npt.NDArray[np.float64]]) -> Tuple[float, npt.NDArr
     return best, result
 
 
+def machine() -> str:
+    """The processor with its cores, and the versions."""
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
+    return (f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
+            f"Evolution Gym {version('evogym')}, nbc {nbc.__version__}")
+
+
 def main() -> None:
     """Prints a table of env steps per second of CPU time."""
     numbers = [int(word) for word in sys.argv[1:]]
@@ -79,8 +89,7 @@ def main() -> None:
         best, walked = timed(lambda: ours(batch))
         rows.append((words, len(batch) * steps / best))
     difference = np.abs(walked[:count] - np.array([moved for _, moved in theirs])).max()
-    print(f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, "
-          f"Evolution Gym {version('evogym')}, nbc {nbc.__version__}")
+    print(f"{time.strftime('%Y-%m-%d')}: {machine()}")
     print(f"{count} bodies of {SIDE} x {SIDE}, {cycles} cycles of {nbc.CYCLE_STEPS} env steps, ground {ground}")
     for words, speed in rows:
         print(f"{words:36} {speed:12,.0f} env steps/CPU s {speed / rows[0][1]:8.1f} x")
