@@ -1,4 +1,4 @@
-"""A loop of one's own: robots that are steered to stay near their start.
+"""Closed-loop control: robots that are steered to stay near their start.
 
 Each robot of the library that walks right under one pattern and left under another gets, cycle by cycle, the pattern
 that leads it back.

@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 use crate::bodies::bodies;
 use crate::errors::bad_value;
 use crate::evolution::Evolution;
-use crate::physics::{STOPPED, setting};
+use crate::physics::{STOPPED, set_faults, setting};
 use crate::work::{self, Watch, at_once};
 
 /// Bodies that are evaluated in one go, so that an interrupt keeps the results of those before.
@@ -57,6 +57,11 @@ pub fn into_python<'py>(
     results.set_item("displacement", displacement.into_pyarray(py).reshape([count, 4])?)?;
     results.set_item("behavior", behavior)?;
     results.set_item("niche", niche.into_pyarray(py).reshape([count, axes])?)?;
+    let fault = |outcome: &CandidateOutcome| match outcome {
+        CandidateOutcome::Faulty(fault) => Some(*fault),
+        _ => None,
+    };
+    set_faults(&results, outcomes.iter().map(fault))?;
     Ok(results)
 }
 

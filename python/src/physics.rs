@@ -195,10 +195,15 @@ fn arrays<'py>(
     arrays.set_item("displacement", results.displacement.into_pyarray(py).reshape([robots, spells])?)?;
     let com = com.map(|(com, moments)| com.into_pyarray(py).reshape([robots, moments, 2])).transpose()?;
     arrays.set_item("com", com)?;
-    let (steps, kinds): (Vec<u32>, Vec<&str>) = results.faults.into_iter().map(fault_words).unzip();
-    arrays.set_item("fault_step", steps.into_pyarray(py))?;
-    arrays.set_item("fault_kind", kinds)?;
+    set_faults(&arrays, results.faults.into_iter())?;
     Ok(arrays)
+}
+
+/// Adds the env step and the kind of each fault.
+pub fn set_faults(arrays: &Bound<'_, PyDict>, faults: impl Iterator<Item = Option<Fault>>) -> PyResult<()> {
+    let (steps, kinds): (Vec<u32>, Vec<&str>) = faults.map(fault_words).unzip();
+    arrays.set_item("fault_step", steps.into_pyarray(arrays.py()))?;
+    arrays.set_item("fault_kind", kinds)
 }
 
 /// Simulates each body from a fresh start under the schedule.

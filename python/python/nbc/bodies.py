@@ -36,7 +36,7 @@ class Robot:
 
     name: str
     function: str
-    """The gate that it is."""
+    """The function that it computes as a gate, such as ``nand``."""
     behavior: str
     """Which way it walks under the patterns 00, 01, 10, 11: a letter L or R for each."""
     body: Codes = field(repr=False)
@@ -46,7 +46,7 @@ class Robot:
     character: Mapping[str, Any] = field(repr=False)
     """Its clock, margin, error rate and settle times as a gate."""
     provenance: Mapping[str, Any] = field(repr=False)
-    """The run that made it."""
+    """The evolution that made it, with seed and version."""
     materials: Tuple[Material, ...] = field(repr=False)
     """The materials of its codes."""
 

@@ -364,7 +364,7 @@ class Swarm:
 
     def __init__(self, compiled: Compiled) -> None:
         self.compiled = compiled
-        """What it is made of."""
+        """The compiled circuit."""
         self._native = compiled._native.swarm()
 
     def step(self, values: Optional[Row] = None, *, cycles: int = 1, **ports: int) -> Dict[str, int]:

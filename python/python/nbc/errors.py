@@ -21,7 +21,7 @@ class Span:
     start_byte: int
     end_byte: int
     text: str
-    """What the label of the place says."""
+    """The label of the place."""
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}"
@@ -42,7 +42,7 @@ class Diagnostic:
 
     @property
     def span(self) -> Optional[Span]:
-        """The main place; None if the diagnostic is about no text."""
+        """The main place; None for a diagnostic without a place in a text."""
         return self.labels[0] if self.labels else None
 
     def __str__(self) -> str:

@@ -2,8 +2,8 @@
 
 Evolution Gym numbers its voxels 0 empty, 1 rigid, 2 soft, 3 horizontal actuator, 4 vertical actuator, and an array of
 connections says which neighbors are joined. Bodies of nbc are always joined to all neighbors, and their code 4 is a
-horizontal actuator in antiphase. Codes 0 to 3 mean the same in both. What one side does not have is refused with the
-reason, never changed in silence.
+horizontal actuator in antiphase. Codes 0 to 3 mean the same in both. A body with something that the other side lacks
+is refused with the reason, never changed silently.
 
 Evolution Gym itself is not needed.
 """

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _nbc
 from .bodies import Bodies, pack
 from .errors import Interrupted
+from .physics import fault_array
 from .progress import Progress, reporting
 
 __all__ = ["Evaluation", "Evolution", "evaluate"]
@@ -129,11 +130,22 @@ class Evaluation:
     """The results of N bodies by the protocol of an evolution."""
 
     outcome: npt.NDArray[np.str_]
-    """For each body ``measured``; ``inconsistent`` if it walks one way under a constant pattern and the other way under
-    the same pattern in the long simulation, or hopeless as a gate; ``surpassed`` if it cannot enter its niche;
-    ``faulty`` if a simulation failed; ``stopped`` if Ctrl-C ended it. Shape (N,)."""
+    """The outcome of each body, shape (N,):
+
+    - ``measured``: it has scores.
+    - ``inconsistent``: it walks one way under a constant pattern and the other way under the same pattern in the long
+      simulation; or, by the objective ``gate``, its first fitness is too low.
+    - ``surpassed``: it cannot enter its niche.
+    - ``faulty``: one of its simulations failed.
+    - ``stopped``: Ctrl-C ended its evaluation.
+    """
     fitness: npt.NDArray[np.float64] = field(repr=False)
-    """The two fitnesses, shape (N, 2); NaN for bodies that were not measured."""
+    """The two fitnesses, shape (N, 2); NaN for bodies that were not measured.
+
+    By the objective ``distance``, in voxels: the sum of the distances of the long simulation, and the smallest distance
+    of the fixed ones. By ``gate``, from 0 to 1: the scores of the displacement from the clock of a hold on, and in
+    holds whose output stays (docs/evolution.md).
+    """
     displacement: npt.NDArray[np.float64] = field(repr=False)
     """Voxels walked in the fixed simulations under the patterns 00, 01, 10, 11, shape (N, 4)."""
     behavior: npt.NDArray[np.str_] = field(repr=False)
@@ -141,6 +153,8 @@ class Evaluation:
     niche: Optional[npt.NDArray[np.int32]] = field(default=None, repr=False)
     """The bin on each axis of the archive, from 0; on the axis ``behavior`` the bits of the function. -1 for bodies
     that were not measured. Shape (N, axes)."""
+    faults: Optional[npt.NDArray[Any]] = field(default=None, repr=False)
+    """For each body the env step that was abandoned (0 for none) and the reason, as in `Trajectories`."""
 
     @property
     def measured(self) -> npt.NDArray[np.bool_]:
@@ -195,6 +209,7 @@ def of_arrays(arrays: Mapping[str, Any]) -> Evaluation:
         displacement=arrays["displacement"],
         behavior=np.array(arrays["behavior"], dtype="U4"),
         niche=arrays["niche"],
+        faults=fault_array(arrays),
     )
 
 

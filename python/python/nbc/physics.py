@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _nbc
 from .bodies import Bodies, Material, pack, pack_materials
 from .errors import Interrupted
-from .progress import Progress, reporting
+from .progress import Progress, part, reporting
 
 __all__ = ["CYCLE_STEPS", "Flock", "Schedule", "Trajectories", "simulate"]
 
@@ -82,7 +82,8 @@ def simulate(
         record: ``"com"`` keeps the path of the center of mass, ``"poses"`` also all points every ``stride`` env steps
             (which takes about twice the time), None only displacements.
         stride: env steps between poses.
-        progress: whether to show a tqdm bar, or a function of the env steps done and all env steps.
+        progress: whether to show a tqdm bar, or a function of the env steps done and all env steps. Those of poses
+            count twice.
 
     Raises:
         TypeError: for arrays that are not of integers, and arguments of other types.
@@ -109,17 +110,18 @@ def simulate(
         "start_x": None if start_x is None else count(start_x, "start_x"),
     }
     with reporting(progress, " env steps") as report:
+        passes = 2 if record == "poses" else 1
         try:
-            arrays = _nbc.simulate(trials, record is not None, report)
+            arrays = _nbc.simulate(trials, record is not None, part(report, 0, passes))
         except Interrupted as interrupt:
             interrupt.result = _trajectories(interrupt.result)
             raise
-    if record != "poses":
-        return _trajectories(arrays)
-    try:
-        flat, voxels = _nbc.record_poses(trials, every, None)
-    except KeyboardInterrupt:
-        raise Interrupted(_trajectories(arrays)) from None
+        if record != "poses":
+            return _trajectories(arrays)
+        try:
+            flat, voxels = _nbc.record_poses(trials, every, part(report, 1, passes))
+        except KeyboardInterrupt:
+            raise Interrupted(_trajectories(arrays)) from None
     corners = [np.array(each, dtype=np.intp).reshape(-1, 4) for each in voxels]
     frames = len(arrays["com"][0, ::every]) if flat else 0
     return _trajectories(arrays, [points.reshape(frames, -1, 2) for points in flat], corners)
@@ -128,7 +130,7 @@ def simulate(
 class Flock:
     """Robots that are advanced step by step, each alone in its own simulation with its own stimuli.
 
-    For those who close loops of their own. A flock can be used from several threads: calls wait for each other. It is
+    For closed-loop control and other experiments step by step. A flock can be used from several threads: calls wait for each other. It is
     closed with `close` or at the end of a ``with`` block.
 
     >>> import nbc
@@ -257,6 +259,13 @@ def count(value: Any, name: str, least: int = 0, most: int = 2**31) -> int:
     return number
 
 
+def fault_array(arrays: Mapping[str, Any]) -> npt.NDArray[Any]:
+    """The faults of the native half."""
+    faults = np.empty(len(arrays["fault_step"]), dtype=FAULTS)
+    faults["env_step"], faults["kind"] = arrays["fault_step"], arrays["fault_kind"]
+    return faults
+
+
 def _pattern(pattern: Any) -> str:
     if not isinstance(pattern, str):
         raise TypeError(f"{pattern!r} is not a pattern; expected digits such as '01'")
@@ -268,6 +277,4 @@ def _trajectories(
     poses: Optional[List[npt.NDArray[np.float64]]] = None,
     voxels: Optional[List[npt.NDArray[np.intp]]] = None,
 ) -> Trajectories:
-    faults = np.empty(len(arrays["fault_step"]), dtype=FAULTS)
-    faults["env_step"], faults["kind"] = arrays["fault_step"], arrays["fault_kind"]
-    return Trajectories(arrays["displacement"], arrays["com"], faults, poses, voxels)
+    return Trajectories(arrays["displacement"], arrays["com"], fault_array(arrays), poses, voxels)
