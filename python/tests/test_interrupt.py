@@ -124,7 +124,8 @@ def test_an_evaluation_keeps_its_results():
             nbc.evaluate(many, progress=Once())
         except nbc.Interrupted as end:
             stopped = end.result.outcome == "stopped"
-            print(len(end.result), bool(stopped.any()), bool((stopped == (end.result.faults["kind"] == "stopped")).all()))
+            same = stopped == (end.result.faults["kind"] == "stopped")
+            print(len(end.result), bool(stopped.any()), bool(same.all()))
     """)
     assert out == "4000 True True\n"
 

@@ -51,7 +51,8 @@ def test_a_flock_is_inherited_by_a_fork():
             assert os.waitpid(child, 0)[1] == 0
         print("done")
     """
-    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=LONGEST)
+    command = [sys.executable, "-c", textwrap.dedent(code)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
     assert done.returncode == 0 and done.stdout.count("done") == 2, done.stderr
 
 

@@ -130,8 +130,8 @@ def simulate(
 class Flock:
     """Robots that are advanced step by step, each alone in its own simulation with its own stimuli.
 
-    For closed-loop control and other experiments step by step. A flock can be used from several threads: calls wait for each other. It is
-    closed with `close` or at the end of a ``with`` block.
+    For closed-loop control and other experiments step by step. A flock can be used from several threads: calls wait for
+    each other. It is closed with `close` or at the end of a ``with`` block.
 
     >>> import nbc
     >>> with nbc.Flock([["343", "563"]]) as flock:
