@@ -11,7 +11,7 @@ let server: Server | undefined;
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
   const log = vscode.window.createOutputChannel("nbc", { log: true });
-  const program = new Program(vscode.Uri.joinPath(context.extensionUri, "README.md"), log);
+  const program = new Program(vscode.Uri.joinPath(context.extensionUri, "INSTALL.md"), log);
   const panel = new Panel();
   const explorer = new Explorer(program, log);
   const started = new Server(program, log, panel);

@@ -143,6 +143,21 @@ test("a run that is cancelled skips its tests", async () => {
   assert.ok(!run.states.some(state => /^(passed|failed)/.test(state)), run.states.join());
 });
 
+test("a continuous run runs a file's tests when it is saved, until it is stopped", async () => {
+  const editor = editorWith("tested.nb", TESTED);
+  await activate(editor);
+  const source = new editor.CancellationTokenSource();
+  await editor.profiles.get("Run as Logic")!({ continuous: true }, source.token);
+  assert.equal(editor.runs.length, 0);
+  const passed = new Promise(resolve => (editor.changed = (_, state) => state === "passed" && resolve(state)));
+  editor.saved.fire(editor.documents[0]!);
+  await passed;
+  assert.equal(editor.runs.length, 1);
+  source.cancel();
+  editor.saved.fire(editor.documents[0]!);
+  assert.equal(editor.runs.length, 1);
+});
+
 test("when the setting changes, nbc is looked for again", async () => {
   const editor = editorWith("broken.nb", "circuit g(a) -> (q) { q = b }\n", { "nbc.path": "/no/nbc" });
   await activate(editor);

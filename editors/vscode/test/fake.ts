@@ -215,6 +215,8 @@ export class Editor {
   readonly lenses: { provideCodeLenses(document: unknown, token: unknown): Promise<any[]> }[] = [];
   readonly configured = new Emitter<{ affectsConfiguration(name: string): boolean }>();
   readonly published = new Emitter<string>();
+  readonly CancellationTokenSource = CancellationTokenSource;
+  readonly saved = new Emitter<Document>();
   readonly documents: Document[] = [];
   /** What to do at each state of an item of a run. */
   changed?: (run: Run, state: string) => void;
@@ -257,6 +259,7 @@ export class Editor {
         findFiles: async () => [],
         openTextDocument: async () => this.documents[0],
         onDidChangeConfiguration: this.configured.event,
+        onDidSaveTextDocument: this.saved.event,
       }),
       window: partly({
         visibleTextEditors: [],

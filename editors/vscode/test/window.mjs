@@ -124,21 +124,15 @@ async function choose(opener, typed, offered) {
 const open = file => choose(["Control", "p"], file, file);
 const command = name => choose(["F1"], name, name);
 
-/** The text of the panel, which is a frame in a frame. */
-async function panelText() {
-  for (const frame of page.frames()) {
-    const text = await frame.evaluate(() => document.body?.innerText ?? "").catch(() => "");
-    if (text.includes("made by nbc")) return { frame, text };
-  }
-  return undefined;
-}
-
-async function untilPanel(what, isRight) {
+/** Waits for a frame with a text; views with pages are frames in frames. */
+async function untilFrame(what, wanted, isRight) {
   for (let tries = 0; tries < 300; tries++) {
-    const found = await panelText();
-    if (found !== undefined && (await isRight(found))) {
-      console.log(`✓ ${what}`);
-      return found;
+    for (const frame of page.frames()) {
+      const text = await frame.evaluate(() => document.body?.innerText ?? "").catch(() => "");
+      if (text.includes(wanted) && (await isRight(frame))) {
+        console.log(`✓ ${what}`);
+        return frame;
+      }
     }
     await new Promise(resolve => setTimeout(resolve, 300));
   }
@@ -168,11 +162,11 @@ try {
     return { x, y };
   });
   await page.mouse.click(place.x + 5, place.y + 5);
-  const report = await untilPanel("the report is shown", ({ text }) => text.includes("1 of 1 test passed"));
-  const played = () => report.frame.evaluate(() => document.querySelector(".clock")?.textContent ?? "");
-  const before = await played();
-  await report.frame.evaluate(() => document.querySelector(".play").click());
-  await untilPanel("the film of the report plays", async () => (await played()) !== before);
+  const report = await untilFrame("the report is shown", "1 of 1 test passed", () => true);
+  const played = frame => frame.evaluate(() => document.querySelector(".clock")?.textContent ?? "");
+  const before = await played(report);
+  await report.evaluate(() => document.querySelector(".play").click());
+  await untilFrame("the film of the report plays", "made by nbc", async frame => (await played(frame)) !== before);
   await picture("report");
 
   await open("failing.nb");
@@ -200,6 +194,13 @@ try {
   await until("without nbc, help is offered", shows, ".notifications-toasts", "How to Install");
   assert.equal(await page.$(".notifications-toasts .codicon-error"), null, "nothing failed");
   await picture("missing");
+  const button = await page.evaluate(() => {
+    const buttons = [...document.querySelectorAll(".notifications-toasts .monaco-button")];
+    const { x, y } = buttons.find(button => button.textContent.includes("How to Install")).getBoundingClientRect();
+    return { x, y };
+  });
+  await page.mouse.click(button.x + 5, button.y + 5);
+  await untilFrame("the help is shown", "cargo install", () => true);
   configure(path.join(workspace, ".vscode"), {});
   await open("broken.nb");
   await until("with nbc again, the error is back", () => document.querySelector(".squiggly-error") !== null);

@@ -18,7 +18,7 @@ export class Program implements vscode.Disposable {
   readonly onDidMove = this.moved.event;
 
   constructor(
-    private readonly readme: vscode.Uri,
+    private readonly help: vscode.Uri,
     private readonly log: vscode.LogOutputChannel,
   ) {
     this.status.name = "nbc";
@@ -68,10 +68,10 @@ export class Program implements vscode.Disposable {
   }
 
   private async offerHelp(message: string): Promise<void> {
-    const [help, settings, retry] = ["How to Install", "Open Settings", "Try Again"];
-    const chosen = await vscode.window.showWarningMessage(message, help!, settings!, retry!);
-    if (chosen === help) {
-      await vscode.commands.executeCommand("markdown.showPreview", this.readme.with({ fragment: "install" }));
+    const [install, settings, retry] = ["How to Install", "Open Settings", "Try Again"] as const;
+    const chosen = await vscode.window.showWarningMessage(message, install, settings, retry);
+    if (chosen === install) {
+      await vscode.commands.executeCommand("markdown.showPreview", this.help);
     } else if (chosen === settings) {
       await vscode.commands.executeCommand("workbench.action.openSettings", "nbc.path");
     } else if (chosen === retry) {
