@@ -1,22 +1,30 @@
 //! `nbc check`: what is wrong with programs.
 
+use std::sync::Arc;
+
 use clap::Args;
 use serde_json::Value;
 
 use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::diag::{Severity, counted};
 use crate::report::Schema;
-use crate::session::Session;
+use crate::session::{Checked, Session};
+use crate::source::SourceWorld;
 use crate::store::DiskWorld;
+
+/// Standard input as a file.
+const STANDARD_INPUT: &str = "/dev/stdin";
 
 /// Check programs and print their errors
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc check circuits/latch.nb
   nbc check circuits/*.nb --format json
+  cat latch.nb | nbc check -
 
 Exit status: 0 no errors, 2 errors. `nbc explain CODE` describes an error in detail.")]
 pub struct CheckArguments {
-    /// The source files
+    /// The source files; `-` is standard input
     #[arg(required = true)]
     files: Vec<String>,
 }
@@ -28,15 +36,53 @@ impl CheckArguments {
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut session = Session::new(DiskWorld);
-        let found: Vec<_> = self.files.iter().map(|path| session.checked(path)).collect();
+        let mut check = |path: &String| match path.as_str() {
+            "-" => check_standard_input(&mut session),
+            path => session.checked(path),
+        };
+        let found: Vec<_> = self.files.iter().map(&mut check).collect();
         match context.format {
             OutputFormat::Json => {
                 let all: Vec<Value> = found.iter().flat_map(|checked| checked.json()).collect();
                 context.print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": all }))?
             }
-            OutputFormat::Text => found.iter().for_each(|checked| context.tell(&checked.diagnostics, &checked.sources)),
+            OutputFormat::Text => {
+                for checked in &found {
+                    context.tell(&checked.diagnostics, &checked.sources);
+                    if !checked.has_errors() {
+                        context.print(describe(checked))?;
+                    }
+                }
+            }
         }
         let has_errors = found.iter().any(|checked| checked.has_errors());
         Ok(if has_errors { Status::BadInput } else { Status::Done })
     }
+}
+
+/// Standard input, checked as a file of the current folder.
+fn check_standard_input(session: &mut Session) -> Arc<Checked> {
+    const NAME: &str = "<stdin>";
+    match DiskWorld.read(STANDARD_INPUT) {
+        Ok(text) => {
+            session.update(NAME, 0, text);
+            session.checked(NAME)
+        }
+        // Reading it once more gives the diagnostic.
+        Err(_) => session.checked(STANDARD_INPUT),
+    }
+}
+
+/// The number of errors and warnings in a file.
+pub(super) fn describe(checked: &Checked) -> String {
+    let count = |severity| checked.diagnostics.iter().filter(|found| found.severity == severity).count();
+    let errors = match count(Severity::Error) {
+        0 => "no errors".to_owned(),
+        errors => counted(errors, "error"),
+    };
+    let warnings = match count(Severity::Warning) {
+        0 => String::new(),
+        warnings => format!(", {}", counted(warnings, "warning")),
+    };
+    format!("{}: {errors}{warnings}\n", checked.path)
 }

@@ -49,13 +49,12 @@ pub(super) struct GlobalArguments {
 }
 
 impl ColorChoice {
-    fn on(self) -> bool {
+    /// Whether a stream is colored.
+    fn on(self, stream: &impl IsTerminal) -> bool {
         match self {
             Self::Always => true,
             Self::Never => false,
-            Self::Auto => {
-                io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
-            }
+            Self::Auto => stream.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
         }
     }
 }
@@ -66,6 +65,8 @@ pub struct Context {
     pub format: OutputFormat,
     /// Whether messages are colored.
     pub color: bool,
+    /// Whether results are colored.
+    paint: bool,
     /// Describes the command line, for completion scripts.
     pub command: fn() -> Command,
     out: Output,
@@ -73,7 +74,13 @@ pub struct Context {
 
 impl Context {
     pub(super) fn new(global: &GlobalArguments, command: fn() -> Command) -> Self {
-        Self { format: global.format, color: global.color.on(), command, out: Output::new(io::stdout()) }
+        Self {
+            format: global.format,
+            color: global.color.on(&io::stderr()),
+            paint: global.color.on(&io::stdout()),
+            command,
+            out: Output::new(io::stdout()),
+        }
     }
 
     /// Prints to standard output. A closed pipe is ignored and the command continues, because its work decides the exit
@@ -83,6 +90,27 @@ impl Context {
     /// When the output cannot be written, for example on a full disk.
     pub fn print(&mut self, text: impl fmt::Display) -> Result<(), Failure> {
         Ok(self.out.write_all(visible(&text.to_string()).as_bytes())?)
+    }
+
+    /// Prints verdicts: [`Context::print`], with the words for passing and failing in green and red.
+    ///
+    /// # Errors
+    /// As [`Context::print`].
+    pub fn print_verdicts(&mut self, text: &str) -> Result<(), Failure> {
+        let text = visible(text);
+        let text = if self.paint { painted(&text).into() } else { text };
+        Ok(self.out.write_all(text.as_bytes())?)
+    }
+
+    /// Clears the screen, where results are shown on one.
+    ///
+    /// # Errors
+    /// As [`Context::print`].
+    pub fn clear(&mut self) -> Result<(), Failure> {
+        if self.format == OutputFormat::Text && io::stdout().is_terminal() {
+            self.out.write_all(b"\x1b[2J\x1b[3J\x1b[H")?;
+        }
+        self.flush()
     }
 
     /// Prints a value as one line of JSON, with its schema.
@@ -142,6 +170,23 @@ impl Context {
     }
 }
 
+/// A text in which a word at the begin or end of a line that says that something passed or failed is green or red.
+fn painted(text: &str) -> String {
+    text.split_inclusive('\n').map(paint_line).collect()
+}
+
+fn paint_line(line: &str) -> String {
+    const COLORS: [(&str, &str); 3] = [("pass", "32"), ("FAIL", "1;31"), ("fail", "31")];
+    let end = line.trim_end().len();
+    let begins =
+        |word: &str| line[..end].strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
+    let ends = |word: &str| line[..end].strip_suffix(word).is_some_and(|rest| rest.ends_with(' '));
+    let first = COLORS.iter().find(|(word, _)| begins(word)).map(|found| (0, found));
+    let found = first.or_else(|| COLORS.iter().find(|(word, _)| ends(word)).map(|found| (end - found.0.len(), found)));
+    let Some((at, (word, color))) = found else { return line.to_owned() };
+    format!("{}\x1b[{color}m{word}\x1b[0m{}", &line[..at], &line[at + word.len()..])
+}
+
 /// JSON with control characters escaped, because a terminal would execute them.
 struct Visible;
 
@@ -154,5 +199,22 @@ impl Formatter for Visible {
             rest = &rest[at + hidden.len_utf8()..];
         }
         writer.write_all(rest.as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_that_say_how_a_test_ended_are_colored() {
+        let text = "pass  latch (5 rows)\nFAIL  pass\n    0 1  1 -  pass\n  passed a gate\n1 passed, 0 failed\n";
+        let green = "\x1b[32mpass\x1b[0m";
+        let expected = format!(
+            "{green}  latch (5 rows)\n\x1b[1;31mFAIL\x1b[0m  pass\n    0 1  1 -  {green}\n  passed a gate\n\
+             1 passed, 0 failed\n"
+        );
+        assert_eq!(painted(text), expected);
+        assert_eq!(painted("FAIL\n"), "\x1b[1;31mFAIL\x1b[0m\n");
     }
 }

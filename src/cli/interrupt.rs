@@ -7,7 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+use crate::circuit::CancelFlag;
 use crate::cli::Status;
+use crate::session::Observer;
 
 /// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
 #[derive(Clone, Debug, Default)]
@@ -36,8 +38,39 @@ impl Interrupt {
         self.0.load(Ordering::Relaxed)
     }
 
+    /// Stops the work as a signal would.
+    pub fn raise(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// The same request, for the search of a compilation.
+    pub fn cancel(&self) -> CancelFlag {
+        CancelFlag::from(self.0.clone())
+    }
+
+    /// An observer that hands on the progress, and stops the work when a signal arrives.
+    pub fn observe<F: FnMut(u64, u64)>(&self, progress: F) -> impl Observer {
+        Watched { interrupt: self, progress }
+    }
+
     /// The flag itself, for work that does not know the command line.
     pub fn flag(&self) -> &AtomicBool {
         &self.0
+    }
+}
+
+/// The observer of work that a signal stops.
+struct Watched<'a, F> {
+    interrupt: &'a Interrupt,
+    progress: F,
+}
+
+impl<F: FnMut(u64, u64)> Observer for Watched<'_, F> {
+    fn progress(&mut self, done: u64, all: u64) {
+        (self.progress)(done, all);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.interrupt.is_raised()
     }
 }

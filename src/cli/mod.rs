@@ -17,6 +17,7 @@ mod interrupt;
 mod library;
 mod lsp;
 mod mapping;
+mod new;
 mod output;
 mod program;
 mod progress;
@@ -29,6 +30,7 @@ mod synth;
 mod test;
 mod threads;
 mod timings;
+mod watch;
 mod wording;
 mod workers;
 
@@ -76,14 +78,17 @@ commands! {
     Fmt(fmt::FmtArguments),
     Library(library::LibraryArguments),
     Lsp(lsp::LspArguments),
+    New(new::NewArguments),
     Run(run::RunArguments),
     Simulate(simulate::SimulateArguments),
     Synth(synth::SynthArguments),
     Test(test::TestArguments),
+    Watch(watch::WatchArguments),
 }
 
 const EXAMPLES: &str = "\
 Examples:
+  nbc new adder                             write a first program
   nbc run circuits/latch.nb                 compile, simulate and test a circuit of robots
   nbc library list                          the built-in robots
   nbc simulate ROBOT --schedule '00*10 11*10'

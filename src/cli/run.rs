@@ -9,13 +9,15 @@ use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
 use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use crate::diag::Diagnostic;
 use crate::model::{CircuitTest, Simulation};
 use crate::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun};
+use crate::session::{
+    self, Checked, CompileOptions, RunEnd, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun,
+};
 use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
 
@@ -30,7 +32,7 @@ Examples:
 Every robot is simulated voxel by voxel. A test runs once for each swarm that is declared for its circuit. \
 Pictures, waveforms, a table of the cycles, a report page and result.json are written to a folder in `out/` with \
 the file's name.
-Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
+Exit status: 0 every test passed, 1 a test failed, 2 the file has errors, 4 interrupted.")]
 pub struct RunArguments {
     /// The source file
     file: PathBuf,
@@ -94,7 +96,7 @@ impl RunArguments {
     /// # Errors
     /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let timer = self.timings.start();
+        let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let mut session = Session::new(DiskWorld).with_simulator(timer.simulator());
         if !self.no_report {
             session = session.with_poses(Room::SWARM);
@@ -103,18 +105,25 @@ impl RunArguments {
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
         store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
-        let options = self.goal.with(self.runs.options());
+        let options = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
+        let all = tests.len() + simulations.len();
         let mut runs = Vec::new();
         for test in tests {
-            runs.extend(run_test(&session, &file, test, &options)?.into_iter().map(Ran::Test));
+            runs.extend(run_test(&session, &file, test, &options, &interrupt)?.into_iter().map(Ran::Test));
         }
         for simulation in simulations {
-            runs.push(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?));
+            runs.extend(run_simulation(&session, &file, simulation, &options, &interrupt)?.map(Ran::Simulation));
         }
         context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
+        if interrupt.is_raised() {
+            context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", runs.len()));
+            if runs.is_empty() {
+                return Ok(Status::Interrupted);
+            }
+        }
         let status = timer.time(Chore::Output, || self.report(&runs, &folder, context))?;
         timer.report(context);
-        Ok(status)
+        Ok(if interrupt.is_raised() { Status::Interrupted } else { status })
     }
 
     /// The requested tests and simulations.
@@ -155,7 +164,7 @@ impl RunArguments {
             OutputFormat::Json => context.print_json(Schema::Run, &result)?,
             OutputFormat::Text => {
                 for drawn in &drawn {
-                    context.print(describe(drawn))?;
+                    context.print_verdicts(&describe(drawn))?;
                 }
                 let page = if self.no_report { String::new() } else { format!("report   {}\n", page.display()) };
                 let verdict = match (result.tests.len(), result.passed) {
@@ -163,7 +172,8 @@ impl RunArguments {
                     (_, true) => "pass\n",
                     (_, false) => "FAIL\n",
                 };
-                context.print(format_args!("{page}results  {}\n{verdict}", folder.join("result.json").display()))?;
+                let results = folder.join("result.json");
+                context.print_verdicts(&format!("{page}results  {}\n{verdict}", results.display()))?;
             }
         }
         Ok(if result.passed { Status::Done } else { Status::TestFailed })
@@ -183,32 +193,43 @@ fn nothing_to_run(file: &Checked, only: Option<&str>) -> SubjectError {
     SubjectError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known: names }
 }
 
-/// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen.
+/// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen. Runs that a signal
+/// ended are left out.
 pub(super) fn run_test(
     session: &Session,
     file: &Checked,
     test: &CircuitTest,
     options: &CompileOptions,
+    interrupt: &Interrupt,
 ) -> Result<Vec<TestRun>, Failure> {
+    if interrupt.is_raised() {
+        return Ok(Vec::new());
+    }
     let options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
     let cases = session.cases(file, test, &options)?;
     let bar = Progress::new("simulating", cases.iter().map(TestCase::work).sum());
-    Ok(cases.into_iter().map(|case| session.run_case(case, &mut bar.part())).collect())
+    let runs = cases.into_iter().map(|case| session.run_case(case, &mut interrupt.observe(bar.part())));
+    Ok(runs.filter(|run| run.end == RunEnd::Complete).collect())
 }
 
-/// Runs a simulation.
+/// Runs a simulation; `None` if a signal ended it.
 pub(super) fn run_simulation(
     session: &Session,
     file: &Checked,
     simulation: &Simulation,
     options: &CompileOptions,
-) -> Result<SimulationRun, Failure> {
+    interrupt: &Interrupt,
+) -> Result<Option<SimulationRun>, Failure> {
+    if interrupt.is_raised() {
+        return Ok(None);
+    }
     let bar = Progress::new("simulating", 0);
-    let mut observer = |done, all| {
+    let progress = |done, all| {
         bar.set_total(all);
         bar.set(done);
     };
-    Ok(session.simulate(file, simulation, options, &mut observer)?)
+    let run = session.simulate(file, simulation, options, &mut interrupt.observe(progress))?;
+    Ok(Some(run).filter(|run| run.end == RunEnd::Complete))
 }
 
 /// The names of the runs' files: the circuit's, with the swarm's if a test has several, and a number for repeated

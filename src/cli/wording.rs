@@ -101,6 +101,10 @@ impl From<UsageError> for Diagnostic {
 pub(in crate::cli) enum SubjectError {
     /// A path without a run and without robots.
     NothingToExport { path: String },
+    /// A file for a new program that is there already.
+    Exists { file: String },
+    /// A file for a new program whose name no circuit can have.
+    NoWord { file: String },
     /// A file without tests.
     NoTest { file: String },
     /// A file without tests and simulations.
@@ -127,6 +131,10 @@ impl From<SubjectError> for Diagnostic {
                 fault(Code::Empty, format!("`{path}` contains neither a run nor robots"))
                     .with_help("name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`")
             }
+            SubjectError::Exists { file } => fault(Code::Unwritable, format!("`{file}` exists already"))
+                .with_help("choose another name, or remove the file"),
+            SubjectError::NoWord { file } => fault(Code::BadValue, format!("no circuit can have the name of `{file}`"))
+                .with_help("a name has letters, digits and `_`, begins with no digit, and is no reserved word"),
             SubjectError::NoTest { file } => fault(Code::Empty, format!("`{file}` declares no test"))
                 .with_help("declare one: `test my_circuit { a b | q` and a row for each input pattern"),
             SubjectError::NothingToRun { file } => {

@@ -75,6 +75,11 @@ impl Documents {
         checked
     }
 
+    /// The identities of the files and folders that the result for `path` depends on; those that are missing too.
+    pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
+        self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
+    }
+
     /// Drops all results that depend on the file at `path` or on the list of its folder.
     fn forget(&mut self, path: &str) {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);

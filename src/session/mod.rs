@@ -92,6 +92,12 @@ impl Session {
         self.documents.checked(path)
     }
 
+    /// The files and folders that the source at `path` depends on, as far as it was checked: itself, files that it
+    /// uses, and folders of robots, also those that are missing.
+    pub fn dependencies(&self, path: &str) -> Vec<String> {
+        self.documents.asked(path).map(str::to_owned).collect()
+    }
+
     /// The source at `path`, without errors.
     ///
     /// # Errors

@@ -15,6 +15,7 @@ mod exchange;
 mod exporting;
 mod faults;
 mod films;
+mod first_steps;
 mod flows;
 mod formatting;
 mod gallery;

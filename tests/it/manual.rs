@@ -11,12 +11,12 @@ use crate::cli::Bench;
 use crate::language::{passes, root};
 
 /// A fenced piece of a page: the words after the fence, and the text.
-struct Fence {
-    words: Vec<String>,
-    text: String,
+pub struct Fence {
+    pub words: Vec<String>,
+    pub text: String,
 }
 
-fn fences(page: &str) -> Vec<Fence> {
+pub fn fences(page: &str) -> Vec<Fence> {
     let mut fences = Vec::new();
     let mut open: Option<Fence> = None;
     for line in page.lines() {

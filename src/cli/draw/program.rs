@@ -1,10 +1,10 @@
 //! The circuit of a source file to be drawn, and the run of its swarm.
 
 use crate::circuit::is_same_instance;
-use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::run::{Ran, run_simulation, run_test};
 use crate::cli::wording::DrawError;
+use crate::cli::{Failure, Interrupt};
 use crate::model::{CircuitTest, Instance};
 use crate::session::{self, Checked, CompileOptions, Compiled, Session};
 use crate::store::DiskWorld;
@@ -47,7 +47,8 @@ impl Order {
         if let Some(test) = test {
             let clear = session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
             clear.map_err(Failure::plain)?;
-            return Ok(Ran::Test(run_test(&session, &file, test, &options)?.remove(0)));
+            let runs = run_test(&session, &file, test, &options, &Interrupt::default())?;
+            return Ok(Ran::Test(runs.into_iter().next().expect("nothing interrupts it")));
         }
         let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");
         let simulation = program.simulations.iter().find(|simulation| {
@@ -55,7 +56,10 @@ impl Order {
                 && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
         });
         match simulation {
-            Some(simulation) => Ok(Ran::Simulation(run_simulation(&session, &file, simulation, &options)?)),
+            Some(simulation) => {
+                let run = run_simulation(&session, &file, simulation, &options, &Interrupt::default())?;
+                Ok(Ran::Simulation(run.expect("nothing interrupts it")))
+            }
             None => {
                 let what = chosen.map_or_else(|| self.what.clone(), |circuit| circuit.to_string());
                 Err(DrawError::NoRun { what }.into())

@@ -9,10 +9,10 @@ use clap::Args;
 use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
 use crate::diag::{Diagnostic, counted};
 use crate::report::{self, Schema};
-use crate::session::{Checked, Session, TestCase, TestOptions};
+use crate::session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
 use crate::store::DiskWorld;
 use crate::swarm::{Level, TestVerdict};
 
@@ -26,7 +26,7 @@ use crate::swarm::{Level, TestVerdict};
 At the level of logic, every cell takes one time step, and a row is held until nothing changes. In physics, every \
 robot is simulated voxel by voxel, and a test runs once for each swarm that is declared for its circuit. By default, \
 circuits of fewer than 40 robots are tested in physics and larger ones at the level of logic.
-Exit status: 0 every test passed, 1 a test failed, 2 the file has errors.")]
+Exit status: 0 every test passed, 1 a test failed, 2 the file has errors, 4 interrupted.")]
 pub struct TestArguments {
     /// The source files
     #[arg(required = true)]
@@ -52,23 +52,53 @@ impl TestArguments {
     /// # Errors
     /// When a file has errors or declares no test; then no test runs.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let mut session = Session::new(DiskWorld);
+        let (mut session, interrupt) = (Session::new(DiskWorld), Interrupt::watch()?);
         let files = self.files.iter().map(|file| load(&mut session, file)).collect::<Result<Vec<_>, _>>()?;
-        let cases = self.cases(&session, &files)?;
-        for file in &files {
+        self.test(&session, &files, &interrupt, context)
+    }
+
+    /// The paths of the files.
+    pub(super) fn paths(&self) -> impl Iterator<Item = String> {
+        self.files.iter().map(|file| file.to_string_lossy().into_owned())
+    }
+
+    /// Runs the tests of files without errors.
+    ///
+    /// # Errors
+    /// When a circuit cannot be compiled, or the output cannot be written.
+    pub(super) fn test(
+        &self,
+        session: &Session,
+        files: &[Arc<Checked>],
+        interrupt: &Interrupt,
+        context: &mut Context,
+    ) -> Result<Status, Failure> {
+        let cases = self.cases(session, files, interrupt)?;
+        for file in files {
             context.warn(file, &file.diagnostics);
         }
-        let verdicts = run_cases(&session, &cases, &files, context)?;
+        let verdicts = run_cases(session, &cases, files, interrupt, context)?;
         let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
+        let left = interrupt.is_raised().then_some(cases.len() - verdicts.len());
         match context.format {
             OutputFormat::Json => {
-                context.print_json(Schema::Test, &serde_json::json!({ "passed": failed == 0, "tests": verdicts }))?
+                let passed = failed == 0 && left.is_none();
+                let mut value = serde_json::json!({ "passed": passed, "tests": verdicts });
+                if let Some(left) = left {
+                    value["interrupted"] = serde_json::json!({ "left": left });
+                }
+                context.print_json(Schema::Test, &value)?
             }
             OutputFormat::Text => {
-                context.print(format_args!("{} passed, {failed} failed\n", verdicts.len() - failed))?
+                let left = left.map_or(String::new(), |left| format!(", {left} interrupted or not begun"));
+                context.print(format_args!("{} passed, {failed} failed{left}\n", verdicts.len() - failed))?
             }
         }
-        Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
+        Ok(match (left, failed) {
+            (Some(_), _) => Status::Interrupted,
+            (None, 0) => Status::Done,
+            (None, _) => Status::TestFailed,
+        })
     }
 
     fn level(&self) -> Option<Level> {
@@ -80,8 +110,14 @@ impl TestArguments {
     }
 
     /// The tests of the files, in order.
-    fn cases<'a>(&self, session: &Session, files: &'a [Arc<Checked>]) -> Result<Vec<Numbered<'a>>, Failure> {
-        let options = TestOptions { level: self.level(), compile: self.goal.with(self.runs.options()) };
+    fn cases<'a>(
+        &self,
+        session: &Session,
+        files: &'a [Arc<Checked>],
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Numbered<'a>>, Failure> {
+        let compile = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
+        let options = TestOptions { level: self.level(), compile };
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
             for test in &file.program.tests {
@@ -105,20 +141,23 @@ fn run_cases(
     session: &Session,
     cases: &[Numbered<'_>],
     files: &[Arc<Checked>],
+    interrupt: &Interrupt,
     context: &mut Context,
 ) -> Result<Vec<TestVerdict>, Failure> {
     let bar = Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum());
     // The trace is dropped, because it is large and not needed.
     let run = |(file, case): &Numbered<'_>| {
-        let run = session.run_case(case.clone(), &mut bar.part());
-        (*file, run.verdict, run.warnings)
+        // After an interruption circuits are compiled with little effort, so their tests are not begun.
+        let run = (!interrupt.is_raised()).then(|| session.run_case(case.clone(), &mut interrupt.observe(bar.part())));
+        run.filter(|run| run.end == RunEnd::Complete).map(|run| (*file, run.verdict, run.warnings))
     };
     let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
-    let mut tell = |(file, verdict, mut warnings): (usize, TestVerdict, Vec<Diagnostic>)| -> Result<(), Failure> {
+    let mut tell = |done: Option<(usize, TestVerdict, Vec<Diagnostic>)>| -> Result<(), Failure> {
+        let Some((file, verdict, mut warnings)) = done else { return Ok(()) };
         warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
         context.warn(&files[file], &warnings);
         if context.format == OutputFormat::Text {
-            context.print(describe(&verdict))?;
+            context.print_verdicts(&describe(&verdict))?;
             context.flush()?;
         }
         verdicts.push(verdict);

@@ -19,6 +19,8 @@ pub(super) enum LayoutPiece {
         /// The comment, with the space before it.
         text: String,
     },
+    /// The surrounding groups are broken even if they fit.
+    Force,
     /// Like a break, but it also ends the group's indentation.
     EndBreak(&'static str),
     /// Spaces that are printed only if the surrounding group is broken.
@@ -43,6 +45,7 @@ pub(super) fn layout(pieces: &[LayoutPiece], column: usize, indent: usize) -> St
                 column += text.chars().count();
             }
             LayoutPiece::Comment { text, .. } => out.push_str(text),
+            LayoutPiece::Force => {}
             LayoutPiece::Open => {
                 let outer = groups.iter().rev().find_map(|group| *group).unwrap_or(indent);
                 let inside_flat = matches!(groups.last(), Some(None));
@@ -92,7 +95,7 @@ fn flat_widths(pieces: &[LayoutPiece]) -> Vec<usize> {
                 after = 0;
             }
             // Too wide for all groups that it is in.
-            LayoutPiece::Comment { .. } => total += WIDTH + 1,
+            LayoutPiece::Comment { .. } | LayoutPiece::Force => total += WIDTH + 1,
             LayoutPiece::Pad(_) => {}
             LayoutPiece::Close => ends.push(total - after),
             LayoutPiece::Open => {

@@ -154,6 +154,14 @@ mod tests {
     }
 
     #[test]
+    fn tables_with_lines_keep_them() {
+        let lines = "circuit f(a) -> (q) {\n    q = table(a) {\n        0:    1\n        else: 0\n    }\n}\n";
+        check(lines, lines);
+        let line = "circuit f(a) -> (q) {\n    q = table(a) { 0: 1, else: 0 }\n}\n";
+        check("circuit f(a) -> (q) {\n q = table(a) { 0: 1,\n else: 0 } }", line);
+    }
+
+    #[test]
     fn comments_in_tables_stay_at_their_rows() {
         check(
             "circuit f(a, b) -> (q) {\n// before\nq = table(a, b) { // zeros\n00: 0 // nothing\n// ones\n11: table(a) \

@@ -1,0 +1,142 @@
+//! `nbc watch`: checks and tests programs again whenever they are saved.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use clap::Args;
+
+use crate::cli::check::describe;
+use crate::cli::test::TestArguments;
+use crate::cli::{Context, Failure, Interrupt, Status};
+use crate::diag::counted;
+use crate::session::{Checked, Session};
+use crate::store::DiskWorld;
+
+/// The time between two looks at the files. Looking works for every editor and file system.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Check and test programs again whenever they are saved
+#[derive(Args)]
+#[command(after_help = "Examples:
+  nbc watch adder.nb
+  nbc watch adder.nb --logic
+
+The files that a program uses and its folders of robots are watched too. Tests that still run when a file is saved \
+are stopped. Ctrl-C ends.")]
+pub struct WatchArguments {
+    #[command(flatten)]
+    test: TestArguments,
+}
+
+/// When each file or folder was changed and its length; `None` if it is missing.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Stamps(BTreeMap<String, Option<(SystemTime, u64)>>);
+
+fn stamp(path: &str) -> Option<(SystemTime, u64)> {
+    let about = fs::metadata(path).ok()?;
+    Some((about.modified().ok()?, about.len()))
+}
+
+impl Stamps {
+    /// Adds the stamps of paths that have none.
+    fn add(&mut self, paths: impl IntoIterator<Item = String>) {
+        for path in paths {
+            self.0.entry(path).or_insert_with_key(|path| stamp(path));
+        }
+    }
+
+    /// The paths whose stamps are different now.
+    fn changed(&self) -> Vec<String> {
+        self.0.iter().filter(|(path, known)| stamp(path) != **known).map(|(path, _)| path.clone()).collect()
+    }
+
+    /// As [`Stamps::changed`], and knows the new stamps from here on.
+    fn renew(&mut self) -> Vec<String> {
+        let now = self.0.iter_mut().filter_map(|(path, known)| {
+            let new = stamp(path);
+            (std::mem::replace(known, new) != new).then(|| path.clone())
+        });
+        now.collect()
+    }
+}
+
+impl WatchArguments {
+    /// Checks and tests until a signal arrives.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let (mut session, signal) = (Session::new(DiskWorld), Interrupt::watch()?);
+        let mut stamps = Stamps::default();
+        while !signal.is_raised() {
+            context.clear()?;
+            let checked: Vec<_> = self.test.paths().map(|path| session.checked(&path)).collect();
+            stamps.add(self.test.paths().flat_map(|path| session.dependencies(&path)));
+            self.round(&session, &checked, (&stamps, &signal), context)?;
+            context.flush()?;
+            for path in wait(&mut stamps, &signal, context) {
+                session.close(&path);
+            }
+        }
+        Ok(Status::Done)
+    }
+
+    /// Checks once, and tests if there are no errors, until a file changes or a signal arrives.
+    fn round(
+        &self,
+        session: &Session,
+        checked: &[Arc<Checked>],
+        (stamps, signal): (&Stamps, &Interrupt),
+        context: &mut Context,
+    ) -> Result<(), Failure> {
+        for file in checked {
+            context.tell(&file.diagnostics, &file.sources);
+            context.print(describe(file))?;
+        }
+        context.flush()?;
+        let tested: Vec<_> = checked.iter().filter(|file| !file.program.tests.is_empty()).cloned().collect();
+        if tested.is_empty() || checked.iter().any(|file| file.has_errors()) {
+            return Ok(());
+        }
+        let stop = Interrupt::default();
+        let done = Interrupt::default();
+        let outcome = thread::scope(|scope| {
+            scope.spawn(|| {
+                while !done.is_raised() && !signal.is_raised() && stamps.changed().is_empty() {
+                    thread::sleep(PAUSE);
+                }
+                stop.raise();
+            });
+            let outcome = self.test.test(session, &tested, &stop, context);
+            done.raise();
+            outcome
+        });
+        match outcome {
+            Err(failure @ Failure::Input(_)) => _ = context.report(failure),
+            outcome => _ = outcome?,
+        }
+        Ok(())
+    }
+}
+
+/// Waits for changes or a signal, and returns the paths that changed. A file may be written in parts, so the changes
+/// end with a pause in which nothing changes.
+fn wait(stamps: &mut Stamps, signal: &Interrupt, context: &Context) -> BTreeSet<String> {
+    let mut changed = BTreeSet::new();
+    let mut is_told = false;
+    while !signal.is_raised() {
+        let now = stamps.renew();
+        if now.is_empty() && !changed.is_empty() {
+            break;
+        }
+        changed.extend(now);
+        if changed.is_empty() && !std::mem::replace(&mut is_told, true) {
+            context.log(&format!("watching {}; Ctrl-C ends\n", counted(stamps.0.len(), "path")));
+        }
+        thread::sleep(PAUSE);
+    }
+    changed
+}

@@ -1,0 +1,246 @@
+//! The first steps with the program: its words on success, `new`, `watch`, standard input, interruptions, the tutorial
+//! and the page for those who come from Verilog.
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, Command, Stdio};
+
+use nbc::circuit::{Logic, Netlist, elaborate};
+use nbc::model::Instance;
+use nbc::store::DiskWorld;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::cli::Bench;
+use crate::language::root;
+use crate::manual::{Fence, fences};
+
+const FINE: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n\ntest f {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
+
+#[test]
+fn a_program_without_errors_is_told_so() {
+    let bench = Bench::new();
+    bench.file("fine.nb", FINE);
+    bench.file("odd.nb", "circuit f(a, b) -> (q) { q = not a }\n");
+    let ran = bench.run(&["check", "fine.nb", "odd.nb"]);
+    assert_eq!((ran.status, ran.out.as_str()), (0, "fine.nb: no errors\nodd.nb: no errors, 1 warning\n"));
+}
+
+#[test]
+fn standard_input_is_checked() {
+    let bench = Bench::new();
+    bench.file("used.nb", FINE);
+    let check = |text: &str| {
+        let mut command = bench.command(&["check", "-"]);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+        let output = child.wait_with_output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let fine = check("use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\n");
+    assert_eq!(fine, (Some(0), "<stdin>: no errors\n".to_owned(), String::new()));
+    let (status, out, err) = check("circuit g(a) -> (q) { q = b }\n");
+    assert_eq!((status, out.as_str()), (Some(2), ""));
+    assert!(err.contains("[<stdin>:1:27]"), "{err}");
+}
+
+#[test]
+fn new_writes_a_program_that_passes_and_overwrites_none() {
+    let bench = Bench::new();
+    let ran = bench.run(&["new", "adder"]);
+    assert_eq!((ran.status, ran.out.as_str()), (0, "wrote adder.nb; `nbc test adder.nb` tests it\n"), "{}", ran.err);
+    assert_eq!(bench.run(&["fmt", "--check", "adder.nb"]).status, 0, "it is in the canonical form");
+    let tested = bench.run(&["test", "adder.nb"]);
+    assert_eq!(tested.out, "pass  adder \"adds\" (4 rows, physics)\n1 passed, 0 failed\n", "{}", tested.err);
+    bench.run(&["new", "adder.nb"]).expect_fault(&["`adder.nb` exists already", "choose another name"]);
+    bench.run(&["new", "2nd"]).expect_fault(&["no circuit can have the name of `2nd.nb`"]);
+    bench.run(&["new", "nand"]).expect_fault(&["no circuit can have the name of `nand.nb`"]);
+    bench.run(&["new", "nowhere/adder"]).expect_fault(&["nowhere/adder.nb"]);
+}
+
+#[test]
+fn verdicts_are_colored_where_that_is_wanted() {
+    let bench = Bench::new();
+    bench.file("fine.nb", FINE);
+    let out = |arguments: &[&str]| bench.run(arguments).out;
+    assert!(out(&["test", "fine.nb", "--logic", "--color", "always"]).starts_with("\u{1b}[32mpass\u{1b}[0m  f"));
+    assert!(out(&["test", "fine.nb", "--logic"]).starts_with("pass  f"));
+}
+
+/// A program that runs until it is told to stop.
+struct Running {
+    child: Child,
+    lines: std::io::Lines<BufReader<std::process::ChildStdout>>,
+}
+
+impl Running {
+    fn start(mut command: Command) -> Self {
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        Self { child, lines }
+    }
+
+    #[track_caller]
+    fn expect(&mut self, line: &str) {
+        assert_eq!(self.lines.next().map(Result::unwrap).as_deref(), Some(line));
+    }
+
+    /// Sends Ctrl-C; the exit status, the rest of standard output and all of standard error.
+    #[cfg(unix)]
+    fn interrupt(mut self) -> (Option<i32>, String, String) {
+        let sent = Command::new("kill").args(["-s", "INT", &self.child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        let out = self.lines.map(|line| line.unwrap() + "\n").collect();
+        let mut err = String::new();
+        std::io::Read::read_to_string(&mut self.child.stderr.take().unwrap(), &mut err).unwrap();
+        (self.child.wait().unwrap().code(), out, err)
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn watch_checks_and_tests_again_when_a_file_or_one_that_it_uses_is_saved() {
+    let bench = Bench::new();
+    bench.file("used.nb", FINE);
+    bench.file("a.nb", "use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\ntest g {\n    a | q\n    0 | 1\n}\n");
+    let mut watch = Running::start(bench.command(&["watch", "a.nb", "--logic"]));
+    watch.expect("a.nb: no errors");
+    watch.expect("pass  g (1 row, logic)");
+    watch.expect("1 passed, 0 failed");
+    bench.file("used.nb", FINE.replace("not a", "not not a"));
+    watch.expect("a.nb: no errors");
+    watch.expect("FAIL  g (1 row, logic)");
+    watch.expect("    a.nb:5: row 1: a=0 | q=0, expected 1");
+    watch.expect("0 passed, 1 failed");
+    bench.file("a.nb", "use \"used.nb\"\ncircuit g(a) -> (q) { q = h(a) }\n");
+    watch.expect("a.nb: 1 error");
+    bench.file("used.nb", "circuit h(a) -> (q) { q = not a }\n");
+    watch.expect("a.nb: no errors");
+    let (status, out, err) = watch.interrupt();
+    assert_eq!((status, out.as_str()), (Some(0), ""), "{err}");
+    assert!(err.contains("watching 2 paths; Ctrl-C ends"), "{err}");
+}
+
+/// A test whose physics takes minutes, after one that takes no time.
+const LONG: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n\ntest f {\n    a | q\n    0 | 1 for 2 cycles\n}\n\n\
+                    test f \"long\" {\n    a | q\n    0 | 1 for 900000 cycles\n}\n";
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_test_says_what_was_done() {
+    let bench = Bench::new();
+    bench.file("long.nb", LONG);
+    let mut test = Running::start(bench.command(&["test", "long.nb"]));
+    test.expect("pass  f (1 row, physics)");
+    let (status, out, err) = test.interrupt();
+    assert_eq!((status, out.as_str()), (Some(4), "1 passed, 0 failed, 1 interrupted or not begun\n"), "{err}");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_writes_what_is_complete() {
+    let bench = Bench::new();
+    bench.file("long.nb", LONG);
+    let run = Running::start(bench.command(&["run", "long.nb", "--no-report"]));
+    // The signals are watched before the folder is made.
+    while !bench.path().join("out/long").exists() {
+        std::thread::yield_now();
+    }
+    let (status, _, err) = run.interrupt();
+    assert_eq!(status, Some(4), "{err}");
+    assert!(err.contains(" of 2 tests and simulations complete"), "{err}");
+}
+
+/// The words of a command line.
+fn words(line: &str) -> Vec<String> {
+    let parts = line.split('\'').enumerate();
+    parts
+        .flat_map(|(i, part)| match i % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        })
+        .collect()
+}
+
+/// Runs the commands of a fence; the lines after a command are its output.
+fn execute(bench: &Bench, fence: &Fence) {
+    for session in fence.text.split("$ nbc ").skip(1) {
+        let (line, expected) = session.split_once('\n').unwrap();
+        let arguments = words(line);
+        let ran = bench.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        let fails = fence.words.iter().any(|word| word == "fails");
+        assert_eq!(ran.status != 0, fails, "{line}: {}{}", ran.out, ran.err);
+        if !expected.is_empty() {
+            assert_eq!(ran.out, expected, "{line}: {}", ran.err);
+        }
+    }
+}
+
+#[test]
+fn every_step_of_the_tutorial_runs() {
+    let bench = Bench::new();
+    let fences = fences(&std::fs::read_to_string(root().join("docs/tutorial.md")).unwrap());
+    let mut commands = 0;
+    for fence in &fences {
+        let file = fence.words.iter().find_map(|word| word.strip_prefix("file="));
+        match (fence.words[0].as_str(), file) {
+            ("console", None) => {
+                execute(&bench, fence);
+                commands += fence.text.matches("$ nbc ").count();
+            }
+            (_, Some(name)) => _ = bench.file(name, &fence.text),
+            (word, None) => panic!("{word} is neither a file nor a command"),
+        }
+        if let Some(name) = file.filter(|name| name.ends_with(".nb")) {
+            assert_eq!(bench.run(&["fmt", "--check", name]).status, 0, "{name} is in the canonical form");
+        }
+    }
+    assert!(commands > 12, "{commands} commands");
+    assert!(bench.path().join("out/ring/report.html").exists());
+}
+
+/// A circuit of a program, with the places of its inputs in order of their names.
+fn circuit(bench: &Bench, file: &str, name: &str) -> (Netlist, Vec<(String, usize)>) {
+    let path = bench.path().join(file);
+    let checked = nbc::Session::new(DiskWorld).checked(path.to_str().unwrap());
+    assert!(!checked.has_errors(), "{file}: {:?}", checked.diagnostics);
+    let netlist = elaborate(&checked.program, &Instance::from(name)).unwrap();
+    let names = netlist.inputs().iter().enumerate().map(|(i, &input)| (netlist.net_name(input), i));
+    let names: std::collections::BTreeMap<_, _> = names.collect();
+    (netlist, names.into_iter().collect())
+}
+
+#[test]
+fn each_pair_of_the_page_for_verilog_computes_the_same() {
+    let text = std::fs::read_to_string(root().join("docs/from-verilog.md")).unwrap();
+    let fences: Vec<Fence> = fences(&text).into_iter().filter(|fence| fence.words.len() == 1).collect();
+    let pairs: Vec<_> = fences.chunk_by(|a, _| a.words == ["verilog"]).filter(|pair| pair.len() == 2).collect();
+    assert_eq!(pairs.len(), 7);
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    for pair in pairs {
+        let bench = Bench::new();
+        let name = pair[0].text.split(['(', ' ', '#']).nth(1).unwrap();
+        bench.file("theirs.v", &pair[0].text);
+        bench.file("theirs.nb", "use \"theirs.v\"\n");
+        bench.file("ours.nb", &pair[1].text);
+        let both = ["theirs.nb", "ours.nb"].map(|file| circuit(&bench, file, name));
+        let names = |i: usize| both[i].1.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>();
+        assert_eq!(names(0), names(1), "{name}");
+        let mut values = vec![false; names(0).len()];
+        let mut logic = [0, 1].map(|i| Logic::new(&both[i].0));
+        for step in 0..400 {
+            if step > 0 {
+                let one = random.random_range(0..values.len());
+                values[one] = !values[one];
+            }
+            let outputs = [0, 1].map(|i| {
+                let mut inputs = vec![false; values.len()];
+                both[i].1.iter().zip(&values).for_each(|((_, place), &value)| inputs[*place] = value);
+                let outputs = logic[i].settle(&inputs).unwrap();
+                let names = both[i].0.outputs().iter().map(|&output| both[i].0.net_name(output));
+                names.zip(outputs).collect::<std::collections::BTreeMap<_, _>>()
+            });
+            assert_eq!(outputs[0], outputs[1], "{name} at {values:?}");
+        }
+    }
+}
