@@ -1,9 +1,10 @@
 //! From trees to a [`Program`]: names, units, widths. There is a file for each kind of declaration. Checking never
 //! stops at the first error.
 
+mod analysis;
 mod cell;
 mod circuit;
-mod constant;
+pub(crate) mod constant;
 mod evolution;
 mod expression;
 mod fields;
@@ -25,7 +26,9 @@ mod test;
 mod uses;
 mod wording;
 
+pub use analysis::Analysis;
 pub use instance::named;
+pub(crate) use load::beside;
 pub use load::{PRELUDE, open};
 pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
@@ -33,37 +36,20 @@ pub use uses::{NameKind, NameUse, NameUses};
 use std::collections::BTreeSet;
 
 use crate::diag::{Code, Diagnostic};
-use crate::model::Program;
 use crate::source::{FileId, SourceWorld, Sources, Span};
-
-/// A program and its diagnostics.
-#[derive(Clone, Debug, Default)]
-pub struct Analysis {
-    /// The program, complete only if there are no errors.
-    pub program: Program,
-    /// Errors and warnings, ordered by place.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The names with a meaning.
-    pub uses: NameUses,
-}
-
-impl Analysis {
-    /// Whether there are errors.
-    pub fn has_errors(&self) -> bool {
-        self.diagnostics.iter().any(Diagnostic::is_error)
-    }
-}
 
 /// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
     let loaded = load::load(world, sources, file);
-    let (program, mut diagnostics, uses) = program::program(&loaded.trees, sources);
-    forget_consequences(&mut diagnostics, sources, &loaded);
+    let mut analysis = program::program(&loaded.trees, sources);
+    let diagnostics = &mut analysis.diagnostics;
+    forget_consequences(diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);
+    analysis.trees = loaded.trees.into_iter().map(|(_, tree)| tree).collect();
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();
-    Analysis { program, diagnostics, uses }
+    analysis
 }
 
 /// A name whose declaration could not be parsed is not reported as unknown, because the declaration has its own

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::check::analysis::Analysis;
 use crate::check::circuit::{Header, Headers, circuit};
 use crate::check::evolution::{self, evolution};
 use crate::check::instance::instance;
@@ -15,14 +16,14 @@ use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
 use crate::check::uses::{NameKind, NameUse, NameUses};
 use crate::check::wording::{CircuitError, EvolutionError};
-use crate::circuit::Inspector;
+use crate::circuit::{Inspection, Inspector};
 use crate::diag::{Code, Diagnostic};
 use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Reference, Simulation, Stimulation};
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
 
-/// The program of the trees, its diagnostics, and its names.
-pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Vec<Diagnostic>, NameUses) {
+/// The program of the trees, and what is known of it.
+pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
     let mut assembly = Assembly::new(trees, sources);
     assembly.stimuli();
     assembly.materials();
@@ -32,10 +33,12 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> (Program, Ve
     assembly.circuits();
     assembly.swarms();
     assembly.unused_libraries();
-    assembly.build();
+    let Inspection { diagnostics, widths, instances } = assembly.build();
+    assembly.faults.extend(diagnostics);
     assembly.forget_redeclared();
     let uses = assembly.uses();
-    (assembly.program, assembly.faults, uses)
+    let trees = Vec::new();
+    Analysis { program: assembly.program, diagnostics: assembly.faults, uses, widths, trees, instances }
 }
 
 /// A program under construction.
@@ -303,7 +306,7 @@ impl<'a> Assembly<'a> {
 
     /// Builds all circuits that can be built, to find errors of width, and reads the tests and simulations, which need
     /// the ports.
-    fn build(&mut self) {
+    fn build(&mut self) -> Inspection {
         let mut program = std::mem::take(&mut self.program);
         let mut inspector = Inspector::new(&program);
         for (at, _) in self.homes.iter().enumerate().filter(|(at, home)| **home != Home::Prelude && self.sound[*at]) {
@@ -322,11 +325,11 @@ impl<'a> Assembly<'a> {
                 inspector.inspect_body(body);
             }
         }
-        let found = inspector.into_diagnostics();
+        let found = inspector.finish();
         program.simulations = simulations;
         program.tests = tests;
         self.program = program;
-        self.faults.extend(found);
+        found
     }
 
     /// The ports of an instance, if its circuit and all circuits it contains are valid.

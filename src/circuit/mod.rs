@@ -32,7 +32,9 @@ mod wording;
 pub use cancel::CancelFlag;
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
-pub use elaborate::{Inspector, elaborate, elaborate_reference, is_same_instance};
+pub use elaborate::{
+    Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, is_same_instance,
+};
 pub use guarded::{Guarded, Role};
 pub use logic::Logic;
 pub use loops::Loops;

@@ -3,9 +3,11 @@
 use serde_json::Value;
 
 use crate::check::{self, Analysis, NameUses};
+use crate::circuit::NetWidths;
 use crate::diag::{Diagnostic, Diagnostics, json};
 use crate::model::{Instance, Program};
 use crate::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
+use crate::syntax::tree::Tree;
 
 /// A source with its program and its diagnostics.
 #[derive(Clone, Debug)]
@@ -24,6 +26,12 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// The names with a meaning, and their declarations.
     pub uses: NameUses,
+    /// The widths of the nets that were built.
+    pub widths: NetWidths,
+    /// The trees of its files.
+    pub(super) trees: Vec<Tree>,
+    /// The circuits that were built, with the values of their parameters, those of the prelude included.
+    pub instances: Vec<Instance>,
 }
 
 impl Checked {
@@ -34,8 +42,14 @@ impl Checked {
             Ok(file) => (Some(file), check::check(world, &mut sources, file)),
             Err(fault) => (None, Analysis { diagnostics: vec![fault], ..Analysis::default() }),
         };
-        let Analysis { program, diagnostics, uses } = analysis;
-        Self { path: path.to_owned(), revision, sources, file, program, diagnostics, uses }
+        let Analysis { program, diagnostics, uses, widths, trees, instances } = analysis;
+        let path = path.to_owned();
+        Self { path, revision, sources, file, program, diagnostics, uses, widths, trees, instances }
+    }
+
+    /// The tree of a file; `None` if nothing could be parsed.
+    pub fn tree(&self, file: FileId) -> Option<&Tree> {
+        self.trees.iter().find(|tree| tree.declarations.first().is_some_and(|first| first.span.file == file))
     }
 
     /// Whether there are errors.

@@ -2,7 +2,7 @@
 
 use crate::circuit::is_same_instance;
 use crate::diag::{Diagnostic, Diagnostics, Suggestion};
-use crate::model::{CircuitTest, Instance, Program, Simulation, Swarm};
+use crate::model::{Circuit, CircuitTest, Instance, Program, Simulation, Swarm};
 use crate::session::checked::Checked;
 use crate::session::wording::ChoiceError;
 
@@ -66,12 +66,28 @@ impl Checked {
         let Some(last) = program.circuits.iter().rfind(|circuit| Some(circuit.span.file) == self.file) else {
             return Err(ChoiceError::NoCircuit.into());
         };
-        if last.parameters.iter().all(|parameter| parameter.default.is_some()) {
-            return Ok(last.name.as_str().into());
+        Ok(self.declared(last).unwrap_or_else(|| last.name.as_str().into()))
+    }
+
+    /// A circuit with its defaults, or else with the parameters of its swarm or its test, if it has one.
+    fn declared(&self, circuit: &Circuit) -> Option<Instance> {
+        if circuit.parameters.iter().all(|parameter| parameter.default.is_some()) {
+            return Some(circuit.name.as_str().into());
         }
-        let swarms = program.swarms.iter().map(|swarm| &swarm.circuit);
-        let mut used = swarms.chain(program.tests.iter().map(|test| &test.circuit));
-        Ok(used.find(|used| used.circuit == last.name).cloned().unwrap_or_else(|| last.name.as_str().into()))
+        let swarms = self.program.swarms.iter().map(|swarm| &swarm.circuit);
+        let tests = self.program.tests.iter().map(|test| &test.circuit);
+        swarms.chain(tests).find(|used| used.circuit == circuit.name).cloned()
+    }
+
+    /// A circuit with its defaults, or else with the parameters of its swarm, of its test or of a call of it.
+    pub fn in_use(&self, circuit: &Circuit) -> Option<Instance> {
+        let called = || self.instances.iter().find(|used| used.circuit == circuit.name).cloned();
+        self.declared(circuit).or_else(called)
+    }
+
+    /// The swarms that are declared for a circuit, in order.
+    pub fn swarms(&self, circuit: &Instance) -> Vec<&Swarm> {
+        swarms_of(&self.program, circuit)
     }
 }
 

@@ -1,7 +1,10 @@
 //! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
 
+use crate::circuit::passes::{Pass, Sweep};
 use crate::circuit::timing::{Delays, Pulsed, PulsedRegisters};
-use crate::circuit::{CellLibrary, MapOptions, Netlist, Proof, Timing, elaborate, map_with, prove};
+use crate::circuit::{
+    CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, elaborate_net, map_with, prove,
+};
 use crate::diag::Diagnostic;
 use crate::model::{Instance, Program, RegisterStyle};
 use crate::session::plan::Plan;
@@ -84,6 +87,23 @@ pub(super) fn map(
     let source = elaborate(program, circuit)?;
     let mapping = synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])?;
     Ok(mapping.with_registers(style))
+}
+
+/// Maps the part of a planned circuit that drives the net declared at `net`.
+///
+/// # Errors
+/// As [`map`].
+pub(super) fn map_net(
+    program: &Program,
+    plan: &Plan,
+    net: Span,
+    options: MapOptions,
+) -> Result<Mapping, Vec<Diagnostic>> {
+    let mut source = elaborate_net(program, &plan.circuit, net)?;
+    let swept = Sweep.run(&mut source).map_err(|error| ChoiceError::Unmapped(MapError::Netlist(error)));
+    swept.map_err(|error| vec![for_circuit(error.into(), net)])?;
+    let mapping = synthesize(source, &swarm::cells(&plan.library), options);
+    mapping.map_err(|fault| vec![for_circuit(fault, net)])
 }
 
 /// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.

@@ -39,7 +39,7 @@ use crate::circuit::CellLibrary;
 use crate::diag::Diagnostics;
 use crate::model::{CircuitTest, Instance, Library, RegisterStyle, Simulation};
 use crate::sim::Simulator;
-use crate::source::{SourceWorld, Sources};
+use crate::source::{SourceWorld, Sources, Span};
 use crate::store;
 use crate::swarm::{self, Level, LiveSwarm, Room};
 use documents::Documents;
@@ -129,6 +129,21 @@ impl Session {
         read.map_err(|list| Diagnostics { list, sources: Sources::default() })
     }
 
+    /// The robots of a declared library, or of the default library, best first for each function.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn robots(
+        &self,
+        checked: &Checked,
+        library: Option<&str>,
+        options: &CompileOptions,
+    ) -> Result<Library, Diagnostics> {
+        let robots = plan::robots(self.supply(), &checked.program, library, options);
+        let robots = robots.map_err(|faults| checked.fail(faults))?;
+        Ok(swarm::prefer(robots, options.objective))
+    }
+
     fn supply(&self) -> Supply<'_> {
         Supply { world: self.documents.world(), shipped: &self.shipped }
     }
@@ -142,6 +157,23 @@ impl Session {
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let (cells, place) = (swarm::cells(&plan.library), checked.place(circuit));
         let mapping = compile::map(&checked.program, circuit, &cells, &options.mapping(), plan.registers, place);
+        mapping.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Maps the part of a circuit that drives one net, which is declared at `net`, onto the robots of its swarm.
+    ///
+    /// # Errors
+    /// As [`Session::map`].
+    pub fn map_net(
+        &self,
+        checked: &Checked,
+        circuit: &Instance,
+        net: Span,
+        options: &CompileOptions,
+    ) -> Result<Mapping, Diagnostics> {
+        let plan = plan::plan(self.supply(), &checked.program, circuit, options);
+        let plan = plan.map_err(|faults| checked.fail(faults))?;
+        let mapping = compile::map_net(&checked.program, &plan, net, options.mapping());
         mapping.map_err(|faults| checked.fail(faults))
     }
 

@@ -72,12 +72,7 @@ pub(super) fn of_swarm(
     declaration: Option<&Swarm>,
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let declared = program.library(declaration.map_or(DEFAULT_LIBRARY, |swarm| swarm.library.as_str()));
-    let library = match (&options.robots, declared) {
-        (Some(robots), _) => robots.clone(),
-        (None, Some(declared)) => supply.library(declared, &options.runs)?,
-        (None, None) => supply.shipped().clone(),
-    };
+    let library = robots(supply, program, declaration.map(|swarm| swarm.library.as_str()), options)?;
     Ok(Plan {
         circuit: circuit.clone(),
         swarm: declaration.map(|swarm| swarm.name.clone()),
@@ -86,6 +81,23 @@ pub(super) fn of_swarm(
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
     })
+}
+
+/// The robots of a declared library, or of the default library, unless the options have others.
+///
+/// # Errors
+/// When they cannot be read.
+pub(super) fn robots(
+    supply: Supply<'_>,
+    program: &Program,
+    library: Option<&str>,
+    options: &CompileOptions,
+) -> Result<Library, Vec<Diagnostic>> {
+    match (&options.robots, program.library(library.unwrap_or(DEFAULT_LIBRARY))) {
+        (Some(robots), _) => Ok(robots.clone()),
+        (None, Some(declared)) => supply.library(declared, &options.runs),
+        (None, None) => Ok(supply.shipped().clone()),
+    }
 }
 
 /// The swarm of that name, which must be one of the circuit's.

@@ -123,6 +123,18 @@ impl<'a> Builder<'a> {
         id
     }
 
+    /// The circuits of the program that were built, in the order of the program.
+    pub(super) fn instances(&self) -> impl Iterator<Item = Instance> + '_ {
+        let built = self
+            .known
+            .iter()
+            .filter(|((circuit, _), module)| module.is_some() && (circuit.0 as usize) < self.program.circuits.len());
+        built.filter_map(|((circuit, arguments), _)| {
+            let arguments = arguments.iter().map(|&value| u64::try_from(value).ok()).collect::<Option<_>>()?;
+            Some(Instance { circuit: self.circuit(*circuit).name.clone(), arguments })
+        })
+    }
+
     /// The ports of a module, as columns of a test.
     pub(super) fn columns(&self, id: ModuleId) -> (Vec<Column>, Vec<Column>) {
         let module = self.module(id);

@@ -9,6 +9,7 @@ mod dense;
 mod emit;
 mod flatten;
 mod frame;
+mod inspection;
 mod instance;
 mod limits;
 mod loops;
@@ -19,6 +20,7 @@ mod unroll;
 mod width;
 mod wording;
 
+pub use inspection::{Inspection, NetWidths};
 pub use limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, MAX_STATEMENTS, MAX_WIDTH};
 
 use crate::circuit::Netlist;
@@ -36,6 +38,20 @@ use module::ModuleId;
 pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);
+    finish(builder, module, &instance.to_string())
+}
+
+/// The part of a circuit's netlist that drives a net: its outputs are the bits of the net declared at `net`, in every
+/// iteration of the loops around it. The rest is there too, without a listener.
+///
+/// # Errors
+/// As [`elaborate`].
+pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Result<Netlist, Vec<Diagnostic>> {
+    let mut builder = Builder::new(program);
+    let module = builder.instance(instance);
+    if let Some(ModuleId(at)) = module {
+        builder.modules[at as usize].show(net);
+    }
     finish(builder, module, &instance.to_string())
 }
 
@@ -113,8 +129,8 @@ impl<'a> Inspector<'a> {
         Some(self.0.columns(module))
     }
 
-    /// Everything found, once each.
-    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
-        self.0.diagnostics
+    /// Everything found.
+    pub fn finish(self) -> Inspection {
+        Inspection::of(self.0)
     }
 }

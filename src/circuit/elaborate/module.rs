@@ -74,3 +74,13 @@ pub(super) struct Module {
     /// Signals, including those of the circuits inside.
     pub(super) size: u64,
 }
+
+impl Module {
+    /// Makes the nets declared at a place its output.
+    pub(super) fn show(&mut self, declared: Span) {
+        let shown = self.nets.iter().filter(|net| net.span == declared);
+        let bits = shown.flat_map(|net| net.first..net.first + net.width.unwrap_or_default());
+        self.output_bits = bits.collect();
+        self.outputs = vec![self.output_bits.len() as u32];
+    }
+}
