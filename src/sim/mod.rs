@@ -17,5 +17,6 @@ pub use constants::Constants;
 pub use lattice::{DrivenEdge, Edge, Lattice, LatticePoint, Voxel};
 pub use meter::{Meter, Part, Times};
 pub use monitor::Monitor;
+pub use signal::Signals;
 pub use simulator::Simulator;
 pub use state::State;
