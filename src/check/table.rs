@@ -125,8 +125,22 @@ fn missing(table: &Table) -> Option<Diagnostic> {
     if !left.is_empty() {
         return None;
     }
-    let error = if example.is_empty() { TableError::Empty } else { TableError::MissingRow { pattern: example } };
+    let error = match example.is_empty() {
+        true => TableError::Empty,
+        false => TableError::MissingRow { pattern: example, rest: rest(table) },
+    };
     Some(error.at(table.span))
+}
+
+/// A row of zeros for the remaining patterns, and the end of the last row; `None` if the width of the outputs is not
+/// written in a row.
+fn rest(table: &Table) -> Option<(u32, String)> {
+    let last = table.rows.last()?.output.span.end;
+    let bits = table.outputs().find_map(|output| match &output.value {
+        OutputValue::Bits(bits) => Some(bits.len()),
+        OutputValue::Expression(_) => None,
+    })?;
+    Some((last, format!("else: {}", "0".repeat(bits))))
 }
 
 /// Whether non-overlapping rows match every pattern with this value at `bit`, where the bits before it are fixed.

@@ -1,6 +1,6 @@
 //! Circuits: their nets, operands and tables, and their tests and swarms.
 
-use crate::diag::{Code, Diagnostic, counted, suggest};
+use crate::diag::{Code, Diagnostic, Edit, Fix, counted, suggest};
 use crate::source::Span;
 
 /// An invalid circuit, or an invalid use of one.
@@ -47,8 +47,11 @@ impl CircuitError {
             }
             Self::ConstantWithoutWidth { digits, bits } => {
                 let message = format!("the width of `{digits}` is unknown");
+                let constant = format!("{bits}'d{digits}");
+                let is_certain = digits.parse::<u64>().is_ok();
                 Diagnostic::new(Code::UnknownWidth, message, span, "expected a constant with its width")
-                    .with_help(format!("write `{bits}'d{digits}`"))
+                    .with_help(format!("write `{constant}`"))
+                    .with_fix(is_certain.then(|| Fix::replace(span, constant)))
             }
             Self::ConstantTooLarge => {
                 Diagnostic::new(Code::OutOfRange, "constant is too large", span, "expected at most 128 bits")
@@ -172,8 +175,8 @@ pub(crate) enum TableError {
     TwoElse { first: Span },
     /// Two rows for one pattern.
     Overlap { first: Span },
-    /// No row for a pattern.
-    MissingRow { pattern: String },
+    /// No row for a pattern; `rest` is a row for all remaining patterns and the byte at which it would follow the others.
+    MissingRow { pattern: String, rest: Option<(u32, String)> },
     /// No rows at all.
     Empty,
 }
@@ -209,7 +212,13 @@ impl TableError {
                     .with_label(first, "and this row")
                     .with_help("remove one of them, or write `0` or `1` for `-`")
             }
-            Self::MissingRow { pattern } => missing_row(format!("the table has no row for `{pattern}`"), span),
+            Self::MissingRow { pattern, rest } => {
+                let fix = rest.map(|(end, row)| Fix {
+                    title: format!("add `{row}`"),
+                    edits: vec![Edit { span: Span { start: end, end, ..span }, text: format!(", {row}") }],
+                });
+                missing_row(format!("the table has no row for `{pattern}`"), span).with_fix(fix)
+            }
             Self::Empty => missing_row("the table has no rows".to_owned(), span),
         }
     }
