@@ -102,7 +102,7 @@ pub(super) fn map_net(
     let mut source = elaborate_net(program, &plan.circuit, net)?;
     let swept = Sweep.run(&mut source).map_err(|error| ChoiceError::Unmapped(MapError::Netlist(error)));
     swept.map_err(|error| vec![for_circuit(error.into(), net)])?;
-    let mapping = synthesize(source, &swarm::cells(&plan.library), options);
+    let mapping = synthesize(source, &swarm::cells(&plan.library), &options);
     mapping.map_err(|fault| vec![for_circuit(fault, net)])
 }
 

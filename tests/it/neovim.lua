@@ -24,6 +24,18 @@ local line = tonumber(vim.env.LINE)
 local character = tonumber(vim.env.CHARACTER)
 found.hover = ask("textDocument/hover", place(line, character)).contents.value
 found.definition = ask("textDocument/definition", place(line, character)).range.start.line
+found.pictures = ask("textDocument/hover", place(line, character)).contents.value:find("data:image", 1, true) ~= nil
+found.highlights = #ask("textDocument/documentHighlight", place(line, character))
+found.symbols = #ask("textDocument/documentSymbol", place(0, 0))
+found.workspace = #ask("workspace/symbol", { query = "d_latch" })
+found.completions = #ask("textDocument/completion", place(0, 0))
+local lenses = ask("textDocument/codeLens", place(0, 0))
+for _, lens in ipairs(lenses) do
+  if lens.command.title == "run as logic" and not found.ran then
+    local command = { command = lens.command.command, arguments = lens.command.arguments }
+    found.ran = ask("workspace/executeCommand", command)
+  end
+end
 local rename = place(line, character)
 rename.newName = "memory"
 vim.lsp.util.apply_workspace_edit(ask("textDocument/rename", rename), vim.lsp.get_client_by_id(client).offset_encoding)

@@ -42,7 +42,7 @@ fn program_seconds(bench: &Bench, arguments: &[&str], runs: usize) -> f64 {
 }
 
 /// A program of ten thousand lines: circuits that use each other, each with a test.
-fn long_program() -> String {
+pub(crate) fn long_program() -> String {
     let mut text =
         String::from("circuit c0(a, b, v[8]) -> (q, w[8]) {\n    q = (a nand b) xor v[0]\n    w = not v\n}\n");
     let mut lines = 4;

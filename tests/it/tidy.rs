@@ -134,7 +134,8 @@ fn each_outer_crate_has_one_home() {
     forbid("only diag/render.rs names miette", &["miette"], |path| path.ends_with("diag/render.rs"));
     forbid("only store/ names YAML", &["serde_yaml"], in_folder("store"));
     let shell = |path: &Path| matches!(folder(path).as_str(), "cli" | "main");
-    forbid("only cli/ names clap, indicatif and signals", &["clap::", "indicatif", "signal_hook"], shell);
+    let program = ["clap::", "indicatif", "signal_hook", "crossbeam_channel", "gen_lsp_types", "lsp_server"];
+    forbid("only cli/ names clap, indicatif, signals and the language server's crates", &program, shell);
     let threads = |path: &Path| shell(path) || path.ends_with("sim/backend/lanes/threads.rs");
     forbid("only cli/ and one file of sim/ name rayon", &["rayon"], threads);
     let pixels = |path: &Path| ["report/film.rs", "report/raster.rs"].iter().any(|name| path.ends_with(name));

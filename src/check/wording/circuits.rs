@@ -175,7 +175,8 @@ pub(crate) enum TableError {
     TwoElse { first: Span },
     /// Two rows for one pattern.
     Overlap { first: Span },
-    /// No row for a pattern; `rest` is a row for all remaining patterns and the byte at which it would follow the others.
+    /// No row for a pattern; `rest` is a row for all remaining patterns, and the byte at which it would follow the
+    /// others.
     MissingRow { pattern: String, rest: Option<(u32, String)> },
     /// No rows at all.
     Empty,

@@ -1,8 +1,11 @@
 //! From a name to its uses, and new names.
 
-use gen_lsp_types::{DocumentHighlight, DocumentHighlightKind, Location, TextEdit, Uri, WorkspaceEdit};
+use gen_lsp_types::{
+    BaseSymbolInformation, DocumentHighlight, DocumentHighlightKind, Location, SymbolKind, TextEdit, Uri,
+    WorkspaceEdit, WorkspaceSymbol,
+};
 
-use crate::check::NameUse;
+use crate::check::{NameKind, NameUse};
 use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
 use crate::source::Span;
@@ -30,6 +33,32 @@ pub(super) fn uses(files: &Files<'_>, home: &Uri, declared: Span, with_declarati
         used.filter(move |found| with_declaration || found.place != declared).map(|found| found.place)
     });
     places.map(|place| files.location(place)).collect()
+}
+
+/// The named declarations of a source itself whose names contain a text, in any case.
+pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbol> {
+    let query = query.to_lowercase();
+    let Some(file) = files.checked.file else { return Vec::new() };
+    let symbol = |found: NameUse| {
+        let kind = match found.kind {
+            NameKind::Net | NameKind::Number => return None,
+            NameKind::Circuit => SymbolKind::Function,
+            NameKind::Stimulus => SymbolKind::Event,
+            NameKind::Material => SymbolKind::Constant,
+            NameKind::Schedule => SymbolKind::Array,
+            NameKind::Evolution => SymbolKind::Class,
+            NameKind::Library => SymbolKind::Package,
+            NameKind::Swarm => SymbolKind::Object,
+        };
+        let name = files.checked.sources.text(found.place).to_owned();
+        let is_wanted = found.place == found.declared && name.to_lowercase().contains(&query);
+        is_wanted.then(|| WorkspaceSymbol {
+            location: files.location(found.place).into(),
+            data: None,
+            base_symbol_information: BaseSymbolInformation { name, kind, tags: None, container_name: None },
+        })
+    };
+    files.checked.uses.of_file(file).filter_map(symbol).collect()
 }
 
 /// Why a name cannot be changed.

@@ -7,6 +7,7 @@ use gen_lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Range, TextEdit, Uri, WorkspaceEdit,
 };
 
+use crate::check::{NameKind, NameUse};
 use crate::cli::explain;
 use crate::cli::lsp::files::{Files, readable};
 use crate::cli::lsp::uri;
@@ -55,30 +56,54 @@ fn problem(files: &Files<'_>, diagnostic: &Diagnostic) -> Problem {
     }
 }
 
-/// The fixes of the diagnostics that touch a range of a file.
-pub(super) fn fixes(files: &Files<'_>, uri: &Uri, range: Range) -> Vec<CodeActionResponse> {
+/// The diagnostics that touch a range of a file.
+fn touching<'f>(files: &Files<'f>, uri: &Uri, range: Range) -> Vec<&'f Diagnostic> {
     let touches = |diagnostic: &&Diagnostic| {
         diagnostic.labels.iter().any(|label| {
             let place = files.range(label.span);
             files.uri(label.span.file) == *uri && place.start <= range.end && range.start <= place.end
         })
     };
-    let action = |diagnostic: &Diagnostic| {
+    files.checked.diagnostics.iter().filter(touches).collect()
+}
+
+/// The fixes of the diagnostics that touch a range of a file.
+pub(super) fn fixes(files: &Files<'_>, uri: &Uri, range: Range) -> Vec<CodeActionResponse> {
+    let fix = |diagnostic: &Diagnostic| {
         let fix = diagnostic.fix.as_ref()?;
-        let action = CodeAction {
-            title: fix.title.clone(),
-            kind: Some(CodeActionKind::QuickFix),
-            diagnostics: Some(vec![problem(files, diagnostic)]),
-            is_preferred: Some(true),
-            edit: Some(edit(files, fix)),
-            disabled: None,
-            command: None,
-            data: None,
-            tags: None,
-        };
-        Some(action.into())
+        Some(action(files, diagnostic, fix.title.clone(), edit(files, fix)))
     };
-    files.checked.diagnostics.iter().filter(touches).filter_map(action).collect()
+    touching(files, uri, range).into_iter().filter_map(fix).collect()
+}
+
+/// The nets that are never used, which another name would mark.
+pub(super) fn unused<'f>(files: &Files<'f>, uri: &Uri, range: Range) -> Vec<(&'f Diagnostic, NameUse)> {
+    let found = |diagnostic: &'f Diagnostic| {
+        let place = diagnostic.labels.first().filter(|_| diagnostic.code == Code::Unused)?.span;
+        let found = files.checked.uses.at(place.file, place.start as usize)?;
+        (found.kind == NameKind::Net).then_some((diagnostic, found))
+    };
+    touching(files, uri, range).into_iter().filter_map(found).collect()
+}
+
+/// The fix that renames an unused net.
+pub(super) fn rename(files: &Files<'_>, diagnostic: &Diagnostic, new: &str, edit: WorkspaceEdit) -> CodeActionResponse {
+    action(files, diagnostic, format!("rename to `{new}`"), edit)
+}
+
+fn action(files: &Files<'_>, diagnostic: &Diagnostic, title: String, edit: WorkspaceEdit) -> CodeActionResponse {
+    let action = CodeAction {
+        title,
+        kind: Some(CodeActionKind::QuickFix),
+        diagnostics: Some(vec![problem(files, diagnostic)]),
+        is_preferred: Some(true),
+        edit: Some(edit),
+        disabled: None,
+        command: None,
+        data: None,
+        tags: None,
+    };
+    action.into()
 }
 
 fn edit(files: &Files<'_>, fix: &Fix) -> WorkspaceEdit {

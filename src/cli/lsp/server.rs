@@ -1,44 +1,69 @@
 //! The loop of the server: messages come in, buffers change, answers and diagnostics go out.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use crossbeam_channel::{after, never, select};
 use gen_lsp_types::{
-    self as lsp, CodeActionRequest, CompletionRequest, DefinitionRequest, DocumentFormattingRequest,
-    DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, HoverRequest, LspNotificationMethod,
-    LspRequestMethod, PrepareRenameRequest, PublishDiagnosticsParams, ReferencesRequest, RenameRequest,
-    TextDocumentPositionParams, TextEdit, Uri,
+    self as lsp, CodeLensRefreshRequest, InlayHintRefreshRequest, LspNotificationMethod, PublishDiagnosticsParams,
+    Registration, RegistrationParams, RegistrationRequest, Uri,
 };
-use lsp_server::{Connection, ErrorCode, Message, Notification, ProtocolError, Request, Response};
+use lsp_server::{Connection, Message, Notification, ProtocolError, Request};
 
-use crate::check::NameUse;
 use crate::cli::lsp::buffers::Buffers;
+use crate::cli::lsp::capabilities::{Abilities, Client};
+use crate::cli::lsp::compiler::{Compilation, Compiler};
 use crate::cli::lsp::files::Files;
-use crate::cli::lsp::position::{Encoding, Lines};
-use crate::cli::lsp::{completion, hover, navigation, outline, problems, uri};
+use crate::cli::lsp::later::WaitingHover;
+use crate::cli::lsp::position::Encoding;
+use crate::cli::lsp::runs::Runs;
+use crate::cli::lsp::settings::Settings;
+use crate::cli::lsp::workspace::Workspace;
+use crate::cli::lsp::{problems, uri};
 use crate::session::{Checked, Session};
-use crate::source::LineStarts;
 use crate::store::DiskWorld;
-use crate::syntax;
 
 /// The server of one client.
 pub(super) struct Server<'c> {
     connection: &'c Connection,
-    session: Session,
-    buffers: Buffers,
-    encoding: Encoding,
+    pub(super) session: Session,
+    pub(super) buffers: Buffers,
+    pub(super) encoding: Encoding,
+    pub(super) settings: Settings,
+    pub(super) workspace: Workspace,
+    pub(super) abilities: Abilities,
+    /// Whether lenses or hints lack figures that are being compiled.
+    pub(super) is_outdated: bool,
+    /// The number of requests to the client.
+    asked: i32,
+    pub(super) compiler: Compiler,
+    pub(super) waiting: Vec<WaitingHover>,
+    pub(super) runs: Runs,
     /// For each open text, what was last published, and about which files.
     published: BTreeMap<String, (Arc<Checked>, BTreeSet<String>)>,
 }
 
 /// An answer, or why there is none.
-type Answer<R> = Result<<R as lsp::Request>::Result, String>;
+pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, String>;
 
 impl<'c> Server<'c> {
-    pub(super) fn new(connection: &'c Connection, encoding: Encoding) -> Self {
-        let session = Session::new(DiskWorld);
-        Self { connection, session, buffers: Buffers::default(), encoding, published: BTreeMap::new() }
+    pub(super) fn new(connection: &'c Connection, client: Client) -> Self {
+        let Client { encoding, settings, workspace, abilities } = client;
+        Self {
+            connection,
+            session: Session::new(DiskWorld),
+            buffers: Buffers::default(),
+            encoding,
+            settings,
+            workspace,
+            abilities,
+            is_outdated: false,
+            asked: 0,
+            compiler: Compiler::start(),
+            waiting: Vec::new(),
+            runs: Runs::new(),
+            published: BTreeMap::new(),
+        }
     }
 
     /// Serves until the client says goodbye or vanishes.
@@ -46,28 +71,82 @@ impl<'c> Server<'c> {
     /// # Errors
     /// When the client breaks the protocol.
     pub(super) fn run(mut self) -> Result<(), ProtocolError> {
-        while let Ok(message) = self.connection.receiver.recv() {
-            match message {
-                Message::Request(request) => {
-                    if self.connection.handle_shutdown(&request)? {
-                        return Ok(());
-                    }
-                    let answer = self.request(request);
-                    self.send(Message::Response(answer));
-                }
-                Message::Notification(notification) => self.notice(notification),
-                Message::Response(_) => {}
+        self.watch();
+        loop {
+            let patience = self.waiting.iter().map(WaitingHover::left).min();
+            select! {
+                recv(self.connection.receiver) -> message => match message {
+                    Ok(message) => if self.message(message)? { return Ok(()) },
+                    Err(_) => return Ok(()),
+                },
+                recv(self.compiler.results()) -> done => self.compiled(done.ok()),
+                recv(self.runs.events()) -> event => event.into_iter().for_each(|event| self.told(event)),
+                recv(patience.map_or_else(never, after)) -> _ => {}
             }
+            self.answer_hovers();
             // What changes again at once need not be checked.
             if self.connection.receiver.is_empty() {
                 self.publish();
             }
         }
-        Ok(())
+    }
+
+    /// Handles a message; whether it was the last.
+    fn message(&mut self, message: Message) -> Result<bool, ProtocolError> {
+        match message {
+            Message::Request(request) => {
+                if self.connection.handle_shutdown(&request)? {
+                    return Ok(true);
+                }
+                // An answer comes after the diagnostics of the text that it is about.
+                self.publish();
+                if let Some(answer) = self.request(request) {
+                    self.send(Message::Response(answer));
+                }
+            }
+            Message::Notification(notification) => self.notice(notification),
+            Message::Response(_) => {}
+        }
+        Ok(false)
+    }
+
+    fn compiled(&mut self, done: Option<Compilation>) {
+        done.into_iter().for_each(|done| self.compiler.keep(done));
+        if self.is_outdated && self.compiler.is_idle() {
+            self.is_outdated = false;
+            if self.abilities.refreshes_lenses {
+                self.ask::<CodeLensRefreshRequest>(());
+            }
+            if self.abilities.refreshes_hints {
+                self.ask::<InlayHintRefreshRequest>(());
+            }
+        }
+    }
+
+    /// Asks the client for something whose answer does not matter.
+    pub(super) fn ask<R: lsp::Request>(&mut self, parameters: R::Params) {
+        self.asked += 1;
+        let method = R::METHOD.to_string();
+        self.send(Message::Request(Request::new(self.asked.into(), method, parameters)));
+    }
+
+    /// Asks the client to watch the files that sources are read from.
+    fn watch(&mut self) {
+        if !self.abilities.watches_files {
+            return;
+        }
+        let watchers = serde_json::json!({ "watchers": [{ "globPattern": "**/*.{nb,yaml,blif,bench,aag,aig,v,sv}" }] });
+        self.ask::<RegistrationRequest>(RegistrationParams {
+            registrations: vec![Registration {
+                id: "files".to_owned(),
+                method: LspNotificationMethod::WorkspaceDidChangeWatchedFiles.to_string(),
+                register_options: Some(watchers),
+            }],
+        });
     }
 
     /// A client that has vanished ends the loop at its next message.
-    fn send(&self, message: Message) {
+    pub(super) fn send(&self, message: Message) {
         let _ = self.connection.sender.send(message);
     }
 
@@ -94,6 +173,22 @@ impl<'c> Server<'c> {
             LspNotificationMethod::TextDocumentDidClose => {
                 let Some(closed) = read::<lsp::DidCloseTextDocumentNotification>(notification) else { return };
                 self.close(&closed.text_document.uri);
+            }
+            LspNotificationMethod::CancelRequest => {
+                notification.params.get("id").into_iter().for_each(|id| self.runs.cancel_request(id));
+            }
+            LspNotificationMethod::WindowWorkDoneProgressCancel => {
+                let Some(cancelled) = read::<lsp::WorkDoneProgressCancelNotification>(notification) else { return };
+                self.runs.cancel_progress(&cancelled.token);
+            }
+            LspNotificationMethod::WorkspaceDidChangeWorkspaceFolders => {
+                let Some(changed) = read::<lsp::DidChangeWorkspaceFoldersNotification>(notification) else { return };
+                changed.event.removed.iter().for_each(|folder| self.workspace.remove(&folder.uri));
+                changed.event.added.iter().for_each(|folder| self.workspace.add(&folder.uri));
+            }
+            LspNotificationMethod::WorkspaceDidChangeConfiguration => {
+                let settings = notification.params.pointer("/settings/nbc");
+                self.settings = settings.map_or(self.settings, |change| self.settings.with(change));
             }
             LspNotificationMethod::WorkspaceDidChangeWatchedFiles => {
                 let Some(changed) = read::<lsp::DidChangeWatchedFilesNotification>(notification) else { return };
@@ -134,188 +229,23 @@ impl<'c> Server<'c> {
             before.difference(&about).for_each(|uri| self.tell(Uri(uri.clone()), None, Vec::new()));
             self.published.insert(path, (checked, about));
         }
+        self.compiler.cancel_stale();
+    }
+
+    /// The checked text with a URI; `None` if it is not open.
+    pub(super) fn checked(&mut self, uri: &Uri) -> Option<Arc<Checked>> {
+        let path = self.buffers.get(uri)?.path.clone();
+        Some(self.session.checked(&path))
+    }
+
+    pub(super) fn files<'a>(&self, checked: &'a Checked) -> Files<'a> {
+        Files { checked, encoding: self.encoding }
     }
 
     fn tell(&self, uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) {
         let method = LspNotificationMethod::TextDocumentPublishDiagnostics.to_string();
         let published = PublishDiagnosticsParams { uri, version, diagnostics };
         self.send(Message::Notification(Notification::new(method, published)));
-    }
-
-    fn request(&mut self, request: Request) -> Response {
-        let method = request.method.clone();
-        match LspRequestMethod::from(method.as_str()) {
-            LspRequestMethod::TextDocumentHover => self.answer::<HoverRequest>(request, Self::hover),
-            LspRequestMethod::TextDocumentDefinition => self.answer::<DefinitionRequest>(request, Self::definition),
-            LspRequestMethod::TextDocumentReferences => self.answer::<ReferencesRequest>(request, Self::references),
-            LspRequestMethod::TextDocumentDocumentHighlight => {
-                self.answer::<DocumentHighlightRequest>(request, Self::highlights)
-            }
-            LspRequestMethod::TextDocumentPrepareRename => {
-                self.answer::<PrepareRenameRequest>(request, Self::prepare_rename)
-            }
-            LspRequestMethod::TextDocumentRename => self.answer::<RenameRequest>(request, Self::rename),
-            LspRequestMethod::TextDocumentDocumentSymbol => {
-                self.answer::<DocumentSymbolRequest>(request, Self::symbols)
-            }
-            LspRequestMethod::TextDocumentFoldingRange => self.answer::<FoldingRangeRequest>(request, Self::folds),
-            LspRequestMethod::TextDocumentFormatting => self.answer::<DocumentFormattingRequest>(request, Self::format),
-            LspRequestMethod::TextDocumentCodeAction => self.answer::<CodeActionRequest>(request, Self::fixes),
-            LspRequestMethod::TextDocumentCompletion => self.answer::<CompletionRequest>(request, Self::complete),
-            _ => {
-                let message = format!("`{method}` is not a request of this server");
-                Response::new_err(request.id, ErrorCode::MethodNotFound as i32, message)
-            }
-        }
-    }
-
-    /// Answers a request. A bug of a handler is an answer too, and the server goes on.
-    fn answer<R: lsp::Request>(
-        &mut self,
-        request: Request,
-        handle: impl FnOnce(&mut Self, R::Params) -> Answer<R>,
-    ) -> Response {
-        let parameters = match serde_json::from_value(request.params) {
-            Ok(parameters) => parameters,
-            Err(error) => return Response::new_err(request.id, ErrorCode::InvalidParams as i32, error.to_string()),
-        };
-        match catch_unwind(AssertUnwindSafe(|| handle(self, parameters))) {
-            Ok(Ok(result)) => Response::new_ok(request.id, result),
-            Ok(Err(reason)) => Response::new_err(request.id, ErrorCode::RequestFailed as i32, reason),
-            Err(_) => {
-                let message = "this is a bug of nbc; details are on standard error".to_owned();
-                Response::new_err(request.id, ErrorCode::InternalError as i32, message)
-            }
-        }
-    }
-
-    /// The checked text with a URI; `None` if it is not open.
-    fn checked(&mut self, uri: &Uri) -> Option<Arc<Checked>> {
-        let path = self.buffers.get(uri)?.path.clone();
-        Some(self.session.checked(&path))
-    }
-
-    /// The name at a place, with its source.
-    fn name(&mut self, place: &TextDocumentPositionParams) -> Option<(Arc<Checked>, NameUse)> {
-        let checked = self.checked(&place.text_document.uri)?;
-        let file = checked.file?;
-        let offset = self.files(&checked).lines(file).offset(place.position);
-        let found = checked.uses.at(file, offset)?;
-        Some((checked, found))
-    }
-
-    fn files<'a>(&self, checked: &'a Checked) -> Files<'a> {
-        Files { checked, encoding: self.encoding }
-    }
-
-    fn hover(&mut self, asked: lsp::HoverParams) -> Answer<HoverRequest> {
-        Ok(self.name(&asked.text_document_position_params).map(|(checked, found)| {
-            let files = self.files(&checked);
-            let value = hover::text(&files, found);
-            let contents = lsp::MarkupContent { kind: lsp::MarkupKind::Markdown, value };
-            lsp::Hover { contents: contents.into(), range: Some(files.range(found.place)) }
-        }))
-    }
-
-    fn definition(&mut self, asked: lsp::DefinitionParams) -> Answer<DefinitionRequest> {
-        Ok(self.name(&asked.text_document_position_params).map(|(checked, found)| {
-            let location = self.files(&checked).location(found.declared);
-            lsp::DefinitionResponse::Definition(location.into())
-        }))
-    }
-
-    /// The uses of a name in all open texts and what they use.
-    fn uses(&mut self, checked: &Checked, found: NameUse, with_declaration: bool) -> Vec<lsp::Location> {
-        let home = self.files(checked).uri(found.declared.file);
-        let paths: Vec<_> = self.buffers.iter().map(|buffer| buffer.path.clone()).collect();
-        let mut places: Vec<lsp::Location> = Vec::new();
-        for path in paths {
-            let other = self.session.checked(&path);
-            places.extend(navigation::uses(&self.files(&other), &home, found.declared, with_declaration));
-        }
-        places.sort_by(|a, b| (&a.uri.0, a.range).cmp(&(&b.uri.0, b.range)));
-        places.dedup();
-        places
-    }
-
-    fn references(&mut self, asked: lsp::ReferenceParams) -> Answer<ReferencesRequest> {
-        let found = self.name(&asked.text_document_position_params);
-        Ok(found.map(|(checked, found)| self.uses(&checked, found, asked.context.include_declaration)))
-    }
-
-    fn highlights(&mut self, asked: lsp::DocumentHighlightParams) -> Answer<DocumentHighlightRequest> {
-        let found = self.name(&asked.text_document_position_params);
-        Ok(found.map(|(checked, found)| navigation::highlights(&self.files(&checked), found)))
-    }
-
-    fn prepare_rename(&mut self, asked: lsp::PrepareRenameParams) -> Answer<PrepareRenameRequest> {
-        let found = self.name(&asked.text_document_position_params);
-        let Some((checked, found)) = found else { return Ok(None) };
-        let files = self.files(&checked);
-        match files.prelude(found.declared.file) {
-            Some(_) => Ok(None),
-            None => Ok(Some(files.range(found.place).into())),
-        }
-    }
-
-    fn rename(&mut self, asked: lsp::RenameParams) -> Answer<RenameRequest> {
-        let found = self.name(&asked.text_document_position_params);
-        let Some((checked, found)) = found else { return Ok(None) };
-        if let Some(reason) = navigation::refusal(&self.files(&checked), found, &asked.new_name) {
-            return Err(reason);
-        }
-        let places = self.uses(&checked, found, true).into_iter();
-        let edit =
-            |place: lsp::Location| (place.uri, TextEdit { range: place.range, new_text: asked.new_name.clone() });
-        Ok(Some(navigation::workspace_edit(places.map(edit))))
-    }
-
-    fn symbols(&mut self, asked: lsp::DocumentSymbolParams) -> Answer<DocumentSymbolRequest> {
-        let parsed = self.parsed(&asked.text_document.uri, outline::symbols);
-        Ok(parsed.map(Into::into))
-    }
-
-    fn folds(&mut self, asked: lsp::FoldingRangeParams) -> Answer<FoldingRangeRequest> {
-        Ok(self.parsed(&asked.text_document.uri, outline::folds))
-    }
-
-    /// Reads the tree of an open text.
-    fn parsed<T>(&mut self, uri: &Uri, read: impl FnOnce(&syntax::tree::Tree, &Lines<'_>) -> T) -> Option<T> {
-        let checked = self.checked(uri)?;
-        let file = checked.file?;
-        let tree = syntax::parse(&checked.sources, file).tree;
-        Some(read(&tree, &self.files(&checked).lines(file)))
-    }
-
-    fn format(&mut self, asked: lsp::DocumentFormattingParams) -> Answer<DocumentFormattingRequest> {
-        let Some(buffer) = self.buffers.get(&asked.text_document.uri) else { return Ok(None) };
-        // A text with errors of syntax stays as it is; its diagnostics say why.
-        let Ok(formatted) = self.session.formatted(&buffer.path) else { return Ok(None) };
-        if formatted.is_canonical {
-            return Ok(Some(Vec::new()));
-        }
-        let starts = LineStarts::of(&buffer.text);
-        let lines = Lines { text: &buffer.text, starts: &starts, encoding: self.encoding };
-        let range = lines.range(0..buffer.text.len());
-        Ok(Some(vec![TextEdit { range, new_text: formatted.text }]))
-    }
-
-    fn fixes(&mut self, asked: lsp::CodeActionParams) -> Answer<CodeActionRequest> {
-        let checked = self.checked(&asked.text_document.uri);
-        Ok(checked.map(|checked| {
-            let files = self.files(&checked);
-            problems::fixes(&files, &files.own(), asked.range)
-        }))
-    }
-
-    fn complete(&mut self, asked: lsp::CompletionParams) -> Answer<CompletionRequest> {
-        let place = asked.text_document_position_params;
-        let Some(checked) = self.checked(&place.text_document.uri) else { return Ok(None) };
-        let Some(file) = checked.file else { return Ok(None) };
-        let files = self.files(&checked);
-        let offset = files.lines(file).offset(place.position);
-        let tree = syntax::parse(&checked.sources, file).tree;
-        Ok(Some(completion::items(&files, file, &tree, offset).into()))
     }
 }
 

@@ -1,118 +1,22 @@
 //! `nbc lsp` in the real program, with a client that speaks the protocol over pipes.
 
-use std::io::{BufReader, Write};
-use std::path::Path;
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+mod client;
+mod hovers;
+mod latency;
+mod renaming;
+mod runs;
+mod views;
+mod writing;
 
-use lsp_server::Message;
+use std::io::Write;
+use std::process::{Command, Stdio};
+
 use serde_json::{Value, json};
 
 use crate::cli::Bench;
+use client::{Client, at, file, place};
 
-/// A running server and its client.
-struct Client {
-    server: Child,
-    input: Option<ChildStdin>,
-    output: BufReader<ChildStdout>,
-    next: i32,
-    /// The diagnostics published since they were last asked for, by URI.
-    published: Vec<(String, Value)>,
-}
-
-impl Client {
-    fn start() -> Self {
-        Self::with(&json!({}))
-    }
-
-    fn with(capabilities: &Value) -> Self {
-        let mut server = Command::new(env!("CARGO_BIN_EXE_nbc"))
-            .args(["lsp", "--stdio"])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let input = server.stdin.take();
-        let output = BufReader::new(server.stdout.take().unwrap());
-        let mut client = Self { server, input, output, next: 0, published: Vec::new() };
-        let answer = client.ask("initialize", json!({ "capabilities": capabilities })).unwrap();
-        assert_eq!(answer["serverInfo"]["name"], "nbc");
-        client.tell("initialized", json!({}));
-        client
-    }
-
-    fn send(&mut self, message: &Value) {
-        let text = message.to_string();
-        let input = self.input.as_mut().unwrap();
-        write!(input, "Content-Length: {}\r\n\r\n{text}", text.len()).unwrap();
-        input.flush().unwrap();
-    }
-
-    fn tell(&mut self, method: &str, parameters: Value) {
-        self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": parameters }));
-    }
-
-    /// The result of a request, or the message of its error.
-    fn ask(&mut self, method: &str, parameters: Value) -> Result<Value, String> {
-        self.next += 1;
-        self.send(&json!({ "jsonrpc": "2.0", "id": self.next, "method": method, "params": parameters }));
-        loop {
-            match Message::read(&mut self.output).unwrap().expect("the server answers") {
-                Message::Response(response) => {
-                    assert_eq!(response.id, self.next.into());
-                    return response.response_result.map_err(|error| error.message);
-                }
-                Message::Notification(told) if told.method == "textDocument/publishDiagnostics" => {
-                    let uri = told.params["uri"].as_str().unwrap().to_owned();
-                    self.published.push((uri, told.params["diagnostics"].clone()));
-                }
-                _ => {}
-            }
-        }
-    }
-
-    fn open(&mut self, uri: &str, text: &str) {
-        let document = json!({ "uri": uri, "languageId": "nb", "version": 1, "text": text });
-        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
-    }
-
-    /// The last diagnostics of a file. An answer to any request comes after them.
-    fn diagnostics(&mut self, uri: &str) -> Value {
-        self.ask("textDocument/foldingRange", json!({ "textDocument": { "uri": uri } })).unwrap();
-        let found = self.published.iter().rev().find(|(known, _)| known == uri);
-        found.map(|(_, list)| list.clone()).expect("diagnostics were published")
-    }
-
-    fn goodbye(mut self) {
-        self.ask("shutdown", Value::Null).unwrap();
-        self.tell("exit", Value::Null);
-        assert!(self.server.wait().unwrap().success());
-    }
-}
-
-fn uri(path: &Path) -> String {
-    format!("file://{}", path.canonicalize().unwrap().display())
-}
-
-/// A file of a folder, with its URI and its text.
-fn file(bench: &Bench, name: &str, text: &str) -> (String, String) {
-    bench.file(name, text);
-    (uri(&bench.path().join(name)), text.to_owned())
-}
-
-/// The place of a word in a text that has it, in lines and characters.
-fn at(text: &str, word: &str) -> Value {
-    let before = &text[..text.find(word).unwrap()];
-    let line = before.matches('\n').count();
-    let start = before.rfind('\n').map_or(0, |end| end + 1);
-    json!({ "line": line, "character": before[start..].encode_utf16().count() })
-}
-
-fn place(uri: &str, text: &str, word: &str) -> Value {
-    json!({ "textDocument": { "uri": uri }, "position": at(text, word) })
-}
-
-const ADDER: &str = "\
+pub(crate) const ADDER: &str = "\
 use \"half.nb\"
 
 // Adds two bits and a carry.
@@ -128,7 +32,7 @@ test full {
 }
 ";
 
-const HALF: &str = "\
+pub(crate) const HALF: &str = "\
 // Adds two bits.
 circuit half(a, b) -> (s, c) {
     s = a xor b
@@ -181,53 +85,6 @@ fn names_lead_to_their_declarations_in_other_files_and_in_the_prelude() {
 }
 
 #[test]
-fn a_hover_shows_the_declaration_and_its_comment() {
-    let bench = Bench::new();
-    file(&bench, "half.nb", HALF);
-    let (full, text) = file(&bench, "full.nb", ADDER);
-    let mut client = Client::start();
-    client.open(&full, &text);
-    let mut hover = |word: &str| {
-        let found = client.ask("textDocument/hover", place(&full, &text, word)).unwrap();
-        found["contents"]["value"].as_str().unwrap().to_owned()
-    };
-    assert_eq!(hover("half(a"), "```nb\ncircuit half(a, b) -> (s, c)\n```\n\nAdds two bits.\n");
-    assert_eq!(hover("c1 or"), "```nb\nnet c1\n```\n");
-    client.goodbye();
-}
-
-#[test]
-fn a_new_name_is_written_in_all_open_files() {
-    let bench = Bench::new();
-    let (half, half_text) = file(&bench, "half.nb", HALF);
-    let (full, text) = file(&bench, "full.nb", ADDER);
-    let mut client = Client::start();
-    client.open(&full, &text);
-    client.open(&half, &half_text);
-    let uses = client.ask("textDocument/references", {
-        let mut asked = place(&half, &half_text, "half");
-        asked["context"] = json!({ "includeDeclaration": false });
-        asked
-    });
-    assert_eq!(uses.unwrap().as_array().unwrap().len(), 2);
-    let mut asked = place(&full, &text, "half(a");
-    asked["newName"] = json!("adder");
-    let edit = client.ask("textDocument/rename", asked.clone()).unwrap();
-    let changes = edit["changes"].as_object().unwrap();
-    assert_eq!((changes[&half].as_array().unwrap().len(), changes[&full].as_array().unwrap().len()), (1, 2));
-    asked["newName"] = json!("and");
-    assert!(client.ask("textDocument/rename", asked).unwrap_err().contains("`and` is not a name"));
-    // Ports are renamed in tests too.
-    let mut asked = place(&full, &text, "co = c1");
-    asked["newName"] = json!("carry");
-    let edit = client.ask("textDocument/rename", asked).unwrap();
-    assert_eq!(edit["changes"][&full].as_array().unwrap().len(), 3);
-    let highlights = client.ask("textDocument/documentHighlight", place(&full, &text, "t, c1")).unwrap();
-    assert_eq!(highlights.as_array().unwrap().len(), 2);
-    client.goodbye();
-}
-
-#[test]
 fn a_text_is_formatted_as_by_the_program() {
     let bench = Bench::new();
     let (uri, text) = file(&bench, "a.nb", "circuit   f(a)->(q){q=not a}\n");
@@ -265,7 +122,7 @@ fn declarations_are_listed_folded_and_completed() {
     for wanted in ["half", "latch", "t", "c2", "table"] {
         assert!(inside.iter().any(|label| label == wanted), "{wanted}: {inside:?}");
     }
-    assert!(labels("// Adds").iter().any(|label| label == "circuit"));
+    assert!(labels("\n// Adds").iter().any(|label| label == "circuit"));
     client.goodbye();
 }
 
@@ -353,6 +210,13 @@ fn neovim_hovers_goes_to_definitions_renames_and_formats() {
     assert!(found["hover"].as_str().unwrap().starts_with(&format!("```nb\ncircuit {name}(")), "{found}");
     assert_eq!(found["definition"], at(&text, &format!("{name}("))["line"]);
     assert_eq!(found["problems"], 0);
+    assert_eq!(found["pictures"], false, "Neovim would show their source");
+    let test = &found["ran"];
+    assert!(test["passed"] == true && std::path::Path::new(test["path"].as_str().unwrap()).exists(), "{found}");
+    for count in ["highlights", "symbols", "workspace"] {
+        assert!(found[count].as_u64().unwrap() > 0, "{count}: {found}");
+    }
+    assert_eq!(found["completions"], 0, "nothing is completed in a comment");
     let renamed = format!("//   formatted\n\n{}", text.replace(name, "memory"));
     assert_eq!(found["text"], renamed, "a canonical text stays as it is");
 }

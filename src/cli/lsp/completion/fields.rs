@@ -1,0 +1,117 @@
+//! The fields of declarations and what they may hold. `tests` compares them with the checker.
+
+use crate::check::NameKind;
+
+/// What a field may hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Holds {
+    /// One of these words, or anything else that is not completed.
+    Words(&'static [&'static str]),
+    /// A name of this kind, or one of the words.
+    Name(NameKind, &'static [&'static str]),
+    /// A function or a behavior.
+    Function,
+}
+
+/// The fields of a declaration with that keyword.
+pub(super) fn of(keyword: &str) -> &'static [(&'static str, Holds)] {
+    match keyword {
+        "material" => &MATERIAL,
+        "evolution" => &EVOLUTION,
+        "library" => &LIBRARY,
+        "swarm" => &SWARM,
+        _ => &[],
+    }
+}
+
+/// The weights of `mutation`.
+pub(super) const MUTATION: [&str; 6] =
+    ["add_node", "remove_node", "add_link", "remove_link", "change_activation", "change_weight"];
+
+const MATERIAL: [(&str, Holds); 8] = [
+    ("kind", Holds::Words(&["actuator", "rigid", "sensor", "soft"])),
+    ("drive", Holds::Words(&["sine"])),
+    ("period", Holds::Words(&[])),
+    ("phase", Holds::Words(&[])),
+    ("range", Holds::Words(&[])),
+    ("stimulus", Holds::Name(NameKind::Stimulus, &[])),
+    ("absent", Holds::Words(&[])),
+    ("present", Holds::Words(&[])),
+];
+
+const EVOLUTION: [(&str, Holds); 16] = [
+    ("from", Holds::Name(NameKind::Evolution, &[])),
+    ("box", Holds::Words(&[])),
+    ("materials", Holds::Name(NameKind::Material, &[])),
+    ("genome", Holds::Words(&["cppn"])),
+    ("variable", Holds::Name(NameKind::Schedule, &[])),
+    ("fixed", Holds::Words(&[])),
+    ("descriptors", Holds::Words(&["active in", "behavior", "sensory in", "voxels in"])),
+    ("batch", Holds::Words(&[])),
+    ("newcomers", Holds::Words(&[])),
+    ("generations", Holds::Words(&[])),
+    ("seed", Holds::Words(&[])),
+    ("mutation", Holds::Words(&[])),
+    ("as", Holds::Words(&["code", "paper"])),
+    ("objective", Holds::Words(&["distance", "gate"])),
+    ("symmetry", Holds::Words(&["none", "npn"])),
+    ("niche", Holds::Words(&["dominance", "pareto"])),
+];
+
+const LIBRARY: [(&str, Holds); 2] =
+    [("from", Holds::Name(NameKind::Evolution, &["shipped"])), ("behaviors", Holds::Function)];
+
+const SWARM: [(&str, Holds); 5] = [
+    ("circuit", Holds::Name(NameKind::Circuit, &[])),
+    ("library", Holds::Name(NameKind::Library, &[])),
+    ("hold", Holds::Words(&["auto"])),
+    ("window", Holds::Words(&[])),
+    ("registers", Holds::Words(&["master_slave", "pulsed"])),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check;
+    use crate::source::{MemoryWorld, Sources};
+
+    fn messages(text: &str) -> String {
+        let mut sources = Sources::default();
+        let file = sources.add("a.nb", text);
+        let found = check::check(&MemoryWorld::default(), &mut sources, file).diagnostics;
+        found.iter().map(|fault| format!("{} {}\n", fault.message, fault.help.as_deref().unwrap_or_default())).collect()
+    }
+
+    #[test]
+    fn the_fields_are_those_of_the_checker() {
+        let kinds = ["actuator", "sensor"].map(|kind| format!("material x {{ kind: {kind}, qqqqq: 1 }}"));
+        let others = ["evolution", "library", "swarm"].map(|keyword| format!("{keyword} x {{ qqqqq: 1 }}"));
+        let known: String = kinds.iter().chain(&others).map(|text| messages(text)).collect();
+        for keyword in ["material", "evolution", "library", "swarm"] {
+            let own = known.lines().filter(|line| line.starts_with(&format!("the {keyword} ")));
+            let own: Vec<&str> =
+                own.filter_map(|line| line.split_once("its fields are ")).map(|(_, list)| list).collect();
+            let mut listed: Vec<&str> = own.iter().flat_map(|list| list.split('`').skip(1).step_by(2)).collect();
+            let mut mine: Vec<&str> = of(keyword).iter().map(|(field, _)| *field).collect();
+            listed.sort_unstable();
+            listed.dedup();
+            mine.sort_unstable();
+            assert_eq!(mine, listed, "{keyword}: {known}");
+        }
+        let weights = MUTATION.map(|weight| format!("{weight}: 1")).join(", ");
+        assert_eq!(messages(&format!("evolution x {{ mutation: {{ {weights} }} }}")), "");
+    }
+
+    #[test]
+    fn the_words_are_those_of_the_checker() {
+        for (keyword, start) in [("material", ""), ("evolution", ""), ("library", ""), ("swarm", "")] {
+            for (field, holds) in of(keyword) {
+                let (Holds::Words(words) | Holds::Name(_, words)) = holds else { continue };
+                for word in words.iter().filter(|word| !word.ends_with(" in") && **word != "pareto") {
+                    let found = messages(&format!("{keyword} x {{ {start}{field}: {word} }}"));
+                    assert!(!found.contains(&format!("`{word}`")), "{keyword} {field}: {found}");
+                }
+            }
+        }
+    }
+}

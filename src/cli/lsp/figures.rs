@@ -1,0 +1,115 @@
+//! What only compiling tells of a circuit or of a net: robots, times, the slowest path.
+
+use crate::circuit::CancelFlag;
+use crate::diag::counted;
+use crate::model::Instance;
+use crate::session::{Checked, CompileOptions, Mapping, Session};
+use crate::source::Span;
+
+/// What is to be compiled.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Subject {
+    /// A circuit as the swarm of that name, or as the first that is declared for it.
+    Circuit(Instance, Option<String>),
+    /// The part of a circuit that drives the net declared at a place.
+    Net(Instance, Span),
+}
+
+/// The figures of a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Figures {
+    Circuit(CircuitFigures),
+    Net { cells: usize, robots: usize },
+}
+
+/// The figures of a circuit as a swarm.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct CircuitFigures {
+    /// The declared swarm.
+    swarm: Option<String>,
+    robots: usize,
+    /// Cycles after which every net is correct.
+    hold: u32,
+    /// The least period of each clock.
+    clocks: Vec<(String, u32)>,
+    /// The slowest path, input first.
+    path: Vec<String>,
+    /// The timing as text.
+    pub(super) timing: String,
+}
+
+impl Subject {
+    /// Compiles a subject of a source without errors; `None` if it cannot be made.
+    ///
+    /// A compilation that is cancelled has figures that are not to be used.
+    pub(super) fn compile(&self, session: &Session, checked: &Checked, cancel: &CancelFlag) -> Option<Figures> {
+        match self {
+            Self::Circuit(circuit, swarm) => {
+                of_circuit(session, checked, circuit, options(checked, circuit, swarm.clone(), cancel))
+            }
+            Self::Net(circuit, net) => {
+                let options = options(checked, circuit, None, cancel);
+                let Mapping { source, netlist, .. } = session.map_net(checked, circuit, *net, &options).ok()?;
+                Some(Figures::Net { cells: source.cells().count(), robots: netlist.cells().count() })
+            }
+        }
+    }
+}
+
+fn options(checked: &Checked, circuit: &Instance, swarm: Option<String>, cancel: &CancelFlag) -> CompileOptions {
+    let first = || checked.swarms(circuit).first().map(|swarm| swarm.name.clone());
+    CompileOptions { swarm: swarm.or_else(first), cancel: cancel.clone(), ..CompileOptions::default() }
+}
+
+fn of_circuit(session: &Session, checked: &Checked, circuit: &Instance, options: CompileOptions) -> Option<Figures> {
+    let compiled = session.compile(checked, circuit, &options).ok()?;
+    let timing = compiled.swarm_timing();
+    Some(Figures::Circuit(CircuitFigures {
+        swarm: options.swarm,
+        robots: compiled.assembly.members.len(),
+        hold: timing.hold,
+        clocks: timing.phases.clocks.iter().map(|clock| (clock.clock.clone(), clock.period)).collect(),
+        path: timing.critical_path.iter().map(|step| step.net.clone()).collect(),
+        timing: timing.describe(),
+    }))
+}
+
+impl CircuitFigures {
+    /// `12 robots, clock 8`: in cycles, the longest period of a clock, or the hold of a circuit without one.
+    pub(super) fn summary(&self) -> String {
+        let clock = self.clocks.iter().map(|(_, period)| *period).max().unwrap_or(self.hold);
+        format!("{}, clock {clock}", self.robots())
+    }
+
+    /// `12 robots`
+    pub(super) fn robots(&self) -> String {
+        counted(self.robots, "robot")
+    }
+
+    fn describe(&self) -> String {
+        let swarm = self.swarm.as_ref().map_or(String::new(), |swarm| format!(" as `{swarm}`"));
+        let hold = counted(self.hold as usize, "cycle");
+        let mut text = format!("**{}**{swarm}, settles within {hold}", self.robots());
+        for (clock, period) in &self.clocks {
+            text.push_str(&format!(", period of `{clock}` {}", counted(*period as usize, "cycle")));
+        }
+        if !self.path.is_empty() {
+            let nets: Vec<String> = self.path.iter().map(|net| format!("`{net}`")).collect();
+            text.push_str(&format!("\n\nSlowest path: {}", nets.join(" → ")));
+        }
+        text
+    }
+}
+
+impl Figures {
+    /// The figures as Markdown.
+    pub(super) fn describe(&self) -> String {
+        match self {
+            Self::Circuit(figures) => figures.describe(),
+            Self::Net { cells, robots } => {
+                let (cells, robots) = (counted(*cells, "cell"), counted(*robots, "robot"));
+                format!("Made alone, it takes {cells} as written and **{robots}**.")
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The work of a command, and its result.
+
+use std::path::PathBuf;
+
+use crate::cli::lsp::runs::order::{RunOrder, Task};
+use crate::cli::lsp::runs::outcome::RunOutcome;
+use crate::cli::lsp::runs::watcher::Watcher;
+use crate::diag::Diagnostics;
+use crate::model::{CircuitTest, Simulation};
+use crate::report::{self, Scheme};
+use crate::session::{
+    Checked, Choice, CompileOptions, Compiled, Observer, RunEnd, RunReport, Session, SimulationRun, TestOptions,
+    TestRun,
+};
+use crate::store::{self, DiskWorld};
+use crate::swarm::{Level, Room};
+
+/// Does what is ordered; an error is a message for people.
+pub(super) fn perform(checked: &Checked, order: &RunOrder, watcher: &mut Watcher) -> Result<RunOutcome, String> {
+    if checked.has_errors() {
+        return Err("the source has errors".to_owned());
+    }
+    let session = Session::new(DiskWorld).with_poses(Room::SWARM);
+    match &order.task {
+        Task::Run { level, test, simulation } => {
+            let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
+            finish(checked, *level, &report)
+        }
+        Task::Schematic(choice) => {
+            let picture = compile(&session, checked, choice, watcher)?.schematic(Scheme::default());
+            let path = written(checked, "schematic.svg", &picture.finish())?;
+            Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path)))
+        }
+        Task::Timing(choice) => {
+            let timing = compile(&session, checked, choice, watcher)?.swarm_timing();
+            Ok(RunOutcome::new(None, timing.describe(), None))
+        }
+    }
+}
+
+fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watcher) -> Result<Compiled, String> {
+    let circuit = checked.circuit(choice).map_err(|faults| said(&faults))?;
+    let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
+    let swarm = choice.swarm.clone().or_else(first);
+    let options = CompileOptions { swarm, ..options(watcher) };
+    let compiled = session.compile(checked, &circuit, &options).map_err(|faults| said(&faults))?;
+    going(watcher).map(|()| compiled)
+}
+
+/// Runs the chosen tests and simulations.
+fn run(
+    session: &Session,
+    checked: &Checked,
+    level: Level,
+    (test, simulation): (Option<usize>, Option<usize>),
+    watcher: &mut Watcher,
+) -> Result<RunReport, String> {
+    let program = &checked.program;
+    let is_chosen = |chosen: Option<usize>, at: usize| match (test, simulation) {
+        (None, None) => true,
+        _ => chosen == Some(at),
+    };
+    let tests: Vec<&CircuitTest> =
+        program.tests.iter().enumerate().filter(|(at, _)| is_chosen(test, *at)).map(|(_, test)| test).collect();
+    let simulations = program.simulations.iter().enumerate().filter(|(at, _)| is_chosen(simulation, *at));
+    let simulations: Vec<&Simulation> =
+        simulations.filter(|_| level == Level::Physics).map(|(_, simulation)| simulation).collect();
+    if tests.is_empty() && simulations.is_empty() {
+        return Err("there is no such test or simulation".to_owned());
+    }
+    let parts = (tests.len() + simulations.len()) as u64;
+    let mut report = RunReport { tests: Vec::new(), simulations: Vec::new() };
+    for (at, test) in (0..).zip(tests) {
+        watcher.part = (at, parts);
+        report.tests.extend(run_test(session, checked, test, level, watcher)?);
+    }
+    for (at, simulation) in (parts - simulations.len() as u64..).zip(simulations) {
+        watcher.part = (at, parts);
+        report.simulations.push(run_simulation(session, checked, simulation, watcher)?);
+    }
+    Ok(report)
+}
+
+fn run_test(
+    session: &Session,
+    checked: &Checked,
+    test: &CircuitTest,
+    level: Level,
+    watcher: &mut Watcher,
+) -> Result<Vec<TestRun>, String> {
+    let options = TestOptions { level: Some(level), compile: options(watcher) };
+    let mut runs = Vec::new();
+    for case in session.cases(checked, test, &options).map_err(|faults| said(&faults))? {
+        runs.push(going(watcher).and_then(|()| complete(session.run_case(case, watcher), |run| run.end))?);
+    }
+    Ok(runs)
+}
+
+fn run_simulation(
+    session: &Session,
+    checked: &Checked,
+    simulation: &Simulation,
+    watcher: &mut Watcher,
+) -> Result<SimulationRun, String> {
+    going(watcher)?;
+    let options = options(watcher);
+    let run = session.simulate(checked, simulation, &options, watcher);
+    complete(run.map_err(|faults| said(&faults))?, |run| run.end)
+}
+
+/// The default options; compiling ends early when the run is stopped.
+fn options(watcher: &Watcher) -> CompileOptions {
+    CompileOptions { cancel: watcher.stop.clone(), ..CompileOptions::default() }
+}
+
+const CANCELLED: &str = "cancelled";
+
+fn going(watcher: &Watcher) -> Result<(), String> {
+    if watcher.is_cancelled() { Err(CANCELLED.to_owned()) } else { Ok(()) }
+}
+
+fn complete<R>(run: R, end: impl Fn(&R) -> RunEnd) -> Result<R, String> {
+    match end(&run) {
+        RunEnd::Complete => Ok(run),
+        RunEnd::Cancelled => Err(CANCELLED.to_owned()),
+    }
+}
+
+/// Writes the page of a report.
+fn finish(checked: &Checked, level: Level, report: &RunReport) -> Result<RunOutcome, String> {
+    let verdicts: Vec<_> = report.tests.iter().map(|run| &run.verdict).collect();
+    let source = checked.path.rsplit('/').next().unwrap_or_default();
+    let page = match level {
+        Level::Physics => report.page(source, Scheme::default()),
+        Level::Logic => report::draw_logic_page(source, &verdicts),
+    };
+    let path = written(checked, "report.html", &page)?;
+    let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
+    let text = match verdicts.len() {
+        0 => "simulated".to_owned(),
+        all => format!("{}: {passed} of {all} passed", if passed == all { "pass" } else { "FAIL" }),
+    };
+    Ok(RunOutcome::new((!verdicts.is_empty()).then_some(passed == verdicts.len()), text, Some(path)))
+}
+
+/// Writes a result among those of this process, in the folder of its source.
+fn written(checked: &Checked, name: &str, text: &str) -> Result<PathBuf, String> {
+    let source = checked.path.rsplit('/').next().unwrap_or_default();
+    let stem: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let results = format!("nbc-{}/results-{}", env!("CARGO_PKG_VERSION"), std::process::id());
+    let folder = std::env::temp_dir().join(results).join(stem);
+    let path = folder.join(name);
+    let done = store::create_folder(&folder).and_then(|()| store::write(&path, text.as_bytes()));
+    done.map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
+    Ok(path)
+}
+
+/// Faults as a message: the first of them.
+fn said(faults: &Diagnostics) -> String {
+    faults.list.first().map_or_else(String::new, |fault| fault.message.clone())
+}
