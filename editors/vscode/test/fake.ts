@@ -220,6 +220,8 @@ export class Editor {
   readonly documents: Document[] = [];
   /** What to do at each state of an item of a run. */
   changed?: (run: Run, state: string) => void;
+  /** What to do at each step of a notification. */
+  progressed?: (step: any, source: CancellationTokenSource) => void;
   trusted = true;
 
   constructor(
@@ -269,6 +271,10 @@ export class Editor {
         showWarningMessage: async (text: string) => void this.shown.push(text),
         showErrorMessage: async (text: string) => void this.shown.push(text),
         showInformationMessage: async (text: string) => void this.shown.push(text),
+        withProgress: (_: unknown, task: any) => {
+          const source = new CancellationTokenSource();
+          return task({ report: (step: unknown) => this.progressed?.(step, source) }, source.token);
+        },
         createWebviewPanel: () => {
           const panel = partly({ webview: { html: "" }, title: "" });
           this.panels.push(panel);

@@ -26,13 +26,13 @@ export function reportPage(report: string, frame: Frame): string {
   );
 }
 
-/** A drawing, as SVG, with its heading. */
+/** A drawing, as SVG, which has a heading of its own. */
 export function drawingPage(heading: string, svg: string): string {
   const image = `data:image/svg+xml;base64,${Buffer.from(svg).toString("base64")}`;
   // Drawings are made for paper.
   const style = "body { background: #ffffff; color: #1a1a1a; } img { max-width: none; }";
   const title = escape(heading);
-  return page(style, `<h1>${title}</h1><img alt="${title}" src="${image}">`);
+  return page(style, `<img alt="${title}" src="${image}">`);
 }
 
 /** Text in columns. */

@@ -1,5 +1,7 @@
 // The language server `nbc lsp`, and the client that vscode-languageclient makes of this editor.
 
+import { randomUUID } from "node:crypto";
+
 import * as vscode from "vscode";
 import {
   CodeLensRequest,
@@ -8,11 +10,14 @@ import {
   InlayHintRequest,
   LanguageClient,
   type LanguageClientOptions,
+  WorkDoneProgress,
 } from "vscode-languageclient/node";
 
 import { type Order, shownOf } from "../core/outcome";
 import type { Panel } from "./panel";
 import type { Program } from "./program";
+
+type Progress = vscode.Progress<{ message?: string; increment?: number }>;
 
 /** The files that a program can `use`. */
 const WATCHED = "**/*.{nb,blif,aig,aag,bench,v,sv}";
@@ -114,10 +119,13 @@ export class Server implements vscode.Disposable {
     };
   }
 
-  /** Runs a command of the server, which shows its progress, and shows its result in the panel. */
+  /** Runs a command of the server with a notification that can stop it, and shows its result in the panel. */
   private async perform(command: string, args: unknown[]): Promise<void> {
+    const place = { location: vscode.ProgressLocation.Notification, title: "nbc", cancellable: true };
     try {
-      const answer: unknown = await this.client?.sendRequest(ExecuteCommandRequest.type, { command, arguments: args });
+      const answer = await vscode.window.withProgress(place, (progress, token) =>
+        this.request(command, args, progress, token),
+      );
       const shown = shownOf(command, args[0], answer);
       if (shown !== undefined) {
         await this.panel.show(shown);
@@ -128,6 +136,29 @@ export class Server implements vscode.Disposable {
       if (reason !== CANCELLED) {
         await vscode.window.showErrorMessage(`nbc: ${reason}`);
       }
+    }
+  }
+
+  /** The server's answer to a command; its progress is reported meanwhile. */
+  private async request(command: string, args: unknown[], progress: Progress, token: vscode.CancellationToken) {
+    const workDoneToken = randomUUID();
+    let [title, done] = ["", 0];
+    const listener = this.client?.onProgress(WorkDoneProgress.type, workDoneToken, told => {
+      if (told.kind === "begin") {
+        title = told.title;
+        progress.report({ message: title });
+      } else if (told.kind === "report") {
+        const percentage = told.percentage ?? done;
+        progress.report({ message: `${title}, ${told.message ?? ""}`, increment: percentage - done });
+        done = percentage;
+      }
+    });
+    try {
+      const order = { command, arguments: args, workDoneToken };
+      const answer: unknown = await this.client?.sendRequest(ExecuteCommandRequest.type, order, token);
+      return answer;
+    } finally {
+      listener?.dispose();
     }
   }
 }
