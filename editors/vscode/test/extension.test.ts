@@ -158,6 +158,38 @@ test("a continuous run runs a file's tests when it is saved, until it is stopped
   assert.equal(editor.runs.length, 1);
 });
 
+test("a lens runs its test, and the panel shows the report", async () => {
+  const editor = editorWith("tested.nb", TESTED);
+  await activate(editor);
+  const token = { onCancellationRequested: () => ({ dispose() {} }), isCancellationRequested: false };
+  const lenses = await editor.lenses[0]!.provideCodeLenses(editor.documents[0], token);
+  const lens = lenses.find(({ command }) => command.title === "run as logic");
+  assert.ok(lens !== undefined, JSON.stringify(lenses));
+  await editor.commands.get(lens.command.command)!(...lens.command.arguments);
+  const [panel] = editor.panels;
+  assert.equal(panel!.title, "tested.nb");
+  assert.match(panel!.webview.html, /script-src 'nonce-\w+'/);
+  assert.ok(panel!.webview.html.includes("is a nand"));
+
+  await editor.commands.get("nbc.drawFile")!(editor.documents[0]!.uri);
+  assert.match(panel!.webview.html, /<img alt="tested\.nb" src="data:image\/svg\+xml/);
+  assert.ok(!editor.shown.some(text => text.startsWith("nbc: ")), editor.shown.join("\n"));
+});
+
+test("a run of a lens reports its progress, and is cancelled by its notification", async () => {
+  const editor = editorWith("tested.nb", TESTED);
+  await activate(editor);
+  const steps: string[] = [];
+  editor.progressed = ({ message }, source) => {
+    steps.push(message);
+    source.cancel();
+  };
+  await editor.commands.get("nbc.run")!({ uri: uri("tested.nb") });
+  assert.equal(steps[0], "simulating tested.nb");
+  assert.equal(editor.panels.length, 0);
+  assert.deepEqual(editor.shown, []);
+});
+
 test("when the setting changes, nbc is looked for again", async () => {
   const editor = editorWith("broken.nb", "circuit g(a) -> (q) { q = b }\n", { "nbc.path": "/no/nbc" });
   await activate(editor);
