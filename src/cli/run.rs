@@ -184,13 +184,18 @@ fn nothing_to_run(file: &Checked, only: Option<&str>) -> SubjectError {
     let Some(name) = only else {
         return SubjectError::NothingToRun { file: file.path.clone() };
     };
+    unknown_run(file, name)
+}
+
+/// A name that no test and no simulation of a file has.
+pub(super) fn unknown_run(file: &Checked, name: &str) -> SubjectError {
     let program = &file.program;
-    let mut names: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
-    names.extend(program.tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty()));
-    names.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
-    names.sort();
-    names.dedup();
-    SubjectError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known: names }
+    let mut known: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
+    known.extend(program.tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty()));
+    known.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
+    known.sort();
+    known.dedup();
+    SubjectError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known }
 }
 
 /// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen. Runs that a signal

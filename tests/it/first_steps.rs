@@ -59,6 +59,20 @@ fn new_writes_a_program_that_passes_and_overwrites_none() {
 }
 
 #[test]
+fn one_test_of_several_is_chosen_by_its_title_or_circuit() {
+    let bench = Bench::new();
+    let other = FINE.replace("f(", "g(").replace("test f", "test g \"other\"");
+    bench.file("two.nb", format!("{FINE}\n{other}"));
+    for (name, found) in
+        [("other", "pass  g \"other\" (2 rows, logic)\n1 passed"), ("f", "pass  f (2 rows, logic)\n1 ")]
+    {
+        let ran = bench.run(&["test", "two.nb", "--logic", "--only", name]);
+        assert!(ran.out.starts_with(found), "{}{}", ran.out, ran.err);
+    }
+    bench.run(&["test", "two.nb", "--only", "h"]).expect_fault(&["called `h`", "there are `f`, `g` and `other`"]);
+}
+
+#[test]
 fn verdicts_are_colored_where_that_is_wanted() {
     let bench = Bench::new();
     bench.file("fine.nb", FINE);

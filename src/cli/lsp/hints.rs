@@ -24,9 +24,12 @@ pub(super) fn of(files: &Files<'_>, file: FileId, part: Span, settings: HintSett
     hints
 }
 
-/// A hint of the robots of a circuit, after its name.
+/// A hint of the robots of a circuit, after its ports.
 pub(super) fn robots(files: &Files<'_>, circuit: &Circuit, summary: &str) -> InlayHint {
-    hint(files, circuit.span, circuit.span.end, &format!(": {summary}"), InlayHintKind::Type)
+    let text = &files.checked.sources.file(circuit.span.file).text[circuit.span.end as usize..];
+    let ports = text.find('{').map_or(0, |brace| text[..brace].trim_end().len());
+    let at = circuit.span.end + ports as u32;
+    InlayHint { padding_left: Some(true), ..hint(files, circuit.span, at, summary, InlayHintKind::Type) }
 }
 
 /// The circuits of a part of a file that can be compiled.

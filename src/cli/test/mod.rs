@@ -8,6 +8,7 @@ use clap::Args;
 
 use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
+use crate::cli::run::unknown_run;
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
 use crate::diag::{Diagnostic, counted};
@@ -31,6 +32,9 @@ pub struct TestArguments {
     /// The source files
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    /// Run only tests with this name: a title, a circuit or a swarm
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
     /// Test at the level of logic
     #[arg(long, conflicts_with = "physics")]
     logic: bool,
@@ -111,7 +115,7 @@ impl TestArguments {
 
     /// The tests of the files, in order.
     fn cases<'a>(
-        &self,
+        &'a self,
         session: &Session,
         files: &'a [Arc<Checked>],
         interrupt: &Interrupt,
@@ -120,11 +124,18 @@ impl TestArguments {
         let options = TestOptions { level: self.level(), compile };
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
-            for test in &file.program.tests {
+            let chosen: Vec<_> = match &self.only {
+                Some(name) => file.tests(name).collect(),
+                None => file.program.tests.iter().collect(),
+            };
+            for test in chosen {
                 cases.extend(session.cases(file, test, &options)?.into_iter().map(|case| (number, case)));
             }
         }
-        Ok(cases)
+        match (&self.only, files) {
+            (Some(name), [first, ..]) if cases.is_empty() => Err(unknown_run(first, name).into()),
+            _ => Ok(cases),
+        }
     }
 }
 
