@@ -28,6 +28,7 @@ mod wording;
 
 pub use analysis::Analysis;
 pub use instance::named;
+#[cfg(feature = "cli")]
 pub(crate) use load::beside;
 pub use load::{PRELUDE, open};
 pub use swarm::DEFAULT_LIBRARY;
