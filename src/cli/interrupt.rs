@@ -9,6 +9,7 @@ use signal_hook::flag;
 
 use crate::circuit::CancelFlag;
 use crate::cli::Status;
+use crate::cli::cancellable::Cancellable;
 use crate::session::Observer;
 
 /// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
@@ -49,28 +50,12 @@ impl Interrupt {
     }
 
     /// An observer that hands on the progress, and stops the work when a signal arrives.
-    pub fn observe<F: FnMut(u64, u64)>(&self, progress: F) -> impl Observer {
-        Watched { interrupt: self, progress }
+    pub fn observe<F: FnMut(u64, u64)>(&self, progress: F) -> impl Observer + use<F> {
+        Cancellable { cancel: self.cancel(), progress }
     }
 
     /// The flag itself, for work that does not know the command line.
     pub fn flag(&self) -> &AtomicBool {
         &self.0
-    }
-}
-
-/// The observer of work that a signal stops.
-struct Watched<'a, F> {
-    interrupt: &'a Interrupt,
-    progress: F,
-}
-
-impl<F: FnMut(u64, u64)> Observer for Watched<'_, F> {
-    fn progress(&mut self, done: u64, all: u64) {
-        (self.progress)(done, all);
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.interrupt.is_raised()
     }
 }

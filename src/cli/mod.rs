@@ -4,6 +4,7 @@
 
 mod bench;
 mod build;
+mod cancellable;
 mod check;
 mod completions;
 mod context;

@@ -71,6 +71,11 @@ impl Progress {
         move |done, _| self.add(done - std::mem::replace(&mut before, done))
     }
 
+    /// An observer of the whole work, which also tells the total.
+    pub fn whole(&self) -> impl FnMut(u64, u64) {
+        |done, total| self.change(|state| (state.done, state.total) = (done, total))
+    }
+
     /// Sets the amount done and a note.
     pub fn set_with_note(&self, done: u64, note: String) {
         self.change(|state| (state.done, state.note) = (done, note));

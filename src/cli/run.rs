@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::cli::cancellable::{complete_simulation, complete_test};
 use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
@@ -15,9 +16,7 @@ use crate::model::{CircuitTest, Simulation};
 use crate::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{
-    self, Checked, CompileOptions, RunEnd, Session, SimulationRun, SwarmRun, TestCase, TestOptions, TestRun,
-};
+use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
 use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
 
@@ -207,14 +206,9 @@ pub(super) fn run_test(
     options: &CompileOptions,
     interrupt: &Interrupt,
 ) -> Result<Vec<TestRun>, Failure> {
-    if interrupt.is_raised() {
-        return Ok(Vec::new());
-    }
+    let bar = Progress::new("simulating", 0);
     let options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
-    let cases = session.cases(file, test, &options)?;
-    let bar = Progress::new("simulating", cases.iter().map(TestCase::work).sum());
-    let runs = cases.into_iter().map(|case| session.run_case(case, &mut interrupt.observe(bar.part())));
-    Ok(runs.filter(|run| run.end == RunEnd::Complete).collect())
+    Ok(complete_test(session, file, test, &options, &mut interrupt.observe(bar.whole()))?)
 }
 
 /// Runs a simulation; `None` if a signal ended it.
@@ -225,16 +219,8 @@ pub(super) fn run_simulation(
     options: &CompileOptions,
     interrupt: &Interrupt,
 ) -> Result<Option<SimulationRun>, Failure> {
-    if interrupt.is_raised() {
-        return Ok(None);
-    }
     let bar = Progress::new("simulating", 0);
-    let progress = |done, all| {
-        bar.set_total(all);
-        bar.set(done);
-    };
-    let run = session.simulate(file, simulation, options, &mut interrupt.observe(progress))?;
-    Ok(Some(run).filter(|run| run.end == RunEnd::Complete))
+    Ok(complete_simulation(session, file, simulation, options, &mut interrupt.observe(bar.whole()))?)
 }
 
 /// The names of the runs' files: the circuit's, with the swarm's if a test has several, and a number for repeated

@@ -48,18 +48,18 @@ impl Stamps {
         }
     }
 
-    /// The paths whose stamps are different now.
-    fn changed(&self) -> Vec<String> {
-        self.0.iter().filter(|(path, known)| stamp(path) != **known).map(|(path, _)| path.clone()).collect()
+    /// The stamps that are different now.
+    fn changes(&self) -> Self {
+        let now = self.0.iter().map(|(path, known)| (path, known, stamp(path)));
+        Self(now.filter(|(_, known, now)| *known != now).map(|(path, _, now)| (path.clone(), now)).collect())
     }
 
-    /// As [`Stamps::changed`], and knows the new stamps from here on.
+    /// The paths whose stamps were different; the new ones are known from here on.
     fn renew(&mut self) -> Vec<String> {
-        let now = self.0.iter_mut().filter_map(|(path, known)| {
-            let new = stamp(path);
-            (std::mem::replace(known, new) != new).then(|| path.clone())
-        });
-        now.collect()
+        let changes = self.changes();
+        let paths = changes.0.keys().cloned().collect();
+        self.0.extend(changes.0);
+        paths
     }
 }
 
@@ -105,7 +105,7 @@ impl WatchArguments {
         let done = Interrupt::default();
         let outcome = thread::scope(|scope| {
             scope.spawn(|| {
-                while !done.is_raised() && !signal.is_raised() && stamps.changed().is_empty() {
+                while !done.is_raised() && !signal.is_raised() && stamps.changes().0.is_empty() {
                     thread::sleep(PAUSE);
                 }
                 stop.raise();

@@ -5,6 +5,7 @@ use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 
 use crate::circuit::CancelFlag;
+use crate::cli::cancellable::Cancellable;
 use crate::cli::lsp::runs::outcome::RunOutcome;
 use crate::session::Observer;
 
@@ -25,17 +26,18 @@ pub(super) struct Watcher {
     pub(super) told: u32,
 }
 
-impl Observer for Watcher {
-    fn progress(&mut self, done: u64, all: u64) {
+impl Watcher {
+    /// Follows the part that is being done.
+    pub(super) fn observe(&mut self) -> impl Observer {
+        Cancellable { cancel: self.stop.clone(), progress: |done, all| self.tell(done, all) }
+    }
+
+    fn tell(&mut self, done: u64, all: u64) {
         let (part, parts) = self.part;
         let percentage = ((part * all + done) * 100 / (parts * all).max(1)).min(100) as u32;
         let Some(token) = self.token.clone().filter(|_| percentage > self.told) else { return };
         self.told = percentage;
         let message = format!("{} of {parts}", part + 1);
         let _ = self.outbox.send(RunEvent::Progress { token, percentage, message });
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.stop.is_raised()
     }
 }

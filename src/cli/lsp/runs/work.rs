@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cli::cancellable::{complete_simulation, complete_test};
 use crate::cli::lsp::runs::order::{RunOrder, Task};
 use crate::cli::lsp::runs::outcome::RunOutcome;
 use crate::cli::lsp::runs::watcher::Watcher;
@@ -9,8 +10,7 @@ use crate::diag::Diagnostics;
 use crate::model::{CircuitTest, Simulation};
 use crate::report::{self, Scheme};
 use crate::session::{
-    Checked, Choice, CompileOptions, Compiled, Observer, RunEnd, RunReport, Session, SimulationRun, TestOptions,
-    TestRun,
+    Checked, Choice, CompileOptions, Compiled, RunReport, Session, SimulationRun, TestOptions, TestRun,
 };
 use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
@@ -89,11 +89,9 @@ fn run_test(
     watcher: &mut Watcher,
 ) -> Result<Vec<TestRun>, String> {
     let options = TestOptions { level: Some(level), compile: options(watcher) };
-    let mut runs = Vec::new();
-    for case in session.cases(checked, test, &options).map_err(|faults| said(&faults))? {
-        runs.push(going(watcher).and_then(|()| complete(session.run_case(case, watcher), |run| run.end))?);
-    }
-    Ok(runs)
+    let runs = complete_test(session, checked, test, &options, &mut watcher.observe());
+    let runs = runs.map_err(|faults| said(&faults))?;
+    going(watcher).map(|()| runs)
 }
 
 fn run_simulation(
@@ -102,10 +100,9 @@ fn run_simulation(
     simulation: &Simulation,
     watcher: &mut Watcher,
 ) -> Result<SimulationRun, String> {
-    going(watcher)?;
     let options = options(watcher);
-    let run = session.simulate(checked, simulation, &options, watcher);
-    complete(run.map_err(|faults| said(&faults))?, |run| run.end)
+    let run = complete_simulation(session, checked, simulation, &options, &mut watcher.observe());
+    run.map_err(|faults| said(&faults))?.ok_or_else(|| CANCELLED.to_owned())
 }
 
 /// The default options; compiling ends early when the run is stopped.
@@ -116,14 +113,7 @@ fn options(watcher: &Watcher) -> CompileOptions {
 const CANCELLED: &str = "cancelled";
 
 fn going(watcher: &Watcher) -> Result<(), String> {
-    if watcher.is_cancelled() { Err(CANCELLED.to_owned()) } else { Ok(()) }
-}
-
-fn complete<R>(run: R, end: impl Fn(&R) -> RunEnd) -> Result<R, String> {
-    match end(&run) {
-        RunEnd::Complete => Ok(run),
-        RunEnd::Cancelled => Err(CANCELLED.to_owned()),
-    }
+    if watcher.stop.is_raised() { Err(CANCELLED.to_owned()) } else { Ok(()) }
 }
 
 /// Writes the page of a report.
