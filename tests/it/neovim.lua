@@ -34,6 +34,8 @@ for _, lens in ipairs(lenses) do
   if lens.command.title == "run as logic" and not found.ran then
     local command = { command = lens.command.command, arguments = lens.command.arguments }
     found.ran = ask("workspace/executeCommand", command)
+    -- The page ends with the server.
+    found.page = table.concat(vim.fn.readfile(found.ran.path), "\n")
   end
 end
 local rename = place(line, character)

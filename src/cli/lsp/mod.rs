@@ -36,7 +36,10 @@ mod tokens;
 mod uri;
 mod workspace;
 
+use std::thread;
+
 use clap::Args;
+use crossbeam_channel::bounded;
 use gen_lsp_types::{InitializeResult, ServerInfo};
 use lsp_server::Connection;
 
@@ -64,6 +67,7 @@ impl LspArguments {
     /// When the client does not speak the protocol.
     pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
         let (connection, threads) = Connection::stdio();
+        let connection = queued(connection);
         // After an error the threads still wait for the client.
         serve(&connection)?;
         // The writing thread ends with its channel.
@@ -71,6 +75,19 @@ impl LspArguments {
         threads.join().map_err(|error| Failure::from(ServerError::Protocol(error.to_string())))?;
         Ok(Status::Done)
     }
+}
+
+/// The most messages that wait to be handled.
+const WAITING: usize = 1024;
+
+/// The same connection with a queue of messages. So the server knows whether a text has changed again, and checks only
+/// what is newest.
+fn queued(connection: Connection) -> Connection {
+    let Connection { sender, receiver: arriving } = connection;
+    let (queue, receiver) = bounded(WAITING);
+    // It ends with the thread that reads, or with the server.
+    thread::spawn(move || arriving.into_iter().try_for_each(|message| queue.send(message)));
+    Connection { sender, receiver }
 }
 
 fn serve(connection: &Connection) -> Result<(), Failure> {

@@ -19,6 +19,8 @@ pub(super) struct Client {
     version: i32,
     answers: Vec<Response>,
     capabilities: Value,
+    /// The methods of the server's requests.
+    pub(super) requests: Vec<String>,
     /// The progress that was told.
     pub(super) told: Vec<Value>,
     /// The diagnostics published since they were last asked for, by URI.
@@ -36,7 +38,12 @@ impl Client {
 
     /// A client that sends these parameters first.
     pub(super) fn initialized(parameters: &Value) -> Self {
-        let mut server = Command::new(env!("CARGO_BIN_EXE_nbc"))
+        Self::of(&mut Command::new(env!("CARGO_BIN_EXE_nbc")), parameters)
+    }
+
+    /// A client of a server whose program is that of a command.
+    pub(super) fn of(program: &mut Command, parameters: &Value) -> Self {
+        let mut server = program
             .args(["lsp", "--stdio"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -53,6 +60,7 @@ impl Client {
             version: 1,
             answers: Vec::new(),
             capabilities: Value::Null,
+            requests: Vec::new(),
             told: Vec::new(),
             published: Vec::new(),
         };
@@ -102,6 +110,7 @@ impl Client {
                 Message::Notification(told) if told.method == "$/progress" => self.told.push(told.params),
                 Message::Notification(_) => {}
                 Message::Request(request) => {
+                    self.requests.push(request.method);
                     self.send(&json!({ "jsonrpc": "2.0", "id": request.id, "result": null }));
                 }
             }
@@ -126,17 +135,24 @@ impl Client {
         self.version
     }
 
-    /// Waits for the diagnostics of a version of a text.
-    pub(super) fn published(&mut self, uri: &str, version: i32) {
-        loop {
-            let message = Message::read(&mut self.output).unwrap().expect("the server publishes");
-            if let Message::Notification(told) = message
-                && told.method == "textDocument/publishDiagnostics"
-                && (told.params["uri"].as_str(), told.params["version"].as_i64()) == (Some(uri), Some(version.into()))
-            {
-                return;
+    /// Waits for the diagnostics of a version of a text; the number of versions of which there were diagnostics until
+    /// then.
+    pub(super) fn published(&mut self, uri: &str, version: i32) -> usize {
+        for count in 1.. {
+            let told = loop {
+                match Message::read(&mut self.output).unwrap().expect("the server publishes") {
+                    Message::Notification(told) if told.method == "textDocument/publishDiagnostics" => {
+                        break told.params;
+                    }
+                    _ => {}
+                }
+            };
+            if (told["uri"].as_str(), told["version"].as_i64()) == (Some(uri), Some(version.into())) {
+                self.published.push((uri.to_owned(), told["diagnostics"].clone()));
+                return count;
             }
         }
+        unreachable!("it counts on")
     }
 
     /// The text of a range.

@@ -38,7 +38,7 @@ fn a_new_name_is_written_in_all_open_files() {
 }
 
 /// A client with the folder of a bench as its workspace.
-fn client_of(bench: &Bench) -> Client {
+pub(super) fn client_of(bench: &Bench) -> Client {
     let folder = json!({ "uri": uri(bench.path()), "name": "bench" });
     Client::initialized(&json!({ "workspaceFolders": [folder], "capabilities": {} }))
 }

@@ -1,0 +1,103 @@
+//! Input that is not as expected: files that are not text, floods of edits.
+
+use serde_json::{Value, json};
+
+use crate::cli::Bench;
+use crate::lsp::HALF;
+use crate::lsp::client::{Client, at, file, place, uri};
+use crate::lsp::renaming::client_of;
+use crate::lsp::typist::Typist;
+
+const NOT_TEXT: &[u8] = b"circuit half(a, b) -> (s, c) {\n    s = \xff\n}\n";
+
+/// The messages of diagnostics.
+fn messages(found: &Value) -> Vec<&str> {
+    found.as_array().unwrap().iter().map(|problem| problem["message"].as_str().unwrap()).collect()
+}
+
+#[test]
+fn a_used_file_that_is_not_utf_8_is_a_diagnostic_until_it_is_text() {
+    let bench = Bench::new();
+    let half = bench.file("half.nb", NOT_TEXT);
+    bench.file("cells.blif", NOT_TEXT);
+    let text = "use \"half.nb\"\nuse \"cells.blif\"\n\ncircuit f(a, b) -> (q) {\n    (q, _) = half(a, b)\n}\n";
+    let (own, text) = file(&bench, "a.nb", text);
+    let mut client = client_of(&bench);
+    client.open(&own, &text);
+    let found = client.diagnostics(&own);
+    let broken: Vec<_> = messages(&found).into_iter().filter(|message| message.contains("not valid UTF-8")).collect();
+    assert!(broken.len() == 2 && broken.iter().all(|message| message.contains("(byte 39)")), "{found}");
+    assert_eq!(found[0]["range"]["start"], at(&text, "\"half.nb\""));
+    // What needs all files of the workspace still answers.
+    let symbols = client.ask("workspace/symbol", json!({ "query": "" })).unwrap();
+    assert_eq!((symbols.as_array().unwrap().len(), &symbols[0]["name"]), (1, &json!("f")), "{symbols}");
+    let mut asked = place(&own, &text, "f(a");
+    asked["newName"] = json!("g");
+    let edit = client.ask("textDocument/rename", asked).unwrap();
+    assert_eq!(edit["changes"][&own].as_array().unwrap().len(), 1);
+
+    bench.file("half.nb", HALF);
+    bench.file("cells.blif", ".model cells\n.inputs a\n.outputs q\n.names a q\n1 1\n.end\n");
+    let changed = ["half.nb", "cells.blif"].map(|name| json!({ "uri": uri(&bench.path().join(name)), "type": 2 }));
+    client.tell("workspace/didChangeWatchedFiles", json!({ "changes": changed }));
+    assert_eq!(client.diagnostics(&own), json!([]), "{}", half.display());
+    client.goodbye();
+}
+
+#[test]
+fn commands_refuse_what_is_not_utf_8() {
+    let bench = Bench::new();
+    bench.file("half.nb", NOT_TEXT);
+    std::fs::create_dir(bench.path().join("robots")).unwrap();
+    bench.file("robots/nand.yaml", NOT_TEXT);
+    let text = "circuit f(a, b) -> (q) {\n    q = a nand b\n}\n\ntest f {\n    a b | q\n    0 0 | 1\n}\n\n\
+                library mine { from: \"robots\" }\n\nswarm s { circuit: f, library: mine }\n";
+    let (own, text) = file(&bench, "a.nb", text);
+    let mut client = Client::start();
+    client.open(&own, &text);
+    let mut run = |uri: &str| {
+        let asked = json!({ "command": "nbc.run", "arguments": [{ "uri": uri }] });
+        client.ask("workspace/executeCommand", asked).unwrap_err()
+    };
+    let refused = run(&own);
+    assert!(refused.contains("not valid UTF-8") || refused == "the source has errors", "{refused}");
+    assert!(run(&uri(&bench.path().join("half.nb"))).contains("is not open"));
+    // An editor shows such a file with other characters.
+    let shown = String::from_utf8_lossy(NOT_TEXT).into_owned();
+    client.open(&uri(&bench.path().join("half.nb")), &shown);
+    let found = client.diagnostics(&uri(&bench.path().join("half.nb")));
+    assert!(!messages(&found).is_empty(), "{found}");
+    client.goodbye();
+}
+
+#[test]
+fn edits_that_come_at_once_are_checked_once() {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, "a.nb", &crate::speed::long_program());
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    client.diagnostics(&uri);
+    let start = json!({ "line": 0, "character": 0 });
+    let edits = 40;
+    let versions = (0..edits).map(|_| {
+        let new = json!([{ "range": { "start": start, "end": start }, "text": "// typed\n" }]);
+        client.edit(&uri, &new)
+    });
+    let last = versions.last().unwrap();
+    let checks = client.published(&uri, last);
+    assert!(checks < edits, "each of {edits} edits was checked");
+    client.goodbye();
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn memory_after_100_000_edits_is_that_after_100() {
+    let bench = Bench::new();
+    let mut typist = Typist::start(&bench);
+    typist.type_until(100, 1);
+    let before = typist.megabytes();
+    typist.type_until(100_000, 50);
+    let after = typist.megabytes();
+    assert!(after - before < 20.0, "{before:.1} MB became {after:.1} MB");
+    typist.goodbye();
+}
