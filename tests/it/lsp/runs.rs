@@ -1,5 +1,7 @@
 //! Lenses, and the commands behind them.
 
+use std::process::Command;
+
 use serde_json::{Value, json};
 
 use crate::cli::Bench;
@@ -140,4 +142,54 @@ fn wrong_commands_are_refused() {
     assert!(ask("nbc.run", json!([{ "uri": "untitled:x" }])).contains("is not open"));
     assert_eq!(ask("nbc.run", json!([{ "uri": uri }])), "the source has errors");
     client.goodbye();
+}
+
+/// A client of a server whose temporary files are in a folder.
+fn client_with_temporary_files(bench: &Bench) -> Client {
+    Client::of(Command::new(env!("CARGO_BIN_EXE_nbc")).env("TMPDIR", bench.path()), &json!({ "capabilities": {} }))
+}
+
+#[test]
+#[cfg(unix)]
+fn results_end_with_their_server_and_those_of_dead_servers_are_removed() {
+    let (bench, temporary) = (Bench::new(), Bench::new());
+    let (uri, text) = file(&bench, "a.nb", TESTED);
+    let all = temporary.path().join(format!("nbc-{}", env!("CARGO_PKG_VERSION")));
+    let kept = ["results-x", "other", "prelude.nb"].map(|name| all.join(name));
+    for folder in ["results-4194305/a_nb", "results-x", "other"] {
+        std::fs::create_dir_all(all.join(folder)).unwrap();
+    }
+    std::fs::write(all.join("results-4194305/a_nb/report.html"), "of a server that was killed").unwrap();
+    std::fs::write(&kept[2], "").unwrap();
+    std::os::unix::fs::symlink(bench.path(), all.join("results-4194306")).unwrap();
+
+    let asked = json!({ "command": "nbc.schematic", "arguments": [{ "uri": uri }] });
+    let mut first = client_with_temporary_files(&temporary);
+    first.open(&uri, &text);
+    let drawn = first.ask("workspace/executeCommand", asked.clone()).unwrap();
+    assert!(!all.join("results-4194305").exists() && kept.iter().all(|path| path.exists()));
+    assert!(bench.path().join("a.nb").exists(), "links are not followed");
+    let path = std::path::PathBuf::from(drawn["path"].as_str().unwrap());
+    assert!(path.starts_with(all.join(format!("results-{}", first.server.id()))), "{drawn}");
+    // Another server leaves the results of one that lives.
+    client_with_temporary_files(&temporary).goodbye();
+    assert!(path.exists());
+    first.goodbye();
+    assert!(!path.parent().unwrap().parent().unwrap().exists());
+
+    // A client that vanishes leaves nothing either, and what a killed server leaves is removed.
+    for is_killed in [false, true] {
+        let mut client = client_with_temporary_files(&temporary);
+        client.open(&uri, &text);
+        let drawn = client.ask("workspace/executeCommand", asked.clone()).unwrap();
+        if is_killed {
+            client.server.kill().unwrap();
+        }
+        drop(client.input.take());
+        client.server.wait().unwrap();
+        let path = std::path::Path::new(drawn["path"].as_str().unwrap());
+        assert_eq!(path.exists(), is_killed);
+        client_with_temporary_files(&temporary).goodbye();
+        assert!(!path.exists());
+    }
 }

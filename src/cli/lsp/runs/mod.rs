@@ -3,6 +3,7 @@
 mod command;
 mod order;
 mod outcome;
+mod results;
 mod watcher;
 mod work;
 
@@ -20,6 +21,7 @@ use crate::session::Checked;
 pub(super) use command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
 pub(super) use order::{OrderError, RunOrder};
 pub(super) use outcome::RunOutcome;
+use results::ResultFolder;
 pub(super) use watcher::RunEvent;
 use watcher::Watcher;
 
@@ -28,6 +30,7 @@ pub(super) struct Runs {
     running: Vec<Running>,
     outbox: Sender<RunEvent>,
     inbox: Receiver<RunEvent>,
+    results: ResultFolder,
 }
 
 struct Running {
@@ -38,8 +41,9 @@ struct Running {
 
 impl Runs {
     pub(super) fn new() -> Self {
+        results::remove_leftovers();
         let (outbox, inbox) = unbounded();
-        Self { running: Vec::new(), outbox, inbox }
+        Self { running: Vec::new(), outbox, inbox, results: ResultFolder::default() }
     }
 
     /// What the runs tell.
@@ -57,10 +61,10 @@ impl Runs {
     ) {
         let stop = CancelFlag::default();
         self.running.push(Running { id: id.clone(), token: token.clone(), stop: stop.clone() });
-        let outbox = self.outbox.clone();
+        let (outbox, folder) = (self.outbox.clone(), self.results.path());
         thread::spawn(move || {
             let mut watcher = Watcher { token: token.clone(), outbox: outbox.clone(), stop, part: (0, 1), told: 0 };
-            let result = work::perform(&checked, &order, &mut watcher);
+            let result = folder.and_then(|folder| work::perform(&checked, &order, &folder, &mut watcher));
             let _ = outbox.send(RunEvent::Done { id, token, result });
         });
     }

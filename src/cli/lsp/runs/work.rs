@@ -1,6 +1,6 @@
 //! The work of a command, and its result.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::cli::cancellable::{complete_simulation, complete_test};
 use crate::cli::lsp::runs::order::{RunOrder, Task};
@@ -16,7 +16,12 @@ use crate::store::{self, DiskWorld};
 use crate::swarm::{Level, Room};
 
 /// Does what is ordered; an error is a message for people.
-pub(super) fn perform(checked: &Checked, order: &RunOrder, watcher: &mut Watcher) -> Result<RunOutcome, String> {
+pub(super) fn perform(
+    checked: &Checked,
+    order: &RunOrder,
+    results: &Path,
+    watcher: &mut Watcher,
+) -> Result<RunOutcome, String> {
     if checked.has_errors() {
         return Err("the source has errors".to_owned());
     }
@@ -24,11 +29,11 @@ pub(super) fn perform(checked: &Checked, order: &RunOrder, watcher: &mut Watcher
     match &order.task {
         Task::Run { level, test, simulation } => {
             let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
-            finish(checked, *level, &report)
+            finish(checked, *level, &report, results)
         }
         Task::Schematic(choice) => {
             let picture = compile(&session, checked, choice, watcher)?.schematic(Scheme::default());
-            let path = written(checked, "schematic.svg", &picture.finish())?;
+            let path = written(checked, results, "schematic.svg", &picture.finish())?;
             Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path)))
         }
         Task::Timing(choice) => {
@@ -117,14 +122,14 @@ fn going(watcher: &Watcher) -> Result<(), String> {
 }
 
 /// Writes the page of a report.
-fn finish(checked: &Checked, level: Level, report: &RunReport) -> Result<RunOutcome, String> {
+fn finish(checked: &Checked, level: Level, report: &RunReport, results: &Path) -> Result<RunOutcome, String> {
     let verdicts: Vec<_> = report.tests.iter().map(|run| &run.verdict).collect();
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let page = match level {
         Level::Physics => report.page(source, Scheme::default()),
         Level::Logic => report::draw_logic_page(source, &verdicts),
     };
-    let path = written(checked, "report.html", &page)?;
+    let path = written(checked, results, "report.html", &page)?;
     let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
     let text = match verdicts.len() {
         0 => "simulated".to_owned(),
@@ -133,12 +138,11 @@ fn finish(checked: &Checked, level: Level, report: &RunReport) -> Result<RunOutc
     Ok(RunOutcome::new((!verdicts.is_empty()).then_some(passed == verdicts.len()), text, Some(path)))
 }
 
-/// Writes a result among those of this process, in the folder of its source.
-fn written(checked: &Checked, name: &str, text: &str) -> Result<PathBuf, String> {
+/// Writes a result among those of the server, in the folder of its source.
+fn written(checked: &Checked, results: &Path, name: &str, text: &str) -> Result<PathBuf, String> {
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let stem: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    let results = format!("nbc-{}/results-{}", env!("CARGO_PKG_VERSION"), std::process::id());
-    let folder = std::env::temp_dir().join(results).join(stem);
+    let folder = results.join(stem);
     let path = folder.join(name);
     let done = store::create_folder(&folder).and_then(|()| store::write(&path, text.as_bytes()));
     done.map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
