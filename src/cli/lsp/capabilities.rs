@@ -25,9 +25,10 @@ pub(super) struct Client {
 /// What the client does on request.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Abilities {
-    /// Asks for lenses and hints again.
+    /// Asks for lenses, hints and tokens again.
     pub(super) refreshes_lenses: bool,
     pub(super) refreshes_hints: bool,
+    pub(super) refreshes_tokens: bool,
     /// Shows the progress of what the server began.
     pub(super) shows_progress: bool,
     /// Watches files for the server.
@@ -48,6 +49,7 @@ impl Client {
             abilities: Abilities {
                 refreshes_lenses: can("/workspace/codeLens/refreshSupport"),
                 refreshes_hints: can("/workspace/inlayHint/refreshSupport"),
+                refreshes_tokens: can("/workspace/semanticTokens/refreshSupport"),
                 shows_progress: can("/window/workDoneProgress"),
                 watches_files: can("/workspace/didChangeWatchedFiles/dynamicRegistration"),
             },

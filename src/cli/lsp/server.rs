@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crossbeam_channel::{after, never, select};
 use gen_lsp_types::{
     self as lsp, CodeLensRefreshRequest, InlayHintRefreshRequest, LspNotificationMethod, PublishDiagnosticsParams,
-    Registration, RegistrationParams, RegistrationRequest, Uri,
+    Registration, RegistrationParams, RegistrationRequest, SemanticTokensRefreshRequest, Uri,
 };
 use lsp_server::{Connection, Message, Notification, ProtocolError, Request};
 
@@ -114,12 +114,25 @@ impl<'c> Server<'c> {
         done.into_iter().for_each(|done| self.compiler.keep(done));
         if self.is_outdated && self.compiler.is_idle() {
             self.is_outdated = false;
-            if self.abilities.refreshes_lenses {
-                self.ask::<CodeLensRefreshRequest>(());
-            }
-            if self.abilities.refreshes_hints {
-                self.ask::<InlayHintRefreshRequest>(());
-            }
+            self.refresh_figures();
+        }
+    }
+
+    /// Asks the client for what figures are shown in, as far as it can.
+    fn refresh_figures(&mut self) {
+        if self.abilities.refreshes_lenses {
+            self.ask::<CodeLensRefreshRequest>(());
+        }
+        if self.abilities.refreshes_hints {
+            self.ask::<InlayHintRefreshRequest>(());
+        }
+    }
+
+    /// Asks the client for everything that it shows of open texts, as far as it can.
+    fn refresh(&mut self) {
+        self.refresh_figures();
+        if self.abilities.refreshes_tokens {
+            self.ask::<SemanticTokensRefreshRequest>(());
         }
     }
 
@@ -188,12 +201,19 @@ impl<'c> Server<'c> {
             }
             LspNotificationMethod::WorkspaceDidChangeConfiguration => {
                 let settings = notification.params.pointer("/settings/nbc");
-                self.settings = settings.map_or(self.settings, |change| self.settings.with(change));
+                let settings = settings.map_or(self.settings, |change| self.settings.with(change));
+                if std::mem::replace(&mut self.settings, settings) != settings {
+                    self.refresh();
+                }
             }
             LspNotificationMethod::WorkspaceDidChangeWatchedFiles => {
                 let Some(changed) = read::<lsp::DidChangeWatchedFilesNotification>(notification) else { return };
-                for change in changed.changes.iter().filter(|change| self.buffers.get(&change.uri).is_none()) {
-                    uri::path(&change.uri).into_iter().for_each(|path| self.session.close(&path));
+                let is_closed = |change: &&lsp::FileEvent| self.buffers.get(&change.uri).is_none();
+                let paths: Vec<String> =
+                    changed.changes.iter().filter(is_closed).filter_map(|change| uri::path(&change.uri)).collect();
+                paths.iter().for_each(|path| self.session.close(path));
+                if !paths.is_empty() {
+                    self.refresh();
                 }
             }
             _ => {}

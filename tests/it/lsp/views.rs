@@ -77,6 +77,38 @@ fn robots_of_circuits_appear_as_soon_as_they_are_compiled() {
 }
 
 #[test]
+fn what_depends_on_settings_and_files_is_asked_for_again() {
+    let bench = Bench::new();
+    file(&bench, "half.nb", HALF);
+    let (full, text) = file(&bench, "full.nb", ADDER);
+    let can = json!({ "refreshSupport": true });
+    let all = ["workspace/codeLens/refresh", "workspace/inlayHint/refresh", "workspace/semanticTokens/refresh"];
+    let cases = [
+        (json!({ "codeLens": can, "inlayHint": can, "semanticTokens": can }), &all[..]),
+        (json!({ "inlayHint": can }), &all[1..2]),
+        (json!({}), &[]),
+    ];
+    for (abilities, expected) in cases {
+        let mut client = Client::with(&json!({ "workspace": abilities }));
+        client.open(&full, &text);
+        let asked = |client: &mut Client, method: &str, parameters: Value| {
+            client.tell(method, parameters);
+            client.diagnostics(&full);
+            std::mem::take(&mut client.requests)
+        };
+        let settings = |is_on: bool| json!({ "settings": { "nbc": { "codeLenses": is_on } } });
+        let configured = "workspace/didChangeConfiguration";
+        assert_eq!(asked(&mut client, configured, settings(false)), expected);
+        assert_eq!(asked(&mut client, configured, settings(false)), [""; 0], "nothing has changed");
+        let changed = |name: &str| json!({ "changes": [{ "uri": uri(&bench.path().join(name)), "type": 2 }] });
+        let watched = "workspace/didChangeWatchedFiles";
+        assert_eq!(asked(&mut client, watched, changed("half.nb")), expected);
+        assert_eq!(asked(&mut client, watched, changed("full.nb")), [""; 0], "an open text is that of the editor");
+        client.goodbye();
+    }
+}
+
+#[test]
 fn a_selection_grows_from_the_word_to_the_file() {
     let bench = Bench::new();
     let (uri, text) = file(&bench, "a.nb", CALLS);
