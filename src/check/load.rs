@@ -31,6 +31,12 @@ enum UsedKind {
     Circuit(CircuitSource),
 }
 
+/// Whether a program can use a file of that name.
+#[cfg(feature = "cli")]
+pub(crate) fn is_usable(path: &str) -> bool {
+    UsedKind::of_path(path).is_some()
+}
+
 impl UsedKind {
     fn of_path(path: &str) -> Option<Self> {
         if path.ends_with(".nb") { Some(Self::Program) } else { CircuitSource::of_path(path).map(Self::Circuit) }

@@ -28,9 +28,9 @@ mod wording;
 
 pub use analysis::Analysis;
 pub use instance::named;
-#[cfg(feature = "cli")]
-pub(crate) use load::beside;
 pub use load::{PRELUDE, open};
+#[cfg(feature = "cli")]
+pub(crate) use load::{beside, is_usable};
 pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
 

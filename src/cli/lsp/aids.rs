@@ -98,7 +98,8 @@ impl Server<'_> {
         let place = asked.text_document_position_params;
         let Some(checked) = self.checked(&place.text_document.uri) else { return Ok(None) };
         let spot = Spot::of(self.files(&checked), place.position);
-        Ok(spot.map(|spot| completion::items(&spot).into()))
+        let typed = asked.context.and_then(|context| context.trigger_character);
+        Ok(spot.map(|spot| completion::items(&spot, typed.as_deref()).into()))
     }
 
     pub(super) fn signature(&mut self, asked: lsp::SignatureHelpParams) -> Reply<SignatureHelpRequest> {

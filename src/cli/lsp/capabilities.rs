@@ -8,10 +8,9 @@ use gen_lsp_types::{
 use serde_json::Value;
 
 use crate::cli::lsp::position::Encoding;
-use crate::cli::lsp::runs;
-use crate::cli::lsp::semantics;
 use crate::cli::lsp::settings::Settings;
 use crate::cli::lsp::workspace::Workspace;
+use crate::cli::lsp::{completion, runs, semantics};
 
 /// What is known of the client. Of what it can do, only this matters; the rest may be missing or wrong.
 #[derive(Clone, Debug)]
@@ -87,7 +86,7 @@ pub(super) fn capabilities(encoding: Encoding) -> ServerCapabilities {
         ),
         rename_provider: Some(RenameOptions { prepare_provider: Some(true), ..RenameOptions::default() }.into()),
         completion_provider: Some(CompletionOptions {
-            trigger_characters: Some([":", "[", "("].map(str::to_owned).to_vec()),
+            trigger_characters: Some(completion::TRIGGERS.map(str::to_owned).to_vec()),
             ..CompletionOptions::default()
         }),
         signature_help_provider: Some(SignatureHelpOptions {

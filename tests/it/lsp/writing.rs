@@ -65,6 +65,48 @@ fn completion_knows_the_place() {
 }
 
 #[test]
+fn completion_finds_the_files_and_folders_of_a_path() {
+    let bench = Bench::new();
+    for folder in ["parts", "parts/robots", ".hidden"] {
+        std::fs::create_dir(bench.path().join(folder)).unwrap();
+    }
+    for name in ["half.nb", "notes.txt", "parts/cells.blif", "parts/mux.v", ".secret.nb"] {
+        bench.file(name, "");
+    }
+    let (uri, text) = file(&bench, "a.nb", START);
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    let cases: [(&str, &[&str]); 11] = [
+        ("use \"$\"", &["half.nb", "parts/"]),
+        ("use \"ha$", &["half.nb", "parts/"]),
+        ("use \"parts/$\"", &["cells.blif", "mux.v", "robots/"]),
+        ("use \"./parts/../parts/c$\"", &["cells.blif", "mux.v", "robots/"]),
+        ("use \".$\"", &[".hidden/", ".secret.nb", "half.nb", "parts/"]),
+        ("use \"missing/$\"", &[]),
+        ("use $\"half.nb\"", &[]),
+        ("use \"half.nb\"$", &[]),
+        ("library l { from: \"$\" }", &["parts/"]),
+        ("library l { from: \"parts/$", &["robots/"]),
+        ("test half \"$\" {", &[]),
+    ];
+    for (rest, expected) in cases {
+        assert_eq!(labels(&completions(&mut client, &uri, rest)), expected, "{rest}");
+    }
+    // Only the name is replaced, whatever an editor thinks a word is.
+    let rest = "use \"parts/cel$\"";
+    let found = completions(&mut client, &uri, rest);
+    let text = format!("{START}{rest}").replace('$', "");
+    assert_eq!(client.edited(&text, &[found[0]["textEdit"].clone()]), format!("{START}use \"parts/cells.blif\""));
+    // Outside of a path, its signs complete nothing.
+    let text = format!("{START}/$");
+    let mut asked = place(&uri, &text, "$");
+    asked["context"] = json!({ "triggerKind": 2, "triggerCharacter": "/" });
+    client.change(&uri, &text.replace('$', ""));
+    assert_eq!(client.ask("textDocument/completion", asked).unwrap(), json!([]));
+    client.goodbye();
+}
+
+#[test]
 fn a_completed_call_has_its_operands_its_signature_and_its_comment() {
     let bench = Bench::new();
     let (uri, text) = file(&bench, "a.nb", START);

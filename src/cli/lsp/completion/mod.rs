@@ -1,6 +1,8 @@
 //! What may be written at a place: words of the language, declared names, fields, units, and calls of circuits.
 
 mod fields;
+mod item;
+mod paths;
 mod place;
 
 use std::collections::BTreeMap;
@@ -12,11 +14,13 @@ use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::interface::Interface;
 use crate::cli::lsp::spot::Spot;
-use crate::cli::lsp::tokens::{self, TokenKind};
+use crate::cli::lsp::tokens::{self, Token, TokenKind};
 use crate::model::Function;
 use crate::syntax::KEYWORDS;
 
 use fields::Holds;
+use item::item;
+use paths::PathKind;
 use place::{Before, Place};
 
 /// Words after a value.
@@ -27,16 +31,25 @@ const PREFIXES: [&str; 9] = ["and", "if", "nand", "nor", "not", "or", "table", "
 
 const UNITS: [&str; 5] = ["cycles", "deg", "ms", "s", "steps"];
 
-/// The completions at a place.
-pub(super) fn items(spot: &Spot<'_>) -> Vec<CompletionItem> {
+/// Signs after which editors ask for completions.
+pub(super) const TRIGGERS: [&str; 5] = [":", "[", "(", "\"", "/"];
+
+/// The signs of them that matter in a path only.
+const TRIGGERS_IN_PATHS: [&str; 2] = ["\"", "/"];
+
+/// The completions at a place, where the sign `typed` was typed or the user asked.
+pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem> {
     let tokens = tokens::tokens(spot.text());
-    if tokens::at(&tokens, spot.offset).is_some_and(is_silent) || ends_comment(&tokens, spot.offset) {
+    if let Some(quoted) = tokens.iter().find(|token| is_inside(token, spot)) {
+        return path(spot, &tokens, quoted.range.start);
+    }
+    if is_comment(&tokens, spot.offset) || typed.is_some_and(|sign| TRIGGERS_IN_PATHS.contains(&sign)) {
         return Vec::new();
     }
     let before = Before::of(spot.text(), &tokens, spot.offset);
     let files = &spot.files;
     match before.place(spot.offset) {
-        Place::NewName => Vec::new(),
+        Place::NewName | Place::UsedFile => Vec::new(),
         Place::Outside => words(&KEYWORDS),
         Place::Unit => words(&UNITS),
         Place::Row => words(&["for"]),
@@ -55,13 +68,28 @@ pub(super) fn items(spot: &Spot<'_>) -> Vec<CompletionItem> {
     }
 }
 
-fn is_silent(token: &tokens::Token) -> bool {
-    matches!(token.kind, TokenKind::Comment | TokenKind::Quoted)
+/// Whether a place is between the quotes of a token, of which the second may be missing.
+fn is_inside(token: &Token, spot: &Spot<'_>) -> bool {
+    let text = &spot.text()[token.range.clone()];
+    let is_closed = text.len() > 1 && text.ends_with('"');
+    let end = token.range.end - usize::from(is_closed);
+    token.kind == TokenKind::Quoted && (token.range.start + 1..=end).contains(&spot.offset)
 }
 
-/// A comment contains its end.
-fn ends_comment(tokens: &[tokens::Token], offset: usize) -> bool {
-    tokens.iter().any(|token| token.kind == TokenKind::Comment && token.range.end == offset)
+/// Whether a place is in a comment, which contains its end.
+fn is_comment(tokens: &[Token], offset: usize) -> bool {
+    tokens
+        .iter()
+        .any(|token| token.kind == TokenKind::Comment && (token.range.start..=token.range.end).contains(&offset))
+}
+
+/// The paths at a place after the quote at `quote`, if the text there is a path.
+fn path(spot: &Spot<'_>, tokens: &[Token], quote: usize) -> Vec<CompletionItem> {
+    match Before::of(spot.text(), tokens, quote).place(quote) {
+        Place::UsedFile => paths::items(spot, quote + 1, PathKind::Source),
+        Place::Value("library", "from") => paths::items(spot, quote + 1, PathKind::Folder),
+        _ => Vec::new(),
+    }
 }
 
 fn words(list: &[&str]) -> Vec<CompletionItem> {
@@ -148,13 +176,4 @@ fn names(files: &Files<'_>, wanted: NameKind) -> Vec<CompletionItem> {
     let named: BTreeMap<&str, NameKind> =
         declared.map(|found| (files.checked.sources.text(found.place), found.kind)).collect();
     named.into_iter().map(|(name, kind)| item(name, CompletionItemKind::Reference, kind.word())).collect()
-}
-
-fn item(label: &str, kind: CompletionItemKind, detail: &str) -> CompletionItem {
-    CompletionItem {
-        label: label.to_owned(),
-        kind: Some(kind),
-        detail: Some(detail.to_owned()),
-        ..CompletionItem::default()
-    }
 }

@@ -40,6 +40,8 @@ pub(super) enum Place<'t> {
     Schedule,
     /// Where a schedule lists its stimuli.
     Stimulus,
+    /// Where a file is named that is used.
+    UsedFile,
 }
 
 /// The tokens of the declaration before a place.
@@ -91,6 +93,7 @@ impl<'t> Before<'t> {
         match self.word(0) {
             "" => Place::Outside,
             _ if self.is_complete(offset) => Place::Outside,
+            "use" => Place::UsedFile,
             "circuit" => self.in_circuit(offset),
             "test" => self.in_test(offset),
             "simulate" | "schedule" if is_number && self.last_word_before() == "for" => Place::Unit,
@@ -250,6 +253,7 @@ mod tests {
     #[test]
     fn places_of_other_declarations() {
         assert_eq!([place("$"), place("use \"a\"\n$"), place("circuit f(a) -> (q) { q = a }\n\n$")], ["Outside"; 3]);
+        assert_eq!(place("use $"), "UsedFile");
         assert_eq!([place("test $"), place("test f for all inputs against $")], ["Circuit"; 2]);
         assert_eq!(place("test f {\n    a $"), "Columns(\"f\")");
         assert_eq!(place("test f {\n    a | q\n    0 $"), "Row");

@@ -1,0 +1,13 @@
+//! A completion.
+
+use gen_lsp_types::{CompletionItem, CompletionItemKind};
+
+/// A completion with what it is in a few words.
+pub(super) fn item(label: &str, kind: CompletionItemKind, detail: &str) -> CompletionItem {
+    CompletionItem {
+        label: label.to_owned(),
+        kind: Some(kind),
+        detail: Some(detail.to_owned()),
+        ..CompletionItem::default()
+    }
+}
