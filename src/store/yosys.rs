@@ -52,7 +52,7 @@ fn script(modules: &str) -> String {
         "read_verilog -sv -Iincluded source.v; {modules}; proc; write_rtlil processed.il; \
          flatten; opt; memory; opt; techmap; \
          dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01; simplemap; \
-         opt_clean; write_blif flat.blif"
+         opt_clean; setattr -unset src; write_blif -attr flat.blif"
     )
 }
 

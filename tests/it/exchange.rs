@@ -3,14 +3,18 @@
 use std::collections::BTreeMap;
 
 use nbc::circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, dot};
-use nbc::circuit::{Cell, Logic, Loops, NetId, Netlist, elaborate, prove};
+use nbc::circuit::passes::{self, DissolveWires};
+use nbc::circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, elaborate, prove};
 use nbc::model::{Function, Instance};
 use nbc::source::FileId;
 use nbc::store::{self, DiskWorld};
 use proptest::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use regex::Regex;
 
-use crate::language::programs;
+use crate::cli::Bench;
+use crate::language::{programs, root};
 use crate::synth::has_yosys;
 use crate::written::same;
 
@@ -27,11 +31,14 @@ fn gallery() -> Vec<Netlist> {
     found
 }
 
-fn without_memory() -> Vec<Netlist> {
-    let mut found = gallery();
-    found.retain(|netlist| Loops::of(netlist).cores().is_empty());
-    assert!(found.len() > 5, "the gallery has circuits without memory");
-    found
+/// The circuits of the gallery without memory, and those with it.
+fn by_memory() -> (Vec<Netlist>, Vec<Netlist>) {
+    let (without, mut with): (Vec<_>, Vec<_>) =
+        gallery().into_iter().partition(|netlist| Loops::of(netlist).cores().is_empty());
+    // Without constants and buffers, as netlists are written: Yosys would give their nets the names of others.
+    with.iter_mut().for_each(|netlist| passes::run(netlist).unwrap());
+    assert!(without.len() > 5 && with.len() > 5, "the gallery has circuits with and without memory");
+    (without, with)
 }
 
 fn alone(logic: Netlist) -> Design {
@@ -41,6 +48,38 @@ fn alone(logic: Netlist) -> Design {
 #[track_caller]
 fn proved(one: &Netlist, two: &Netlist, text: &str) {
     prove(one, two).unwrap_or_else(|error| panic!("{error}\n{text}"));
+}
+
+/// Proves the logic between loops equal, and compares the loops themselves: their cells and guards, their start values,
+/// and what they store over random inputs.
+#[track_caller]
+fn same_loops(one: &Netlist, mut two: Netlist, text: &str) {
+    DissolveWires.run_on(&mut two).unwrap();
+    let proof = prove(one, &two).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    assert_eq!(proof.cuts.len(), Loops::memory(one).cores().concat().len(), "{text}");
+    assert_eq!(stored(&two), stored(one), "{text}");
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut both = [Logic::new(one), Logic::new(&two)];
+    for _ in 0..100 {
+        let inputs: Vec<bool> = one.inputs().iter().map(|_| random.random_range(0..2) == 1).collect();
+        let [one, two] = &mut both;
+        assert_eq!(one.settle(&inputs), two.settle(&inputs), "{text}");
+    }
+}
+
+/// The cells that stay as written: how many there are of each role and function, and the names of those on loops with
+/// their start values.
+fn stored(netlist: &Netlist) -> (BTreeMap<String, usize>, BTreeMap<String, bool>) {
+    let guarded = Guarded::of(netlist);
+    let mut counts = BTreeMap::new();
+    for (id, cell) in netlist.cells() {
+        if let Some(role) = guarded.role(id) {
+            *counts.entry(format!("{role:?} {}", cell.function)).or_default() += 1;
+        }
+    }
+    let before = Logic::new(netlist);
+    let on_loops = netlist.ids().filter(|&id| guarded.memory().contains(id));
+    (counts, on_loops.map(|id| (netlist.net_name(id), before.value(id))).collect())
 }
 
 /// The netlist of a drawing: a node is its shape and label, an edge its ends and its pin.
@@ -61,8 +100,11 @@ fn undrawn(text: &str) -> Netlist {
             }
             Some(_) => netlist.add_constant(label == "1"),
             None => {
-                let function = Function::parse(label.split("\\n").next().unwrap()).unwrap();
-                netlist.add_loose_cell(Cell { function, name: None, start: None, span: None })
+                let mut lines = label.split("\\n");
+                let function = Function::parse(lines.next().unwrap()).unwrap();
+                let name = lines.next().map(quoted);
+                let start = lines.next().map(|start| start == "init 1");
+                netlist.add_loose_cell(Cell { function, name, start, span: None })
             }
         };
         ids.insert(key, id);
@@ -82,15 +124,42 @@ fn undrawn(text: &str) -> Netlist {
 
 #[test]
 fn a_drawing_has_all_of_the_circuit() {
-    for netlist in without_memory() {
+    for netlist in by_memory().0 {
         let text = dot::write(&netlist);
         proved(&netlist, &undrawn(&text), &text);
     }
 }
 
 #[test]
+fn a_drawing_has_all_of_the_loops() {
+    for netlist in by_memory().1 {
+        let text = dot::write(&netlist);
+        same_loops(&netlist, undrawn(&text), &text);
+    }
+}
+
+#[test]
+fn loops_of_the_gallery_read_back_from_blif() {
+    for netlist in by_memory().1 {
+        let text = blif::write(&alone(netlist.clone()));
+        same_loops(&netlist, blif::read(&text, FileId(0), None).unwrap().logic, &text);
+    }
+}
+
+#[test]
+fn loops_of_the_gallery_are_rejected_in_aiger() {
+    for netlist in by_memory().1 {
+        for format in [CircuitFormat::AigerBinary, CircuitFormat::AigerText] {
+            let fault = format.encode(&alone(netlist.clone())).unwrap_err();
+            assert_eq!(fault.message, "AIGER has no feedback loops");
+            assert!(fault.help.unwrap().contains("write BLIF"));
+        }
+    }
+}
+
+#[test]
 fn the_gallery_reads_back_from_blif_and_aiger() {
-    for netlist in without_memory() {
+    for netlist in by_memory().0 {
         let design = alone(netlist);
         let text = blif::write(&design);
         proved(&design.logic, &blif::read(&text, FileId(0), None).unwrap().logic, &text);
@@ -114,9 +183,52 @@ fn the_gallery_reads_back_from_verilog() {
     if !has_yosys() {
         return;
     }
-    for netlist in without_memory().into_iter().filter(|netlist| netlist.cells().count() < 40) {
+    for netlist in by_memory().0.into_iter().filter(|netlist| netlist.cells().count() < 40) {
         let again = through_yosys(&alone(netlist.clone()));
         proved(&netlist, &again.logic, &netlist.name);
+    }
+}
+
+/// The netlist with the names that its loops have in Verilog: a cell that drives outputs has the name of the first.
+fn named_for_verilog(mut netlist: Netlist) -> Netlist {
+    let loops = Loops::memory(&netlist);
+    let outputs: Vec<NetId> = netlist.outputs().iter().rev().copied().collect();
+    for output in outputs {
+        let (driver, name) = (netlist.pins(output)[0], netlist.net_name(output));
+        if loops.contains(driver) {
+            netlist.rename(driver, &name);
+        }
+    }
+    netlist
+}
+
+#[test]
+fn loops_of_the_gallery_read_back_from_verilog() {
+    if !has_yosys() {
+        return;
+    }
+    for netlist in by_memory().1.into_iter().map(named_for_verilog) {
+        let text = String::from_utf8(CircuitFormat::Verilog.encode(&alone(netlist.clone())).unwrap()).unwrap();
+        same_loops(&netlist, through_yosys(&alone(netlist.clone())).logic, &text);
+    }
+}
+
+#[test]
+fn the_gallerys_memory_passes_its_tests_as_verilog() {
+    if !has_yosys() {
+        return;
+    }
+    let bench = Bench::new();
+    for name in ["latch", "sr_latch", "d_flip_flop", "counter", "lfsr"] {
+        let source = std::fs::read_to_string(root().join(format!("circuits/{name}.nb"))).unwrap();
+        let path = bench.file(&format!("{name}.nb"), &source);
+        let file = format!("{name}.v");
+        let arguments = ["build", path.to_str().unwrap(), "--effort", "fast", "--emit", "verilog", "-o", &file];
+        assert_eq!(bench.run(&arguments).status, 0);
+        let rows = &source[source.find("\ntest ").unwrap()..];
+        bench.file(&format!("{name}_again.nb"), format!("use \"{file}\"\n{rows}"));
+        let ran = bench.run(&["test", &format!("{name}_again.nb")]);
+        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
     }
 }
 

@@ -4,11 +4,14 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::circuit::formats::design::{Design, Register, RegisterKind};
-use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES};
+use crate::circuit::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES, NetName};
+use crate::circuit::formats::model_gate::{ModelCover, gate};
 use crate::circuit::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
+use crate::circuit::formats::starts::starts;
 use crate::circuit::formats::wording::{BlifError, ModelError, TextError};
-use crate::circuit::{Logic, Loops, NetId, Netlist, Node};
+use crate::circuit::{NetId, Netlist, Node};
 use crate::diag::Diagnostic;
+use crate::model::Function;
 use crate::source::{FileId, Span};
 
 /// Reads the first model of a file and expands the models it instantiates.
@@ -67,7 +70,7 @@ type Words<'t> = Vec<(&'t str, Span)>;
 enum Statement<'t> {
     Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool, start: Option<bool> },
     Latch(Words<'t>),
-    Subcircuit(Words<'t>),
+    Subcircuit { words: Words<'t>, start: Option<bool> },
 }
 
 impl Statement<'_> {
@@ -76,7 +79,7 @@ impl Statement<'_> {
         const NET: usize = 100;
         match self {
             Self::Names { signals, cubes, .. } => NET * signals.len() + cubes.iter().map(Vec::len).sum::<usize>(),
-            Self::Latch(words) | Self::Subcircuit(words) => NET * words.len(),
+            Self::Latch(words) | Self::Subcircuit { words, .. } => NET * words.len(),
         }
     }
 }
@@ -89,6 +92,29 @@ struct Model<'t> {
     clocks: Words<'t>,
     statements: Vec<(Statement<'t>, Span)>,
 }
+
+impl Model<'_> {
+    /// Its function, if it is a gate: it has one output, one or two inputs and no state.
+    fn gate(&self) -> Option<Function> {
+        let [(output, _)] = self.outputs[..] else { return None };
+        let covers = self.statements.iter().map(|(statement, _)| match statement {
+            Statement::Names { signals, cubes, value, .. } => {
+                let (&(output, _), pins) = signals.split_last()?;
+                Some(ModelCover { pins: pins.iter().map(|&(pin, _)| pin).collect(), output, cubes, value: *value })
+            }
+            Statement::Latch(_) | Statement::Subcircuit { .. } => None,
+        });
+        let inputs: Vec<&str> = self.inputs.iter().map(|&(input, _)| input).collect();
+        let is_small = matches!(inputs.len(), 1 | 2) && self.statements.len() <= MOST_GATE_STATEMENTS;
+        if !is_small || inputs.contains(&output) {
+            return None;
+        }
+        gate(&inputs, output, covers.collect::<Option<_>>()?)
+    }
+}
+
+/// The most statements of a model that is looked at as a gate.
+const MOST_GATE_STATEMENTS: usize = 16;
 
 struct Models<'t> {
     all: Vec<Model<'t>>,
@@ -137,7 +163,7 @@ impl<'t> Models<'t> {
         for (statement, span) in &self.all[model].statements {
             extent.statements = extent.statements.saturating_add(1);
             extent.bytes = extent.bytes.saturating_add(statement.size());
-            let Statement::Subcircuit(words) = statement else { continue };
+            let Statement::Subcircuit { words, .. } = statement else { continue };
             let Some(&inner) = self.by_name.get(words[0].0) else { continue };
             let nested = match known[inner] {
                 Some(nested) => nested,
@@ -220,7 +246,10 @@ impl<'t> Models<'t> {
             ".latch" if rest.len() < 2 => self.incomplete(".latch", "expected an input and an output", span),
             ".latch" => model.statements.push((Statement::Latch(rest), span)),
             ".subckt" if rest.is_empty() => self.incomplete(".subckt", "expected the name of a model", span),
-            ".subckt" => model.statements.push((Statement::Subcircuit(rest), span)),
+            ".subckt" => {
+                let instance = Statement::Subcircuit { words: rest, start: None };
+                model.statements.push((instance, span));
+            }
             ".gate" | ".mlatch" => self.fault(BlifError::LibraryCell { directive: first.to_owned() }, span),
             _ => self.fault(BlifError::UnknownDirective { directive: first.to_owned() }, span),
         }
@@ -232,10 +261,9 @@ impl<'t> Models<'t> {
 
     /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
     fn attribute(&mut self, words: &Words<'t>) {
+        let &[("init", _), (value, span)] = &words[..] else { return };
         let statement = self.all.last_mut().and_then(|model| model.statements.last_mut());
-        let (&[("init", _), (value, span)], Some((Statement::Names { start, .. }, _))) = (&words[..], statement) else {
-            return;
-        };
+        let Some((Statement::Names { start, .. } | Statement::Subcircuit { start, .. }, _)) = statement else { return };
         match value {
             "0" | "1" => *start = Some(value == "1"),
             _ => self.fault(BlifError::NetStart { found: value.to_owned() }, span),
@@ -325,7 +353,7 @@ impl<'m, 't> Flat<'m, 't> {
                     start.iter().for_each(|&start| self.draft.start(output, start));
                 }
                 Statement::Latch(words) => self.latch(model, words, *span, prefix, ports),
-                Statement::Subcircuit(words) => self.subcircuit(words, prefix, ports),
+                Statement::Subcircuit { words, start } => self.subcircuit(words, *start, prefix, ports),
             }
         }
         self.path.pop();
@@ -399,7 +427,7 @@ impl<'m, 't> Flat<'m, 't> {
         self.draft.registers.push(DraftRegister { register, output, next, span });
     }
 
-    fn subcircuit(&mut self, words: &Words<'t>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+    fn subcircuit(&mut self, words: &Words<'t>, start: Option<bool>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
         let (name, span) = words[0];
         let Some(&model) = self.models.by_name.get(name) else {
             return self.draft.fault(ModelError::MissingModel { model: name.to_owned() }, span);
@@ -428,8 +456,26 @@ impl<'m, 't> Flat<'m, 't> {
             let (model, port) = (name.to_owned(), (*port).to_owned());
             return self.draft.fault(ModelError::Unconnected { model, port }, span);
         }
-        let instance = format!("{prefix}{name}@{}.", span.start);
-        self.instantiate(model, &instance, &inner);
+        match self.cell(model, &inner, span) {
+            Some(output) => start.iter().for_each(|&start| self.draft.start(output, start)),
+            None => self.instantiate(model, &format!("{prefix}{name}@{}.", span.start), &inner),
+        }
+    }
+
+    /// Defines the net of an instance whose model computes a function of one or two inputs. It becomes one cell,
+    /// however many gates the model has.
+    fn cell(&mut self, model: usize, ports: &BTreeMap<&'t str, String>, span: Span) -> Option<NetName> {
+        let model = &self.models.all[model];
+        let function = model.gate()?;
+        let (output, _) = model.outputs[0];
+        let output = self.draft.name(ports.get(output)?);
+        let pins: Vec<_> = model.inputs.iter().map(|(input, _)| self.draft.name(&ports[input])).collect();
+        let digit = |value: bool| if value { b'1' } else { b'0' };
+        let rows = (0..1 << pins.len()).map(|row| [row >> (pins.len() - 1) & 1 == 1, row & 1 == 1]);
+        let on = rows.filter(|&[a, b]| function.output(a, b));
+        let cubes = on.map(|row| row[..pins.len()].iter().map(|&value| digit(value)).collect()).collect();
+        self.draft.define(output, Definition::Cover { pins, cubes, value: true }, span);
+        Some(output)
     }
 }
 
@@ -489,17 +535,6 @@ pub fn write(design: &Design) -> String {
     }
     text.push_str(".end\n");
     text
-}
-
-/// The value before the first cycle of every cell of a memory element.
-fn starts(netlist: &Netlist) -> BTreeMap<NetId, bool> {
-    let memory = Loops::memory(netlist).cores().concat();
-    let own = |id: NetId| netlist.cell(id).and_then(|cell| cell.start);
-    if memory.iter().all(|&id| own(id).is_some()) {
-        return memory.into_iter().filter_map(|id| Some((id, own(id)?))).collect();
-    }
-    let before = Logic::new(netlist);
-    memory.into_iter().map(|id| (id, before.value(id))).collect()
 }
 
 /// A cell as the rows at which it is 1.

@@ -2,11 +2,14 @@
 
 use std::fmt::Write;
 
+use crate::circuit::formats::starts::starts;
 use crate::circuit::{Loops, Netlist, Node};
 
-/// Writes a netlist; cells on feedback loops are drawn with a double border.
+/// Writes a netlist; cells on feedback loops are drawn with a double border, and memory elements with their start
+/// values.
 pub fn write(netlist: &Netlist) -> String {
     let loops = Loops::of(netlist);
+    let starts = starts(netlist);
     let quoted = |text: &str| {
         let shown = text.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
         shown.replace('\\', "\\\\").replace('"', "\\\"")
@@ -20,7 +23,8 @@ pub fn write(netlist: &Netlist) -> String {
             Node::Constant(_) | Node::Wire { .. } => format!("label=\"{name}\", shape=plaintext"),
             Node::Cell(cell) => {
                 let borders = if loops.contains(id) { ", peripheries=2" } else { "" };
-                format!("label=\"{}\\n{name}\"{borders}", cell.function)
+                let start = starts.get(&id).map_or(String::new(), |&start| format!("\\ninit {}", u8::from(start)));
+                format!("label=\"{}\\n{name}{start}\"{borders}", cell.function)
             }
         };
         let _ = writeln!(text, "    n{} [{style}];", id.index());

@@ -8,10 +8,13 @@ mod design;
 pub mod dot;
 mod draft;
 mod format;
+mod model_gate;
 mod names;
 pub mod nb;
 mod nb_names;
+mod starts;
 pub mod verilog;
+mod verilog_names;
 mod wording;
 
 pub use design::{Design, Register, RegisterKind};

@@ -1,74 +1,180 @@
 //! Structural Verilog: an `assign` a cell, an `always` block a register.
+//!
+//! The cells that stay as written (docs/compiler.md, "What stays as written") are instances of modules, which other
+//! tools do not dissolve. An attribute of the instance is the start value of a cell on a loop.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use crate::circuit::formats::design::{Design, RegisterKind};
-use crate::circuit::formats::names::{ClockName, FileNames, cells_in_order, visible};
+use crate::circuit::formats::design::{Design, Register, RegisterKind};
+use crate::circuit::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, visible};
+use crate::circuit::formats::starts::starts;
+use crate::circuit::formats::verilog_names::escaped;
+use crate::circuit::guarded::Guarded;
 use crate::circuit::{NetId, Netlist, Node};
+use crate::model::Function;
 
 /// Writes a design.
 pub fn write(design: &Design) -> String {
-    let netlist = &design.logic;
-    // Escaped last, because a number appended to an escaped name would be outside of it.
-    let names = FileNames::new(netlist, &design.registers, &[], |name| visible(name, &[]));
-    let name = |id: NetId| escaped(names.net(id));
-    let (inputs, states) = netlist.inputs().split_at(design.inputs());
-    let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
-    let clocks = names.own_clocks().map(escaped);
-    let input_names: Vec<_> = clocks.chain(inputs.iter().map(|&id| name(id))).collect();
-    let output_names: Vec<_> = outputs.iter().map(|&id| name(id)).collect();
-    let ports = input_names.iter().map(|name| format!("input {name}"));
-    let ports: Vec<_> = ports.chain(output_names.iter().map(|name| format!("output {name}"))).collect();
-    let title = if netlist.name.is_empty() { "circuit".to_owned() } else { escaped(&visible(&netlist.name, &[])) };
-    let mut text = format!("module {title}({});\n", ports.join(", "));
-    for (state, register) in states.iter().zip(&design.registers) {
-        let start = register.start.map_or(String::new(), |start| format!(" = 1'b{}", u8::from(start)));
-        let _ = writeln!(text, "    reg {}{start};", name(*state));
+    let mut writer = Writer::new(design);
+    let mut text = writer.head();
+    writer.declarations(&mut text);
+    for id in cells_in_order(&design.logic) {
+        writer.cell(&mut text, id);
     }
-    let cells = cells_in_order(netlist);
-    for &id in cells.iter().chain(nexts) {
-        let _ = writeln!(text, "    wire {};", name(id));
-    }
-    let net = |id: NetId| match netlist.node(id) {
-        Node::Constant(value) => format!("1'b{}", u8::from(*value)),
-        _ => name(id),
-    };
-    for &id in &cells {
-        let _ = writeln!(text, "    assign {} = {};", name(id), expression(netlist, id, &net));
-    }
-    for &id in netlist.outputs() {
-        let _ = writeln!(text, "    assign {} = {};", name(id), net(netlist.pins(id)[0]));
-    }
-    for ((register, state), next) in design.registers.iter().zip(states).zip(nexts) {
-        let clock = match names.clock(register) {
-            Some(ClockName::Net(id)) => name(id),
-            Some(ClockName::Own(clock)) => escaped(clock),
-            None => "clk".to_owned(),
-        };
-        let (state, next) = (name(*state), name(*next));
-        let _ = match register.kind {
-            RegisterKind::Rising => writeln!(text, "    always @(posedge {clock}) {state} <= {next};"),
-            RegisterKind::Falling => writeln!(text, "    always @(negedge {clock}) {state} <= {next};"),
-            RegisterKind::High => writeln!(text, "    always @* if ({clock}) {state} = {next};"),
-            RegisterKind::Low => writeln!(text, "    always @* if (!{clock}) {state} = {next};"),
-        };
-    }
+    writer.outputs(&mut text);
+    writer.registers(&mut text);
     text.push_str("endmodule\n");
+    for (function, (module, pins)) in &writer.modules {
+        text.push_str(&cell_module(*function, module, *pins));
+    }
     text
 }
 
-fn expression(netlist: &Netlist, id: NetId, net: &impl Fn(NetId) -> String) -> String {
-    let function = netlist.cell(id).expect("the order holds cells").function;
-    let pins = netlist.pins(id);
-    let a = net(pins[0]);
-    let b = pins.get(1).map_or_else(|| a.clone(), |&pin| net(pin));
+struct Writer<'d> {
+    design: &'d Design,
+    /// The names of nets before they are escaped: a number appended to an escaped name would be outside of it.
+    names: FileNames,
+    /// The names that no instance may have.
+    taken: BTreeSet<String>,
+    title: String,
+    /// The values before the first cycle of the cells on loops.
+    starts: BTreeMap<NetId, bool>,
+    guarded: Guarded,
+    /// For each cell on a loop that drives outputs, the output whose name it has.
+    stand_ins: BTreeMap<NetId, NetId>,
+    /// The modules of cells that stay as written, and the numbers of their inputs.
+    modules: BTreeMap<Function, (String, usize)>,
+}
+
+impl<'d> Writer<'d> {
+    fn new(design: &'d Design) -> Self {
+        let netlist = &design.logic;
+        let names = FileNames::new(netlist, &design.registers, &[], |name| visible(name, &[]));
+        let title = if netlist.name.is_empty() { "circuit".to_owned() } else { visible(&netlist.name, &[]) };
+        let mut taken: BTreeSet<String> = names.own_clocks().map(str::to_owned).collect();
+        taken.extend(netlist.ids().filter(|&id| !is_constant(netlist, id)).map(|id| names.net(id).to_owned()));
+        let starts = starts(netlist);
+        let mut stand_ins = stand_ins(netlist, design.registers.len());
+        stand_ins.retain(|cell, _| starts.contains_key(cell));
+        let guarded = Guarded::of(netlist);
+        let mut writer = Self { design, names, taken, title, starts, guarded, stand_ins, modules: BTreeMap::new() };
+        writer.name_modules();
+        writer
+    }
+
+    /// Names a module for each function of the cells that stay as written.
+    fn name_modules(&mut self) {
+        let netlist = &self.design.logic;
+        let mut taken = BTreeSet::from([self.title.clone()]);
+        for id in netlist.ids().filter(|&id| self.guarded.role(id).is_some()) {
+            let function = netlist.cell(id).expect("only cells have roles").function;
+            let module = || (free(&mut taken, format!("cell_{}", function.name())), netlist.pins(id).len());
+            self.modules.entry(function).or_insert_with(module);
+        }
+    }
+
+    fn name(&self, id: NetId) -> String {
+        match self.design.logic.node(id) {
+            Node::Constant(value) => format!("1'b{}", u8::from(*value)),
+            _ => escaped(self.names.net(*self.stand_ins.get(&id).unwrap_or(&id))),
+        }
+    }
+
+    fn head(&self) -> String {
+        let logic = &self.design.logic;
+        let clocks = self.names.own_clocks().map(escaped);
+        let inputs = clocks.chain(logic.inputs()[..self.design.inputs()].iter().map(|&id| self.name(id)));
+        let ports = inputs.map(|name| format!("input {name}"));
+        let outputs = logic.outputs()[..self.design.outputs()].iter().map(|&id| format!("output {}", self.name(id)));
+        format!("module {}({});\n", escaped(&self.title), ports.chain(outputs).collect::<Vec<_>>().join(", "))
+    }
+
+    fn declarations(&self, text: &mut String) {
+        let logic = &self.design.logic;
+        let states = &logic.inputs()[self.design.inputs()..];
+        for (state, register) in states.iter().zip(&self.design.registers) {
+            let start = register.start.map_or(String::new(), |start| format!(" = 1'b{}", u8::from(start)));
+            let _ = writeln!(text, "    reg {}{start};", self.name(*state));
+        }
+        let cells = cells_in_order(logic).into_iter().filter(|id| !self.stand_ins.contains_key(id));
+        for id in cells.chain(logic.outputs()[self.design.outputs()..].iter().copied()) {
+            let _ = writeln!(text, "    wire {};", self.name(id));
+        }
+    }
+
+    fn cell(&mut self, text: &mut String, id: NetId) {
+        let logic = &self.design.logic;
+        let function = logic.cell(id).expect("the order holds cells").function;
+        let pins: Vec<String> = logic.pins(id).into_iter().map(|pin| self.name(pin)).collect();
+        let net = self.name(id);
+        let (a, b) = (&pins[0], pins.last().expect("a cell has a pin"));
+        if self.guarded.role(id).is_none() {
+            let _ = writeln!(text, "    assign {net} = {};", expression(function, a, b));
+            return;
+        }
+        let start =
+            self.starts.get(&id).map_or(String::new(), |&start| format!("(* init = 1'b{} *) ", u8::from(start)));
+        let module = &self.modules[&function].0;
+        let instance = escaped(&free(&mut self.taken, format!("{}_cell", self.names.net(id))));
+        let b = if pins.len() > 1 { format!(", .b({b})") } else { String::new() };
+        let _ = writeln!(text, "    {start}{module} {instance}(.a({a}){b}, .y({net}));");
+    }
+
+    fn outputs(&self, text: &mut String) {
+        let logic = &self.design.logic;
+        for &id in logic.outputs() {
+            let driver = logic.pins(id)[0];
+            if self.stand_ins.get(&driver) != Some(&id) {
+                let _ = writeln!(text, "    assign {} = {};", self.name(id), self.name(driver));
+            }
+        }
+    }
+
+    fn registers(&self, text: &mut String) {
+        let logic = &self.design.logic;
+        let states = &logic.inputs()[self.design.inputs()..];
+        let nexts = &logic.outputs()[self.design.outputs()..];
+        for ((register, state), next) in self.design.registers.iter().zip(states).zip(nexts) {
+            let clock = self.clock(register);
+            let (state, next) = (self.name(*state), self.name(*next));
+            let _ = match register.kind {
+                RegisterKind::Rising => writeln!(text, "    always @(posedge {clock}) {state} <= {next};"),
+                RegisterKind::Falling => writeln!(text, "    always @(negedge {clock}) {state} <= {next};"),
+                RegisterKind::High => writeln!(text, "    always @* if ({clock}) {state} = {next};"),
+                RegisterKind::Low => writeln!(text, "    always @* if (!{clock}) {state} = {next};"),
+            };
+        }
+    }
+
+    fn clock(&self, register: &Register) -> String {
+        match self.names.clock(register) {
+            Some(ClockName::Net(id)) => self.name(id),
+            Some(ClockName::Own(clock)) => escaped(clock),
+            None => "clk".to_owned(),
+        }
+    }
+}
+
+fn is_constant(netlist: &Netlist, id: NetId) -> bool {
+    matches!(netlist.node(id), Node::Constant(_))
+}
+
+/// The module of a function, which Yosys keeps as a module of its own.
+fn cell_module(function: Function, module: &str, pins: usize) -> String {
+    let (ports, b) = if pins > 1 { ("input a, input b", "b") } else { ("input a", "a") };
+    let logic = expression(function, "a", b);
+    format!("\n(* keep_hierarchy *)\nmodule {module}({ports}, output y);\n    assign y = {logic};\nendmodule\n")
+}
+
+fn expression(function: Function, a: &str, b: &str) -> String {
     match function.bits() {
         0b0000 => "1'b0".to_owned(),
         0b1111 => "1'b1".to_owned(),
         0b0011 => format!("~{a}"),
         0b0101 => format!("~{b}"),
-        0b1100 => a,
-        0b1010 => b,
+        0b1100 => a.to_owned(),
+        0b1010 => b.to_owned(),
         0b0110 => format!("{a} ^ {b}"),
         0b1001 => format!("~({a} ^ {b})"),
         0b1000 => format!("{a} & {b}"),
@@ -82,272 +188,11 @@ fn expression(netlist: &Netlist, id: NetId, net: &impl Fn(NetId) -> String) -> S
     }
 }
 
-/// The reserved words of Verilog and SystemVerilog.
-const RESERVED: &[&str] = &[
-    "accept_on",
-    "alias",
-    "always",
-    "always_comb",
-    "always_ff",
-    "always_latch",
-    "and",
-    "assert",
-    "assign",
-    "assume",
-    "automatic",
-    "before",
-    "begin",
-    "bind",
-    "bins",
-    "binsof",
-    "bit",
-    "break",
-    "buf",
-    "bufif0",
-    "bufif1",
-    "byte",
-    "case",
-    "casex",
-    "casez",
-    "cell",
-    "chandle",
-    "checker",
-    "class",
-    "clocking",
-    "cmos",
-    "config",
-    "const",
-    "constraint",
-    "context",
-    "continue",
-    "cover",
-    "covergroup",
-    "coverpoint",
-    "cross",
-    "deassign",
-    "default",
-    "defparam",
-    "design",
-    "disable",
-    "dist",
-    "do",
-    "edge",
-    "else",
-    "end",
-    "endcase",
-    "endchecker",
-    "endclass",
-    "endclocking",
-    "endconfig",
-    "endfunction",
-    "endgenerate",
-    "endgroup",
-    "endinterface",
-    "endmodule",
-    "endpackage",
-    "endprimitive",
-    "endprogram",
-    "endproperty",
-    "endsequence",
-    "endspecify",
-    "endtable",
-    "endtask",
-    "enum",
-    "event",
-    "eventually",
-    "expect",
-    "export",
-    "extends",
-    "extern",
-    "final",
-    "first_match",
-    "for",
-    "force",
-    "foreach",
-    "forever",
-    "fork",
-    "forkjoin",
-    "function",
-    "generate",
-    "genvar",
-    "global",
-    "highz0",
-    "highz1",
-    "if",
-    "iff",
-    "ifnone",
-    "ignore_bins",
-    "illegal_bins",
-    "implements",
-    "implies",
-    "import",
-    "incdir",
-    "include",
-    "initial",
-    "inout",
-    "input",
-    "inside",
-    "instance",
-    "int",
-    "integer",
-    "interconnect",
-    "interface",
-    "intersect",
-    "join",
-    "join_any",
-    "join_none",
-    "large",
-    "let",
-    "liblist",
-    "library",
-    "local",
-    "localparam",
-    "logic",
-    "longint",
-    "macromodule",
-    "matches",
-    "medium",
-    "modport",
-    "module",
-    "nand",
-    "negedge",
-    "nettype",
-    "new",
-    "nexttime",
-    "nmos",
-    "nor",
-    "noshowcancelled",
-    "not",
-    "notif0",
-    "notif1",
-    "null",
-    "or",
-    "output",
-    "package",
-    "packed",
-    "parameter",
-    "pmos",
-    "posedge",
-    "primitive",
-    "priority",
-    "program",
-    "property",
-    "protected",
-    "pull0",
-    "pull1",
-    "pulldown",
-    "pullup",
-    "pulsestyle_ondetect",
-    "pulsestyle_onevent",
-    "pure",
-    "rand",
-    "randc",
-    "randcase",
-    "randsequence",
-    "rcmos",
-    "real",
-    "realtime",
-    "ref",
-    "reg",
-    "reject_on",
-    "release",
-    "repeat",
-    "restrict",
-    "return",
-    "rnmos",
-    "rpmos",
-    "rtran",
-    "rtranif0",
-    "rtranif1",
-    "s_always",
-    "s_eventually",
-    "s_nexttime",
-    "s_until",
-    "s_until_with",
-    "scalared",
-    "sequence",
-    "shortint",
-    "shortreal",
-    "showcancelled",
-    "signed",
-    "small",
-    "soft",
-    "solve",
-    "specify",
-    "specparam",
-    "static",
-    "string",
-    "strong",
-    "strong0",
-    "strong1",
-    "struct",
-    "super",
-    "supply0",
-    "supply1",
-    "sync_accept_on",
-    "sync_reject_on",
-    "table",
-    "tagged",
-    "task",
-    "this",
-    "throughout",
-    "time",
-    "timeprecision",
-    "timeunit",
-    "tran",
-    "tranif0",
-    "tranif1",
-    "tri",
-    "tri0",
-    "tri1",
-    "triand",
-    "trior",
-    "trireg",
-    "type",
-    "typedef",
-    "union",
-    "unique",
-    "unique0",
-    "unsigned",
-    "until",
-    "until_with",
-    "untyped",
-    "use",
-    "uwire",
-    "var",
-    "vectored",
-    "virtual",
-    "void",
-    "wait",
-    "wait_order",
-    "wand",
-    "weak",
-    "weak0",
-    "weak1",
-    "while",
-    "wildcard",
-    "wire",
-    "with",
-    "within",
-    "wor",
-    "xnor",
-    "xor",
-];
-
-/// A name in Verilog; escaped with a backslash and a space if it is not a plain word.
-fn escaped(name: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let word = name.chars().all(plain) && !name.starts_with(|c: char| c.is_ascii_digit()) && !name.is_empty();
-    if word && !RESERVED.contains(&name) {
-        return name.to_owned();
-    }
-    format!("\\{name} ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::circuit::example::full_adder;
+    use crate::circuit::example::{full_adder, latch};
+    use crate::circuit::passes::DissolveWires;
 
     #[test]
     fn a_full_adder_is_readable() {
@@ -369,9 +214,15 @@ mod tests {
     }
 
     #[test]
-    fn odd_names_are_escaped() {
-        assert_eq!(escaped("a[3]"), "\\a[3] ");
-        assert_eq!(escaped("and"), "\\and ");
-        assert_eq!(escaped("q_1"), "q_1");
+    fn cells_of_a_loop_are_instances_with_start_values() {
+        let mut logic = latch();
+        DissolveWires.run_on(&mut logic).unwrap();
+        let text = write(&Design { logic, registers: Vec::new() });
+        let instances: Vec<_> = text.lines().filter(|line| line.contains("init")).collect();
+        assert_eq!(instances.len(), 2, "{text}");
+        assert!(instances[0].starts_with("    (* init = 1'b0 *) cell_nand "), "{text}");
+        assert!(instances[1].starts_with("    (* init = 1'b1 *) cell_nand "), "{text}");
+        assert_eq!(text.matches("(* keep_hierarchy *)").count(), 1, "{text}");
+        assert_eq!(text.matches("cell_nand ").count(), 4, "two cells and two guards:\n{text}");
     }
 }

@@ -21,7 +21,8 @@ impl From<EncodeError> for Diagnostic {
         let other_format = "write BLIF or Verilog, which keep every register";
         let (message, help) = match error {
             EncodeError::AigerLoop => {
-                ("AIGER has no feedback loops".to_owned(), "keep the registers with `--registers keep`, or write BLIF")
+                let help = "keep the registers with `--registers keep`, or write BLIF or Verilog";
+                ("AIGER has no feedback loops".to_owned(), help)
             }
             EncodeError::AigerRegister { register, kind } => {
                 let kind = match kind {

@@ -63,7 +63,10 @@ impl TextError {
                     .with_related(first, "first defined here")
             }
             Self::Loop { net } => damaged(format!("`{net}` depends on itself"), span, "this closes the loop")
-                .with_help("feedback needs a start value: in BLIF, write `.attr init 0` after its `.names`"),
+                .with_help(
+                    "feedback needs a start value: `.attr init 0` after its `.names` in BLIF, `(* init = 1'b0 *)` \
+                     before its instance in Verilog (docs/compiler.md, \"Exchange formats\")",
+                ),
             Self::LongName { bytes, most } => {
                 damaged(format!("name of {bytes} bytes is too long"), span, format!("expected at most {most}"))
             }
