@@ -111,10 +111,32 @@ test("the explorer lists tests and rows, and shows what each came to", async () 
 test("one row runs its whole test, and no other", async () => {
   const editor = editorWith("tested.nb", TESTED);
   await activate(editor);
-  const row = below(editor.items.get(uri("tested.nb"))!).find(item => item.label === "1 1 | 1")!;
+  const items = below(editor.items.get(uri("tested.nb"))!);
+  const row = items.find(item => item.label === "1 1 | 1")!;
   const run = await ran(editor, "Run", [row]);
   assert.ok(run.states.includes("passed 0 0 | 1") && run.states.includes("failed 1 1 | 1"));
   assert.ok(!run.states.some(state => state.endsWith(" g")), run.states.join());
+  const file = path.join(folder, "tested.nb");
+  assert.equal(editor.logged.at(-1), `${NBC} test --format json --only=is a nand ${file}`);
+  // A test without a title is chosen by its circuit, which other tests may have too.
+  const other = await ran(editor, "Run as Logic", [items.at(-1)!]);
+  assert.deepEqual(other.states, ["enqueued g", "started g", "failed g"]);
+  assert.equal(editor.logged.at(-1), `${NBC} test --format json --logic --only=g ${file}`);
+  await ran(editor, "Run as Logic", items.slice(1));
+  assert.equal(editor.logged.at(-1), `${NBC} test --format json --logic ${file}`);
+});
+
+test("some tests of a file run by their names", async () => {
+  const more =
+    TESTED + TESTED.replaceAll(" g", " h").replaceAll("is a nand", "--help").replace("(a, b)", "[n = 1](a, b)");
+  const editor = editorWith("more.nb", more.replace("test h for", "test h[1] for"));
+  await activate(editor);
+  const chosen = below(editor.items.get(uri("more.nb"))!).filter(item => /^h/.test(item.label));
+  const run = await ran(editor, "Run as Logic", chosen);
+  const told = run.states.filter(state => /^(passed|failed|errored)/.test(state));
+  assert.deepEqual(told, ['failed h "--help"', "passed 0 0 | 1", "failed 1 1 | 1", "failed h[1]"]);
+  const only = editor.logged.slice(-2).map(line => /--only=\S+/.exec(line)![0]);
+  assert.deepEqual(only, ["--only=--help", "--only=h"]);
 });
 
 test("a file with errors, and an editor without nbc, are errors of the tests", async () => {
@@ -188,6 +210,19 @@ test("a run of a lens reports its progress, and is cancelled by its notification
   assert.equal(steps[0], "simulating tested.nb");
   assert.equal(editor.panels.length, 0);
   assert.deepEqual(editor.shown, []);
+});
+
+test("when a setting changes, the server asks for new lenses", async () => {
+  const editor = editorWith("tested.nb", TESTED);
+  await activate(editor);
+  const token = { onCancellationRequested: () => ({ dispose() {} }), isCancellationRequested: false };
+  const lenses = editor.lenses[0]!;
+  assert.ok((await lenses.provideCodeLenses(editor.documents[0], token)).length > 0);
+  const changed = new Promise<void>(resolve => lenses.onDidChangeCodeLenses(resolve));
+  editor.settings["nbc.codeLenses"] = false;
+  editor.configured.fire({ affectsConfiguration: name => name === "nbc" });
+  await changed;
+  assert.deepEqual((await lenses.provideCodeLenses(editor.documents[0], token)) ?? [], []);
 });
 
 test("when the setting changes, nbc is looked for again", async () => {

@@ -211,8 +211,12 @@ export class Editor {
   readonly items = new Items();
   readonly runs: Run[] = [];
   readonly shown: string[] = [];
+  readonly logged: string[] = [];
   readonly panels: { webview: { html: string }; title: string }[] = [];
-  readonly lenses: { provideCodeLenses(document: unknown, token: unknown): Promise<any[]> }[] = [];
+  readonly lenses: {
+    provideCodeLenses(document: unknown, token: unknown): Promise<any[]>;
+    onDidChangeCodeLenses(listener: () => void): Disposable;
+  }[] = [];
   readonly configured = new Emitter<{ affectsConfiguration(name: string): boolean }>();
   readonly published = new Emitter<string>();
   readonly CancellationTokenSource = CancellationTokenSource;
@@ -235,6 +239,12 @@ export class Editor {
     return document;
   }
 
+  /** The settings of a section that have no further parts. */
+  private values(section: string): Record<string, unknown> {
+    const own = Object.entries(this.settings).filter(([name]) => name.startsWith(`${section}.`));
+    return Object.fromEntries(own.map(([name, value]) => [name.slice(section.length + 1), value]));
+  }
+
   /** The module `vscode`. */
   module() {
     const workspaceFolder = { uri: Uri.file(this.folder), name: "here", index: 0 };
@@ -255,7 +265,7 @@ export class Editor {
         textDocuments: this.documents,
         notebookDocuments: [],
         fs: partly({ readFile: () => Promise.reject(new Error("nothing is on the disk")) }),
-        getConfiguration: (section: string) => partly({ get: get(section) }),
+        getConfiguration: (section: string) => partly({ ...this.values(section), get: get(section) }),
         getWorkspaceFolder: () => workspaceFolder,
         asRelativePath: (uri: Uri) => path.relative(this.folder, uri.fsPath),
         findFiles: async () => [],
@@ -267,7 +277,11 @@ export class Editor {
         visibleTextEditors: [],
         tabGroups: partly({ all: [] }),
         activeColorTheme: { kind: 2 },
-        createOutputChannel: () => partly({ error: (text: string) => this.shown.push(text) }),
+        createOutputChannel: () =>
+          partly({
+            error: (text: string) => this.shown.push(text),
+            info: (text: string) => this.logged.push(text),
+          }),
         showWarningMessage: async (text: string) => void this.shown.push(text),
         showErrorMessage: async (text: string) => void this.shown.push(text),
         showInformationMessage: async (text: string) => void this.shown.push(text),

@@ -19,6 +19,11 @@ export interface DeclaredRow {
   text: string;
 }
 
+/** The name by which `nbc test --only` chooses a test: its title, or its circuit without arguments. */
+export function nameOf({ title, circuit }: DeclaredTest): string {
+  return title === "" ? circuit.split("[")[0]!.trim() : title;
+}
+
 /** A word, a text or a sign of the source. */
 interface Token {
   kind: "word" | "text" | "sign";

@@ -3,6 +3,7 @@
 import * as vscode from "vscode";
 
 import { type Finished, run as runProgram } from "../core/child";
+import { nameOf } from "../core/declared";
 import { type Failure, readFaults, readResults, type TestResult } from "../core/results";
 import { verdictOf } from "../core/verdicts";
 import { folderOf, save } from "./files";
@@ -74,7 +75,7 @@ export class Explorer implements vscode.Disposable {
       return;
     }
     all.forEach(item => run.started(item));
-    const results = await this.results(run, file.uri!, level);
+    const results = await this.results(run, file, tests, level);
     if (typeof results === "string") {
       all.forEach(item => run.errored(item, new vscode.TestMessage(results)));
     } else if (results === undefined) {
@@ -84,8 +85,9 @@ export class Explorer implements vscode.Disposable {
     }
   }
 
-  /** The results of a file; `undefined` if the run was stopped, or the reason why there are none. */
-  private async results(run: vscode.TestRun, file: vscode.Uri, level: Level) {
+  /** The results of a file's tests; `undefined` if the run was stopped, or the reason why there are none. */
+  private async results(run: vscode.TestRun, item: vscode.TestItem, tests: vscode.TestItem[], level: Level) {
+    const file = item.uri!;
     const program = await this.program.path();
     if (program === undefined) {
       return "`nbc` was not found";
@@ -95,13 +97,31 @@ export class Explorer implements vscode.Disposable {
     }
     // Lines are those of the saved text.
     await this.items.refresh(file);
-    const args = ["test", "--format", "json", ...(level === "auto" ? [] : [`--${level}`]), file.fsPath];
-    this.log.info(`${program} ${args.join(" ")}`);
-    try {
-      return resultsOf(await runProgram(program, args, folderOf(file), run.token));
-    } catch (error) {
-      return error instanceof Error ? error.message : String(error);
+    const levels = level === "auto" ? [] : [`--${level}`];
+    const all: TestResult[] = [];
+    for (const only of this.choices(item, tests)) {
+      const args = ["test", "--format", "json", ...levels, ...only, file.fsPath];
+      this.log.info(`${program} ${args.join(" ")}`);
+      try {
+        const results = resultsOf(await runProgram(program, args, folderOf(file), run.token));
+        if (!Array.isArray(results)) {
+          return results;
+        }
+        all.push(...results);
+      } catch (error) {
+        return error instanceof Error ? error.message : String(error);
+      }
     }
+    return all;
+  }
+
+  /** The arguments of the runs of some tests of a file: one run for all tests, or one for each name. */
+  private choices(file: vscode.TestItem, tests: vscode.TestItem[]): string[][] {
+    if (tests.length === file.children.size) {
+      return [[]];
+    }
+    const declared = tests.flatMap(test => this.items.test(test) ?? []);
+    return [...new Set(declared.map(nameOf))].map(name => [`--only=${name}`]);
   }
 
   private report(run: vscode.TestRun, item: vscode.TestItem, results: TestResult[]): void {
@@ -132,7 +152,7 @@ export class Explorer implements vscode.Disposable {
       if (item.parent === undefined) {
         item.children.forEach(choose);
       } else if (this.items.test(item) === undefined) {
-        // Rows are a sequence: a test runs as a whole.
+        // Rows are a sequence, so a test runs as a whole.
         choose(item.parent);
       } else {
         chosen.set(item.parent, (chosen.get(item.parent) ?? new Set()).add(item));

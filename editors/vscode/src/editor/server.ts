@@ -4,10 +4,8 @@ import { randomUUID } from "node:crypto";
 
 import * as vscode from "vscode";
 import {
-  CodeLensRequest,
   DidChangeConfigurationNotification,
   ExecuteCommandRequest,
-  InlayHintRequest,
   LanguageClient,
   type LanguageClientOptions,
   WorkDoneProgress,
@@ -94,7 +92,7 @@ export class Server implements vscode.Disposable {
     await client?.dispose().catch((error: unknown) => this.log.warn(String(error)));
   }
 
-  /** Tells the server its settings, and asks again for the lenses and hints that they switch on and off. */
+  /** Tells the server its settings; it asks for new lenses and hints itself. */
   private async tellSettings(): Promise<void> {
     // The next server starts with them.
     await this.last;
@@ -103,10 +101,6 @@ export class Server implements vscode.Disposable {
       return;
     }
     await client.sendNotification(DidChangeConfigurationNotification.type, { settings: { nbc: settings() } });
-    for (const document of vscode.workspace.textDocuments) {
-      client.getFeature(CodeLensRequest.method).getProvider(document)?.onDidChangeCodeLensEmitter.fire();
-      client.getFeature(InlayHintRequest.method).getProvider(document)?.onDidChangeInlayHints.fire();
-    }
   }
 
   private options(): LanguageClientOptions {
