@@ -47,5 +47,9 @@ local edits = ask("textDocument/formatting", format)
 vim.lsp.util.apply_text_edits(edits, buffer, vim.lsp.get_client_by_id(client).offset_encoding)
 found.text = table.concat(vim.api.nvim_buf_get_lines(buffer, 0, -1, false), "\n") .. "\n"
 found.problems = #vim.diagnostic.get(buffer)
+local call = "    (q, _) = memory(d, "
+vim.api.nvim_buf_set_lines(buffer, -1, -1, false, { "circuit held(d, e) -> (q) {", call })
+local help = ask("textDocument/signatureHelp", place(vim.api.nvim_buf_line_count(buffer) - 1, #call))
+found.signature = table.concat(vim.lsp.util.convert_signature_help_to_markdown_lines(help, "nb", { "(", "," }), "\n")
 vim.fn.writefile({ vim.fn.json_encode(found) }, "found.json")
 vim.cmd("qall!")

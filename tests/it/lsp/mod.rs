@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod client;
+mod editors;
 mod hovers;
 mod latency;
 mod renaming;
@@ -11,7 +12,6 @@ mod views;
 mod writing;
 
 use std::io::Write;
-use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
@@ -183,42 +183,4 @@ fn the_server_ends_when_its_client_vanishes() {
         let status = client.server.wait().unwrap();
         assert!(matches!(status.code(), Some(0 | 2)), "{message:?}: {status}");
     }
-}
-
-/// Needs `nvim`; set `NBC_WITHOUT_NEOVIM` where there is none.
-#[test]
-fn neovim_hovers_goes_to_definitions_renames_and_formats() {
-    if std::env::var_os("NBC_WITHOUT_NEOVIM").is_some() {
-        return;
-    }
-    let bench = Bench::new();
-    let text = std::fs::read_to_string(crate::language::root().join("circuits/latch.nb")).unwrap();
-    bench.file("latch.nb", &text);
-    let name = "d_latch";
-    let used = text.rfind(&format!("test {name}")).unwrap() + "test ".len();
-    let place = at(&text, &text[used..]);
-    let script = crate::language::root().join("tests/it/neovim.lua");
-    let status = Command::new("nvim")
-        .args(["--headless", "-u", "NONE", "-n", "-c", &format!("luafile {}", script.display())])
-        .current_dir(bench.path())
-        .env("NBC", env!("CARGO_BIN_EXE_nbc"))
-        .env("LINE", place["line"].to_string())
-        .env("CHARACTER", place["character"].to_string())
-        .stdin(Stdio::null())
-        .status()
-        .expect("install neovim, or set NBC_WITHOUT_NEOVIM");
-    assert!(status.success());
-    let found: Value = serde_json::from_slice(&std::fs::read(bench.path().join("found.json")).unwrap()).unwrap();
-    assert!(found["hover"].as_str().unwrap().starts_with(&format!("```nb\ncircuit {name}(")), "{found}");
-    assert_eq!(found["definition"], at(&text, &format!("{name}("))["line"]);
-    assert_eq!(found["problems"], 0);
-    assert_eq!(found["pictures"], false, "Neovim would show their source");
-    let test = &found["ran"];
-    assert!(test["passed"] == true && found["page"].as_str().unwrap().contains("<pre>"), "{found}");
-    for count in ["highlights", "symbols", "workspace"] {
-        assert!(found[count].as_u64().unwrap() > 0, "{count}: {found}");
-    }
-    assert_eq!(found["completions"], 0, "nothing is completed in a comment");
-    let renamed = format!("//   formatted\n\n{}", text.replace(name, "memory"));
-    assert_eq!(found["text"], renamed, "a canonical text stays as it is");
 }

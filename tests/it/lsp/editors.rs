@@ -1,0 +1,100 @@
+//! Real editors with their own clients.
+
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::cli::Bench;
+use crate::language::root;
+use crate::lsp::client::at;
+use crate::manual::fences;
+
+/// The circuit that a user asks about.
+const NAME: &str = "d_latch";
+
+/// A bench with `latch.nb`, its text, and the byte of a use of [`NAME`].
+fn latch() -> (Bench, String, usize) {
+    let bench = Bench::new();
+    let text = std::fs::read_to_string(root().join("circuits/latch.nb")).unwrap();
+    bench.file("latch.nb", &text);
+    let used = text.rfind(&format!("test {NAME}")).unwrap() + "test ".len();
+    (bench, text, used)
+}
+
+/// What an editor wrote of what it found.
+fn run(bench: &Bench, editor: &mut Command) -> Value {
+    let output = editor.current_dir(bench.path()).stdin(Stdio::null()).output();
+    let output = output.unwrap_or_else(|error| panic!("install {:?}: {error}", editor.get_program()));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found = std::fs::read(bench.path().join("found.json"));
+    serde_json::from_slice(&found.unwrap_or_else(|_| panic!("{output:?}"))).unwrap()
+}
+
+/// The example of the manual in a language, which configures an editor.
+fn configuration(language: &str) -> String {
+    let manual = std::fs::read_to_string(root().join("docs/editors.md")).unwrap();
+    let found = fences(&manual).into_iter().find(|fence| fence.words == [language]);
+    found.unwrap_or_else(|| panic!("the manual has no {language}")).text
+}
+
+/// Needs `nvim`; set `NBC_WITHOUT_NEOVIM` where there is none.
+#[test]
+fn neovim_hovers_goes_to_definitions_renames_and_formats() {
+    if std::env::var_os("NBC_WITHOUT_NEOVIM").is_some() {
+        return;
+    }
+    let (bench, text, used) = latch();
+    let place = at(&text, &text[used..]);
+    let script = root().join("tests/it/neovim.lua");
+    let mut editor = Command::new("nvim");
+    editor
+        .args(["--headless", "-u", "NONE", "-n", "-c", &format!("luafile {}", script.display())])
+        .env("NBC", env!("CARGO_BIN_EXE_nbc"))
+        .env("LINE", place["line"].to_string())
+        .env("CHARACTER", place["character"].to_string());
+    let found = run(&bench, &mut editor);
+    assert!(found["hover"].as_str().unwrap().starts_with(&format!("```nb\ncircuit {NAME}(")), "{found}");
+    assert_eq!(found["definition"], at(&text, &format!("{NAME}("))["line"]);
+    assert_eq!(found["problems"], 0);
+    assert_eq!(found["pictures"], false, "Neovim would show their source");
+    let test = &found["ran"];
+    assert!(test["passed"] == true && found["page"].as_str().unwrap().contains("<pre>"), "{found}");
+    for count in ["highlights", "symbols", "workspace"] {
+        assert!(found[count].as_u64().unwrap() > 0, "{count}: {found}");
+    }
+    assert_eq!(found["completions"], 0, "nothing is completed in a comment");
+    let renamed = format!("//   formatted\n\n{}", text.replace(NAME, "memory"));
+    assert_eq!(found["text"], renamed, "a canonical text stays as it is");
+    assert!(found["signature"].as_str().unwrap().contains("memory(d, e) -> (q, nq)"), "{found}");
+}
+
+/// Needs `emacs` with eglot; set `NBC_WITHOUT_EMACS` where there is none. It is configured as the manual says.
+#[test]
+fn emacs_hovers_goes_to_definitions_renames_and_formats() {
+    if std::env::var_os("NBC_WITHOUT_EMACS").is_some() {
+        return;
+    }
+    let (bench, text, used) = latch();
+    bench.file("init.el", configuration("elisp"));
+    let program = std::path::Path::new(env!("CARGO_BIN_EXE_nbc")).parent().unwrap();
+    let before = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths([program.into()].into_iter().chain(std::env::split_paths(&before))).unwrap();
+    let mut editor = Command::new("emacs");
+    editor
+        .args(["--batch", "--no-site-file", "-l", "init.el", "-l"])
+        .arg(root().join("tests/it/emacs.el"))
+        .env("HOME", bench.path())
+        .env("PATH", path)
+        // Emacs counts characters from 1.
+        .env("PLACE", (text[..used].chars().count() + 1).to_string());
+    let found = run(&bench, &mut editor);
+    assert_eq!(found["mode"], "nb-mode");
+    assert!(found["hover"].as_str().unwrap().starts_with(&format!("```nb\ncircuit {NAME}(")), "{found}");
+    let line = at(&text, &format!("{NAME}("))["line"].as_u64().unwrap();
+    assert_eq!(found["definition"], line + 1);
+    for count in ["references", "symbols"] {
+        assert!(found[count].as_u64().unwrap() > 0, "{count}: {found}");
+    }
+    let renamed = format!("//   formatted\n\n{}", text.replace(NAME, "memory"));
+    assert_eq!(found["text"], renamed);
+}
