@@ -79,6 +79,29 @@ fn verdicts_are_colored_where_that_is_wanted() {
     let out = |arguments: &[&str]| bench.run(arguments).out;
     assert!(out(&["test", "fine.nb", "--logic", "--color", "always"]).starts_with("\u{1b}[32mpass\u{1b}[0m  f"));
     assert!(out(&["test", "fine.nb", "--logic"]).starts_with("pass  f"));
+    bench.file("wrong.nb", FINE.replace("q = not a", "q = a"));
+    let colored = out(&["test", "wrong.nb", "--logic", "--color", "always"]);
+    assert!(colored.starts_with("\u{1b}[1;31mFAIL\u{1b}[0m  f"), "{colored:?}");
+}
+
+#[test]
+fn the_citation_is_of_this_version() {
+    let citation = std::fs::read_to_string(root().join("CITATION.cff")).unwrap();
+    let field = |name: &str| citation.lines().find_map(|line| line.strip_prefix(&format!("{name}: "))).unwrap();
+    assert_eq!(
+        (field("cff-version"), field("version"), field("type")),
+        ("1.2.0", env!("CARGO_PKG_VERSION"), "software")
+    );
+    let readme = fences(&std::fs::read_to_string(root().join("README.md")).unwrap());
+    let entry = &readme.iter().find(|fence| fence.words == ["bibtex"]).unwrap().text;
+    let value = |name: &str| {
+        let line = entry.lines().find(|line| line.trim().starts_with(name)).unwrap();
+        line.split_once('{').unwrap().1.trim_end_matches(['}', ',']).trim_start_matches('{').to_owned()
+    };
+    assert_eq!(value("title"), field("title").trim_matches('"'));
+    assert_eq!((value("version"), value("license")), (field("version").to_owned(), field("license").to_owned()));
+    assert_eq!(value("year"), field("date-released")[..4]);
+    assert!(citation.contains(&format!("  - name: {}", value("author"))), "{entry}");
 }
 
 /// A program that runs until it is told to stop.

@@ -82,6 +82,8 @@ fn every_fix_removes_its_error() {
         let Ok(file) = check::open(&DiskWorld, &name(&path), &mut sources) else { continue };
         let faults = check::check(&DiskWorld, &mut sources, file).diagnostics;
         for fault in faults.iter().filter(|fault| fault.labels.first().is_some_and(|label| label.span.file == file)) {
+            let is_certain = fault.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
+            assert!(fault.fix.is_some() || !is_certain, "{}: `{}` has no fix", path.display(), fault.message);
             let Some(fix) = &fault.fix else { continue };
             let fixed = fix.apply(file, &sources.file(file).text);
             let mut world = MemoryWorld::default();

@@ -145,7 +145,7 @@ fn keywords_fields_and_constants_are_explained() {
     let shown = hover(&mut client, &uri, &text, "window");
     assert!(shown.contains("`window` is the number of cycles"), "{shown}");
     let shown = hover(&mut client, &uri, &text, "4'd10");
-    assert!(shown.contains("| binary | `4'b1010` |\n| hexadecimal | `4'ha` |"), "{shown}");
+    assert!(shown.contains("| decimal | `4'd10` |\n| binary | `4'b1010` |\n| hexadecimal | `4'ha` |"), "{shown}");
     client.goodbye();
 }
 

@@ -68,6 +68,24 @@ fn errors_are_published_while_typing_and_fixed_by_quick_fixes() {
 }
 
 #[test]
+fn a_problem_shows_its_related_places_in_other_files() {
+    let bench = Bench::new();
+    let (half, _) = file(&bench, "half.nb", HALF);
+    let (uri, text) = file(&bench, "a.nb", "use \"half.nb\"\n\ncircuit half(a) -> (q) {\n    q = a\n}\n");
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    client.open(&half, HALF);
+    let all = [client.diagnostics(&uri), client.diagnostics(&half)];
+    let problem = all.iter().flat_map(|list| list.as_array().unwrap()).find(|problem| problem["code"] == "duplicate");
+    let problem = problem.unwrap_or_else(|| panic!("{all:?}"));
+    let places: Vec<_> = problem["relatedInformation"].as_array().unwrap().iter().map(|one| &one["location"]).collect();
+    let [place] = &places[..] else { panic!("{problem}") };
+    let (other, word) = if place["uri"] == half { (HALF, "half") } else { (text.as_str(), "half(a)") };
+    assert_eq!(place["range"]["start"], at(other, word), "{problem}");
+    client.goodbye();
+}
+
+#[test]
 fn names_lead_to_their_declarations_in_other_files_and_in_the_prelude() {
     let bench = Bench::new();
     let (half, _) = file(&bench, "half.nb", HALF);
@@ -106,7 +124,7 @@ fn a_text_is_formatted_as_by_the_program() {
 fn declarations_are_listed_folded_and_completed() {
     let bench = Bench::new();
     file(&bench, "half.nb", HALF);
-    let (full, text) = file(&bench, "full.nb", ADDER);
+    let (full, text) = file(&bench, "full.nb", &ADDER.replace("carry.", "carry.\n// With two halves."));
     let mut client = Client::start();
     client.open(&full, &text);
     let document = json!({ "textDocument": { "uri": full } });
@@ -115,7 +133,12 @@ fn declarations_are_listed_folded_and_completed() {
     assert_eq!(names, ["circuit", "test"]);
     assert_eq!(symbols[0]["children"].as_array().unwrap().len(), 5);
     let folds = client.ask("textDocument/foldingRange", document).unwrap();
-    assert_eq!(folds[0]["startLine"], 3);
+    let line = |word: &str| at(&text, word)["line"].clone();
+    let circuit = (&line("circuit"), &line("}"), &json!("region"));
+    let found: Vec<_> = folds.as_array().unwrap().iter().collect();
+    let found: Vec<_> = found.iter().map(|fold| (&fold["startLine"], &fold["endLine"], &fold["kind"])).collect();
+    assert!(found.len() == 3 && found[0] == circuit, "{folds}");
+    assert_eq!(found[2], (&line("// Adds"), &line("// With"), &json!("comment")));
     let mut labels = |word: &str| -> Vec<String> {
         let items = client.ask("textDocument/completion", place(&full, &text, word)).unwrap();
         items.as_array().unwrap().iter().map(|item| item["label"].as_str().unwrap().to_owned()).collect()

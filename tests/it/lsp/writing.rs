@@ -38,7 +38,7 @@ fn completion_knows_the_place() {
     let (uri, text) = file(&bench, "a.nb", START);
     let mut client = Client::start();
     client.open(&uri, &text);
-    let cases: [(&str, &[&str], &[&str]); 15] = [
+    let cases: [(&str, &[&str], &[&str]); 20] = [
         ("$", &["circuit", "use"], &["and", "half"]),
         ("// no$", &[], &["circuit"]),
         ("circuit f(p) -> (q) {\n    q = $", &["p", "q", "half", "not", "table"], &["circuit", "for", "material"]),
@@ -54,6 +54,11 @@ fn completion_knows_the_place() {
         ("library l { from: shipped, behaviors: [$", &["nand", "xor"], &["half", "shipped"]),
         ("evolution e { materials: [$", &["brisk", "muscle"], &["sweep", "half"]),
         ("material m { kind: sensor, stimulus: $", &["s1", "s2"], &["brisk"]),
+        ("material m { period: 42 $", &["cycles", "deg", "steps"], &["brisk"]),
+        ("evolution e { mutation: { $", &["add_node", "change_weight"], &["half"]),
+        ("swarm w { circuit: half }\nsimulate $", &["w"], &["half", "brisk"]),
+        ("swarm w { circuit: half }\nsimulate w with $", &["sweep", "schedule"], &["w", "half"]),
+        ("test ripple[2] for all inputs against $", &["half", "add"], &["brisk"]),
     ];
     for (rest, wanted, unwanted) in cases {
         let found = completions(&mut client, &uri, rest);
@@ -165,6 +170,9 @@ fn certain_help_is_a_quick_fix() {
             "t =",
             "circuit f(a) -> (q) {\n    _t = not a\n    q = a\n}\n",
         ),
+        ("circut f(a) -> (q) {\n    q = a\n}\n", "circut", "circuit f(a) -> (q) {\n    q = a\n}\n"),
+        ("circuit f(a b) -> (q) {\n    q = a\n}\n", "b)", "circuit f(a, b) -> (q) {\n    q = a\n}\n"),
+        ("material m { kind: actuator, phase: 90 }\n", "90", "material m { kind: actuator, phase: 90 deg }\n"),
     ];
     let mut client = Client::start();
     for (at_all, (text, word, fixed)) in (0..).zip(cases) {
