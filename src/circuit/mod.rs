@@ -22,6 +22,7 @@ pub mod options;
 pub mod passes;
 pub mod proof;
 pub mod races;
+pub mod reachable;
 pub mod recipes;
 pub mod registers;
 pub mod storage;

@@ -9,7 +9,8 @@ use serde::Serialize;
 
 use crate::circuit::correspondence::{self, Removed};
 use crate::circuit::formats::Design;
-use crate::circuit::{self, Netlist, levels, registers};
+use crate::circuit::reachable::{self, Reachable, WhyEveryState};
+use crate::circuit::{self, CellLibrary, MapOptions, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
@@ -43,6 +44,12 @@ pub struct SynthArguments {
     /// Keep registers or expand them to cells [default: depends on the output format]
     #[arg(long, value_enum)]
     registers: Option<RegisterWord>,
+    /// Let outputs and next values in unreachable states be anything
+    ///
+    /// The circuit is then right only if its registers start at their start values. What is assumed of its states is
+    /// proved, and reported. Applies to designs whose registers are all flip-flops.
+    #[arg(long)]
+    reachable_only: bool,
     /// Report how many cells a robot for each of these functions would save
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
     what_if: Vec<String>,
@@ -69,6 +76,8 @@ struct Report {
     outputs: usize,
     latches: usize,
     removed: RemovedReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unreachable: Option<UnreachableReport>,
     proved: bool,
     seconds: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -112,6 +121,52 @@ impl RemovedReport {
     }
 }
 
+/// What was assumed of the states of a design.
+#[derive(Serialize)]
+struct UnreachableReport {
+    /// Why nothing is assumed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unused: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reachable_states: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    states: Option<u64>,
+    relations: Vec<BTreeMap<String, u8>>,
+    cells_saved: usize,
+}
+
+impl UnreachableReport {
+    fn unused(why: &WhyEveryState) -> Self {
+        let why = Some(why.to_string());
+        Self { unused: why, reachable_states: None, states: None, relations: Vec::new(), cells_saved: 0 }
+    }
+
+    fn of(reachable: &Reachable, cells_saved: usize) -> Self {
+        let relation = |relation: &Vec<(String, bool)>| {
+            relation.iter().map(|(name, value)| (name.clone(), u8::from(*value))).collect()
+        };
+        Self {
+            unused: None,
+            reachable_states: reachable.states.map(|(reached, _)| reached),
+            states: reachable.states.map(|(_, all)| all),
+            relations: reachable.relations.iter().map(relation).collect(),
+            cells_saved,
+        }
+    }
+
+    fn text(&self) -> String {
+        if let Some(why) = &self.unused {
+            return format!("every state counts: {why}\n");
+        }
+        let known = match (self.reachable_states, self.states) {
+            (Some(reached), Some(all)) => format!("{reached} of {all} states are reachable"),
+            _ => format!("{} relations between registers hold in every reachable state", self.relations.len()),
+        };
+        let limit = if self.cells_saved > 0 { "; the result is right in reachable states only" } else { "" };
+        format!("{known}: {} cells fewer{limit}\n", self.cells_saved)
+    }
+}
+
 /// The first of these names, and how many more there are.
 fn listed(names: &[String]) -> String {
     let shown = names[..names.len().min(SHOWN)].join(", ");
@@ -134,15 +189,18 @@ impl SynthArguments {
             Some(word) => word == RegisterWord::Expand,
             None => target == Some(circuit::formats::CircuitFormat::Dot),
         };
-        let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let options = self.mapping.options();
-        let mapped = synthesize(source.clone(), &library, &options).map_err(Failure::plain)?.netlist;
-        let result = Design { logic: mapped, registers: if expand { Vec::new() } else { design.registers.clone() } };
+        let whole = Made::of(design, expand, &library, &options)?;
+        let (made, unreachable) = match self.reachable_only {
+            true => whole.within_reach(expand, &library, &options)?,
+            false => (whole, None),
+        };
+        let Made { design, source, result } = made;
         if let (Some(path), Some(target)) = (&self.output, target) {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
             store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
         }
-        let mut report = Report::of(&design, removed, &result.logic, started);
+        let mut report = Report { unreachable, ..Report::of(&design, removed, &result.logic, started) };
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, crate::circuit::CellKind::uniform(1, 1.0));
@@ -158,6 +216,44 @@ impl SynthArguments {
     }
 }
 
+/// A design and what it became.
+struct Made {
+    design: Design,
+    /// Its logic, with its registers if they are expanded.
+    source: Netlist,
+    result: Design,
+}
+
+impl Made {
+    fn of(design: Design, expand: bool, library: &CellLibrary, options: &MapOptions) -> Result<Self, Failure> {
+        let source = if expand { registers::expand(&design) } else { design.logic.clone() };
+        let logic = synthesize(source.clone(), library, options).map_err(Failure::plain)?.netlist;
+        let registers = if expand { Vec::new() } else { design.registers.clone() };
+        Ok(Self { design, source, result: Design { logic, registers } })
+    }
+
+    fn cells(&self) -> usize {
+        self.result.logic.cells().count()
+    }
+
+    /// The same design where only reachable states count, if that saves cells.
+    fn within_reach(
+        self,
+        expand: bool,
+        library: &CellLibrary,
+        options: &MapOptions,
+    ) -> Result<(Self, Option<UnreachableReport>), Failure> {
+        let (simpler, reachable) = match reachable::simplify(&self.design, library, options) {
+            Ok(found) => found,
+            Err(why) => return Ok((self, Some(UnreachableReport::unused(&why)))),
+        };
+        let other = Self::of(simpler, expand, library, options)?;
+        let saved = self.cells().saturating_sub(other.cells());
+        let report = UnreachableReport::of(&reachable, saved);
+        Ok((if saved > 0 { other } else { self }, Some(report)))
+    }
+}
+
 impl Report {
     fn of(design: &Design, removed: Removed, mapped: &Netlist, started: Instant) -> Self {
         Self {
@@ -168,6 +264,7 @@ impl Report {
             outputs: design.outputs(),
             latches: design.registers.len(),
             removed: removed.into(),
+            unreachable: None,
             // A circuit that is not proved is never reported.
             proved: true,
             seconds: started.elapsed().as_secs_f64(),
@@ -186,6 +283,7 @@ impl Report {
             self.seconds
         );
         text.push_str(&self.removed.text());
+        text.extend(self.unreachable.iter().map(UnreachableReport::text));
         for (name, saved) in &self.what_if {
             text.push_str(&format!("with `{name}`: {saved} cells fewer\n"));
         }

@@ -38,6 +38,7 @@ mod pictures;
 mod plots;
 mod pulsed;
 mod python;
+mod reachable;
 mod redundant;
 mod runs;
 mod schemas;

@@ -20,7 +20,7 @@ const WORDS: usize = 32;
 
 /// Proves two networks equal; fails with an output and inputs at which it differs.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
-    let mut comparison = Comparison::with(one);
+    let mut comparison = Comparison::within(one, &[]);
     comparison.compare(two)?;
     Ok(Method::Sat { calls: comparison.sweep.calls })
 }
@@ -32,9 +32,10 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// A comparison with this network.
-    pub fn with(network: &Network) -> Self {
+    /// A comparison with this network where all clauses hold: of each, an input has the given value.
+    pub fn within(network: &Network, clauses: &[Vec<(usize, bool)>]) -> Self {
         let mut sweep = SatSweep::new(network.inputs);
+        clauses.iter().for_each(|clause| sweep.assume(clause));
         let signals = sweep.add(network);
         Self { outputs: network.outputs.iter().map(|&output| signals[output as usize]).collect(), sweep }
     }
@@ -121,6 +122,13 @@ impl SatSweep {
         self.solver.add_clause(literals.iter().copied().collect()).expect("clauses fit into memory");
     }
 
+    /// Requires that one of these inputs has the given value. Signals that are merged later are equal only then.
+    pub fn assume(&mut self, clause: &[(usize, bool)]) {
+        let literals: Vec<Lit> =
+            clause.iter().map(|&(input, value)| self.literal(input as Signal + 2, value)).collect();
+        self.clause(&literals);
+    }
+
     /// Adds a network's gates and returns the merged signal for each of its signals.
     pub fn add(&mut self, network: &Network) -> Vec<(Signal, bool)> {
         let mut made: Vec<(Signal, bool)> = (0..2 + network.inputs as Signal).map(|signal| (signal, false)).collect();
@@ -187,15 +195,19 @@ impl SatSweep {
         if one == two {
             return None;
         }
-        [false, true].into_iter().find_map(|value| {
-            self.calls += 1;
-            let assumed = [self.literal(one.0, value != one.1), self.literal(two.0, value == two.1)];
-            match self.solver.solve_assumps(&assumed) {
-                Ok(SolverResult::Sat) => Some(self.inputs_found()),
-                Ok(SolverResult::Unsat) => None,
-                other => unreachable!("the solver runs without limits, and gave {other:?}"),
-            }
-        })
+        [false, true].into_iter().find_map(|value| self.pattern(&[(one, value), (two, !value)]))
+    }
+
+    /// Inputs at which signals, each maybe inverted, have these values.
+    pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
+        self.calls += 1;
+        let literal = |&((signal, inverted), value): &((Signal, bool), bool)| self.literal(signal, value != inverted);
+        let assumed: Vec<Lit> = wanted.iter().map(literal).collect();
+        match self.solver.solve_assumps(&assumed) {
+            Ok(SolverResult::Sat) => Some(self.inputs_found()),
+            Ok(SolverResult::Unsat) => None,
+            other => unreachable!("the solver runs without limits, and gave {other:?}"),
+        }
     }
 
     fn inputs_found(&self) -> Vec<bool> {

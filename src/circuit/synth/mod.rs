@@ -1,6 +1,7 @@
 //! Logic synthesis: the search for few cells that compute the function of a circuit.
 
 mod candidates;
+mod care;
 pub mod exact;
 pub mod graph;
 mod parts;
@@ -12,4 +13,5 @@ mod shared_pairs;
 mod surroundings;
 pub mod walk;
 
-pub use reduce::reduce;
+pub use care::CareSet;
+pub use reduce::{reduce, reduce_within};

@@ -35,6 +35,12 @@ impl Prices {
         Self::of(&complete().map(kind).collect())
     }
 
+    /// The abstract prices in which an exclusive or is slightly cheaper than its cells.
+    pub fn ideal(&self) -> Self {
+        let exclusive = self.cost(Function::XOR).unwrap_or(4);
+        Self::abstracted(if exclusive > 1 { 2 * exclusive - 1 } else { 2 })
+    }
+
     /// Prices between the abstract ones and these: every function is one cell, and each inverter in it costs half.
     pub fn halfway(&self) -> Self {
         let price = |function: Function| match function {

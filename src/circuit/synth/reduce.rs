@@ -8,6 +8,7 @@ use crate::circuit::cells::CellLibrary;
 use crate::circuit::network::{Network, Signal};
 use crate::circuit::options::{Effort, MapOptions, MappingObjective};
 use crate::circuit::synth::candidates::below;
+use crate::circuit::synth::care::CareSet;
 use crate::circuit::synth::exact::{self, ExactResult};
 use crate::circuit::synth::graph::Graph;
 use crate::circuit::synth::parts::in_parts;
@@ -35,6 +36,9 @@ const FAR_GATES: usize = 1_500;
 /// The visits to each gate, and to all gates at most, that make gates earlier at no cost.
 const SHORTENING_VISITS: u64 = 10;
 const MOST_SHORTENING: u64 = 20_000;
+/// The most gates of a network that is searched where some conditions hold, and the most visits times its gates.
+const MOST_CARE_GATES: u64 = 10_000;
+const CARE_WORK: u64 = 20_000_000;
 /// Above this number of gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
@@ -61,6 +65,24 @@ pub fn reduce(
         MappingObjective::Delay => course.quicken(&best, &mut random),
         _ => course.shorten(&best, &mut random),
     })
+}
+
+/// A network of gates of any kind, as few as the effort finds, that is equal where the conditions hold.
+pub fn reduce_within(network: &Network, library: &CellLibrary, care: &CareSet, options: &MapOptions) -> Network {
+    let ideal = Prices::of(library).ideal();
+    let start = cover(network, &ideal, &[]).expect("there is a cell for every function");
+    let gates = start.gates.len() as u64;
+    if gates > MOST_CARE_GATES || gates == 0 {
+        return network.clone();
+    }
+    let visits = match options.effort {
+        Effort::Fast => 10 * gates,
+        Effort::Normal => 60 * gates,
+        Effort::High => 200 * gates,
+    };
+    let plan = WalkPlan { cancel: Some(&options.cancel), ..WalkPlan::calm(visits.min(CARE_WORK / gates)) };
+    let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6363_6172_6573);
+    roam(&start, &ideal, &[], Some(care), plan, &mut random)
 }
 
 /// The cheaper of two networks; of equal cost, the one with the shorter slowest path, or the first.
@@ -139,8 +161,7 @@ impl<'a> Course<'a> {
     /// Minimizes the number of gates of any kind, where inverters are free and a search is stuck less often, then the
     /// cost with inverters of half the price, then the cost.
     fn search_large(&self, network: &Network, direct: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
-        let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
-        let ideal = Prices::abstracted(if exclusive > 1 { 2 * exclusive - 1 } else { 2 });
+        let ideal = self.prices.ideal();
         let start = (0..2).try_fold(cover(network, &ideal, self.stages)?, |now, _| {
             Ok(cheaper(now.clone(), cover(&share_pairs(&now), &ideal, self.stages)?, &ideal))
         })?;
@@ -217,7 +238,7 @@ impl<'a> Course<'a> {
             self.no_dearer(near, |near| {
                 in_parts(near, self.stages, first, FAR_GATES, |part, stages| {
                     let plan = self.calm(round.far(part.gates.len() as u64, gates));
-                    roam(part, self.prices, stages, plan, random)
+                    roam(part, self.prices, stages, None, plan, random)
                 })
             })
         })
@@ -271,7 +292,7 @@ impl<'a> Course<'a> {
                 let plan = WalkPlan { pace, ..self.calm((10 * now.gates.len() as u64).min(3_000)) };
                 now = match is_narrow(&now) {
                     true => walk::improve_all(&now, self.prices, self.stages, plan, random),
-                    false => roam(&now, self.prices, self.stages, plan, random),
+                    false => roam(&now, self.prices, self.stages, None, plan, random),
                 };
             }
             if rank(&now) < rank(&best) {
