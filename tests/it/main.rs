@@ -27,6 +27,7 @@ mod live;
 mod lsp;
 mod manual;
 mod memory;
+mod mixed;
 mod modules;
 mod notices;
 mod optima;
