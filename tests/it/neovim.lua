@@ -24,7 +24,8 @@ local line = tonumber(vim.env.LINE)
 local character = tonumber(vim.env.CHARACTER)
 found.hover = ask("textDocument/hover", place(line, character)).contents.value
 found.definition = ask("textDocument/definition", place(line, character)).range.start.line
-found.pictures = ask("textDocument/hover", place(line, character)).contents.value:find("data:image", 1, true) ~= nil
+local robot = vim.fn.searchpos("nand(", "nw")
+found.robot = ask("textDocument/hover", place(robot[1] - 1, robot[2] - 1)).contents.value
 found.highlights = #ask("textDocument/documentHighlight", place(line, character))
 found.symbols = #ask("textDocument/documentSymbol", place(0, 0))
 found.workspace = #ask("workspace/symbol", { query = "d_latch" })

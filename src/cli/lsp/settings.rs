@@ -34,15 +34,15 @@ impl Default for HintSettings {
     }
 }
 
-/// Clients that show the source of Markdown, in which a picture would be pages of digits.
+/// Clients that show the source of Markdown, in which a picture would be pages of digits. Some versions of them do not
+/// give their name.
 const WITHOUT_PICTURES: [&str; 5] = ["neovim", "vim", "helix", "emacs", "kate"];
 
 impl Settings {
     /// The settings of a client, from the parameters of its initialization.
     pub(super) fn of_client(parameters: &Value) -> Self {
-        let client = parameters.pointer("/clientInfo/name").and_then(Value::as_str).unwrap_or_default();
-        let client = client.to_ascii_lowercase();
-        let pictures = !WITHOUT_PICTURES.iter().any(|name| client.contains(name));
+        let client = parameters.pointer("/clientInfo/name").and_then(Value::as_str).map(str::to_ascii_lowercase);
+        let pictures = client.is_some_and(|client| !WITHOUT_PICTURES.iter().any(|name| client.contains(name)));
         let default = Self { pictures, ..Self::default() };
         default.with(parameters.get("initializationOptions").unwrap_or(&Value::Null))
     }
@@ -85,5 +85,6 @@ mod tests {
         assert!(client("Visual Studio Code", Value::Null));
         assert!(!client("Neovim", Value::Null));
         assert!(client("Neovim", json!({ "pictures": true })));
+        assert!(!Settings::of_client(&json!({})).pictures, "it may be one of them");
     }
 }

@@ -33,7 +33,7 @@ impl Client {
     }
 
     pub(super) fn with(capabilities: &Value) -> Self {
-        Self::initialized(&json!({ "capabilities": capabilities }))
+        Self::initialized(&json!({ "clientInfo": { "name": "tests" }, "capabilities": capabilities }))
     }
 
     /// A client that sends these parameters first.
