@@ -106,6 +106,11 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "simulate", 0, &["simulate", "walker.yaml", "--schedule", "00*1"]);
     let blif = root().join("tests/benchmarks/fa.blif");
     check(&bench, "synth", 0, &["synth", blif.to_str().unwrap(), "--what-if", "xor"]);
+    for file in ["fa.blif", "s27.bench"] {
+        let path = root().join("tests/benchmarks").join(file);
+        let report = check(&bench, "synth", 0, &["synth", path.to_str().unwrap(), "--reachable-only"]);
+        assert!(report["unreachable"].is_object());
+    }
     check(&bench, "test", 0, &["test", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "--physics"]);
