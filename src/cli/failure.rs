@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use crate::cli::wording::{DrawError, ServerError, SubjectError, UsageError};
+use crate::cli::wording::{DrawError, PlayError, ServerError, SubjectError, UsageError};
 use crate::diag::{Diagnostic, Diagnostics, io_words};
 use crate::source::Sources;
 
@@ -51,6 +51,12 @@ impl From<Diagnostics> for Failure {
 
 impl From<UsageError> for Failure {
     fn from(error: UsageError) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+impl From<PlayError> for Failure {
+    fn from(error: PlayError) -> Self {
         Self::plain(error.into())
     }
 }

@@ -20,6 +20,11 @@ mod lsp;
 mod mapping;
 mod new;
 mod output;
+#[cfg(feature = "play")]
+mod play;
+#[cfg(not(feature = "play"))]
+#[path = "no_play.rs"]
+mod play;
 mod program;
 mod progress;
 mod robots;
@@ -80,6 +85,7 @@ commands! {
     Library(library::LibraryArguments),
     Lsp(lsp::LspArguments),
     New(new::NewArguments),
+    Play(play::PlayArguments),
     Run(run::RunArguments),
     Simulate(simulate::SimulateArguments),
     Synth(synth::SynthArguments),
@@ -91,6 +97,7 @@ const EXAMPLES: &str = "\
 Examples:
   nbc new adder                             write a first program
   nbc run circuits/latch.nb                 compile, simulate and test a circuit of robots
+  nbc play circuits/latch.nb                the same live, in a browser
   nbc library list                          the built-in robots
   nbc simulate ROBOT --schedule '00*10 11*10'
 

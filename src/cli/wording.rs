@@ -45,6 +45,36 @@ impl From<ServerError> for Diagnostic {
     }
 }
 
+/// A page that cannot be served.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(not(feature = "play"), expect(dead_code, reason = "only some builds can serve"))]
+pub(in crate::cli) enum PlayError {
+    /// A program that was built without the server.
+    #[cfg(not(feature = "play"))]
+    NotBuilt,
+    /// An address at which nothing can listen.
+    Address { host: String, port: u16, reason: String },
+    /// A file that cannot be found.
+    File { path: String, reason: String },
+}
+
+impl From<PlayError> for Diagnostic {
+    fn from(error: PlayError) -> Self {
+        match error {
+            #[cfg(not(feature = "play"))]
+            PlayError::NotBuilt => Self::without_place(Code::BadValue, "this program was built without the live page")
+                .with_help("build it with `cargo build --release`, whose default features include `play`"),
+            PlayError::Address { host, port, reason } => {
+                let message = format!("cannot listen at {host}, port {port}: {reason}");
+                Self::without_place(Code::BadValue, message).with_help("`--port 0` takes any free port")
+            }
+            PlayError::File { path, reason } => {
+                Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {reason}"))
+            }
+        }
+    }
+}
+
 impl From<UsageError> for Diagnostic {
     fn from(error: UsageError) -> Self {
         let bad = |message: String| Self::without_place(Code::BadValue, message);

@@ -274,10 +274,15 @@ impl Search {
 
     /// The random stream of a place in the coming generation.
     fn stream(&self, index: u32) -> ChaCha8Rng {
-        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        rng.set_stream(u64::from(self.generation) << 32 | u64::from(index));
-        rng
+        stream(self.seed, self.generation, index)
     }
+}
+
+/// The random stream of a place in a generation of a run.
+pub fn stream(seed: u64, generation: u32, index: u32) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(u64::from(generation) << 32 | u64::from(index));
+    rng
 }
 
 /// The next action after a mutation.

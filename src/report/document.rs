@@ -42,6 +42,7 @@ schemas! {
     Explain = "explain", 1: "Codes of diagnostics with their pages, or the sources of the prelude.";
     Formatted = "formatted", 1: "Which files are in their canonical form.";
     Library = "library", 1: "A summary of the robots of a library.";
+    Play = "play", 1: "The address of a live page.";
     Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";
     Robots = "robots", 1: "The robots of a library in full.";

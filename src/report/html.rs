@@ -71,11 +71,16 @@ pub fn controls(speed: &str) -> String {
 /// A drawing in a page, in a frame that scrolls if the page is too narrow. Identifiers are removed, because several
 /// drawings may use the same ones.
 pub fn picture(svg: &Svg, label: &str) -> String {
-    let svg = svg.finish().replace("<g id=\"", "<g data-id=\"");
+    let svg = embedded(svg);
     format!(
         "<div class=\"scroll picture\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">{svg}</div>\n",
         escape(label)
     )
+}
+
+/// A drawing for a page that has several of them: the identities of its groups need not be unique there.
+pub fn embedded(svg: &Svg) -> String {
+    svg.finish().replace("<g id=\"", "<g data-id=\"")
 }
 
 /// Text for an element or an attribute.

@@ -2,9 +2,10 @@
 
 use serde_json::{Value, json};
 
+use crate::diag::counted;
 use crate::model::Body;
 use crate::report::looks::{Look, Looks, material_words};
-use crate::swarm::Recorded;
+use crate::swarm::{Assembly, Member, Recorded, RobotTrace, StimulusSource, SwarmTrace};
 
 /// How voxels look, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {
@@ -26,4 +27,47 @@ pub fn voxel_data(recorded: &Recorded, body: &Body, looks: &Looks) -> Vec<[usize
 /// The materials that occur in a body.
 pub fn materials(body: &Body) -> String {
     material_words(body).join("; ")
+}
+
+/// What a page says of a robot of a swarm: pairs of a word and a text.
+pub fn about_robot(robot: &RobotTrace, member: &Member) -> Value {
+    let (body, character) = (&member.robot.body, &member.robot.character);
+    let wired = |i: usize| match robot.senses[i] {
+        StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(value)),
+        StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
+    };
+    let (clock, switches) = (counted(character.clock as usize, "cycle"), character.switches);
+    json!([
+        ["robot", robot.robot.as_str()],
+        ["behavior", &member.robot.behavior.to_string()],
+        ["stimulus 1", &wired(0)],
+        ["stimulus 2", &wired(1)],
+        ["body", &body.rows().join(" ")],
+        ["materials", &materials(body)],
+        ["clock", &format!("{clock}, margin {:.3} voxels a cycle", character.margin)],
+        ["errors", &format!("{:.2} % of {switches} switches", character.error_rate * 100.0)],
+    ])
+}
+
+/// The robots of a swarm whose poses are recorded, for a page that shows them live.
+pub fn live_robots(trace: &SwarmTrace, assembly: &Assembly, looks: &Looks) -> Vec<Value> {
+    let robot = |recorded: &Recorded| {
+        let (robot, member) = (&trace.robots[recorded.robot], &assembly.members[recorded.robot]);
+        let (body, character) = (&member.robot.body, &member.robot.character);
+        json!({
+            "net": robot.net,
+            "function": robot.function.name(),
+            "robot": robot.robot,
+            "about": about_robot(robot, member),
+            "senses": robot.senses,
+            "body": body.rows(),
+            "size": [body.width(), body.height()],
+            "voxels": voxel_data(recorded, body, looks),
+            "points": recorded.points,
+            "clock": character.clock,
+            "margin": character.margin,
+            "errors": character.error_rate,
+        })
+    };
+    trace.recording.robots.iter().map(robot).collect()
 }

@@ -7,12 +7,10 @@ use crate::diag::counted;
 use crate::model::{CYCLE_STEPS, Column, Value};
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
-use crate::report::page_bodies::{look_data, materials, voxel_data};
+use crate::report::page_bodies::{about_robot, look_data, voxel_data};
 use crate::report::scheme::Scheme;
 use crate::report::svg::Svg;
-use crate::swarm::{
-    Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, StimulusSource, SwarmTrace, TestVerdict,
-};
+use crate::swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
 const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
 
@@ -224,11 +222,6 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
     let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
     let body = &member.robot.body;
-    let character = &member.robot.character;
-    let wired = |i: usize| match robot.senses[i] {
-        StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(value)),
-        StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
-    };
     let sensed = [0, 1].map(|i| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k][i])));
     json!({
         "cell": k,
@@ -240,17 +233,7 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
         "voxels": voxel_data(recorded, body, looks),
         "corners": recorded.points,
         "frames": base64(&recorded.frames),
-        "about": [
-            ["robot", robot.robot.as_str()],
-            ["behavior", &member.robot.behavior.to_string()],
-            ["stimulus 1", &wired(0)],
-            ["stimulus 2", &wired(1)],
-            ["body", &body.rows().join(" ")],
-            ["materials", &materials(body)],
-            ["clock", &format!("{}, margin {:.3} voxels a \
-                cycle", counted(character.clock as usize, "cycle"), character.margin)],
-            ["errors", &format!("{:.2} % of {} switches", character.error_rate * 100.0, character.switches)],
-        ],
+        "about": about_robot(robot, member),
     })
 }
 

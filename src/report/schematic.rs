@@ -30,7 +30,8 @@ pub fn draw_schematic(netlist: &Netlist, robots: &[&Robot], critical: &[NetId], 
     draw_legend(&mut svg, &plan, critical);
     let critical: BTreeSet<(NetId, NetId)> = critical.windows(2).map(|pair| (pair[0], pair[1])).collect();
     for net in plan.nets(netlist) {
-        draw_net(&mut svg, netlist, &plan, net, &critical);
+        let name = netlist.net_name(net);
+        svg.group(&format!("net-{name}"), &name, |svg| draw_net(svg, netlist, &plan, net, &critical));
     }
     let looks = Looks::of(robots.iter().map(|robot| &robot.body), scheme);
     let cells: BTreeMap<NetId, usize> = netlist.cells().enumerate().map(|(i, (id, _))| (id, i)).collect();
@@ -244,7 +245,9 @@ fn draw_node(svg: &mut Svg, netlist: &Netlist, plan: &Plan, symbol: Symbol<'_>) 
             svg.group(&id, &title, |svg| draw_cell(svg, corner, (&name, cell.function.name()), &symbol));
         }
         Node::Wire { .. } => draw_box(svg, corner, CELL, &name),
-        Node::Input(_) | Node::Output(_) | Node::Constant(_) => draw_box(svg, corner, PORT, &name),
+        Node::Input(_) => svg.group(&format!("input-{name}"), &name, |svg| draw_box(svg, corner, PORT, &name)),
+        Node::Output(_) => svg.group(&format!("output-{name}"), &name, |svg| draw_box(svg, corner, PORT, &name)),
+        Node::Constant(_) => draw_box(svg, corner, PORT, &name),
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting};
 use crate::report::sprite::Pose;
-use crate::sim::{Flock, Simulator};
+use crate::sim::{Flock, Simulator, Snapshot};
 use crate::swarm::{self, Assembly, Recording, SwarmTrace};
 
 /// Robots during their simulation.
@@ -52,13 +52,35 @@ impl Stage {
 
     /// A swarm in its setting, with the stimuli that its robots sensed.
     pub fn of_swarm(assembly: &Assembly, trace: &SwarmTrace, stride: u32) -> Self {
+        Self::in_world(assembly, trace, trace.cycles.len(), stride)
+    }
+
+    /// A swarm as [`Stage::of_swarm`], with these states of its robots at the start, in a world for that many cycles.
+    ///
+    /// # Panics
+    /// When there is not a state for each robot.
+    pub fn of_running_swarm(
+        assembly: &Assembly,
+        trace: &SwarmTrace,
+        (states, cycles): (&[Snapshot], usize),
+        stride: u32,
+    ) -> Self {
+        let mut stage = Self::in_world(assembly, trace, cycles, stride);
+        assert_eq!(states.len(), stage.robots(), "a state for each robot");
+        for (i, state) in states.iter().enumerate() {
+            stage.flock.restore(i, state);
+        }
+        stage
+    }
+
+    fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
         let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
         let spells = trace
             .cycles
             .iter()
             .map(|cycle| (CYCLE_STEPS, cycle.sensed.iter().map(|sensed| Pattern::new(sensed)).collect()))
             .collect();
-        Self::new(&swarm::setting(assembly, trace.cycles.len()), &bodies, spells, stride)
+        Self::new(&swarm::setting(assembly, cycles), &bodies, spells, stride)
     }
 
     fn new(setting: &Setting, bodies: &[Body], spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {

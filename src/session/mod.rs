@@ -11,6 +11,7 @@ mod observer;
 mod options;
 mod pictures;
 mod plan;
+mod replay;
 mod report;
 mod robots;
 mod schedule;
@@ -29,6 +30,7 @@ pub use observer::Observer;
 pub use options::{CompileOptions, RUNS};
 pub use pictures::run_page;
 pub use plan::Plan;
+pub use replay::Excerpt;
 pub use report::RunReport;
 pub use schedule::read_schedule;
 pub use simulation::SimulationRun;
@@ -56,7 +58,7 @@ pub struct Session {
 
 impl Session {
     /// The cycles for which a swarm has ground, even if a robot walks its own width in each.
-    pub const LIVE_CYCLES: usize = 1000;
+    pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
 
     /// A session over the sources of a world.
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
@@ -263,6 +265,11 @@ impl Session {
     /// A compiled circuit's swarm at its start, to be stepped a cycle at a time.
     pub fn swarm(&self, compiled: &Compiled) -> LiveSwarm {
         self.physics.swarm(compiled, Self::LIVE_CYCLES)
+    }
+
+    /// Simulates a part of a live swarm's run again, with its poses recorded.
+    pub fn replay(&self, excerpt: &Excerpt, observer: &mut dyn Observer) -> SimulationRun {
+        replay::replay(&self.physics, excerpt, observer)
     }
 
     /// Runs every test and every simulation of a source in physics.

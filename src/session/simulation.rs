@@ -8,7 +8,7 @@ use crate::session::options::CompileOptions;
 use crate::session::plan;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
-use crate::swarm::{self, SimulationResult};
+use crate::swarm::{self, SimulationResult, SwarmTrace};
 
 /// A simulation with its results.
 #[derive(Clone, Debug)]
@@ -50,6 +50,11 @@ pub(super) fn run(
 ) -> SimulationRun {
     let held = simulation.spells.iter().flat_map(|spell| std::iter::repeat_n(&spell.inputs, spell.cycles as usize));
     let (trace, end) = physics.run(&compiled, held.cloned().collect(), observer);
+    finish(simulation, compiled, trace, end)
+}
+
+/// The results of a simulation that has run.
+pub(super) fn finish(simulation: &Simulation, compiled: Compiled, trace: SwarmTrace, end: RunEnd) -> SimulationRun {
     let result = SimulationResult {
         file: simulation.file.clone(),
         line: simulation.line,

@@ -5,6 +5,9 @@ use crate::session::observer::Observer;
 use crate::sim::Simulator;
 use crate::swarm::{LiveSwarm, Room, SwarmTrace};
 
+/// The cycles for which a live swarm has ground, even if a robot walks its own width in each.
+pub(super) const LIVE_CYCLES: usize = 1000;
+
 /// A swarm with its trace.
 #[derive(Clone, Debug)]
 pub struct SwarmRun {
@@ -44,15 +47,19 @@ impl Physics {
         inputs: Vec<Vec<bool>>,
         observer: &mut dyn Observer,
     ) -> (SwarmTrace, RunEnd) {
-        let all = inputs.len() as u64;
-        let mut swarm = self.swarm(compiled, inputs.len());
-        for (cycle, inputs) in (1..).zip(&inputs) {
-            swarm.step(inputs);
-            observer.progress(cycle, all);
-            if observer.is_cancelled() && cycle < all {
-                return (swarm.into_trace(), RunEnd::Cancelled);
-            }
-        }
-        (swarm.into_trace(), RunEnd::Complete)
+        run(self.swarm(compiled, inputs.len()), &inputs, observer)
     }
+}
+
+/// Runs a swarm on with these input bits in each cycle.
+pub(super) fn run(mut swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
+    let all = inputs.len() as u64;
+    for (cycle, inputs) in (1..).zip(inputs) {
+        swarm.step(inputs);
+        observer.progress(cycle, all);
+        if observer.is_cancelled() && cycle < all {
+            return (swarm.into_trace(), RunEnd::Cancelled);
+        }
+    }
+    (swarm.into_trace(), RunEnd::Complete)
 }

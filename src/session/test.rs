@@ -114,6 +114,23 @@ impl TestCase<'_> {
         }
     }
 
+    /// The swarm, and the input bits of each of its cycles through the first `rows` rows; `None` at the level of logic.
+    pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
+        match self.subject {
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled, demands) => {
+                let rows = self.rows.iter().zip(&demands).take(rows);
+                let held = rows.flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+                Some((*compiled, held.collect()))
+            }
+        }
+    }
+
+    /// The rows, in order.
+    pub fn rows(&self) -> &[TestRow] {
+        &self.rows
+    }
+
     /// Runs the test.
     pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
         match self.subject {

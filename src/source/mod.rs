@@ -9,4 +9,4 @@ mod world;
 pub use file::{LineColumn, LineStarts, SourceFile, Sources};
 pub use span::{FileId, Span};
 pub use verilog::{VerilogError, VerilogModules};
-pub use world::{FileError, MemoryWorld, OverlayWorld, SourceWorld};
+pub use world::{FileError, MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};

@@ -2,6 +2,7 @@
 //! memory.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::{VerilogError, VerilogModules};
 
@@ -47,6 +48,31 @@ pub trait SourceWorld {
     /// The unique name of the file at `path`, however many paths and links lead to it.
     fn identity(&self, path: &str) -> String {
         path.to_owned()
+    }
+}
+
+/// A world that several sessions share.
+pub type SharedWorld = Arc<dyn SourceWorld + Send + Sync>;
+
+impl SourceWorld for SharedWorld {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        (**self).read(path)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        (**self).read_bytes(path)
+    }
+
+    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        (**self).translate_verilog(path, text)
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        (**self).list(folder)
+    }
+
+    fn identity(&self, path: &str) -> String {
+        (**self).identity(path)
     }
 }
 

@@ -15,6 +15,8 @@ mod disk;
 mod draft;
 #[cfg(feature = "disk")]
 mod first_checkpoint;
+#[cfg(feature = "disk")]
+mod folder;
 mod library;
 #[cfg(feature = "disk")]
 mod lock;
@@ -23,6 +25,8 @@ mod robot;
 mod search_state;
 mod shape;
 mod soundness;
+#[cfg(feature = "disk")]
+mod source_files;
 mod wording;
 mod yaml;
 #[cfg(feature = "disk")]
@@ -38,9 +42,13 @@ pub use circuit_file::{encode_circuit, read_circuit};
 pub use declared::Declared;
 #[cfg(feature = "disk")]
 pub use disk::{DiskWorld, MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, read, read_text};
+#[cfg(feature = "disk")]
+pub use folder::FolderWorld;
 pub use library::{best_first, read_library, shipped_library};
 #[cfg(feature = "disk")]
 pub use lock::{FolderLock, LockFault, lock_folder};
 pub use robot::{FORMAT, RobotRecord, own_materials, print_robot, read_robot};
 pub use shape::read_body;
+#[cfg(feature = "disk")]
+pub use source_files::source_files;
 pub use yaml::MAX_ROBOT_BYTES;

@@ -40,6 +40,8 @@ pub struct LiveSwarm {
     /// Env steps from frame to frame of the recording.
     stride: u32,
     trace: SwarmTrace,
+    /// Cycles that were simulated and are no longer in the trace.
+    forgotten: usize,
 }
 
 /// A swarm at the end of a cycle, with its trace and recording.
@@ -48,6 +50,14 @@ pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,
     outputs: Vec<bool>,
     trace: SwarmTrace,
+    forgotten: usize,
+}
+
+impl SwarmSnapshot {
+    /// The robots.
+    pub fn robots(&self) -> &[Snapshot] {
+        &self.robots
+    }
 }
 
 impl LiveSwarm {
@@ -65,16 +75,37 @@ impl LiveSwarm {
             Some(room) => begin_recording(&mut trace, room, &*flock, cycles),
             None => CYCLE_STEPS,
         };
-        let steps = |stride: u32| (1..=CYCLE_STEPS / stride).map(move |stop| stop * stride);
         Self {
             flock,
             window,
             start: assembly.start_cycles(),
             outputs: assembly.members.iter().map(|member| member.start).collect(),
-            stops: steps(SAMPLE_STRIDE).chain(steps(stride)).collect(),
+            stops: stops(stride),
             stride,
             trace,
+            forgotten: 0,
         }
+    }
+
+    /// The cycles simulated so far.
+    pub fn cycles(&self) -> usize {
+        self.forgotten + self.trace.cycles.len()
+    }
+
+    /// Forgets the recorded poses, and the trace but for the cycles that the next outputs depend on, so that a swarm
+    /// may run for any time in the same memory.
+    pub fn forget(&mut self) {
+        let past = self.trace.cycles.len().saturating_sub(self.window);
+        self.trace.forget_first(past);
+        self.forgotten += past;
+        self.trace.recording.restart(&*self.flock);
+    }
+
+    /// As [`LiveSwarm::forget`], and records poses from here on for `cycles`, if there is room for them.
+    pub fn record(&mut self, room: Room, cycles: usize) {
+        self.forget();
+        self.stride = begin_recording(&mut self.trace, room, &*self.flock, cycles);
+        self.stops = stops(self.stride);
     }
 
     /// Simulates a cycle with these bits on the input ports.
@@ -93,7 +124,7 @@ impl LiveSwarm {
         self.advance(&sensed);
         let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
         let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
-        if self.trace.cycles.len() + 1 >= self.start {
+        if self.cycles() + 1 >= self.start {
             self.outputs.clone_from(&bits);
         }
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {
@@ -116,7 +147,8 @@ impl LiveSwarm {
     /// The swarm as it is now, to come back to.
     pub fn snapshot(&self) -> SwarmSnapshot {
         let robots = (0..self.flock.len()).map(|robot| self.flock.snapshot(robot)).collect();
-        SwarmSnapshot { robots, outputs: self.outputs.clone(), trace: self.trace.clone() }
+        let (outputs, trace, forgotten) = (self.outputs.clone(), self.trace.clone(), self.forgotten);
+        SwarmSnapshot { robots, outputs, trace, forgotten }
     }
 
     /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
@@ -130,6 +162,7 @@ impl LiveSwarm {
         }
         self.outputs.clone_from(&snapshot.outputs);
         self.trace.clone_from(&snapshot.trace);
+        self.forgotten = snapshot.forgotten;
     }
 
     /// Simulates a cycle under what the robots sense, from stop to stop.
@@ -149,6 +182,12 @@ impl LiveSwarm {
             }
         }
     }
+}
+
+/// The env steps of a cycle at whose end something is read.
+fn stops(stride: u32) -> BTreeSet<u32> {
+    let steps = |stride: u32| (1..=CYCLE_STEPS / stride).map(move |stop| stop * stride);
+    steps(SAMPLE_STRIDE).chain(steps(stride)).collect()
 }
 
 /// The trace before the first cycle.

@@ -16,6 +16,8 @@ pub struct Room {
 impl Room {
     /// For a swarm: better a jerky film than one without all robots.
     pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
+    /// For a swarm that is watched while it runs: all robots, smooth; the recording is taken away cycle by cycle.
+    pub const LIVE: Self = Self { bytes: usize::MAX, strides: &[7] };
     /// For gaits of elites: some smooth ones are better than many jerky ones.
     pub const GAITS: Self = Self { bytes: 2_400_000, strides: &[7, 12, 14] };
 
@@ -53,7 +55,7 @@ pub struct Recorded {
     pub points: usize,
     /// Hundredths of a voxel: x from the robot's start and height above the ground, point by point, frame by frame.
     pub frames: Vec<i16>,
-    /// The origin of its x: its leftmost point at the start.
+    /// The origin of its x: its leftmost point at the start of the recording.
     start: f64,
 }
 
@@ -62,6 +64,15 @@ impl Recording {
     pub fn new(flock: &dyn Flock, robots: impl IntoIterator<Item = usize>, stride: u32) -> Self {
         let robots = robots.into_iter().map(|robot| Recorded::new(flock, robot)).collect();
         Self { frames_per_cycle: CYCLE_STEPS / stride, robots }
+    }
+
+    /// Forgets the frames. The origin of each robot's x is now its leftmost point, so that it never leaves the range
+    /// of the numbers, however far it walks.
+    pub fn restart(&mut self, flock: &dyn Flock) {
+        for recorded in &mut self.robots {
+            recorded.frames.clear();
+            recorded.start = leftmost(&flock.points(recorded.robot));
+        }
     }
 
     /// Adds a frame with the current positions of the robots.
@@ -74,6 +85,11 @@ impl Recording {
 }
 
 impl Recorded {
+    /// The origin of its x, in voxels of the world.
+    pub fn origin(&self) -> f64 {
+        self.start
+    }
+
     fn new(flock: &dyn Flock, robot: usize) -> Self {
         let (lattice, points) = (flock.lattice(robot), flock.points(robot));
         Self {
@@ -81,9 +97,13 @@ impl Recorded {
             voxels: lattice.voxels().iter().map(|voxel| (voxel.corners, voxel.code)).collect(),
             points: points.len(),
             frames: Vec::new(),
-            start: points.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min),
+            start: leftmost(&points),
         }
     }
+}
+
+fn leftmost(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min)
 }
 
 /// Hundredths; a value that is out of range or not a number is clamped.

@@ -66,6 +66,14 @@ impl SwarmTrace {
         Value::of_ports(&self.inputs, self.cycles[cycle].inputs.iter().copied().map(Some), &[])
     }
 
+    /// Forgets the first cycles. Recorded poses stay.
+    pub fn forget_first(&mut self, cycles: usize) {
+        self.cycles.drain(..cycles);
+        for robot in &mut self.robots {
+            robot.com_x.drain(..cycles * self.samples_per_cycle);
+        }
+    }
+
     /// Voxels that robot `k` walked in a cycle.
     pub fn displacement(&self, k: usize, cycle: usize) -> f64 {
         let path = &self.robots[k].com_x;

@@ -36,6 +36,8 @@ mod palette;
 mod phases;
 mod physics;
 mod pictures;
+#[cfg(feature = "play")]
+mod play;
 mod plots;
 mod pulsed;
 mod python;

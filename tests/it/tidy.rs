@@ -135,6 +135,8 @@ fn each_outer_crate_has_one_home() {
     forbid("only store/ names YAML", &["serde_yaml"], in_folder("store"));
     let shell = |path: &Path| matches!(folder(path).as_str(), "cli" | "main");
     let program = ["clap::", "indicatif", "signal_hook", "crossbeam_channel", "gen_lsp_types", "lsp_server"];
+    let server = ["axum", "tokio", "getrandom", "open::"];
+    forbid("only cli/play names the crates of the server", &server, |path| path.to_string_lossy().contains("cli/play"));
     forbid("only cli/ names clap, indicatif, signals and the language server's crates", &program, shell);
     let threads = |path: &Path| shell(path) || path.ends_with("sim/backend/lanes/threads.rs");
     forbid("only cli/ and one file of sim/ name rayon", &["rayon"], threads);

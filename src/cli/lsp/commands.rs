@@ -38,7 +38,7 @@ impl Server<'_> {
         let token = self.progress_token(&id, asked.work_done_progress_params.work_done_token);
         let begin = json!({ "kind": "begin", "title": order.title(&checked), "cancellable": true, "percentage": 0 });
         token.iter().for_each(|token| self.tell_progress(token, begin.clone()));
-        self.runs.start(id, token, checked, order);
+        self.runs.start(id, token, checked, order, self.world.clone());
         None
     }
 

@@ -10,7 +10,7 @@ use crossbeam_channel::{Receiver, Sender, unbounded};
 use crate::circuit::CancelFlag;
 use crate::cli::lsp::figures::{Figures, Subject};
 use crate::session::{Checked, Session};
-use crate::store::DiskWorld;
+use crate::source::SharedWorld;
 
 /// A subject of a source.
 type Key = (String, Subject);
@@ -54,12 +54,12 @@ pub(super) enum FigureState<'a> {
 }
 
 impl Compiler {
-    pub(super) fn start() -> Self {
+    pub(super) fn start(world: SharedWorld) -> Self {
         let (jobs, inbox) = unbounded();
         let (outbox, results) = unbounded();
         // It ends with the channel of jobs.
         let results_to = outbox.clone();
-        thread::spawn(move || work(&inbox, &results_to));
+        thread::spawn(move || work(world, &inbox, &results_to));
         Self { jobs, results, _outbox: outbox, known: BTreeMap::new(), asked: BTreeSet::new(), flags: Vec::new() }
     }
 
@@ -127,8 +127,8 @@ fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
 }
 
 /// Does one job after another. A source that nobody holds any more has changed, and its jobs are stale.
-fn work(jobs: &Receiver<Job>, results: &Sender<Compilation>) {
-    let session = Session::new(DiskWorld);
+fn work(world: SharedWorld, jobs: &Receiver<Job>, results: &Sender<Compilation>) {
+    let session = Session::new(world);
     for Job { checked, key, cancel } in jobs {
         // A bug in compiling one circuit must not end the thread.
         let compile = |checked: Arc<Checked>| {

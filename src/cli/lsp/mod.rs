@@ -36,6 +36,7 @@ mod tokens;
 mod uri;
 mod workspace;
 
+use std::sync::Arc;
 use std::thread;
 
 use clap::Args;
@@ -45,6 +46,8 @@ use lsp_server::Connection;
 
 use crate::cli::wording::ServerError;
 use crate::cli::{Context, Failure, Status};
+use crate::source::SharedWorld;
+use crate::store::DiskWorld;
 use capabilities::{Client, capabilities};
 use server::Server;
 
@@ -69,7 +72,7 @@ impl LspArguments {
         let (connection, threads) = Connection::stdio();
         let connection = queued(connection);
         // After an error the threads still wait for the client.
-        serve(&connection)?;
+        serve(&connection, Arc::new(DiskWorld))?;
         // The writing thread ends with its channel.
         drop(connection);
         threads.join().map_err(|error| Failure::from(ServerError::Protocol(error.to_string())))?;
@@ -90,7 +93,11 @@ fn queued(connection: Connection) -> Connection {
     Connection { sender, receiver }
 }
 
-fn serve(connection: &Connection) -> Result<(), Failure> {
+/// Serves a client until it says goodbye or vanishes.
+///
+/// # Errors
+/// When it does not speak the protocol.
+pub(in crate::cli) fn serve(connection: &Connection, world: SharedWorld) -> Result<(), Failure> {
     let broken = |error: &dyn std::fmt::Display| Failure::from(ServerError::Protocol(error.to_string()));
     let (id, parameters) = connection.initialize_start().map_err(|error| broken(&error))?;
     let client = Client::of(&parameters);
@@ -98,5 +105,11 @@ fn serve(connection: &Connection) -> Result<(), Failure> {
     let answer = InitializeResult { capabilities: capabilities(client.encoding), server_info: Some(name) };
     let answer = serde_json::to_value(answer).expect("capabilities are data");
     connection.initialize_finish(id, answer).map_err(|error| broken(&error))?;
-    Server::new(connection, client).run().map_err(|error| broken(&error))
+    Server::new(connection, client, world).run().map_err(|error| broken(&error))
+}
+
+/// The URI of a file or folder.
+#[cfg(feature = "play")]
+pub(in crate::cli) fn file_uri(path: &str) -> String {
+    uri::uri(path).0
 }

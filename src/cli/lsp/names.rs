@@ -99,7 +99,7 @@ impl Server<'_> {
     pub(super) fn renamed(&mut self, checked: &Checked, found: NameUse, new: &str) -> Result<WorkspaceEdit, String> {
         let mut rename = Rename::new(&self.files(checked), found, new);
         self.all_sources().into_iter().for_each(|source| rename.add(source));
-        rename.finish(&self.buffers)
+        rename.finish(&self.buffers, self.world.clone())
     }
 
     pub(super) fn rename(&mut self, asked: lsp::RenameParams) -> Reply<RenameRequest> {

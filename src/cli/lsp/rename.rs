@@ -13,8 +13,8 @@ use crate::cli::lsp::position::Encoding;
 use crate::cli::lsp::uri;
 use crate::diag::Diagnostic;
 use crate::session::{Checked, Session};
+use crate::source::SharedWorld;
 use crate::source::Span;
-use crate::store::DiskWorld;
 
 /// A new name for a declaration.
 pub(super) struct Rename<'a> {
@@ -72,8 +72,8 @@ impl<'a> Rename<'a> {
 
     /// What would change, or why that is not possible: the program has an error that it did not have, or another name
     /// gets or loses a meaning.
-    pub(super) fn finish(self, buffers: &Buffers) -> Result<WorkspaceEdit, String> {
-        let mut session = Session::new(DiskWorld);
+    pub(super) fn finish(self, buffers: &Buffers, world: SharedWorld) -> Result<WorkspaceEdit, String> {
+        let mut session = Session::new(world);
         for buffer in buffers.iter() {
             session.update(&buffer.path, 0, buffer.text.clone());
         }

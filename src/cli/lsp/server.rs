@@ -21,11 +21,12 @@ use crate::cli::lsp::settings::Settings;
 use crate::cli::lsp::workspace::Workspace;
 use crate::cli::lsp::{problems, uri};
 use crate::session::{Checked, Session};
-use crate::store::DiskWorld;
+use crate::source::SharedWorld;
 
 /// The server of one client.
 pub(super) struct Server<'c> {
     connection: &'c Connection,
+    pub(super) world: SharedWorld,
     pub(super) session: Session,
     pub(super) buffers: Buffers,
     pub(super) encoding: Encoding,
@@ -47,11 +48,11 @@ pub(super) struct Server<'c> {
 pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, String>;
 
 impl<'c> Server<'c> {
-    pub(super) fn new(connection: &'c Connection, client: Client) -> Self {
+    pub(super) fn new(connection: &'c Connection, client: Client, world: SharedWorld) -> Self {
         let Client { encoding, settings, workspace, abilities } = client;
         Self {
             connection,
-            session: Session::new(DiskWorld),
+            session: Session::new(world.clone()),
             buffers: Buffers::default(),
             encoding,
             settings,
@@ -59,10 +60,11 @@ impl<'c> Server<'c> {
             abilities,
             is_outdated: false,
             asked: 0,
-            compiler: Compiler::start(),
+            compiler: Compiler::start(world.clone()),
             waiting: Vec::new(),
             runs: Runs::new(),
             published: BTreeMap::new(),
+            world,
         }
     }
 

@@ -1,15 +1,12 @@
 //! The source files of the folders that are open in the editor.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use gen_lsp_types::Uri;
 use serde_json::Value;
 
 use crate::cli::lsp::uri;
-
-/// The most files and folders that are looked at.
-const MOST: usize = 10_000;
+use crate::store;
 
 /// The folders that are open.
 #[derive(Clone, Debug, Default)]
@@ -41,32 +38,8 @@ impl Workspace {
 
     /// The paths of its source files, in order. Hidden folders and those of results and packages are left out.
     pub(super) fn files(&self) -> Vec<String> {
-        let mut found = Vec::new();
-        let mut open: Vec<PathBuf> = self.folders.iter().map(PathBuf::from).collect();
-        let mut seen = 0;
-        while let Some(folder) = open.pop() {
-            for entry in fs::read_dir(&folder).into_iter().flatten().flatten() {
-                seen += 1;
-                let (path, kind) = (entry.path(), entry.file_type());
-                match kind {
-                    _ if seen > MOST => break,
-                    Ok(kind) if kind.is_dir() && !is_left_out(&path) => open.push(path),
-                    Ok(kind) if kind.is_file() && path.extension().is_some_and(|extension| extension == "nb") => {
-                        found.push(path.to_string_lossy().into_owned());
-                    }
-                    _ => {}
-                }
-            }
-        }
-        found.sort();
-        found.dedup();
-        found
+        store::source_files(self.folders.iter().map(PathBuf::from))
     }
-}
-
-fn is_left_out(folder: &Path) -> bool {
-    let name = folder.file_name().unwrap_or_default().to_string_lossy();
-    name.starts_with('.') || ["node_modules", "out", "target"].contains(&name.as_ref())
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use serde_json::Value;
 
 use crate::circuit::CancelFlag;
 use crate::session::Checked;
+use crate::source::SharedWorld;
 
 pub(super) use command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
 pub(super) use order::{OrderError, RunOrder};
@@ -58,13 +59,14 @@ impl Runs {
         token: Option<ProgressToken>,
         checked: Arc<Checked>,
         order: RunOrder,
+        world: SharedWorld,
     ) {
         let stop = CancelFlag::default();
         self.running.push(Running { id: id.clone(), token: token.clone(), stop: stop.clone() });
         let (outbox, folder) = (self.outbox.clone(), self.results.path());
         thread::spawn(move || {
             let mut watcher = Watcher { token: token.clone(), outbox: outbox.clone(), stop, part: (0, 1), told: 0 };
-            let result = folder.and_then(|folder| work::perform(&checked, &order, &folder, &mut watcher));
+            let result = folder.and_then(|folder| work::perform(world, &checked, &order, &folder, &mut watcher));
             let _ = outbox.send(RunEvent::Done { id, token, result });
         });
     }

@@ -12,11 +12,13 @@ use crate::report::{self, Scheme};
 use crate::session::{
     Checked, Choice, CompileOptions, Compiled, RunReport, Session, SimulationRun, TestOptions, TestRun,
 };
-use crate::store::{self, DiskWorld};
+use crate::source::SharedWorld;
+use crate::store;
 use crate::swarm::{Level, Room};
 
 /// Does what is ordered; an error is a message for people.
 pub(super) fn perform(
+    world: SharedWorld,
     checked: &Checked,
     order: &RunOrder,
     results: &Path,
@@ -25,7 +27,7 @@ pub(super) fn perform(
     if checked.has_errors() {
         return Err("the source has errors".to_owned());
     }
-    let session = Session::new(DiskWorld).with_poses(Room::SWARM);
+    let session = Session::new(world).with_poses(Room::SWARM);
     match &order.task {
         Task::Run { level, test, simulation } => {
             let report = run(&session, checked, *level, (*test, *simulation), watcher)?;

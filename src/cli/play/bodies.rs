@@ -1,0 +1,159 @@
+//! Robots and bodies for a page: the library's cards, how a body walks, and robot files.
+
+use serde_json::{Value, json};
+
+use crate::circuit::formats::is_word;
+use crate::cli::play::history::FRAMES;
+use crate::cli::play::jobs::Ended;
+use crate::cli::play::refusal::Refused;
+use crate::evolve;
+use crate::model::{Body, CYCLE_STEPS, Character, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting};
+use crate::report::{self, Looks, Scheme, Stage, describe_material};
+use crate::session::{Checked, CompileOptions, Session};
+use crate::sim::Simulator;
+use crate::store;
+use crate::swarm::{Recorded, measure};
+
+/// The largest side of a body that is simulated for a page.
+const MOST_SIDE: usize = 20;
+/// The most cycles of a gait.
+const MOST_CYCLES: u32 = 20;
+/// The folder of robot files that a page writes.
+const FOLDER: &str = "robots";
+
+/// The built-in robots, and those of the libraries that a program declares.
+///
+/// # Errors
+/// When robots cannot be read.
+pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Value, Refused> {
+    let mut all = session.shipped().robots.clone();
+    let shipped = all.len();
+    if let Some(checked) = checked {
+        for library in &checked.program.libraries {
+            let Library { robots } = session.robots(checked, Some(&library.name), &CompileOptions::default())?;
+            let new: Vec<_> =
+                robots.into_iter().filter(|robot| all.iter().all(|known| known.body != robot.body)).collect();
+            all.extend(new);
+        }
+    }
+    let looks = Looks::of(all.iter().map(|robot| &robot.body), Scheme::default());
+    let cards: Vec<Value> = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &looks)).collect();
+    Ok(json!({ "robots": cards, "looks": report::look_data(&looks), "palette": palette(&looks) }))
+}
+
+fn card(robot: &Robot, shipped: bool, looks: &Looks) -> Value {
+    let recorded = stage(&robot.body, Pattern::PAIRS[0], 0).record(1).robots.swap_remove(0);
+    json!({
+        "name": robot.name,
+        "function": robot.function().name(),
+        "letters": robot.behavior.to_string(),
+        "about": report::describe_robot(robot),
+        "body": robot.body.rows(),
+        "width": robot.body.width(),
+        "height": robot.body.height(),
+        "voxels": report::voxel_data(&recorded, &robot.body, looks),
+        "points": recorded.points,
+        "clock": robot.character.clock,
+        "margin": robot.character.margin,
+        "errors": robot.character.error_rate,
+        "shipped": shipped,
+    })
+}
+
+/// The paper's materials, which a page can paint with.
+fn palette(looks: &Looks) -> Vec<Value> {
+    let palette = Palette::paper();
+    let materials = (1..).zip(palette.materials());
+    let one = |(code, material)| {
+        json!({
+            "code": code,
+            "name": palette.material(code).map(|known| known.name.clone()),
+            "about": describe_material(material),
+            "look": looks.index(&palette, code),
+        })
+    };
+    materials.map(one).collect()
+}
+
+/// A body of the paper's materials that can be simulated.
+///
+/// # Errors
+/// The reason why it cannot.
+pub(super) fn body(rows: &[String]) -> Result<Body, Refused> {
+    let body = Body::parse(rows, &Palette::paper()).map_err(|error| Refused::Body(error.to_string()))?;
+    if body.width().max(body.height()) > MOST_SIDE {
+        return Err(Refused::Body(format!("a body has at most {MOST_SIDE} rows and columns here")));
+    }
+    evolve::validate(&body).map_err(|error| Refused::Body(error.to_string()))?;
+    Ok(body)
+}
+
+fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
+    let schedule = Schedule::constant(pattern, cycles * CYCLE_STEPS);
+    Stage::of_trial(&Setting::default(), body, &schedule, CYCLE_STEPS / FRAMES)
+}
+
+/// How a body walks, and which gate it is.
+///
+/// # Errors
+/// When it cannot be simulated.
+pub(super) fn probe(rows: &[String], cycles: u32) -> Ended {
+    let body = body(rows)?;
+    let cycles = cycles.clamp(1, MOST_CYCLES);
+    let gaits: Vec<Recorded> =
+        Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
+    let measured = measure(&Simulator::default(), &body).map_err(Refused::fault)?;
+    let looks = Looks::of([&body], Scheme::default());
+    let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
+    Ok(Some(json!({
+        "gaits": gaits.iter().map(gait).collect::<Vec<_>>(),
+        "letters": measured.behavior.to_string(),
+        "function": measured.behavior.function().name(),
+        "displacement": measured.displacement,
+        "character": character(&measured.character),
+        "points": gaits[0].points,
+        "voxels": report::voxel_data(&gaits[0], &body, &looks),
+        "looks": report::look_data(&looks),
+    })))
+}
+
+fn character(character: &Character) -> Value {
+    json!({
+        "clock": character.clock,
+        "margin": character.margin,
+        "errors": character.error_rate,
+        "glitches": character.glitch_rate,
+        "topples": character.topples,
+    })
+}
+
+/// A robot file of a body: its path, its text, and the declaration that uses it.
+///
+/// # Errors
+/// When the name is not that of a robot, or the body cannot be simulated.
+pub(super) fn robot_file(name: &str, rows: &[String]) -> Result<(String, String, String), Refused> {
+    if !is_word(name) {
+        return Err(Refused::Name(name.to_owned()));
+    }
+    let body = body(rows)?;
+    let measured = measure(&Simulator::default(), &body).map_err(Refused::fault)?;
+    let provenance = Provenance {
+        program: env!("CARGO_PKG_NAME").to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        evolution: "play".to_owned(),
+        seed: 0,
+        generation: 0,
+        evaluations: 0,
+    };
+    let robot = Robot {
+        name: name.to_owned(),
+        behavior: measured.behavior,
+        body,
+        displacement: measured.displacement,
+        character: measured.character,
+        provenance,
+        genotype: None,
+    };
+    let declaration = format!("library own {{ from: \"{FOLDER}\" }}");
+    Ok((format!("{FOLDER}/{name}.yaml"), store::print_robot(&robot), declaration))
+}

@@ -1,0 +1,143 @@
+//! The last cycles of a live swarm, to go back to.
+
+use std::collections::VecDeque;
+
+use crate::model::CYCLE_STEPS;
+use crate::swarm::{LiveSwarm, SwarmSnapshot};
+
+/// Cycles that can be gone back.
+pub(super) const MEMORY: u32 = 1000;
+/// The most bytes of snapshots. A swarm with larger ones keeps one every few cycles.
+const ROOM: usize = 64 << 20;
+/// The least bytes of a point in a snapshot: position and velocity.
+const POINT: usize = 32;
+
+/// What is remembered of a cycle.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LoggedCycle {
+    /// The bits of the inputs, of the robots and of the outputs.
+    pub(super) inputs: Vec<bool>,
+    pub(super) bits: Vec<bool>,
+    pub(super) outputs: Vec<bool>,
+    /// The centers of mass at its end, in voxels of the world.
+    pub(super) com_x: Vec<f64>,
+}
+
+impl LoggedCycle {
+    /// The last cycle of a swarm.
+    ///
+    /// # Panics
+    /// When it has none.
+    pub(super) fn last_of(swarm: &LiveSwarm) -> Self {
+        let trace = swarm.trace();
+        let cycle = trace.cycles.last().expect("the swarm has done a cycle");
+        Self {
+            inputs: cycle.inputs.clone(),
+            bits: cycle.bits.clone(),
+            outputs: cycle.outputs.clone(),
+            com_x: trace.robots.iter().map(|robot| robot.com_x[robot.com_x.len() - 1]).collect(),
+        }
+    }
+}
+
+/// The last cycles with snapshots between them.
+pub(super) struct History {
+    /// Snapshots with their cycles, the earliest first. There is always one.
+    marks: VecDeque<(u32, SwarmSnapshot)>,
+    /// The cycles after the first snapshot.
+    log: VecDeque<LoggedCycle>,
+    /// Cycles from snapshot to snapshot.
+    spacing: u32,
+}
+
+impl History {
+    /// The history of a swarm at its start.
+    pub(super) fn new(start: &LiveSwarm) -> Self {
+        let points: usize = start.trace().recording.robots.iter().map(|robot| robot.points).sum();
+        let all = (MEMORY as usize * points * POINT).div_ceil(ROOM);
+        Self { marks: [(0, start.snapshot())].into(), log: VecDeque::new(), spacing: all.max(1) as u32 }
+    }
+
+    /// The cycle of the first snapshot.
+    fn first(&self) -> u32 {
+        self.marks[0].0
+    }
+
+    /// The earliest cycle that can be shown: the start, or the first one that can be simulated again.
+    pub(super) fn earliest(&self) -> u32 {
+        if self.first() == 0 { 0 } else { self.first() + 1 }
+    }
+
+    /// The last cycle.
+    pub(super) fn last(&self) -> u32 {
+        self.first() + self.log.len() as u32
+    }
+
+    /// The cycles with the numbers after `cycle`, as far as they are remembered, with the first number.
+    pub(super) fn after(&self, cycle: u32) -> (u32, impl ExactSizeIterator<Item = &LoggedCycle>) {
+        let skipped = cycle.clamp(self.first(), self.last()) - self.first();
+        (self.first() + skipped + 1, self.log.range(skipped as usize..))
+    }
+
+    /// The input bits of the cycles after `from` up to `to`.
+    pub(super) fn inputs(&self, from: u32, to: u32) -> Vec<Vec<bool>> {
+        let range = (from - self.first()) as usize..(to - self.first()) as usize;
+        self.log.range(range).map(|cycle| cycle.inputs.clone()).collect()
+    }
+
+    /// The latest snapshot at a cycle of at most `cycle`, or else the earliest one.
+    pub(super) fn mark(&self, cycle: u32) -> (u32, &SwarmSnapshot) {
+        let after = self.marks.partition_point(|(at, _)| *at <= cycle);
+        let (at, snapshot) = &self.marks[after.saturating_sub(1)];
+        (*at, snapshot)
+    }
+
+    /// Remembers the last cycle of a swarm that has done `cycle` cycles, and has forgotten the rest. What was
+    /// remembered from this cycle on is replaced.
+    pub(super) fn push(&mut self, cycle: u32, logged: LoggedCycle, swarm: &LiveSwarm) {
+        self.log.truncate((cycle - 1 - self.first()) as usize);
+        self.marks.retain(|(at, _)| *at < cycle);
+        self.log.push_back(logged);
+        if cycle.is_multiple_of(self.spacing) {
+            self.marks.push_back((cycle, swarm.snapshot()));
+        }
+        while self.marks.len() > 1 && self.marks[1].0 + MEMORY <= cycle {
+            let past = self.marks[1].0 - self.marks[0].0;
+            self.marks.pop_front();
+            self.log.drain(..past as usize);
+        }
+    }
+}
+
+/// Poses of a robot in the last cycle, or at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Poses {
+    /// The number of points.
+    pub(super) points: usize,
+    /// The origin of the numbers, in voxels of the world.
+    pub(super) origin: f64,
+    /// Frames of x and y of each point, in hundredths of a voxel.
+    pub(super) frames: Vec<i16>,
+}
+
+impl Poses {
+    /// The poses of all robots of a swarm in its last cycle; at the start, the first pose for the whole cycle.
+    pub(super) fn of(swarm: &LiveSwarm) -> Vec<Self> {
+        let recording = &swarm.trace().recording;
+        let frames = recording.frames_per_cycle as usize;
+        let poses = recording.robots.iter().map(|robot| {
+            let length = 2 * robot.points;
+            let have = robot.frames.len() / length.max(1);
+            let frames = if have >= frames {
+                robot.frames[(have - frames) * length..].to_vec()
+            } else {
+                robot.frames[..have.min(1) * length].repeat(frames)
+            };
+            Self { points: robot.points, origin: robot.origin(), frames }
+        });
+        poses.collect()
+    }
+}
+
+/// Poses in one cycle of a live swarm.
+pub(super) const FRAMES: u32 = CYCLE_STEPS / 7;

@@ -1,0 +1,140 @@
+//! Why a request of the page cannot be done, and how it is worded.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::diag::{Diagnostic, Diagnostics, io_words};
+use crate::model::{Fault, FaultKind};
+use crate::source::FileError;
+
+/// The reason for which a request is refused.
+#[derive(Clone, Debug)]
+pub(super) enum Refused {
+    /// A message that is no request.
+    Message(String),
+    /// There is no swarm yet.
+    NoSwarm,
+    /// The inputs have another number of bits.
+    Bits { expected: usize },
+    /// A cycle that the log does not have.
+    Cycle { first: u32, last: u32 },
+    /// A test or a row that the program does not have.
+    NoTest,
+    /// A circuit with more robots than one page may simulate.
+    TooManyRobots { robots: usize, most: usize },
+    /// Work of this page that already runs.
+    Busy { most: usize },
+    /// The work was stopped by the page.
+    Cancelled,
+    /// The work took too long.
+    TimedOut { seconds: u64 },
+    /// A file that cannot be read.
+    Unreadable { path: String, error: FileError },
+    /// A file that cannot be written.
+    Unwritable { path: String, reason: String },
+    /// A file that was changed by someone else.
+    Changed { path: String },
+    /// A path that does not end as a program's or a robot's must.
+    Ending { path: String, expected: &'static str },
+    /// An example of another name.
+    NoExample(String),
+    /// A name that cannot be that of a robot.
+    Name(String),
+    /// A body that cannot be simulated.
+    Body(String),
+    /// A fault of the program.
+    Internal,
+    /// Errors in the source.
+    Source(Diagnostics),
+}
+
+/// An answer that says why there is no other.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Refusal {
+    message: String,
+    help: Option<String>,
+    code: Option<&'static str>,
+    diagnostics: Vec<Value>,
+}
+
+impl Refused {
+    /// A file that cannot be written.
+    pub(super) fn unwritable(path: &str, error: &std::io::Error) -> Self {
+        Self::Unwritable { path: path.to_owned(), reason: io_words(error) }
+    }
+
+    /// A body whose simulation fails.
+    pub(super) fn fault(fault: Fault) -> Self {
+        let kind = match fault.kind {
+            FaultKind::Unstable => "becomes unstable",
+            FaultKind::NonFinite => "leaves the range of numbers",
+            FaultKind::Stopped => "was stopped",
+        };
+        Self::Body(format!("its simulation {kind} in env step {}", fault.env_step))
+    }
+
+    fn message(&self) -> String {
+        match self {
+            Self::Message(reason) => format!("the message is not a request: {reason}"),
+            Self::NoSwarm => "no circuit has been compiled".to_owned(),
+            Self::Bits { expected } => format!("expected {expected} input bits, such as `{}`", "0".repeat(*expected)),
+            Self::Cycle { first, last } => format!("the log goes from cycle {first} to {last}"),
+            Self::NoTest => "the program has no such test or row".to_owned(),
+            Self::TooManyRobots { robots, most } => {
+                format!("the circuit needs {robots} robots; the page runs at most {most}")
+            }
+            Self::Busy { most } => format!("{most} requests of this page are still running"),
+            Self::Cancelled => "it was cancelled".to_owned(),
+            Self::TimedOut { seconds } => format!("it took longer than {seconds} seconds and was stopped"),
+            Self::Unreadable { path, error } => Diagnostic::unreadable(path, error).message,
+            Self::Unwritable { path, reason } => format!("cannot write `{path}`: {reason}"),
+            Self::Changed { path } => format!("`{path}` has been changed on disk"),
+            Self::Ending { path, expected } => format!("`{path}` does not end in `{expected}`"),
+            Self::NoExample(name) => format!("there is no example `{name}`"),
+            Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
+            Self::Body(reason) => reason.clone(),
+            Self::Internal => "the program failed; its log says where".to_owned(),
+            Self::Source(found) => match found.list.iter().find(|one| one.is_error()) {
+                Some(first) => first.message.clone(),
+                None => "the source has errors".to_owned(),
+            },
+        }
+    }
+
+    fn help(&self) -> Option<String> {
+        match self {
+            Self::Changed { .. } => Some("load it, or save again to replace it".to_owned()),
+            Self::Name(_) => Some("use letters, digits, `_` and `-`".to_owned()),
+            Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
+            Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
+            Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
+            _ => None,
+        }
+    }
+
+    fn code(&self) -> Option<&'static str> {
+        match self {
+            Self::Cancelled => Some("cancelled"),
+            Self::TimedOut { .. } => Some("timed-out"),
+            Self::Changed { .. } => Some("changed"),
+            Self::Busy { .. } => Some("busy"),
+            _ => None,
+        }
+    }
+}
+
+impl From<Refused> for Refusal {
+    fn from(refused: Refused) -> Self {
+        let diagnostics = match &refused {
+            Refused::Source(found) => found.json(),
+            _ => Vec::new(),
+        };
+        Self { message: refused.message(), help: refused.help(), code: refused.code(), diagnostics }
+    }
+}
+
+impl From<Diagnostics> for Refused {
+    fn from(found: Diagnostics) -> Self {
+        Self::Source(found)
+    }
+}

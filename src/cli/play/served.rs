@@ -1,0 +1,124 @@
+//! What all pages of a server share: the folder, the address, and who may come in.
+
+use std::net::IpAddr;
+use std::sync::Arc;
+
+use axum::http::{HeaderMap, header};
+use tokio::sync::Semaphore;
+
+use crate::cli::play::page::Page;
+use crate::cli::play::takes::Takes;
+use crate::store::FolderWorld;
+
+/// The largest message that a page may send, in bytes.
+pub(super) const MOST_BYTES: usize = 1 << 20;
+/// The most sockets at once; a page has two.
+const MOST_SOCKETS: usize = 32;
+
+/// What is served, and to whom.
+pub(super) struct Served {
+    pub(super) world: FolderWorld,
+    /// The `file:` URI of the folder.
+    pub(super) root: String,
+    /// The file that pages open first, relative to the folder.
+    pub(super) file: Option<String>,
+    /// The secret in the address.
+    pub(super) token: String,
+    /// The address at which the server listens, as the user gave it, and the port.
+    pub(super) host: String,
+    pub(super) port: u16,
+    pub(super) page: Page,
+    pub(super) takes: Takes,
+    pub(super) sockets: Arc<Semaphore>,
+}
+
+impl Served {
+    pub(super) fn new(world: FolderWorld, root: String, file: Option<String>, token: String) -> Self {
+        let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
+        Self {
+            world,
+            root,
+            file,
+            token,
+            host: String::new(),
+            port: 0,
+            page: Page::default(),
+            takes: Takes::default(),
+            sockets,
+        }
+    }
+
+    /// The address of the page.
+    pub(super) fn address(&self) -> String {
+        let host = if self.host.contains(':') { format!("[{}]", self.host) } else { self.host.clone() };
+        format!("http://{host}:{}/{}/", self.port, self.token)
+    }
+
+    /// Whether a path begins with the token. Takes the same time for any wrong one.
+    pub(super) fn knows(&self, token: &str) -> bool {
+        let differ = token.bytes().zip(self.token.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
+        token.len() == self.token.len() && differ == 0
+    }
+
+    /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
+    /// another site that points to this computer is not, and its `Origin`, if it has one, is the same.
+    pub(super) fn trusts(&self, headers: &HeaderMap) -> bool {
+        let text = |name| headers.get(name).map(|value: &axum::http::HeaderValue| value.to_str().unwrap_or(""));
+        let Some(host) = text(header::HOST).filter(|host| self.is_own(host)) else { return false };
+        text(header::ORIGIN).is_none_or(|origin| origin.strip_prefix("http://") == Some(host))
+    }
+
+    fn is_own(&self, host: &str) -> bool {
+        let port = format!(":{}", self.port);
+        let Some(name) = host.strip_suffix(&port) else { return false };
+        let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
+        let everywhere = self.host.parse::<IpAddr>().is_ok_and(|own| own.is_unspecified());
+        name == "localhost"
+            || name == self.host
+            || address.is_ok_and(|address| everywhere || address.is_loopback() || address.to_string() == self.host)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn served(host: &str) -> Served {
+        let folder = tempfile::tempdir().unwrap();
+        let world = FolderWorld::new(folder.path()).unwrap();
+        let served = Served::new(world, String::new(), None, "secret".to_owned());
+        Served { host: host.to_owned(), port: 80, ..served }
+    }
+
+    fn headers(host: &str, origin: Option<&str>) -> HeaderMap {
+        let mut headers = HeaderMap::new();
+        headers.insert(header::HOST, host.parse().unwrap());
+        origin.into_iter().for_each(|origin| _ = headers.insert(header::ORIGIN, origin.parse().unwrap()));
+        headers
+    }
+
+    #[test]
+    fn only_the_own_page_is_trusted() {
+        let local = served("127.0.0.1");
+        for host in ["127.0.0.1:80", "localhost:80", "[::1]:80"] {
+            assert!(local.trusts(&headers(host, None)));
+            assert!(local.trusts(&headers(host, Some(&format!("http://{host}")))));
+            assert!(!local.trusts(&headers(host, Some("http://evil.example"))));
+        }
+        for host in ["evil.example:80", "127.0.0.1:81", "192.168.0.7:80", "localhost", ""] {
+            assert!(!local.trusts(&headers(host, None)), "{host}");
+        }
+        assert!(!local.trusts(&HeaderMap::new()));
+        let open = served("0.0.0.0");
+        assert!(open.trusts(&headers("192.168.0.7:80", Some("http://192.168.0.7:80"))));
+        assert!(!open.trusts(&headers("evil.example:80", None)));
+    }
+
+    #[test]
+    fn the_token_must_be_right() {
+        let served = served("::1");
+        assert_eq!(served.address(), "http://[::1]:80/secret/");
+        assert!(served.knows("secret"));
+        assert!(!served.knows("secreT") && !served.knows("secret1") && !served.knows(""));
+    }
+}

@@ -1,0 +1,238 @@
+//! What one socket of a page can do: its texts, its swarm, its requests. It has a thread of its own.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::time::{Duration, Instant};
+
+use axum::extract::ws::Utf8Bytes;
+use serde_json::{Value, json};
+use tokio::sync::mpsc;
+
+use crate::cli::play::files::{Files, example, examples};
+use crate::cli::play::history::MEMORY;
+use crate::cli::play::jobs::{Ended, Job, Jobs};
+use crate::cli::play::outbox::Outbox;
+use crate::cli::play::refusal::{Refusal, Refused};
+use crate::cli::play::request::{EvolveRequest, Request, TakeKind, Verb};
+use crate::cli::play::runner::{self, SwarmOrder};
+use crate::cli::play::served::{MOST_BYTES, Served};
+use crate::cli::play::{bodies, evolving, programs, taking};
+use crate::session::{Checked, Choice, Compiled, Session};
+use crate::swarm::Room;
+
+/// The time between two looks at the files that the page has read.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// A page that is connected.
+pub(super) struct Visit {
+    served: Arc<Served>,
+    session: Session,
+    /// What was last said of each path, to give texts growing revisions.
+    revision: u64,
+    files: Files,
+    jobs: Jobs,
+    runner: Sender<SwarmOrder>,
+    outbox: Outbox,
+    swarms: u32,
+    looked: Instant,
+}
+
+impl Visit {
+    pub(super) fn new(served: Arc<Served>, outbox: Outbox) -> Self {
+        let world = served.world.clone();
+        Self {
+            session: Session::new(world.clone()),
+            revision: 0,
+            files: Files::new(world),
+            jobs: Jobs::new(outbox.clone()),
+            runner: runner::start(outbox.clone()),
+            outbox,
+            served,
+            swarms: 0,
+            looked: Instant::now(),
+        }
+    }
+
+    /// Answers requests until the page is gone. An empty message is a pause in which nothing came.
+    pub(super) fn serve(mut self, mut requests: mpsc::Receiver<Utf8Bytes>) {
+        while let Some(text) = requests.blocking_recv() {
+            if !text.is_empty() {
+                self.receive(&text);
+            }
+            if self.looked.elapsed() >= LOOK {
+                self.look();
+            }
+        }
+    }
+
+    fn receive(&mut self, text: &str) {
+        match serde_json::from_str::<Request>(text) {
+            Ok(Request { id, verb }) => self.request(id, verb),
+            Err(error) => {
+                let id = serde_json::from_str::<Value>(text).ok().and_then(|value| value.get("id")?.as_u64());
+                self.outbox.answer(id.unwrap_or(0), Err(Refused::Message(error.to_string()).into()));
+            }
+        }
+    }
+
+    /// Tells of files that were changed.
+    fn look(&mut self) {
+        self.looked = Instant::now();
+        for (path, event) in self.files.changes() {
+            self.session.close(&path);
+            self.outbox.tell(&event);
+        }
+        self.jobs.end_late();
+    }
+
+    fn request(&mut self, id: u64, verb: Verb) {
+        let verb = match verb.change() {
+            Ok(change) => return self.order(SwarmOrder::Change(id, change)),
+            Err(verb) => verb,
+        };
+        let answer = match verb {
+            Verb::Hello => Ok(self.hello()),
+            Verb::Files => Ok(json!(self.files.list())),
+            Verb::Read { path: Some(path), .. } => self.files.read(path),
+            Verb::Read { example: name, .. } => example(&name.unwrap_or_default()),
+            Verb::Save { path, text, stamp } => self.files.save(path, &text, stamp.as_deref()),
+            Verb::Program { path, text } => {
+                self.revision += 1;
+                self.session.update(&path, self.revision, text);
+                Ok(programs::program(&self.session.checked(&path)))
+            }
+            Verb::Keep { name, body } => self.keep(&name, &body),
+            Verb::Cancel { of } => {
+                self.jobs.cancel(of);
+                Ok(json!({}))
+            }
+            long => return self.start(id, long),
+        };
+        self.outbox.answer(id, answer.map_err(Refusal::from));
+    }
+
+    /// Starts a long request.
+    fn start(&mut self, id: u64, verb: Verb) {
+        let work = match verb {
+            Verb::Compile { path, circuit, swarm } => {
+                let choice = Choice { circuit: Some(circuit), swarm };
+                return self.run_swarm(id, &path, move |session, checked, job| {
+                    let (circuit, options) = programs::chosen(checked, &choice, job)?;
+                    Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
+                });
+            }
+            Verb::Replay { path, test, swarm, row } => {
+                return self.run_swarm(id, &path, move |session, checked, job| {
+                    programs::until_row(session, checked, (test, swarm.as_deref(), row), job)
+                });
+            }
+            Verb::Test { path, test, level } => self.with_program(&path, move |session, checked, job| {
+                programs::run_test(session, checked, test, level.into(), job)
+            }),
+            Verb::Robots { path } => {
+                let checked = path.map(|path| self.session.checked(&path));
+                let session = self.fresh();
+                Ok(boxed(move |_| bodies::robots(&session, checked.as_deref()).map(Some)))
+            }
+            Verb::Probe { body, cycles } => Ok(boxed(move |_| bodies::probe(&body, cycles))),
+            Verb::Evolve(request) => Ok(evolve(request)),
+            Verb::Take { what, cycles } => Ok(self.take(what, cycles)),
+            other => unreachable!("{other:?} is answered at once"),
+        };
+        match work {
+            Ok(work) => self.jobs.start(id, work),
+            Err(refused) => self.outbox.answer(id, Err(refused.into())),
+        }
+    }
+
+    fn hello(&self) -> Value {
+        let name = self.served.world.root().file_name().unwrap_or_default().to_string_lossy();
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "folder": name,
+            "root": self.served.root,
+            "file": self.served.file,
+            "files": self.files.list(),
+            "examples": examples(),
+            "limits": {
+                "robots": programs::MOST_ROBOTS,
+                "cycles": MEMORY,
+                "message": MOST_BYTES,
+            },
+            "cycle_seconds": 0.25,
+        })
+    }
+
+    fn keep(&mut self, name: &str, body: &[String]) -> Result<Value, Refused> {
+        let (path, text, declaration) = bodies::robot_file(name, body)?;
+        self.files.make_folder(&path)?;
+        self.files.write(&path, &text)?;
+        Ok(json!({ "path": path, "use": declaration }))
+    }
+
+    /// Compiles on another thread, and gives the swarm to the runner, which answers.
+    fn run_swarm(
+        &mut self,
+        id: u64,
+        path: &str,
+        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Vec<Vec<bool>>), Refused> + Send + 'static,
+    ) {
+        self.swarms += 1;
+        let (number, runner) = (self.swarms, self.runner.clone());
+        let work = self.with_program(path, move |session, checked, job| {
+            let (compiled, inputs) = compile(session, checked, job)?;
+            let loaded = programs::loaded(session, compiled, inputs, (number, job))?;
+            let _ = runner.send(SwarmOrder::Load(Box::new(loaded)));
+            Ok(None)
+        });
+        match work {
+            Ok(work) => self.jobs.start(id, work),
+            Err(refused) => self.outbox.answer(id, Err(refused.into())),
+        }
+    }
+
+    /// Work on a program without errors.
+    fn with_program(
+        &mut self,
+        path: &str,
+        work: impl FnOnce(&Session, &Checked, &mut Job) -> Ended + Send + 'static,
+    ) -> Result<Work, Refused> {
+        let checked = self.session.open(path)?;
+        let session = self.fresh();
+        Ok(boxed(move |job| work(&session, &checked, job)))
+    }
+
+    /// A session for another thread.
+    fn fresh(&self) -> Session {
+        Session::new(self.served.world.clone()).with_poses(Room::LIVE)
+    }
+
+    fn take(&self, what: TakeKind, cycles: u32) -> Work {
+        let (reply, excerpt) = channel();
+        self.order(SwarmOrder::Excerpt(cycles.clamp(1, what.most()), reply));
+        let (session, served) = (self.fresh(), self.served.clone());
+        boxed(move |job| {
+            let excerpt = excerpt.recv().ok().flatten().ok_or(Refused::NoSwarm)?;
+            let bytes = taking::make(&session, &excerpt, what, job)?;
+            let (ending, kind) = what.ending();
+            let name = format!("{}.{ending}", excerpt.compiled.plan.circuit.circuit);
+            Ok(Some(json!({ "url": served.takes.keep(&name, kind, bytes), "name": name })))
+        })
+    }
+
+    fn order(&self, order: SwarmOrder) {
+        // The runner lives as long as this end.
+        let _ = self.runner.send(order);
+    }
+}
+
+/// The work of a long request.
+type Work = Box<dyn FnOnce(&mut Job) -> Ended + Send>;
+
+fn boxed(work: impl FnOnce(&mut Job) -> Ended + Send + 'static) -> Work {
+    Box::new(work)
+}
+
+fn evolve(request: EvolveRequest) -> Work {
+    boxed(move |job| evolving::evolve(&request, job))
+}

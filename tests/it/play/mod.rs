@@ -1,0 +1,8 @@
+//! `nbc play`: the server, by a page of the tests' own. The tests of `web/` do the same in a browser.
+
+mod page;
+mod robots;
+mod safety;
+mod swarm;
+
+const LATCH: &str = include_str!("../../../circuits/latch.nb");

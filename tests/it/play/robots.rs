@@ -1,0 +1,78 @@
+//! Robots: cards, the designer, evolution.
+
+use serde_json::json;
+
+use super::page::Server;
+
+const NAND: &str = "nand_5x5";
+
+#[test]
+fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path(), &[]);
+    let mut page = server.page();
+    let library = page.done(json!({ "do": "robots", "path": null }));
+    let robots = library["robots"].as_array().unwrap();
+    assert!(robots.len() >= 32 && robots.iter().all(|robot| robot["shipped"] == true));
+    assert_eq!(library["palette"].as_array().unwrap().len(), 8);
+    let nand = robots.iter().find(|robot| robot["name"] == NAND).unwrap();
+    let probe = page.done(json!({ "do": "probe", "body": nand["body"], "cycles": 2 }));
+    assert_eq!((&probe["letters"], &probe["function"]), (&json!("RRRL"), &json!("nand")));
+    assert_eq!(probe["character"]["clock"], nand["clock"]);
+    assert_eq!(probe["gaits"].as_array().unwrap().len(), 4);
+    let kept = page.done(json!({ "do": "keep", "name": "mine", "body": nand["body"] }));
+    assert_eq!(kept, json!({ "path": "robots/mine.yaml", "use": "library own { from: \"robots\" }" }));
+    let text = format!(
+        "{}\ncircuit n(a, b) -> (c) {{ c = nand(a, b) }}\nswarm s {{ circuit: n, library: own }}\n",
+        kept["use"].as_str().unwrap()
+    );
+    assert_eq!(page.compile("n.nb", &text)["robots"][0]["robot"], "mine");
+    let own = page.done(json!({ "do": "robots", "path": "n.nb" }));
+    assert_eq!(own["robots"].as_array().unwrap().len(), robots.len(), "a body is shown once");
+}
+
+#[test]
+fn bodies_that_cannot_walk_are_refused_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path(), &[]);
+    let mut page = server.page();
+    for (body, message) in [
+        (json!([]), "the body has no voxels"),
+        (json!(["000"]), "the body has no voxels"),
+        (json!(["33", "3"]), "row 2 has 1 voxels, expected 2 as in row 1"),
+        (json!(["309"]), "row 1, column 3: `9` is not a material code; expected 0 to 8"),
+        (json!(["111"]), "the body has 0 actuators, expected at least 3"),
+        (json!(["33033"]), "the body is not in one piece"),
+        (json!(["3".repeat(21)]), "a body has at most 20 rows and columns here"),
+    ] {
+        let refused = page.ask(json!({ "do": "probe", "body": body, "cycles": 1 })).unwrap_err();
+        assert_eq!(refused["message"], message);
+    }
+    let refused = page.ask(json!({ "do": "keep", "name": "../up", "body": ["343", "303"] })).unwrap_err();
+    assert_eq!(refused["message"], "`../up` cannot be the name of a robot");
+}
+
+#[test]
+fn an_archive_fills_from_a_body_the_same_way_each_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path(), &[]);
+    let mut page = server.page();
+    let request = json!({ "do": "evolve", "body": ["343", "303"], "box": [3, 2], "generations": 2, "seed": 1 });
+    let mut archives = Vec::new();
+    for _ in 0..2 {
+        let done = page.done(request.clone());
+        assert_eq!(done["generations"], 2);
+        let niches: Vec<_> = [1, 2]
+            .map(|generation| page.event(|event| event["event"] == "archive" && event["generation"] == generation))
+            .map(|event| event["niches"].clone())
+            .into();
+        assert!(!niches[0].as_array().unwrap().is_empty());
+        archives.push(niches);
+    }
+    assert_eq!(archives[0], archives[1]);
+    let endless = json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
+    let id = page.begin(endless);
+    page.event(|event| event["event"] == "archive");
+    page.done(json!({ "do": "cancel", "of": id }));
+    assert_eq!(page.wait(id).unwrap_err()["code"], "cancelled");
+}

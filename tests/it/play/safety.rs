@@ -1,0 +1,124 @@
+//! Strangers, and pages that misbehave.
+
+use std::fs;
+
+use serde_json::{Value, json};
+use tungstenite::Message;
+
+use super::LATCH;
+use super::page::Server;
+
+fn served() -> (tempfile::TempDir, Server) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("secret.nb"), "circuit secret(a) -> (b) { b = a }").unwrap();
+    fs::create_dir(folder.path().join("inner")).unwrap();
+    fs::write(folder.path().join("inner/latch.nb"), LATCH).unwrap();
+    let server = Server::start(&folder.path().join("inner"), &["latch.nb"]);
+    (folder, server)
+}
+
+#[test]
+fn only_the_page_with_the_token_comes_in() {
+    let (_folder, server) = served();
+    let host = format!("Host: {}\r\n", server.host());
+    let own = format!("/{}/", server.token());
+    let (head, body) = server.get(&own, &host);
+    assert!(head.starts_with("HTTP/1.1 200"), "{head}");
+    for header in ["content-security-policy: default-src 'none'", "referrer-policy: no-referrer", "nosniff"] {
+        assert!(head.to_lowercase().contains(header), "{head}");
+    }
+    assert!(String::from_utf8(body).unwrap().contains("<title>"));
+    for (path, headers, status) in [
+        ("/", host.clone(), 404),
+        ("/wrong/", host.clone(), 404),
+        (&own, "Host: evil.example\r\n".to_owned(), 403),
+        (&own, format!("{host}Origin: http://evil.example\r\n"), 403),
+        (&format!("{own}take/1/a.csv"), host.clone(), 404),
+        (&format!("{own}../../etc/passwd"), host.clone(), 404),
+        (&format!("{own}nothing"), host.clone(), 404),
+    ] {
+        let (head, _) = server.get(path, &headers);
+        assert!(head.starts_with(&format!("HTTP/1.1 {status}")), "{path}: {head}");
+    }
+    for socket in ["live", "language"] {
+        assert_eq!(server.socket(socket, "http://evil.example").err(), Some(403));
+        assert!(server.socket(socket, &format!("http://{}", server.host())).is_ok());
+    }
+}
+
+#[test]
+fn nothing_outside_of_the_folder_is_read_or_written() {
+    let (folder, server) = served();
+    let mut page = server.page();
+    for path in ["../secret.nb", "/etc/passwd", "inner/../../secret.nb"] {
+        let refused = page.ask(json!({ "do": "read", "path": path })).unwrap_err();
+        assert!(refused["message"].as_str().unwrap().ends_with("it is outside of the served folder"), "{refused}");
+    }
+    let refused = page.ask(json!({ "do": "save", "path": "../new.nb", "text": "", "stamp": null })).unwrap_err();
+    assert!(refused["message"].as_str().unwrap().contains("outside"), "{refused}");
+    assert!(!folder.path().join("new.nb").exists());
+    let text = "use \"../secret.nb\"";
+    let program = page.done(json!({ "do": "program", "path": "a.nb", "text": text }));
+    assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("outside"), "{program}");
+}
+
+#[test]
+fn a_page_that_sends_too_much_is_disconnected_and_others_go_on() {
+    let (_folder, server) = served();
+    let mut other = server.page();
+    let mut large = server.page();
+    // The server may close before all is written.
+    let _ = large.socket.send(Message::text("x".repeat(2 << 20)));
+    assert!((0..10).any(|_| large.socket.read().is_err()));
+    let mut many = server.page();
+    let request = Message::text(json!({ "id": 1, "do": "reset" }).to_string());
+    let flooded = (0..20_000).any(|_| {
+        many.socket.send(request.clone()).is_err() || { matches!(many.socket.read(), Err(_) | Ok(Message::Close(_))) }
+    });
+    assert!(flooded);
+    assert_eq!(other.done(json!({ "do": "files" })).as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn work_is_limited_and_can_be_stopped() {
+    let (_folder, server) = served();
+    let mut page = server.page();
+    let evolve = json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
+    let running: Vec<u64> = (0..4).map(|_| page.begin(evolve.clone())).collect();
+    let refused = page.ask(evolve).unwrap_err();
+    assert_eq!(refused["code"], "busy");
+    for id in running {
+        page.done(json!({ "do": "cancel", "of": id }));
+        assert_eq!(page.wait(id).unwrap_err()["code"], "cancelled");
+    }
+    page.compile("latch.nb", LATCH);
+}
+
+#[test]
+fn the_language_server_works_in_the_folder() {
+    let (_folder, server) = served();
+    let mut socket = server.socket("language", &format!("http://{}", server.host())).unwrap();
+    let mut send = |message: Value| socket.send(Message::text(message.to_string())).unwrap();
+    send(
+        json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": { "capabilities": {}, "rootUri": "file:///" } }),
+    );
+    send(json!({ "jsonrpc": "2.0", "method": "initialized", "params": {} }));
+    let document =
+        json!({ "uri": "file:///a.nb", "languageId": "nb", "version": 1, "text": "circuit a(x) -> (y) { y = z }" });
+    send(json!({ "jsonrpc": "2.0", "method": "textDocument/didOpen", "params": { "textDocument": document } }));
+    send(json!({ "jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": { "query": "" } }));
+    let mut found = (None, None);
+    while found.0.is_none() || found.1.is_none() {
+        let Message::Text(text) = socket.read().unwrap() else { continue };
+        let value: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["jsonrpc"], "2.0");
+        if value["method"] == "textDocument/publishDiagnostics" {
+            found.0 = Some(value["params"]["diagnostics"][0]["message"].clone());
+        } else if value["id"] == 2 {
+            found.1 = Some(value["result"].clone());
+        }
+    }
+    assert!(found.0.unwrap().as_str().unwrap().starts_with("no net is called `z`"));
+    let symbols = found.1.unwrap().to_string();
+    assert!(symbols.contains("d_latch") && !symbols.contains("secret"), "{symbols}");
+}
