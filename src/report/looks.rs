@@ -135,9 +135,9 @@ impl Looks {
         self.materials.iter().position(|(known, _)| known == material).expect("the picture knows its palettes")
     }
 
-    /// All looks.
-    pub fn all(&self) -> impl Iterator<Item = Look> {
-        self.materials.iter().map(|(_, look)| *look)
+    /// All materials with their looks.
+    pub fn all(&self) -> impl Iterator<Item = (&Material, Look)> {
+        self.materials.iter().map(|(material, look)| (material, *look))
     }
 
     /// The materials that occur in these bodies with their legends, in order of their looks.

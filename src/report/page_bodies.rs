@@ -3,17 +3,19 @@
 use serde_json::{Value, json};
 
 use crate::diag::counted;
-use crate::model::Body;
+use crate::model::{Body, Material};
 use crate::report::looks::{Look, Looks, material_words};
 use crate::swarm::{Assembly, Member, Recorded, RobotTrace, StimulusSource, SwarmTrace};
 
 /// How voxels look, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {
-    let data = |Look { color, mark }: Look| match mark {
-        None => json!({ "color": color.to_string() }),
-        Some(mark) => {
-            json!({ "color": color.to_string(), "ink": mark.ink.to_string(), "mark": mark.polygons })
+    let data = |(material, Look { color, mark }): (&Material, Look)| {
+        let mut data = json!({ "name": material.name, "color": color.to_string() });
+        if let Some(mark) = mark {
+            data["ink"] = json!(mark.ink.to_string());
+            data["mark"] = json!(mark.polygons);
         }
+        data
     };
     looks.all().map(data).collect()
 }

@@ -38,7 +38,7 @@ impl Swatches {
             colors.extend(partners.iter().flat_map(|&other| [0.25, 0.5, 0.75].map(|share| color.mix(other, share))));
         }
         colors.extend((0..=15).map(|level| Color::new(level * 17, level * 17, level * 17)));
-        let beyond: Vec<Look> = looks.all().filter(|look| look.mark.is_some()).collect();
+        let beyond: Vec<Look> = looks.all().map(|(_, look)| look).filter(|look| look.mark.is_some()).collect();
         // The fewer steps, the more room for the looks of materials beyond the paper's.
         let steps: &[u8] = if beyond.is_empty() { &[0, 63, 127, 191, 255] } else { &[0, 85, 170, 255] };
         let cube = steps
@@ -50,7 +50,7 @@ impl Swatches {
             colors.extend(mark.map(|mark| mark.ink));
         }
         let mut seen = BTreeSet::new();
-        colors.retain(|&color| looks.all().all(|look| look.mark.is_none()) || seen.insert(color));
+        colors.retain(|&color| looks.all().all(|(_, look)| look.mark.is_none()) || seen.insert(color));
         colors.truncate(usize::from(UNCHANGED));
         let of_key = |key: usize| Color::new(wide(key >> 10), wide(key >> 5), wide(key));
         let mut nearest: Vec<u8> = (0..1 << 15).map(|key| nearest(&colors, of_key(key)) as u8).collect();

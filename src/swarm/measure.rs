@@ -6,7 +6,7 @@ use crate::swarm::characterize::characterize;
 use crate::swarm::evaluate::{fixed_displacements, fixed_trials};
 
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
-const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
+pub const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
 
 /// The measurements of a body.
 #[derive(Clone, Debug, PartialEq)]

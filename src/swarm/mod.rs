@@ -27,7 +27,7 @@ pub use characterize::{characterize, screen};
 pub use evaluate::{evaluate, evaluate_bodies, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, STEADY_CYCLES, judge_logic, judge_swarm};
 pub use live::{LiveSwarm, SwarmSnapshot, setting};
-pub use measure::{Measurement, measure};
+pub use measure::{FIXED_STEPS, Measurement, measure};
 pub use recording::{Recorded, Recording, Room};
 pub use selection::{Nominee, Selected, Selection};
 pub use settling::Settling;

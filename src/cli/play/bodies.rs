@@ -4,15 +4,17 @@ use serde_json::{Value, json};
 
 use crate::circuit::formats::is_word;
 use crate::cli::play::history::FRAMES;
-use crate::cli::play::jobs::Ended;
+use crate::cli::play::jobs::{Ended, Job};
 use crate::cli::play::refusal::Refused;
 use crate::evolve;
-use crate::model::{Body, CYCLE_STEPS, Character, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting};
+use crate::model::{
+    Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,
+};
 use crate::report::{self, Looks, Scheme, Stage, describe_material};
 use crate::session::{Checked, CompileOptions, Session};
 use crate::sim::Simulator;
 use crate::store;
-use crate::swarm::{Recorded, measure};
+use crate::swarm::{FIXED_STEPS, Recorded, fixed_displacements, fixed_trials, measure};
 
 /// The largest side of a body that is simulated for a page.
 const MOST_SIDE: usize = 20;
@@ -97,24 +99,38 @@ fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
 ///
 /// # Errors
 /// When it cannot be simulated.
-pub(super) fn probe(rows: &[String], cycles: u32) -> Ended {
+pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> Ended {
     let body = body(rows)?;
     let cycles = cycles.clamp(1, MOST_CYCLES);
     let gaits: Vec<Recorded> =
         Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
-    let measured = measure(&Simulator::default(), &body).map_err(Refused::fault)?;
+    job.check()?;
+    let (displacement, behavior, character) = measured(&body, is_whole, job)?;
     let looks = Looks::of([&body], Scheme::default());
     let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
     Ok(Some(json!({
         "gaits": gaits.iter().map(gait).collect::<Vec<_>>(),
-        "letters": measured.behavior.to_string(),
-        "function": measured.behavior.function().name(),
-        "displacement": measured.displacement,
-        "character": character(&measured.character),
+        "letters": behavior.to_string(),
+        "function": behavior.function().name(),
+        "displacement": displacement,
+        "character": character,
         "points": gaits[0].points,
         "voxels": report::voxel_data(&gaits[0], &body, &looks),
         "looks": report::look_data(&looks),
     })))
+}
+
+/// Displacements and behavior of a body, and its character if it is asked for, which takes longer.
+fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Value>), Refused> {
+    let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
+    if is_whole {
+        let found = measure(&job.simulator(), body).map_err(stopped)?;
+        return Ok((found.displacement, found.behavior, Some(character(&found.character))));
+    }
+    let trajectories = job.simulator().run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
+    let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
+    let displacement = fixed_displacements(four).map_err(stopped)?;
+    Ok((displacement, Behavior::of(&displacement), None))
 }
 
 fn character(character: &Character) -> Value {

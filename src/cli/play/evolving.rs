@@ -1,6 +1,7 @@
 //! A search for gates around a body, shown while it runs.
 
 use rand::RngExt;
+use rayon::ThreadPool;
 use serde_json::{Value, json};
 
 use crate::cli::play::bodies;
@@ -25,7 +26,7 @@ const BATCH: u32 = 16;
 ///
 /// # Errors
 /// When the body is not one, or the box is too small or too large.
-pub(super) fn evolve(request: &EvolveRequest, job: &mut Job) -> Ended {
+pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut Job) -> Ended {
     let start = request.body.as_deref().map(bodies::body).transpose()?;
     let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
     if !SIDES.contains(&width) || !SIDES.contains(&height) {
@@ -38,7 +39,8 @@ pub(super) fn evolve(request: &EvolveRequest, job: &mut Job) -> Ended {
         if job.is_cancelled() {
             break;
         }
-        let changed = tending.advance(generation, start.as_ref());
+        let simulator = job.simulator();
+        let changed = background.install(|| tending.advance(&simulator, generation, start.as_ref()));
         job.outbox.tell(&tending.event(job.id, generation + 1, &changed));
         job.progress(u64::from(generation) + 1, u64::from(generations));
     }
@@ -68,9 +70,9 @@ struct Tending {
 
 impl Tending {
     /// Does a generation, and returns the niches that have changed.
-    fn advance(&mut self, generation: u32, start: Option<&Body>) -> Vec<NicheKey> {
+    fn advance(&mut self, simulator: &Simulator, generation: u32, start: Option<&Body>) -> Vec<NicheKey> {
         let bodies = self.candidates(generation, start);
-        let outcomes = evaluate_bodies(&Simulator::default(), &self.evolution, bodies.clone());
+        let outcomes = evaluate_bodies(simulator, &self.evolution, bodies.clone());
         let before: Vec<(NicheKey, [f64; 2])> = self.best().map(|(key, elite)| (key.clone(), elite.fitness)).collect();
         for (body, outcome) in bodies.into_iter().zip(outcomes) {
             self.evaluations += 1;

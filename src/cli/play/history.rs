@@ -48,14 +48,16 @@ pub(super) struct History {
     log: VecDeque<LoggedCycle>,
     /// Cycles from snapshot to snapshot.
     spacing: u32,
+    /// Cycles that can be gone back.
+    memory: u32,
 }
 
 impl History {
-    /// The history of a swarm at its start.
-    pub(super) fn new(start: &LiveSwarm) -> Self {
+    /// The history of a swarm at its start, which will remember at least that many cycles.
+    pub(super) fn new(start: &LiveSwarm, memory: u32) -> Self {
         let points: usize = start.trace().recording.robots.iter().map(|robot| robot.points).sum();
-        let all = (MEMORY as usize * points * POINT).div_ceil(ROOM);
-        Self { marks: [(0, start.snapshot())].into(), log: VecDeque::new(), spacing: all.max(1) as u32 }
+        let all = (memory as usize * points * POINT).div_ceil(ROOM);
+        Self { marks: [(0, start.snapshot())].into(), log: VecDeque::new(), spacing: all.max(1) as u32, memory }
     }
 
     /// The cycle of the first snapshot.
@@ -101,7 +103,7 @@ impl History {
         if cycle.is_multiple_of(self.spacing) {
             self.marks.push_back((cycle, swarm.snapshot()));
         }
-        while self.marks.len() > 1 && self.marks[1].0 + MEMORY <= cycle {
+        while self.marks.len() > 1 && self.marks[1].0 + self.memory <= cycle {
             let past = self.marks[1].0 - self.marks[0].0;
             self.marks.pop_front();
             self.log.drain(..past as usize);
@@ -141,3 +143,57 @@ impl Poses {
 
 /// Poses in one cycle of a live swarm.
 pub(super) const FRAMES: u32 = CYCLE_STEPS / 7;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::{Choice, CompileOptions, Session};
+    use crate::source::MemoryWorld;
+    use crate::swarm::Room;
+
+    fn swarm() -> LiveSwarm {
+        let mut session = Session::new(MemoryWorld::default()).with_poses(Room::LIVE);
+        session.update("n.nb", 1, "circuit n(a) -> (b) { b = not a }");
+        let checked = session.open("n.nb").unwrap();
+        let circuit = checked.circuit(&Choice::default()).unwrap();
+        let compiled = session.compile(&checked, &circuit, &CompileOptions::default()).unwrap();
+        session.swarm(&compiled)
+    }
+
+    fn step(swarm: &mut LiveSwarm, history: &mut History, input: bool) {
+        swarm.step(&[input]);
+        let logged = LoggedCycle::last_of(swarm);
+        swarm.forget();
+        history.push(swarm.cycles() as u32, logged, swarm);
+    }
+
+    #[test]
+    fn the_last_cycles_are_remembered_and_earlier_ones_forgotten() {
+        let mut swarm = swarm();
+        let mut history = History::new(&swarm, 4);
+        for cycle in 0..10 {
+            step(&mut swarm, &mut history, cycle % 2 == 0);
+        }
+        assert_eq!((history.earliest(), history.last()), (7, 10));
+        assert_eq!((history.marks.len(), history.log.len()), (5, 4));
+        assert_eq!(history.inputs(7, 10), [[false], [true], [false]]);
+        let (first, cycles) = history.after(8);
+        assert_eq!((first, cycles.len()), (9, 2));
+        let (first, cycles) = history.after(0);
+        assert_eq!((first, cycles.len()), (7, 4), "what is forgotten is left out");
+        assert_eq!(history.mark(8).0, 8);
+    }
+
+    #[test]
+    fn what_comes_after_a_cycle_that_is_done_again_is_forgotten() {
+        let mut swarm = swarm();
+        let mut history = History::new(&swarm, 100);
+        (0..6).for_each(|_| step(&mut swarm, &mut history, true));
+        let (at, mark) = history.mark(3);
+        assert_eq!(at, 3);
+        swarm.restore(&mark.clone());
+        step(&mut swarm, &mut history, false);
+        assert_eq!((history.last(), history.marks.len()), (4, 5));
+        assert_eq!(history.inputs(2, 4), [[true], [false]]);
+    }
+}

@@ -12,6 +12,7 @@ use crate::circuit::CancelFlag;
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::Refused;
 use crate::session::Observer;
+use crate::sim::{Monitor, Simulator};
 
 /// The most requests of a page that run at once.
 const MOST: usize = 4;
@@ -20,8 +21,22 @@ const TIME: Duration = Duration::from_secs(600);
 
 /// The requests of a page that run.
 pub(super) struct Jobs {
-    running: Arc<Mutex<BTreeMap<u64, (CancelFlag, Instant)>>>,
+    running: Arc<Mutex<BTreeMap<u64, Running>>>,
     outbox: Outbox,
+}
+
+/// How a request can be stopped.
+struct Running {
+    stop: CancelFlag,
+    monitor: Arc<Monitor>,
+    end: Instant,
+}
+
+impl Running {
+    fn stop(&self) {
+        self.stop.raise();
+        self.monitor.stop();
+    }
 }
 
 /// A request that runs: its progress, and whether it is to stop.
@@ -29,6 +44,7 @@ pub(super) struct Job {
     pub(super) id: u64,
     pub(super) outbox: Outbox,
     pub(super) stop: CancelFlag,
+    monitor: Arc<Monitor>,
     end: Instant,
     /// The percentage that was told last.
     told: u64,
@@ -44,16 +60,16 @@ impl Jobs {
 
     /// Starts a request.
     pub(super) fn start(&self, id: u64, work: impl FnOnce(&mut Job) -> Ended + Send + 'static) {
-        let (stop, end) = (CancelFlag::default(), Instant::now() + TIME);
+        let (stop, monitor, end) = (CancelFlag::default(), Arc::new(Monitor::default()), Instant::now() + TIME);
         {
             let mut running = lock(&self.running);
             if running.len() >= MOST {
                 return self.outbox.answer(id, Err(Refused::Busy { most: MOST }.into()));
             }
-            running.insert(id, (stop.clone(), end));
+            running.insert(id, Running { stop: stop.clone(), monitor: monitor.clone(), end });
         }
         let (running, outbox) = (self.running.clone(), self.outbox.clone());
-        let mut job = Job { id, outbox, stop, end, told: 0 };
+        let mut job = Job { id, outbox, stop, monitor, end, told: 0 };
         thread::spawn(move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
             lock(&running).remove(&id);
@@ -67,20 +83,20 @@ impl Jobs {
 
     /// Stops a request.
     pub(super) fn cancel(&self, id: u64) {
-        lock(&self.running).get(&id).into_iter().for_each(|(stop, _)| stop.raise());
+        lock(&self.running).get(&id).into_iter().for_each(Running::stop);
     }
 
     /// Stops the requests that take too long.
     pub(super) fn end_late(&self) {
         let now = Instant::now();
-        lock(&self.running).values().filter(|(_, end)| *end < now).for_each(|(stop, _)| stop.raise());
+        lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop);
     }
 }
 
 impl Drop for Jobs {
     /// Nobody waits for them any more.
     fn drop(&mut self) {
-        lock(&self.running).values().for_each(|(stop, _)| stop.raise());
+        lock(&self.running).values().for_each(Running::stop);
     }
 }
 
@@ -89,6 +105,11 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 }
 
 impl Job {
+    /// A simulator whose simulations end when it is stopped.
+    pub(super) fn simulator(&self) -> Simulator {
+        Simulator::monitored(self.monitor.clone())
+    }
+
     /// Ends it if it is to stop.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ pub(super) fn program(checked: &Checked) -> Value {
         .filter_map(|circuit| {
             let instance = checked.in_use(circuit)?;
             let swarms: Vec<&str> = checked.swarms(&instance).iter().map(|swarm| swarm.name.as_str()).collect();
-            let line = checked.sources.file(circuit.span.file).lines().line(circuit.span.start as usize);
+            let line = checked.sources.file(circuit.span.file).lines().line(circuit.span.start as usize) + 1;
             Some(json!({ "name": circuit.name, "circuit": instance.to_string(), "swarms": swarms, "line": line }))
         })
         .collect();

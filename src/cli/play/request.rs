@@ -34,7 +34,7 @@ pub(super) enum Verb {
     Seek { cycle: u32 },
     View { robots: Vec<usize> },
     Robots { path: Option<String> },
-    Probe { body: Vec<String>, cycles: u32 },
+    Probe { body: Vec<String>, cycles: u32, character: Option<bool> },
     Keep { name: String, body: Vec<String> },
     Evolve(EvolveRequest),
     Take { what: TakeKind, cycles: u32 },

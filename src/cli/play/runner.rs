@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::circuit::CancelFlag;
 use crate::cli::play::frame::Frame;
-use crate::cli::play::history::{FRAMES, History, LoggedCycle, Poses};
+use crate::cli::play::history::{FRAMES, History, LoggedCycle, MEMORY, Poses};
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::{Refusal, Refused};
 use crate::session::{Compiled, Excerpt, Session};
@@ -178,7 +178,7 @@ impl Shown {
         let robots = trace.robots.len();
         Self {
             number,
-            history: History::new(&swarm),
+            history: History::new(&swarm, MEMORY),
             start: swarm.snapshot(),
             inputs: vec![false; trace.inputs.iter().map(|port| port.width).sum()],
             clock: None,
@@ -270,7 +270,7 @@ impl Shown {
             Change::Inputs(bits) if bits.len() != self.inputs.len() => {
                 return Err(Refused::Bits { expected: self.inputs.len() });
             }
-            Change::Inputs(bits) => self.inputs = bits,
+            Change::Inputs(bits) => self.set_inputs(bits),
             Change::Clock { bit, .. } if bit >= self.inputs.len() => {
                 return Err(Refused::Bits { expected: self.inputs.len() });
             }
@@ -291,6 +291,15 @@ impl Shown {
         Ok(())
     }
 
+    /// Sets the inputs, but for one that changes by itself.
+    fn set_inputs(&mut self, bits: Vec<bool>) {
+        let kept = self.clock.map(|(bit, ..)| (bit, self.inputs[bit]));
+        self.inputs = bits;
+        if let Some((bit, value)) = kept {
+            self.inputs[bit] = value;
+        }
+    }
+
     fn set_pace(&mut self, speed: Option<f64>, left: Option<u32>) {
         let speed = speed.filter(|speed| speed.is_finite()).map(|speed| speed.clamp(0.01, 10_000.0));
         self.pace = Some(Pace { speed, left, next: Instant::now() });
@@ -307,7 +316,7 @@ impl Shown {
     fn reset(&mut self) {
         self.set_paused();
         self.swarm.restore(&self.start);
-        self.history = History::new(&self.swarm);
+        self.history = History::new(&self.swarm, MEMORY);
         self.poses = Poses::of(&self.swarm);
         self.clock = self.clock.map(|(bit, half, _)| (bit, half, 0));
         self.sent = 0;

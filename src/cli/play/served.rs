@@ -4,6 +4,7 @@ use std::net::IpAddr;
 use std::sync::Arc;
 
 use axum::http::{HeaderMap, header};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use tokio::sync::Semaphore;
 
 use crate::cli::play::page::Page;
@@ -30,11 +31,15 @@ pub(super) struct Served {
     pub(super) page: Page,
     pub(super) takes: Takes,
     pub(super) sockets: Arc<Semaphore>,
+    /// Threads for searches and measurements, so that swarms never wait for these.
+    pub(super) background: ThreadPool,
 }
 
 impl Served {
     pub(super) fn new(world: FolderWorld, root: String, file: Option<String>, token: String) -> Self {
         let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let background = ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
         Self {
             world,
             root,
@@ -45,6 +50,7 @@ impl Served {
             page: Page::default(),
             takes: Takes::default(),
             sockets,
+            background: background.expect("the system has threads"),
         }
     }
 

@@ -15,7 +15,7 @@ use crate::cli::play::served::{MOST_BYTES, Served};
 use crate::cli::play::{language, live};
 
 /// What a page may load and do: only what comes from here.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: \
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: \
                       blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
 

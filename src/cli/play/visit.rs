@@ -13,7 +13,7 @@ use crate::cli::play::history::MEMORY;
 use crate::cli::play::jobs::{Ended, Job, Jobs};
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::{Refusal, Refused};
-use crate::cli::play::request::{EvolveRequest, Request, TakeKind, Verb};
+use crate::cli::play::request::{Request, TakeKind, Verb};
 use crate::cli::play::runner::{self, SwarmOrder};
 use crate::cli::play::served::{MOST_BYTES, Served};
 use crate::cli::play::{bodies, evolving, programs, taking};
@@ -134,8 +134,15 @@ impl Visit {
                 let session = self.fresh();
                 Ok(boxed(move |_| bodies::robots(&session, checked.as_deref()).map(Some)))
             }
-            Verb::Probe { body, cycles } => Ok(boxed(move |_| bodies::probe(&body, cycles))),
-            Verb::Evolve(request) => Ok(evolve(request)),
+            Verb::Probe { body, cycles, character } => {
+                let served = self.served.clone();
+                let is_whole = character.unwrap_or(true);
+                Ok(boxed(move |job| served.background.install(|| bodies::probe(&body, cycles, is_whole, job))))
+            }
+            Verb::Evolve(request) => {
+                let served = self.served.clone();
+                Ok(boxed(move |job| evolving::evolve(&request, &served.background, job)))
+            }
             Verb::Take { what, cycles } => Ok(self.take(what, cycles)),
             other => unreachable!("{other:?} is answered at once"),
         };
@@ -231,8 +238,4 @@ type Work = Box<dyn FnOnce(&mut Job) -> Ended + Send>;
 
 fn boxed(work: impl FnOnce(&mut Job) -> Ended + Send + 'static) -> Work {
     Box::new(work)
-}
-
-fn evolve(request: EvolveRequest) -> Work {
-    boxed(move |job| evolving::evolve(&request, job))
 }
