@@ -1,0 +1,62 @@
+// Bundles the page into dist/, with the licenses of the packages in it; with --tests, the unit tests into build/unit/.
+// The bytes depend only on the sources and the locked packages, so that they can be committed and compared.
+
+import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+import { build } from "esbuild";
+
+process.chdir(path.dirname(fileURLToPath(import.meta.url)));
+
+const common = { bundle: true, logLevel: "warning", charset: "utf8", sourcemap: false };
+
+async function page() {
+  rmSync("dist", { recursive: true, force: true });
+  mkdirSync("dist");
+  const script = await build({
+    ...common,
+    entryPoints: ["src/main.ts"],
+    outfile: "dist/app.js",
+    format: "iife",
+    platform: "browser",
+    target: "es2022",
+    minify: true,
+    legalComments: "none",
+    metafile: true,
+  });
+  await build({ ...common, entryPoints: ["src/style/app.css"], outfile: "dist/app.css", minify: true });
+  writeFileSync("dist/index.html", readFileSync("src/index.html"));
+  writeFileSync("dist/NOTICES.txt", notices(Object.keys(script.metafile.inputs)));
+}
+
+/** The licenses of the packages of which files are in the bundle. */
+function notices(files) {
+  const folders = files.map(file => /^(.*node_modules\/(?:@[^/]+\/)?[^/]+)\//.exec(file)?.[1]);
+  const packages = [...new Set(folders.filter(folder => folder !== undefined))].sort();
+  const sections = packages.map(folder => {
+    const { name, version, license } = JSON.parse(readFileSync(path.join(folder, "package.json"), "utf8"));
+    const text = readdirSync(folder).sort().find(file => /^licen[cs]e/i.test(file));
+    if (text === undefined) {
+      throw new Error(`${name} has no text of its license`);
+    }
+    return `${name} ${version} (${license})\n\n${readFileSync(path.join(folder, text), "utf8").trim()}\n`;
+  });
+  return `Packages that are part of this page, with their licenses.\n\n${sections.join("\n----\n\n")}`;
+}
+
+async function unitTests() {
+  rmSync("build/unit", { recursive: true, force: true });
+  const files = readdirSync("unit").filter(file => file.endsWith(".test.ts")).sort();
+  await build({
+    ...common,
+    entryPoints: files.map(file => `unit/${file}`),
+    outdir: "build/unit",
+    format: "esm",
+    platform: "node",
+    target: "node20",
+    outExtension: { ".js": ".mjs" },
+  });
+}
+
+await (process.argv.includes("--tests") ? unitTests() : page());

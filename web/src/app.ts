@@ -1,0 +1,120 @@
+// The page as a whole: its parts, and what happens when the server is found, lost and found again.
+
+import { Connection, socketAddress, type ConnectionState } from "./connection";
+import { EditPanel } from "./editor/panel";
+import { LanguageServer } from "./editor/server";
+import { Header } from "./header";
+import { Layout } from "./layout";
+import { LearnPanel } from "./learn/panel";
+import { SwarmPanel } from "./live/panel";
+import { LiveSwarm } from "./live/swarm";
+import { Program, type Origin } from "./program";
+import type { Hello } from "./protocol";
+import { RobotsPanel } from "./robots/panel";
+import { TakeAway } from "./take";
+import { TestsPanel } from "./tests/panel";
+import { prefersStillness } from "./theme";
+
+const LATCH = "latch";
+
+export class App {
+  readonly #connection = new Connection(socketAddress("live"));
+  readonly #language = new LanguageServer(socketAddress("language"));
+  readonly #swarm = new LiveSwarm(this.#connection);
+  readonly #program = new Program(this.#connection, this.#swarm);
+  readonly #edit = new EditPanel(this.#connection, this.#program, this.#language);
+  readonly #header = new Header();
+  readonly #layout: Layout;
+  #begun = false;
+
+  constructor() {
+    const take = new TakeAway(this.#connection, this.#program, this.#swarm);
+    const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
+    const reveal = (line: number): void => this.#edit.editor.reveal(line);
+    const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () => this.#layout.show("swarm"));
+    const robots = new RobotsPanel(this.#connection, this.#program, line => this.#edit.editor.insertAtTop(line));
+    const learn = new LearnPanel(
+      { program: this.#program, swarm: this.#swarm, tests, robots },
+      { open: (path, text) => this.#edit.begin(path, text), show: tab => this.#layout.show(tab) },
+    );
+    this.#layout = new Layout(this.#header.host, this.#edit.host, [
+      { name: "swarm", label: "Swarm", panel: swarm.host },
+      { name: "tests", label: "Tests", panel: tests.host },
+      { name: "robots", label: "Robots", panel: robots.host },
+      { name: "learn", label: "Learn", panel: learn.host },
+    ]);
+    this.#layout.tab.follow(tab => {
+      robots.shown(tab === "robots");
+      swarm.wake();
+    });
+    this.#program.plays = !prefersStillness();
+    this.#bindKeys(swarm);
+  }
+
+  start(): void {
+    document.body.append(this.#layout.host);
+    this.#connection.state.on(state => this.#connected(state));
+    this.#connection.open();
+  }
+
+  async #connected(state: ConnectionState): Promise<void> {
+    this.#header.showConnection(state);
+    if (state !== "open") {
+      return;
+    }
+    const hello = await this.#connection.request("hello", {});
+    this.#program.hello = hello;
+    this.#header.showFolder(hello);
+    this.#language.connect(hello.root);
+    if (this.#begun) {
+      this.#program.restore();
+    } else {
+      this.#begun = true;
+      await this.#openFirst(hello);
+    }
+  }
+
+  /** The program of the address, else that of the command line, else the latch. */
+  async #openFirst(hello: Hello): Promise<void> {
+    const named = decodeURI(location.hash.slice(1));
+    const drafted = named !== "" ? this.#program.draftAlone(named) : null;
+    const origins: Origin[] = [
+      ...(named === "" ? [] : [{ path: named }, { example: named }]),
+      ...(hello.file === null ? [] : [{ path: hello.file }]),
+      { example: exampleNamed(hello, LATCH) },
+    ];
+    for (const origin of origins) {
+      const isNamed = "path" in origin && origin.path === named;
+      if (isNamed && drafted !== null && !hello.files.some(file => file.path === named)) {
+        this.#edit.begin(named, drafted);
+        return;
+      }
+      if (await this.#edit.open(origin)) {
+        return;
+      }
+    }
+  }
+
+  /** Space plays and pauses, and a period is one cycle, wherever nothing else takes these keys. */
+  #bindKeys(swarm: SwarmPanel): void {
+    addEventListener("keydown", event => {
+      const target = event.composedPath()[0] as HTMLElement;
+      const busy = target.closest?.("input, select, button, summary, [contenteditable], [role=button], dialog") !== null;
+      if (busy || this.#layout.tab.value !== "swarm" || event.ctrlKey || event.metaKey || event.altKey) {
+        return;
+      }
+      if (event.key === " ") {
+        event.preventDefault();
+        swarm.controls.toggle();
+      } else if (event.key === ".") {
+        this.#swarm.step();
+      }
+    });
+  }
+}
+
+/** The example with this in its name, else the first. */
+function exampleNamed(hello: Hello, word: string): string {
+  const found = hello.examples.find(example => example.name.replace(/\.nb$/, "").endsWith(word)) ?? hello.examples[0];
+  return found?.name ?? word;
+}

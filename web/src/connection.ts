@@ -1,0 +1,125 @@
+// The socket for everything but the language server: requests with their answers, events and frames.
+
+import { Observable } from "./observable";
+import { RequestError, type LiveEvent, type Verb, type Verbs } from "./protocol";
+
+export type ConnectionState = "connecting" | "open" | "lost";
+
+export interface RequestOptions {
+  progress?: (done: number, all: number) => void;
+  signal?: AbortSignal;
+  /** Called with the number of the request, to which events may refer. */
+  started?: (id: number) => void;
+}
+
+interface Pending extends RequestOptions {
+  resolve: (result: never) => void;
+  reject: (error: Error) => void;
+}
+
+/** The code of the error that requests end with when the server is lost. */
+export const LOST = "lost";
+export const CANCELLED = "cancelled";
+
+const FIRST_WAIT = 250;
+const LONGEST_WAIT = 4000;
+
+export class Connection {
+  readonly state = new Observable<ConnectionState>("connecting");
+  readonly events = new Observable<LiveEvent | null>(null);
+  /** Receives each frame. */
+  onframe: (buffer: ArrayBuffer) => void = () => {};
+  #socket: WebSocket | null = null;
+  #pending = new Map<number, Pending>();
+  #next = 1;
+  #wait = FIRST_WAIT;
+  #timer = 0;
+
+  constructor(private readonly address: URL) {}
+
+  open(): void {
+    clearTimeout(this.#timer);
+    const socket = new WebSocket(this.address);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.#wait = FIRST_WAIT;
+      this.state.set("open");
+    };
+    socket.onmessage = message => this.#receive(message.data as string | ArrayBuffer);
+    socket.onclose = () => this.#lose();
+    this.#socket = socket;
+  }
+
+  request<V extends Verb>(verb: V, fields: Verbs[V][0], options: RequestOptions = {}): Promise<Verbs[V][1]> {
+    const id = this.#next++;
+    return new Promise((resolve, reject) => {
+      if (this.#socket?.readyState !== WebSocket.OPEN) {
+        reject(new RequestError("the connection to the program is lost", LOST, null, []));
+        return;
+      }
+      this.#pending.set(id, { ...options, resolve: resolve as (result: never) => void, reject });
+      options.signal?.addEventListener("abort", () => this.#cancel(id));
+      this.#send({ id, do: verb, ...fields });
+      options.started?.(id);
+    });
+  }
+
+  /** Sends what has no answer worth waiting for; after a loss the state is restored anyway. */
+  tell<V extends Verb>(verb: V, fields: Verbs[V][0]): void {
+    this.request(verb, fields).catch(() => {});
+  }
+
+  #send(message: object): void {
+    this.#socket?.send(JSON.stringify(message));
+  }
+
+  #cancel(id: number): void {
+    if (this.#pending.has(id) && this.#socket?.readyState === WebSocket.OPEN) {
+      this.#send({ id: this.#next++, do: "cancel", of: id });
+    }
+  }
+
+  #receive(data: string | ArrayBuffer): void {
+    if (typeof data !== "string") {
+      this.onframe(data);
+      return;
+    }
+    const message = JSON.parse(data);
+    if (message.event !== undefined) {
+      this.events.set(message as LiveEvent);
+    } else if (message.progress !== undefined) {
+      this.#pending.get(message.id)?.progress?.(message.progress[0], message.progress[1]);
+    } else {
+      this.#answer(message);
+    }
+  }
+
+  #answer(message: { id: number; ok?: never; error?: Partial<RequestError> }): void {
+    const pending = this.#pending.get(message.id);
+    this.#pending.delete(message.id);
+    if (message.error === undefined) {
+      pending?.resolve(message.ok as never);
+      return;
+    }
+    const { message: text = "", code = null, help = null, diagnostics = [] } = message.error;
+    pending?.reject(new RequestError(text, code, help, diagnostics));
+  }
+
+  #lose(): void {
+    const pending = [...this.#pending.values()];
+    this.#pending.clear();
+    for (const { reject } of pending) {
+      reject(new RequestError("the connection to the program is lost", LOST, null, []));
+    }
+    this.state.set("lost");
+    this.#timer = window.setTimeout(() => this.open(), this.#wait);
+    this.#wait = Math.min(LONGEST_WAIT, this.#wait * 2);
+  }
+}
+
+/** An address beside the page, as a socket's. */
+export function socketAddress(name: string): URL {
+  const address = new URL(name, document.baseURI);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  return address;
+}

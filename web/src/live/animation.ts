@@ -1,0 +1,53 @@
+// Draws the views of a swarm once a screen frame while something moves, and not at all while nothing does.
+
+import { prefersStillness } from "../theme";
+import type { LiveSwarm } from "./swarm";
+
+export interface View {
+  /** Draws the shown moment. */
+  draw(): void;
+}
+
+/** Longer pauses, as of a hidden tab, do not count as time. */
+const LONGEST_STEP = 0.1;
+
+export class Animation {
+  readonly #views: View[] = [];
+  #asked = 0;
+  #before = 0;
+
+  constructor(private readonly swarm: LiveSwarm) {
+    swarm.frame.on(() => this.wake());
+    document.addEventListener("visibilitychange", () => this.wake());
+  }
+
+  add(view: View): void {
+    this.#views.push(view);
+    this.wake();
+  }
+
+  /** Draws at the next screen frame. */
+  wake(): void {
+    if (this.#asked === 0) {
+      this.#asked = requestAnimationFrame(time => this.#frame(time));
+    }
+  }
+
+  #frame(time: number): void {
+    this.#asked = 0;
+    const { playback } = this.swarm;
+    const seconds = Math.min(LONGEST_STEP, Math.max(0, (time - this.#before) / 1000));
+    this.#before = time;
+    if (prefersStillness()) {
+      playback.finish();
+    } else {
+      playback.advance(seconds);
+    }
+    for (const view of this.#views) {
+      view.draw();
+    }
+    if (playback.moving) {
+      this.wake();
+    }
+  }
+}

@@ -1,0 +1,90 @@
+// The clock of a circuit, by hand or by itself.
+
+import { button, element, fill } from "../element";
+import { bitsOf, type PortBit } from "../ports";
+import { closeOutside } from "../menu";
+import type { LiveSwarm } from "./swarm";
+
+/** The clock: one pulse by hand, or changes by themselves. */
+export class ClockPanel {
+  readonly host = element("div", { class: "clock", role: "group", "aria-label": "Clock" });
+  #pulse: (() => void) | null = null;
+  #unfollow: () => void = () => {};
+
+  constructor(private readonly swarm: LiveSwarm) {
+    swarm.definition.on(() => this.#build());
+  }
+
+  #build(): void {
+    const definition = this.swarm.definition.value;
+    const bits = bitsOf(definition?.inputs ?? []).filter(bit => bit.port.width === 1);
+    this.#pulse?.();
+    this.host.hidden = bits.length === 0;
+    if (definition === null || bits.length === 0) {
+      return;
+    }
+    const named = bits.find(bit => /^(clk|clock|ck|cp)$/i.test(bit.name));
+    const likely = named ?? (bits[0] as PortBit);
+    const which = element(
+      "select",
+      { "aria-label": "The input that is the clock", onchange: () => this.#apply(which, half, this.swarm.clock.value !== null) },
+      ...bits.map(bit => element("option", { value: bit.index, selected: bit === likely }, bit.name)),
+    );
+    const half = element("input", {
+      type: "number", min: 1, max: 999, value: Math.max(2, definition.hold ?? 4),
+      "aria-label": "Cycles between two changes of the clock",
+      onchange: () => this.#apply(which, half, this.swarm.clock.value !== null),
+    });
+    const automatic = element("button", {
+      type: "button", class: "toggle", "data-do": "clock",
+      title: "Let this input change by itself",
+      onclick: () => this.#apply(which, half, this.swarm.clock.value === null),
+    });
+    this.#unfollow();
+    this.#unfollow = this.swarm.clock.follow(clock => {
+      automatic.textContent = clock === null ? "Start clock" : "Stop clock";
+      automatic.setAttribute("aria-pressed", String(clock !== null));
+    });
+    const pulse = button("Pulse", () => this.#press(Number(which.value), Number(half.value)), {
+      title: "Set the input to 1 for half a period, then to 0", "data-do": "pulse",
+    });
+    const parts = [which, pulse, automatic, element("label", { class: "half" }, "every ", half, " cycles")];
+    if (named !== undefined) {
+      fill(this.host, element("span", { class: "caption" }, "Clock"), ...parts);
+      return;
+    }
+    const menu = element("details", { class: "menu" }, element("summary", {}, "Clock"), element("div", { class: "sheet row" }, ...parts));
+    closeOutside(menu);
+    fill(this.host, menu);
+  }
+
+  #apply(which: HTMLSelectElement, half: HTMLInputElement, on: boolean): void {
+    const cycles = Math.max(1, Math.round(Number(half.value)) || 1);
+    this.swarm.setClock(on ? { bit: Number(which.value), half: cycles } : null);
+  }
+
+  /** Raises the input, and lowers it again when half a period has passed. */
+  #press(bit: number, half: number): void {
+    const { swarm } = this;
+    const start = swarm.frame.value?.now ?? 0;
+    this.#pulse?.();
+    swarm.setClock(null);
+    swarm.setBit(bit, 1);
+    if (!swarm.running.value) {
+      swarm.step(half);
+    }
+    const stop = swarm.frame.on(frame => {
+      if (frame !== null && (frame.now >= start + half || frame.now < start)) {
+        this.#pulse?.();
+        swarm.setBit(bit, 0);
+        if (!frame.running) {
+          swarm.step(half);
+        }
+      }
+    });
+    this.#pulse = () => {
+      stop();
+      this.#pulse = null;
+    };
+  }
+}

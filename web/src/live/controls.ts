@@ -1,0 +1,85 @@
+// Play, pause, step, reset, the speed, and the slider that rewinds.
+
+import { changeIcon, element, iconButton } from "../element";
+import type { View } from "./animation";
+import { REAL_TIME, type LiveSwarm } from "./swarm";
+
+/** Speeds as multiples of real time; null is as fast as possible. */
+export const SPEEDS: [string, number | null][] = [
+  ["¼×", 0.25], ["1×", 1], ["2×", 2], ["4×", 4], ["16×", 16], ["max", null],
+];
+
+export class Controls implements View {
+  readonly host = element("div", { class: "controls", role: "group", "aria-label": "Run" });
+  readonly #play = iconButton("play", "Play", () => this.toggle(), { class: "icon primary", "data-do": "play" });
+  readonly #slider = element("input", {
+    type: "range", min: 0, max: 0, value: 0, class: "rewind", "aria-label": "Rewind to a cycle", title: "Rewind",
+    oninput: () => this.#rewind(),
+  });
+  readonly #cycle = element("output", { class: "cycle", title: "The cycle that is shown, and the last one" });
+  readonly #rate = element("output", { class: "rate", title: "Cycles simulated in a second" });
+  #asked: number | null = null;
+
+  constructor(private readonly swarm: LiveSwarm) {
+    this.host.append(
+      iconButton("reset", "Back to the start", () => swarm.reset(), { "data-do": "reset" }),
+      this.#play,
+      iconButton("step", "One cycle", () => swarm.step(), { "data-do": "step" }),
+      this.#speeds(),
+      this.#slider,
+      this.#cycle,
+      this.#rate,
+    );
+    swarm.running.follow(running => {
+      changeIcon(this.#play, running ? "pause" : "play", running ? "Pause" : "Play");
+      this.#play.dataset["running"] = String(running);
+    });
+    swarm.frame.on(() => this.draw());
+  }
+
+  toggle(): void {
+    if (this.swarm.running.value) {
+      this.swarm.pause();
+    } else {
+      this.swarm.play();
+    }
+  }
+
+  draw(): void {
+    const frame = this.swarm.frame.value;
+    if (frame === null) {
+      return;
+    }
+    if (this.#asked === frame.now || frame.running) {
+      this.#asked = null;
+    }
+    this.#slider.min = String(frame.first);
+    this.#slider.max = String(frame.last);
+    if (this.#asked === null) {
+      this.#slider.value = String(frame.now);
+    }
+    this.#cycle.textContent = frame.now === frame.last ? `cycle ${frame.now}` : `cycle ${frame.now} of ${frame.last}`;
+    this.#rate.textContent = frame.running ? `${frame.rate < 10 ? frame.rate.toFixed(1) : Math.round(frame.rate)} cycles/s` : "";
+  }
+
+  #rewind(): void {
+    this.#asked = Number(this.#slider.value);
+    this.swarm.seek(this.#asked);
+  }
+
+  #speeds(): HTMLElement {
+    return element(
+      "select",
+      {
+        class: "speed",
+        "aria-label": "Speed relative to real time",
+        title: "Speed; 1× is real time, four cycles a second",
+        onchange: event => {
+          const chosen = SPEEDS[(event.target as HTMLSelectElement).selectedIndex]?.[1] ?? null;
+          this.swarm.setSpeed(chosen === null ? null : chosen * REAL_TIME);
+        },
+      },
+      ...SPEEDS.map(([label, factor]) => element("option", { value: label, selected: factor === 1 }, label)),
+    );
+  }
+}

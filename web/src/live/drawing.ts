@@ -1,0 +1,117 @@
+// Robots on a canvas: colored voxels on a ground with a tick for each voxel.
+
+import type { Look, Voxel } from "../protocol";
+import type { Colors } from "../theme";
+import type { Outline } from "./playback";
+
+/** A part of the canvas that shows a stretch of ground. */
+export interface Lane {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+  /** The height of the ground on the canvas. */
+  ground: number;
+  /** Pixels in a voxel. */
+  scale: number;
+  /** The voxel in the middle. */
+  camera: number;
+}
+
+type Pen = CanvasRenderingContext2D;
+type Point = [number, number];
+
+export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true): void {
+  const { left, top, width, height, ground, scale, camera } = lane;
+  pen.fillStyle = colors.sky;
+  pen.fillRect(left, top, width, ground - top);
+  pen.fillStyle = colors.ground;
+  pen.fillRect(left, ground, width, top + height - ground);
+  pen.fillStyle = colors.tick;
+  pen.font = `10px ${colors.font}`;
+  pen.textAlign = "center";
+  pen.textBaseline = "top";
+  const half = width / 2 / scale;
+  for (let voxel = Math.ceil(camera - half); voxel <= camera + half; voxel++) {
+    const x = Math.round(left + (voxel - camera + half) * scale);
+    pen.fillRect(x, ground, 1, voxel % 5 === 0 ? 6 : 3);
+    if (numbered && voxel % 10 === 0 && top + height - ground >= 17) {
+      pen.fillText(String(voxel), x, ground + 7);
+    }
+  }
+}
+
+export function drawRobot(pen: Pen, outline: Outline, voxels: Voxel[], looks: Look[], lane: Lane, colors: Colors): void {
+  const { left, width, ground, scale, camera } = lane;
+  const place = (point: number): Point => [
+    left + width / 2 + ((outline[2 * point] ?? 0) - camera) * scale,
+    ground - (outline[2 * point + 1] ?? 0) * scale,
+  ];
+  pen.lineWidth = 0.8;
+  pen.lineJoin = "round";
+  pen.strokeStyle = colors.edge;
+  for (const [a, b, c, d, look] of voxels) {
+    drawVoxel(pen, [place(a), place(b), place(c), place(d)], looks[look]);
+  }
+}
+
+/** A voxel whose corners stand around it from the top left. */
+function drawVoxel(pen: Pen, corners: [Point, Point, Point, Point], look: Look | undefined): void {
+  tracePolygon(pen, corners);
+  pen.fillStyle = look?.color ?? "#888";
+  pen.fill();
+  pen.stroke();
+  if (look?.mark) {
+    drawMark(pen, corners, look.mark, look.ink ?? "#000");
+  }
+}
+
+/** The sign of a material: polygons within the unit square. */
+function drawMark(pen: Pen, [a, b, c, d]: [Point, Point, Point, Point], mark: [number, number][][], ink: string): void {
+  const across = (from: number, to: number, share: number): number => from + (to - from) * share;
+  pen.fillStyle = ink;
+  for (const polygon of mark) {
+    const placed = polygon.map(([x, y]): Point => [
+      across(across(a[0], b[0], x), across(d[0], c[0], x), y),
+      across(across(a[1], b[1], x), across(d[1], c[1], x), y),
+    ]);
+    tracePolygon(pen, placed);
+    pen.fill();
+  }
+}
+
+function tracePolygon(pen: Pen, points: Point[]): void {
+  pen.beginPath();
+  points.forEach(([x, y], i) => (i === 0 ? pen.moveTo(x, y) : pen.lineTo(x, y)));
+  pen.closePath();
+}
+
+/** A lamp: a full disk with an arrow to the right for 1, a ring with an arrow to the left for 0. */
+export function drawLamp(pen: Pen, value: number | null, x: number, y: number, radius: number, colors: Colors): void {
+  pen.lineWidth = Math.max(2, radius / 6);
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.strokeStyle = pen.fillStyle = value === null ? colors.line : value === 1 ? colors.one : colors.zero;
+  if (value === 1) {
+    pen.fill();
+  }
+  pen.stroke();
+  if (value === null) {
+    return;
+  }
+  const reach = (value === 1 ? 0.5 : -0.5) * radius;
+  pen.fillStyle = value === 1 ? colors.paper : colors.zero;
+  tracePolygon(pen, [[x + reach, y], [x - reach * 0.6, y - radius * 0.5], [x - reach * 0.6, y + radius * 0.5]]);
+  pen.fill();
+}
+
+/** A square for a stimulus, filled while it is present. */
+export function drawStimulus(pen: Pen, value: number | null, x: number, y: number, size: number, colors: Colors): void {
+  pen.lineWidth = 1.5;
+  pen.strokeStyle = value === 1 ? colors.one : colors.dim;
+  pen.strokeRect(x + 0.75, y + 0.75, size - 1.5, size - 1.5);
+  if (value === 1) {
+    pen.fillStyle = colors.one;
+    pen.fillRect(x + 3, y + 3, size - 6, size - 6);
+  }
+}

@@ -1,0 +1,146 @@
+// The inputs: a switch for each bit, a number with steps for each bus.
+
+import { element, fill, iconButton } from "../element";
+import { bitsOf, offsetOf, parseNumber, toBits, toNumber, type PortBit } from "../ports";
+import type { Port } from "../protocol";
+import type { View } from "./animation";
+import type { LiveSwarm } from "./swarm";
+
+/** Buses up to this width have a switch for each bit, too. */
+const SWITCHED = 8;
+
+export class InputPanel implements View {
+  readonly host = element("div", { class: "inputs", role: "group", "aria-label": "Inputs" });
+  readonly #updates: (() => void)[] = [];
+
+  constructor(private readonly swarm: LiveSwarm) {
+    swarm.definition.on(() => this.#build());
+    swarm.inputs.on(() => this.draw());
+    swarm.clock.on(() => this.draw());
+  }
+
+  draw(): void {
+    for (const update of this.#updates) {
+      update();
+    }
+  }
+
+  #build(): void {
+    const inputs = this.swarm.definition.value?.inputs ?? [];
+    const bits = bitsOf(inputs);
+    this.#updates.length = 0;
+    fill(
+      this.host,
+      element("span", { class: "caption" }, inputs.length === 0 ? "No inputs" : "Inputs"),
+      ...inputs.map(port => this.#port(port, bits.filter(bit => bit.port === port))),
+    );
+    this.draw();
+  }
+
+  #port(port: Port, bits: PortBit[]): HTMLElement {
+    if (port.width === 1) {
+      return this.#switch(bits[0] as PortBit, port.name);
+    }
+    const switches = port.width > SWITCHED ? [] : bits.map(bit => this.#switch(bit, String(bit.place), true));
+    return element("div", { class: "bus" }, this.#number(port), element("div", { class: "bits" }, ...switches));
+  }
+
+  #switch(bit: PortBit, label: string, small = false): HTMLElement {
+    const { swarm } = this;
+    const value = element("span", { class: "value" });
+    const made = element(
+      "button",
+      {
+        type: "button",
+        role: "switch",
+        class: small ? "switch small" : "switch",
+        "aria-label": `input ${bit.name}`,
+        "data-input": bit.name,
+        title: `Input ${bit.name}`,
+        onclick: () => swarm.setBit(bit.index, this.#shown(bit.index) === 1 ? 0 : 1),
+        onmouseenter: () => swarm.selection.point({ input: bit.index }),
+        onmouseleave: () => swarm.selection.point(null),
+      },
+      element("span", { class: "name" }, label),
+      element("span", { class: "track", "aria-hidden": "true" }, element("span", { class: "knob" })),
+      value,
+    );
+    this.#updates.push(() => {
+      const on = this.#shown(bit.index) === 1;
+      made.setAttribute("aria-checked", String(on));
+      value.textContent = on ? "1" : "0";
+      made.classList.toggle("clocked", swarm.clock.value?.bit === bit.index);
+    });
+    return made;
+  }
+
+  /** The bit that is wanted, or what an automatic clock makes of it. */
+  #shown(index: number): number {
+    if (this.swarm.clock.value?.bit === index) {
+      return this.swarm.value({ input: index }) ?? 0;
+    }
+    return Number(this.swarm.inputs.value[index] ?? 0);
+  }
+
+  #number(port: Port): HTMLElement {
+    const start = offsetOf(this.swarm.definition.value?.inputs ?? [], port);
+    const field = element("input", {
+      type: "text",
+      inputmode: "numeric",
+      autocomplete: "off",
+      spellcheck: "false",
+      "aria-label": `input ${port.name}`,
+      "data-input": port.name,
+      title: `A number below 2 to the power of ${port.width}; 0b and 0x are understood`,
+      onchange: () => this.#type(field, port, start),
+      onkeydown: event => {
+        const step = { ArrowUp: 1n, ArrowDown: -1n }[event.key];
+        if (step !== undefined) {
+          event.preventDefault();
+          this.#add(port, start, step);
+        }
+      },
+    });
+    this.#updates.push(() => {
+      if (document.activeElement !== field) {
+        field.value = String(this.#current(port, start));
+      }
+    });
+    return element(
+      "div",
+      { class: "number" },
+      element("span", { class: "name" }, port.name),
+      iconButton("less", `Decrease ${port.name}`, () => this.#add(port, start, -1n)),
+      field,
+      iconButton("more", `Increase ${port.name}`, () => this.#add(port, start, 1n)),
+    );
+  }
+
+  #current(port: Port, start: number): bigint {
+    return toNumber([...this.swarm.inputs.value.slice(start, start + port.width)].map(Number));
+  }
+
+  #type(field: HTMLInputElement, port: Port, start: number): void {
+    const value = parseNumber(field.value, port.width);
+    field.setAttribute("aria-invalid", String(value === null));
+    if (value !== null) {
+      this.#set(port, start, value);
+      field.value = String(value);
+    }
+  }
+
+  /** Past the ends it goes round. */
+  #add(port: Port, start: number, step: bigint): void {
+    const size = 1n << BigInt(port.width);
+    this.#set(port, start, (this.#current(port, start) + step + size) % size);
+    const field = this.host.querySelector<HTMLInputElement>(`input[data-input="${port.name}"]`);
+    if (field !== null) {
+      field.value = String(this.#current(port, start));
+    }
+  }
+
+  #set(port: Port, start: number, value: bigint): void {
+    const bits = this.swarm.inputs.value;
+    this.swarm.setInputs(bits.slice(0, start) + toBits(value, port.width).join("") + bits.slice(start + port.width));
+  }
+}

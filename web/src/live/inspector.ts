@@ -1,0 +1,107 @@
+// A line that says what is pointed at, and a table about the robot that is followed.
+
+import { button, element, fill } from "../element";
+import { PATTERNS, gateName, truthTable } from "../gate";
+import type { Robot } from "../protocol";
+import type { View } from "./animation";
+import type { LiveSwarm } from "./swarm";
+
+const HINT = "Point at a robot or a net to see it in all views. Click a robot to follow it alone.";
+
+export class Inspector implements View {
+  readonly host = element("div", { class: "inspector" });
+  readonly #line = element("p", { class: "line" });
+  readonly #facts = element("div", { class: "facts", hidden: true });
+
+  constructor(private readonly swarm: LiveSwarm) {
+    this.host.append(this.#line, this.#facts);
+    swarm.definition.on(() => this.#show());
+    swarm.selection.pointed.on(() => this.#show());
+    swarm.selection.followed.on(() => this.#show());
+    this.#show();
+  }
+
+  draw(): void {
+    if (this.swarm.selection.pointed.value !== null) {
+      this.#show();
+    }
+  }
+
+  #show(): void {
+    const { pointed, followed } = this.swarm.selection;
+    const robot = followed.value === null ? null : (this.swarm.definition.value?.robots[followed.value] ?? null);
+    this.#showFacts(robot);
+    const text = pointed.value === null ? this.#rest() : this.#describe();
+    if (this.#line.textContent !== text) {
+      this.#line.textContent = text;
+    }
+  }
+
+  #rest(): string {
+    const definition = this.swarm.definition.value;
+    return this.swarm.stopped.value ?? (definition === null ? "" : HINT);
+  }
+
+  #describe(): string {
+    const source = this.swarm.selection.pointed.value;
+    const definition = this.swarm.definition.value;
+    if (source === null || definition === null) {
+      return "";
+    }
+    const value = this.swarm.value(source);
+    const name = this.swarm.nameOf(source);
+    if (!("robot" in source)) {
+      return `input ${name} is ${value ?? "not known yet"}`;
+    }
+    const robot = definition.robots[source.robot] as Robot;
+    const senses = robot.senses.map(sense => `${this.swarm.nameOf(sense)} = ${this.swarm.value(sense) ?? "?"}`).join(", ");
+    const walk = value === null ? "has not walked yet" : value === 1 ? "walks right: 1" : "walks left: 0";
+    return `${name}: ${gateName(robot.function)} (${robot.robot}) senses ${senses} and ${walk}`;
+  }
+
+  #showFacts(robot: Robot | null): void {
+    const shown = this.#facts.dataset["net"] ?? null;
+    if (shown === (robot?.net ?? null)) {
+      return;
+    }
+    this.#facts.hidden = robot === null;
+    if (robot === null) {
+      delete this.#facts.dataset["net"];
+      this.#facts.replaceChildren();
+      return;
+    }
+    this.#facts.dataset["net"] = robot.net;
+    fill(
+      this.#facts,
+      element("h3", {}, `${robot.net} = ${gateName(robot.function)}`),
+      truthTableElement(robot.function),
+      factList(robot.about),
+      button("Show all robots", () => this.swarm.selection.followed.set(null), { "data-do": "all" }),
+    );
+  }
+}
+
+/** The outputs of a gate for the four patterns of its stimuli, as a square. */
+export function truthTableElement(name: string | null, outputs = truthTable(name)): HTMLElement {
+  const cell = (index: number): HTMLElement => {
+    const value = outputs?.[index];
+    const text = value === undefined ? "·" : String(value);
+    const label = `${PATTERNS[index]} gives ${value ?? "neither"}`;
+    return element("td", { "data-value": value ?? "", title: label, "aria-label": label }, text);
+  };
+  const head = (text: string): HTMLElement => element("th", { scope: "col" }, text);
+  return element(
+    "table",
+    { class: "truth", "aria-label": `Truth table of ${gateName(name)}` },
+    element("tr", {}, element("th", {}, "a\\b"), head("0"), head("1")),
+    element("tr", {}, element("th", { scope: "row" }, "0"), cell(0), cell(1)),
+    element("tr", {}, element("th", { scope: "row" }, "1"), cell(2), cell(3)),
+  );
+}
+
+export function factList(about: [string, string][] | string): HTMLElement {
+  if (typeof about === "string") {
+    return element("p", {}, about);
+  }
+  return element("dl", {}, ...about.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+}

@@ -1,0 +1,41 @@
+// What colors and directions mean.
+
+import { element } from "../element";
+import type { Look } from "../protocol";
+
+export function legend(looks: { look: Look; name: string }[]): HTMLElement {
+  const entry = (sign: HTMLElement, text: string): HTMLElement => element("li", {}, sign, element("span", {}, text));
+  const lamp = (value: 0 | 1): HTMLElement => element("span", { class: "lamp", "data-value": value, "aria-hidden": "true" }, String(value));
+  const line = (name: string): HTMLElement => element("span", { class: `sample ${name}`, "aria-hidden": "true" });
+  return element(
+    "details",
+    { class: "legend" },
+    element("summary", {}, "What colors and directions mean"),
+    element(
+      "ul",
+      {},
+      entry(lamp(1), "1: the robot walks right. Blue, full, thick lines."),
+      entry(lamp(0), "0: the robot walks left. Orange, hollow, thin lines."),
+      entry(line("stimulus on"), "a stimulus that the robot senses is present"),
+      entry(line("stimulus"), "it is absent"),
+    ),
+    element("ul", { class: "materials" }, ...looks.map(({ look, name }) => entry(swatch(look), name))),
+  );
+}
+
+/** A square that looks like a voxel. */
+export function swatch(look: Look | undefined): HTMLElement {
+  const canvas = element("canvas", { class: "swatch", width: 32, height: 32, "aria-hidden": "true" });
+  const pen = canvas.getContext("2d");
+  if (pen !== null && look !== undefined) {
+    pen.fillStyle = look.color;
+    pen.fillRect(0, 0, 32, 32);
+    pen.fillStyle = look.ink ?? "#000";
+    for (const polygon of look.mark ?? []) {
+      pen.beginPath();
+      polygon.forEach(([x, y], i) => (i === 0 ? pen.moveTo(32 * x, 32 * y) : pen.lineTo(32 * x, 32 * y)));
+      pen.fill();
+    }
+  }
+  return canvas;
+}

@@ -1,0 +1,79 @@
+// The outputs: a lamp for each bit, and the number of each bus.
+
+import { element, fill } from "../element";
+import { offsetOf, toNumber } from "../ports";
+import type { Port, Source } from "../protocol";
+import type { View } from "./animation";
+import type { LiveSwarm } from "./swarm";
+
+export class OutputPanel implements View {
+  readonly host = element("div", { class: "outputs", role: "group", "aria-label": "Outputs" });
+  #updates: (() => void)[] = [];
+
+  constructor(private readonly swarm: LiveSwarm) {
+    swarm.definition.on(() => this.#build());
+  }
+
+  draw(): void {
+    for (const update of this.#updates) {
+      update();
+    }
+  }
+
+  #build(): void {
+    const definition = this.swarm.definition.value;
+    this.#updates = [];
+    const ports = definition?.outputs ?? [];
+    fill(
+      this.host,
+      element("span", { class: "caption" }, "Outputs"),
+      ...ports.map(port => {
+        const start = offsetOf(ports, port);
+        return this.#port(port, definition?.shown.slice(start, start + port.width) ?? []);
+      }),
+    );
+    this.draw();
+  }
+
+  #port(port: Port, sources: Source[]): HTMLElement {
+    const lamps = sources.map((source, i) => this.#lamp(source, port.width === 1 ? port.name : `${port.name}[${port.width - 1 - i}]`));
+    const number = element("output", { class: "number", "data-output": port.name });
+    if (port.width > 1) {
+      this.#updates.push(() => {
+        const values = sources.map(source => this.swarm.value(source));
+        const text = values.includes(null) ? "–" : String(toNumber(values as number[]));
+        if (number.textContent !== text) {
+          number.textContent = text;
+        }
+      });
+    }
+    return element(
+      "div",
+      { class: "output" },
+      element("span", { class: "name" }, port.name),
+      element("span", { class: port.width > 1 ? "lamps small" : "lamps" }, ...lamps),
+      port.width > 1 && number,
+    );
+  }
+
+  #lamp(source: Source, name: string): HTMLElement {
+    const lamp = element("span", {
+      class: "lamp",
+      role: "img",
+      "data-lamp": name,
+      onmouseenter: () => this.swarm.selection.point(source),
+      onmouseleave: () => this.swarm.selection.point(null),
+    });
+    let shown: number | null | undefined;
+    this.#updates.push(() => {
+      const value = this.swarm.value(source);
+      if (value !== shown) {
+        shown = value;
+        lamp.dataset["value"] = value === null ? "" : String(value);
+        lamp.textContent = value === null ? "–" : String(value);
+        lamp.setAttribute("aria-label", `output ${name} is ${value ?? "not known yet"}`);
+      }
+    });
+    return lamp;
+  }
+}

@@ -1,0 +1,163 @@
+// The schematic that the server drew, with nets and robots marked by their values now; it can be zoomed and moved.
+
+import { element, iconButton } from "../element";
+import type { Source } from "../protocol";
+import { sameSource } from "../selection";
+import type { LiveSwarm } from "./swarm";
+import type { View } from "./animation";
+
+interface Marked { element: Element; source: Source; shown: number | null | undefined }
+interface Box { x: number; y: number; width: number; height: number }
+
+export class Schematic implements View {
+  readonly host = element("div", { class: "schematic pane", tabindex: 0, "aria-label": "Schematic of the circuit" });
+  readonly #tools: HTMLElement;
+  #svg: SVGSVGElement | null = null;
+  #marked: Marked[] = [];
+  #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
+  #box: Box = this.#whole;
+
+  constructor(private readonly swarm: LiveSwarm) {
+    this.#tools = element(
+      "div",
+      { class: "zoom" },
+      iconButton("more", "Zoom in", () => this.#zoom(0.8)),
+      iconButton("less", "Zoom out", () => this.#zoom(1.25)),
+      iconButton("reset", "Show all of the schematic", () => this.#show(this.#whole)),
+    );
+    swarm.definition.on(definition => this.#load(definition?.schematic ?? ""));
+    swarm.selection.pointed.on(() => this.#select());
+    swarm.selection.followed.on(() => this.#select());
+    this.#listen();
+  }
+
+  draw(): void {
+    if (this.host.clientWidth === 0) {
+      return;
+    }
+    for (const marked of this.#marked) {
+      const value = this.swarm.value(marked.source);
+      if (value !== marked.shown) {
+        marked.shown = value;
+        marked.element.classList.toggle("one", value === 1);
+        marked.element.classList.toggle("zero", value === 0);
+      }
+    }
+  }
+
+  #load(text: string): void {
+    this.#marked = [];
+    this.#svg = null;
+    const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+    if (text === "" || !(parsed instanceof SVGSVGElement)) {
+      this.host.replaceChildren(element("p", { class: "empty" }, "This circuit has no schematic."));
+      return;
+    }
+    this.#svg = document.importNode(parsed, true);
+    const { x, y, width, height } = this.#svg.viewBox.baseVal;
+    this.#whole = { x, y, width, height };
+    this.#svg.removeAttribute("width");
+    this.#svg.removeAttribute("height");
+    this.host.replaceChildren(this.#svg, this.#tools);
+    this.#show(this.#whole);
+    this.#mark(this.#svg);
+  }
+
+  #mark(svg: SVGSVGElement): void {
+    for (const part of svg.querySelectorAll<SVGElement>("[data-id]")) {
+      const [, kind, name] = /^(\w+)-(.*)$/.exec(part.dataset["id"] ?? "") ?? [];
+      const source = kind === "cell" ? { robot: Number(name) } : this.swarm.nets.get(name ?? "");
+      if (source !== undefined) {
+        this.#marked.push({ element: part, source, shown: undefined });
+      }
+      if (kind === "cell") {
+        part.setAttribute("tabindex", "0");
+        part.setAttribute("role", "button");
+      }
+    }
+  }
+
+  #select(): void {
+    const { pointed, followed } = this.swarm.selection;
+    for (const { element: marked, source } of this.#marked) {
+      marked.classList.toggle("pointed", sameSource(source, pointed.value));
+      marked.classList.toggle("followed", "robot" in source && source.robot === followed.value);
+    }
+  }
+
+  #sourceOf(target: EventTarget | null): Source | null {
+    const found = target instanceof Element ? target.closest("[data-id]") : null;
+    return this.#marked.find(marked => marked.element === found)?.source ?? null;
+  }
+
+  #show(box: Box): void {
+    this.#box = box;
+    this.#svg?.setAttribute("viewBox", `${box.x} ${box.y} ${box.width} ${box.height}`);
+  }
+
+  /** Shows `factor` times as much around a place, given as shares of the width and height. */
+  #zoom(factor: number, atX = 0.5, atY = 0.5): void {
+    const { x, y, width, height } = this.#box;
+    const limited = Math.min(2, Math.max(0.02, (width * factor) / this.#whole.width)) * (this.#whole.width / width);
+    this.#show({
+      x: x + width * (1 - limited) * atX,
+      y: y + height * (1 - limited) * atY,
+      width: width * limited,
+      height: height * limited,
+    });
+  }
+
+  #listen(): void {
+    const { selection } = this.swarm;
+    const point = (event: Event): void => selection.point(this.#sourceOf(event.target));
+    this.host.addEventListener("mouseover", point);
+    this.host.addEventListener("focusin", point);
+    this.host.addEventListener("mouseleave", () => selection.point(null));
+    this.host.addEventListener("keydown", event => {
+      const source = this.#sourceOf(event.target);
+      if ((event.key === "Enter" || event.key === " ") && source !== null && "robot" in source) {
+        event.preventDefault();
+        selection.follow(source.robot);
+      }
+    });
+    this.host.addEventListener("wheel", event => this.#wheel(event), { passive: false });
+    this.host.addEventListener("pointerdown", event => this.#drag(event));
+  }
+
+  /** The wheel zooms with Ctrl, as pinching does; without, the page scrolls as everywhere. */
+  #wheel(event: WheelEvent): void {
+    if (event.ctrlKey) {
+      event.preventDefault();
+      const box = this.host.getBoundingClientRect();
+      const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+      this.#zoom(Math.exp(event.deltaY / 300), x, y);
+    }
+  }
+
+  /** Drags the picture; a press that does not move follows a robot. */
+  #drag(start: PointerEvent): void {
+    const svg = this.#svg;
+    if (svg === null || start.button !== 0 || this.#tools.contains(start.target as Node)) {
+      return;
+    }
+    const from = this.#box;
+    const scale = 1 / (svg.getScreenCTM()?.a ?? 1);
+    let moved = false;
+    const move = (event: PointerEvent): void => {
+      const [x, y] = [event.clientX - start.clientX, event.clientY - start.clientY];
+      moved ||= Math.hypot(x, y) > 4;
+      if (moved) {
+        this.#show({ ...from, x: from.x - x * scale, y: from.y - y * scale });
+      }
+    };
+    const end = (): void => {
+      window.removeEventListener("pointermove", move);
+      const source = this.#sourceOf(start.target);
+      if (!moved && source !== null && "robot" in source) {
+        this.swarm.selection.follow(source.robot);
+      }
+    };
+    window.addEventListener("pointermove", move);
+    window.addEventListener("pointerup", end, { once: true });
+  }
+}

@@ -1,0 +1,134 @@
+// The place of each robot against time: lines that rise walk right, lines that fall walk left.
+
+import { sameSource } from "../selection";
+import { colors, enlargement } from "../theme";
+import { AXIS, Diagram } from "./diagram";
+import type { Pen } from "./pane";
+import type { LiveSwarm } from "./swarm";
+import type { Timeline } from "./timeline";
+
+/** With more robots, names at the ends of the lines would cover each other. */
+const NAMED = 12;
+/** How near the pointer must be to a line, in pixels. */
+const REACH = 14;
+
+interface Scale { start: number; end: number; y: (place: number) => number; top: number; bottom: number }
+
+export class Spacetime extends Diagram {
+  constructor(swarm: LiveSwarm, timeline: Timeline, changed: () => void) {
+    super(swarm, timeline, "spacetime", "The place of each robot against time", changed);
+  }
+
+  draw(): void {
+    const definition = this.swarm.definition.value;
+    if (!this.pane.visible || definition === null) {
+      return;
+    }
+    const pen = this.pane.begin(this.pane.height);
+    const scale = this.#scale();
+    this.drawAxis(pen, scale.top, scale.bottom);
+    this.#drawPlaces(pen, scale);
+    pen.save();
+    pen.beginPath();
+    pen.rect(this.label, 0, this.span + 8, scale.bottom + 2);
+    pen.clip();
+    const lines = this.#robots();
+    lines.filter(robot => !this.#isPointed(robot)).forEach(robot => this.#drawLine(pen, robot, scale, false));
+    lines.filter(robot => this.#isPointed(robot)).forEach(robot => this.#drawLine(pen, robot, scale, true));
+    pen.restore();
+  }
+
+  protected point(x: number, y: number): void {
+    const scale = this.#scale();
+    const cycle = Math.min(this.swarm.log.last, Math.max(this.swarm.log.first, Math.round(this.cycleAt(x))));
+    const distances = this.#robots().map(robot => {
+      const place = this.#place(robot, cycle);
+      return { robot, distance: place === null ? Infinity : Math.abs(scale.y(place) - y) };
+    });
+    const nearest = distances.sort((a, b) => a.distance - b.distance)[0];
+    this.swarm.selection.point(nearest !== undefined && nearest.distance < REACH ? { robot: nearest.robot } : null);
+  }
+
+  #robots(): number[] {
+    const { followed } = this.swarm.selection;
+    const count = this.swarm.definition.value?.robots.length ?? 0;
+    return followed.value === null ? Array.from({ length: count }, (_, i) => i) : [followed.value];
+  }
+
+  #isPointed(robot: number): boolean {
+    return sameSource(this.swarm.selection.pointed.value, { robot });
+  }
+
+  #place(robot: number, cycle: number): number | null {
+    return cycle === 0 ? 0 : (this.swarm.log.at(cycle)?.places[robot] ?? null);
+  }
+
+  /** The newest cycle whose end is shown already. */
+  #newest(): number {
+    const { log, playback, frame } = this.swarm;
+    return frame.value?.running ? Math.floor(playback.time + 1e-6) : log.last;
+  }
+
+  #scale(): Scale {
+    const [start, end] = this.range();
+    const [from, to] = [Math.max(this.swarm.log.first, Math.floor(start)), Math.min(this.swarm.log.last, Math.ceil(end))];
+    let [low, high] = [-2, 2];
+    for (const robot of this.#robots()) {
+      for (let cycle = from; cycle <= to; cycle++) {
+        const place = this.#place(robot, cycle) ?? 0;
+        low = Math.min(low, place);
+        high = Math.max(high, place);
+      }
+    }
+    const [top, bottom] = [8, this.pane.height - AXIS * enlargement.value];
+    const y = (place: number): number => bottom - 6 - ((place - low) / (high - low)) * (bottom - top - 12);
+    return { start, end, y, top, bottom };
+  }
+
+  #drawPlaces(pen: Pen, { y, top, bottom }: Scale): void {
+    pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
+    pen.textAlign = "left";
+    pen.textBaseline = "middle";
+    pen.fillStyle = colors.value.dim;
+    pen.fillText("right ▲", 6, top + 6, this.label - 10);
+    pen.fillText("left ▼", 6, bottom - 6, this.label - 10);
+    pen.fillRect(this.label, y(0), this.span, 0.5);
+    pen.textAlign = "right";
+    if (y(0) - top > 26 && bottom - y(0) > 26) {
+      pen.fillText("start", this.label - 6, y(0));
+    }
+  }
+
+  #drawLine(pen: Pen, robot: number, scale: Scale, pointed: boolean): void {
+    const newest = this.#newest();
+    const last = Math.min(newest, Math.ceil(scale.end));
+    pen.lineWidth = pointed ? 4 : 1.8;
+    pen.lineJoin = "round";
+    pen.globalAlpha = this.swarm.selection.pointed.value !== null && !pointed ? 0.45 : 1;
+    for (let cycle = Math.max(this.swarm.log.first + 1, Math.floor(scale.start)); cycle <= last; cycle++) {
+      const [from, to] = [this.#place(robot, cycle - 1), this.#place(robot, cycle)];
+      if (from !== null && to !== null) {
+        pen.strokeStyle = this.swarm.value({ robot }, cycle) === 1 ? colors.value.one : colors.value.zero;
+        pen.beginPath();
+        pen.moveTo(this.x(cycle - 1, scale.start), scale.y(from));
+        pen.lineTo(this.x(cycle, scale.start), scale.y(to));
+        pen.stroke();
+      }
+    }
+    this.#drawName(pen, robot, last, scale, pointed);
+    pen.globalAlpha = 1;
+  }
+
+  #drawName(pen: Pen, robot: number, cycle: number, scale: Scale, pointed: boolean): void {
+    const definition = this.swarm.definition.value;
+    const place = this.#place(robot, cycle);
+    if (place === null || definition === null || (!pointed && definition.robots.length > NAMED)) {
+      return;
+    }
+    pen.font = `${pointed ? "600 " : ""}${11 * enlargement.value}px ${colors.value.font}`;
+    pen.textAlign = "left";
+    pen.textBaseline = "middle";
+    pen.fillStyle = colors.value.ink;
+    pen.fillText(definition.robots[robot]?.net ?? "", this.x(cycle, scale.start) + 6, scale.y(place));
+  }
+}

@@ -1,0 +1,202 @@
+// The robots of a swarm, each in a lane of its own with a camera that follows it.
+
+import { colors, enlargement } from "../theme";
+import { LaneGrid, followWithSlack, middleOf } from "./camera";
+import { drawGround, drawLamp, drawRobot, drawStimulus, type Lane } from "./drawing";
+import { CanvasPane, type Pen } from "./pane";
+import type { LiveSwarm } from "./swarm";
+import type { View } from "./animation";
+import { sameSource } from "../selection";
+import { gateName } from "../gate";
+
+const GAP = 6;
+/** A lane is at least this wide before there are two columns. */
+const COLUMN = 430;
+const FEW = 6;
+
+export class Stage implements View {
+  readonly pane: CanvasPane;
+  readonly #cameras = new Map<number, number>();
+  #grid = new LaneGrid(0, 1, 1, 1);
+
+  constructor(
+    private readonly swarm: LiveSwarm,
+    changed: () => void,
+  ) {
+    this.pane = new CanvasPane("stage", "The robots of the swarm, walking", changed);
+    this.#listen();
+    swarm.definition.on(() => this.#cameras.clear());
+    swarm.selection.followed.on(() => this.#cameras.clear());
+    // Lanes below the visible part cost nothing: their poses are not even sent.
+    this.pane.host.addEventListener("scroll", () => this.#ask(), { passive: true });
+  }
+
+  /** Scrolls to a robot. */
+  reveal(robot: number): void {
+    const lane = this.#robots().indexOf(robot);
+    const top = this.#grid.top(lane);
+    if (lane >= 0 && (top < this.pane.scrolled || top + this.#grid.laneHeight > this.pane.scrolled + this.pane.height)) {
+      this.pane.host.scrollTop = top;
+    }
+  }
+
+  draw(): void {
+    const definition = this.swarm.definition.value;
+    if (definition === null || !this.pane.visible) {
+      return;
+    }
+    this.#arrange();
+    const pen = this.pane.begin(this.#grid.height);
+    const robots = this.#robots();
+    for (const lane of this.#visibleLanes(0)) {
+      this.#drawLane(pen, robots[lane] as number, lane);
+    }
+    this.#ask();
+  }
+
+  #robots(): number[] {
+    const followed = this.swarm.selection.followed.value;
+    const count = this.swarm.definition.value?.robots.length ?? 0;
+    return followed === null ? Array.from({ length: count }, (_, i) => i) : [followed];
+  }
+
+  #arrange(): void {
+    const count = this.#robots().length;
+    const columns = count <= FEW ? 1 : Math.max(1, Math.floor(this.pane.width / (COLUMN * enlargement.value)));
+    const share = this.pane.height / Math.ceil(count / columns);
+    const height = count === 1 ? this.pane.height : Math.max(74 * enlargement.value, Math.min(150, share));
+    this.#grid = new LaneGrid(count, columns, this.pane.width, height);
+  }
+
+  #visibleLanes(margin: number): number[] {
+    const top = this.pane.scrolled;
+    return this.#grid.between(top - margin, top + this.pane.height + margin);
+  }
+
+  #ask(): void {
+    const robots = this.#robots();
+    const wanted = this.#visibleLanes(this.#grid.laneHeight).map(lane => robots[lane] as number);
+    if (this.swarm.definition.value !== null && wanted.length > 0) {
+      this.swarm.view(wanted);
+    }
+  }
+
+  #drawLane(pen: Pen, robot: number, lane: number): void {
+    const size = enlargement.value;
+    const label = Math.min(124 * size, this.#grid.laneWidth * 0.32);
+    const height = this.#grid.laneHeight - GAP;
+    const left = this.#grid.left(lane);
+    const top = this.#grid.top(lane) - this.pane.scrolled;
+    const lamp = Math.min(64 * size, height);
+    this.#drawFrame(pen, robot, left, top, height);
+    this.#drawLabel(pen, robot, left + 12, top, height, label - 16);
+    this.#drawWalk(pen, robot, { left: left + label, top, width: this.#grid.laneWidth - label - lamp, height });
+    const value = this.swarm.value({ robot });
+    drawLamp(pen, value, left + this.#grid.laneWidth - lamp / 2, top + height / 2, Math.min(17 * size, height / 3.4), colors.value);
+  }
+
+  #drawFrame(pen: Pen, robot: number, left: number, top: number, height: number): void {
+    const pointed = sameSource(this.swarm.selection.pointed.value, { robot });
+    pen.fillStyle = pointed ? colors.value.accent : colors.value.panel;
+    pen.fillRect(left, top, this.#grid.laneWidth, height);
+    if (pointed) {
+      pen.fillStyle = colors.value.panel;
+      pen.fillRect(left + 3, top + 3, this.#grid.laneWidth - 6, height - 6);
+    }
+  }
+
+  #drawLabel(pen: Pen, index: number, left: number, top: number, height: number, width: number): void {
+    const robot = this.swarm.definition.value?.robots[index];
+    if (robot === undefined) {
+      return;
+    }
+    const size = enlargement.value;
+    const middle = top + height / 2;
+    pen.textAlign = "left";
+    pen.textBaseline = "alphabetic";
+    pen.fillStyle = colors.value.ink;
+    pen.font = `600 ${14 * size}px ${colors.value.font}`;
+    pen.fillText(robot.net, left, middle - 11 * size, width);
+    pen.fillStyle = colors.value.dim;
+    pen.font = `${12 * size}px ${colors.value.font}`;
+    pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
+    robot.senses.forEach((source, i) => {
+      const x = left + i * Math.max(40 * size, width / 2);
+      drawStimulus(pen, this.swarm.value(source), x, middle + 12 * size, 13 * size, colors.value);
+      pen.fillStyle = colors.value.dim;
+      pen.font = `${11 * size}px ${colors.value.font}`;
+      pen.fillText(this.swarm.nameOf(source), x + 17 * size, middle + 22.5 * size, width / 2 - 20 * size);
+    });
+  }
+
+  #drawWalk(pen: Pen, robot: number, area: { left: number; top: number; width: number; height: number }): void {
+    const definition = this.swarm.definition.value;
+    const outline = this.swarm.playback.outline(robot);
+    const tall = Math.max(5, this.#tallness(robot));
+    const ground = area.top + area.height - Math.min(20, Math.max(9, area.height / 6));
+    const scale = Math.min((ground - area.top) / (tall * 1.3), area.width / 14);
+    const place = outline === null ? 0 : middleOf(outline);
+    const half = area.width / 2 / scale;
+    const camera = followWithSlack(this.#cameras.get(robot), place, half / 3);
+    this.#cameras.set(robot, camera);
+    const lane: Lane = { ...area, ground, scale, camera };
+    pen.save();
+    pen.beginPath();
+    pen.rect(area.left, area.top, area.width, area.height);
+    pen.clip();
+    drawGround(pen, lane, colors.value);
+    if (outline !== null && definition !== null) {
+      drawRobot(pen, outline, definition.robots[robot]?.voxels ?? [], definition.looks, lane, colors.value);
+    }
+    pen.restore();
+  }
+
+  /** The rows of a body. */
+  #tallness(robot: number): number {
+    return Math.sqrt(this.swarm.definition.value?.robots[robot]?.voxels.length ?? 25) + 1;
+  }
+
+  #laneAt(event: MouseEvent): number | null {
+    const box = this.pane.host.getBoundingClientRect();
+    const lane = this.#grid.at(event.clientX - box.left, event.clientY - box.top + this.pane.scrolled);
+    return lane === null ? null : (this.#robots()[lane] ?? null);
+  }
+
+  #listen(): void {
+    const { selection } = this.swarm;
+    const { host } = this.pane;
+    host.addEventListener("mousemove", event => {
+      const robot = this.#laneAt(event);
+      selection.point(robot === null ? null : { robot });
+    });
+    host.addEventListener("mouseleave", () => selection.point(null));
+    host.addEventListener("click", event => {
+      const robot = this.#laneAt(event);
+      if (robot !== null) {
+        selection.follow(robot);
+      }
+    });
+    host.addEventListener("keydown", event => this.#press(event));
+  }
+
+  /** Arrows point at the robot before and after, Enter follows it, Escape follows all again. */
+  #press(event: KeyboardEvent): void {
+    const { selection } = this.swarm;
+    const count = this.swarm.definition.value?.robots.length ?? 0;
+    const pointed = selection.pointed.value;
+    const current = pointed !== null && "robot" in pointed ? pointed.robot : -1;
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      const step = event.key === "ArrowDown" ? 1 : -1;
+      const robot = Math.min(count - 1, Math.max(0, current + step));
+      selection.point({ robot });
+      this.reveal(robot);
+    } else if (event.key === "Enter" && current >= 0) {
+      selection.follow(current);
+    } else if (event.key === "Escape") {
+      selection.followed.set(null);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,213 @@
+// The swarm of this session: what it consists of, where its run is, and the requests that drive it.
+
+import type { Connection } from "../connection";
+import { decodeFrame, isFrameOf, type Frame } from "../frame";
+import { RunLog } from "../log";
+import { Observable } from "../observable";
+import { bitsOf, keepBits, totalWidth, withBit } from "../ports";
+import type { Source, Swarm } from "../protocol";
+import { Selection } from "../selection";
+import { Playback } from "./playback";
+
+export interface AutomaticClock { bit: number; half: number }
+
+/** Real time: a cycle is a quarter of a second. */
+export const REAL_TIME = 4;
+
+export class LiveSwarm {
+  readonly definition = new Observable<Swarm | null>(null);
+  /** The newest frame. */
+  readonly frame = new Observable<Frame | null>(null);
+  readonly log = new RunLog();
+  readonly playback = new Playback();
+  readonly selection = new Selection();
+  /** The input bits that are wanted from the next cycle on. */
+  readonly inputs = new Observable("");
+  readonly clock = new Observable<AutomaticClock | null>(null);
+  /** Cycles a second; null is as fast as possible. */
+  readonly speed = new Observable<number | null>(REAL_TIME);
+  readonly running = new Observable(false);
+  /** Why the swarm cannot go on. */
+  readonly stopped = new Observable<string | null>(null);
+  /** The numbers of robots, inputs and outputs of each net by its name. */
+  nets = new Map<string, Source>();
+  #early: ArrayBuffer | null = null;
+  #shown: number[] | null = null;
+  #adopt = false;
+
+  constructor(private readonly connection: Connection) {
+    connection.onframe = buffer => this.#receive(buffer);
+    connection.events.on(event => {
+      if (event?.event === "stopped") {
+        this.stopped.set(event.reason);
+        this.running.set(false);
+      }
+    });
+  }
+
+  /** Takes a swarm that was just compiled. Inputs of the same name keep their values, unless a replay set them. */
+  begin(swarm: Swarm, replayed = false): void {
+    const before = this.definition.value;
+    const kept = keepBits(this.inputs.value, before?.inputs ?? [], swarm.inputs);
+    const clock = this.#keptClock(before, swarm);
+    this.#forget();
+    this.nets = netsOf(swarm);
+    this.inputs.set(kept);
+    this.definition.set(swarm);
+    this.#adopt = replayed;
+    this.setClock(replayed ? null : clock);
+    if (!replayed) {
+      this.connection.tell("inputs", { bits: kept });
+    }
+    const early = this.#early;
+    this.#early = null;
+    if (early !== null) {
+      this.#receive(early);
+    }
+  }
+
+  setBit(index: number, bit: number): void {
+    this.setInputs(withBit(this.inputs.value, index, bit));
+  }
+
+  setInputs(bits: string): void {
+    if (bits !== this.inputs.value) {
+      this.inputs.set(bits);
+      this.connection.tell("inputs", { bits });
+    }
+  }
+
+  setClock(clock: AutomaticClock | null): void {
+    const before = this.clock.value;
+    if (before !== null && before.bit !== clock?.bit) {
+      this.connection.tell("clock", { bit: before.bit, half: null });
+    }
+    if (clock !== null) {
+      this.connection.tell("clock", { ...clock });
+    }
+    this.clock.set(clock);
+  }
+
+  play(): void {
+    if (this.definition.value !== null && this.stopped.value === null) {
+      this.running.set(true);
+      this.connection.tell("run", { speed: this.speed.value });
+    }
+  }
+
+  pause(): void {
+    this.running.set(false);
+    this.connection.tell("pause", {});
+  }
+
+  setSpeed(speed: number | null): void {
+    this.speed.set(speed);
+    if (this.running.value) {
+      this.connection.tell("run", { speed });
+    }
+  }
+
+  step(cycles = 1): void {
+    this.running.set(false);
+    this.connection.tell("step", { cycles });
+  }
+
+  reset(): void {
+    this.running.set(false);
+    this.stopped.set(null);
+    this.connection.tell("reset", {});
+  }
+
+  /** Shows an earlier moment, whose inputs become those of the next cycle. */
+  seek(cycle: number): void {
+    this.running.set(false);
+    this.stopped.set(null);
+    this.#adopt = true;
+    this.connection.tell("seek", { cycle });
+  }
+
+  /** Asks for the poses of these robots only. */
+  view(robots: number[]): void {
+    if (this.#shown?.join() !== robots.join()) {
+      this.#shown = robots;
+      this.connection.tell("view", { robots });
+    }
+  }
+
+  /** The value of a source in the cycle that is shown; null before the first. */
+  value(source: Source | undefined, cycle = this.playback.cycle): number | null {
+    if (source === undefined) {
+      return null;
+    }
+    if ("constant" in source) {
+      return Number(source.constant);
+    }
+    const logged = this.log.at(cycle);
+    if ("input" in source) {
+      return logged?.inputs[source.input] ?? Number(this.inputs.value[source.input] ?? 0);
+    }
+    return logged?.robots[source.robot] ?? null;
+  }
+
+  /** What a source is called. */
+  nameOf(source: Source): string {
+    const definition = this.definition.value;
+    if ("constant" in source) {
+      return String(Number(source.constant));
+    }
+    if ("robot" in source) {
+      return definition?.robots[source.robot]?.net ?? "";
+    }
+    return bitsOf(definition?.inputs ?? [])[source.input]?.name ?? "";
+  }
+
+  #receive(buffer: ArrayBuffer): void {
+    const swarm = this.definition.value;
+    if (swarm === null || !isFrameOf(buffer, swarm)) {
+      // The first frame of a swarm may overtake the answer that says what it consists of.
+      this.#early = buffer;
+      return;
+    }
+    const frame = decodeFrame(buffer, totalWidth(swarm.inputs), totalWidth(swarm.outputs));
+    this.log.merge(frame);
+    this.playback.push(frame);
+    this.running.set(frame.running);
+    this.#adoptInputs(frame);
+    this.frame.set(frame);
+  }
+
+  #adoptInputs(frame: Frame): void {
+    const logged = this.log.at(frame.now);
+    if (this.#adopt && !frame.running && logged !== undefined) {
+      this.#adopt = false;
+      this.setInputs([...logged.inputs].join(""));
+    }
+  }
+
+  #keptClock(before: Swarm | null, swarm: Swarm): AutomaticClock | null {
+    const clock = this.clock.value;
+    const name = clock === null || before === null ? null : bitsOf(before.inputs)[clock.bit]?.name;
+    const bit = bitsOf(swarm.inputs).find(other => other.name === name);
+    return clock === null || bit === undefined ? null : { bit: bit.index, half: clock.half };
+  }
+
+  #forget(): void {
+    this.clock.set(null);
+    this.log.clear();
+    this.playback.clear();
+    this.selection.clear();
+    this.frame.set(null);
+    this.stopped.set(null);
+    this.running.set(false);
+    this.#shown = null;
+  }
+}
+
+/** The source of each net that has a name. */
+export function netsOf(swarm: Swarm): Map<string, Source> {
+  const nets = new Map<string, Source>();
+  swarm.robots.forEach((robot, index) => nets.set(robot.net, { robot: index }));
+  bitsOf(swarm.outputs).forEach((bit, i) => nets.set(bit.name, swarm.shown[i] ?? { constant: 0 }));
+  bitsOf(swarm.inputs).forEach(bit => nets.set(bit.name, { input: bit.index }));
+  return nets;
+}

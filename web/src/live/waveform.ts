@@ -1,0 +1,164 @@
+// Inputs, robots and outputs over time.
+
+import { offsetOf, toNumber } from "../ports";
+import type { Port, Source } from "../protocol";
+import { sameSource } from "../selection";
+import { colors, enlargement } from "../theme";
+import { AXIS, Diagram } from "./diagram";
+import type { Pen } from "./pane";
+import type { LiveSwarm } from "./swarm";
+import type { Timeline } from "./timeline";
+
+interface Row {
+  name: string;
+  group: "input" | "robot" | "output";
+  /** The most significant bit first; more than one is a bus. */
+  sources: Source[];
+}
+
+export class Waveform extends Diagram {
+  #rows: Row[] = [];
+
+  constructor(swarm: LiveSwarm, timeline: Timeline, changed: () => void) {
+    super(swarm, timeline, "waveform", "Waveforms of inputs, robots and outputs", changed);
+    swarm.definition.on(() => {
+      this.#rows = rowsOf(swarm);
+    });
+  }
+
+  draw(): void {
+    if (!this.pane.visible || this.swarm.definition.value === null) {
+      return;
+    }
+    const height = this.#rowHeight();
+    const pen = this.pane.begin(this.#rows.length * height + AXIS * enlargement.value);
+    const bottom = this.pane.height - AXIS * enlargement.value;
+    const first = Math.floor(this.pane.scrolled / height);
+    const end = Math.min(this.#rows.length, Math.ceil((this.pane.scrolled + bottom) / height));
+    this.drawAxis(pen, 0, bottom);
+    pen.save();
+    pen.beginPath();
+    pen.rect(0, 0, this.pane.width, bottom);
+    pen.clip();
+    for (let row = first; row < end; row++) {
+      this.#drawRow(pen, this.#rows[row] as Row, row * height - this.pane.scrolled, height);
+    }
+    pen.restore();
+  }
+
+  protected point(_x: number, y: number): void {
+    const row = this.#rows[Math.floor((y + this.pane.scrolled) / this.#rowHeight())];
+    this.swarm.selection.point(row?.sources[0] ?? null);
+  }
+
+  #rowHeight(): number {
+    return 22 * enlargement.value;
+  }
+
+  #drawRow(pen: Pen, row: Row, top: number, height: number): void {
+    const pointed = row.sources.some(source => sameSource(source, this.swarm.selection.pointed.value));
+    if (pointed) {
+      pen.fillStyle = colors.value.highlight;
+      pen.fillRect(0, top, this.pane.width, height);
+    }
+    pen.textAlign = "left";
+    pen.textBaseline = "middle";
+    pen.font = `${row.group === "robot" ? "" : "600 "}${12 * enlargement.value}px ${colors.value.font}`;
+    pen.fillStyle = row.group === "robot" ? colors.value.dim : colors.value.ink;
+    const sign = { input: "› ", robot: "", output: " ›" }[row.group];
+    const name = row.group === "output" ? row.name + sign : sign + row.name;
+    pen.fillText(name, 6, top + height / 2, this.label - 12);
+    pen.save();
+    pen.beginPath();
+    pen.rect(this.label, top, this.span + 8, height);
+    pen.clip();
+    if (row.sources.length === 1) {
+      this.#drawBit(pen, row.sources[0] as Source, top + 4, top + height - 4);
+    } else {
+      this.#drawBus(pen, row.sources, top + 3, top + height - 3);
+    }
+    pen.restore();
+  }
+
+  /** The cycles of the log in view. */
+  #cycles(): [number, number, number] {
+    const [start, end] = this.range();
+    const { first, last } = this.swarm.log;
+    return [start, Math.max(first + 1, Math.floor(start) + 1), Math.min(last, Math.ceil(end))];
+  }
+
+  #drawBit(pen: Pen, source: Source, high: number, low: number): void {
+    const [start, from, to] = this.#cycles();
+    let before: number | null = null;
+    for (let cycle = from; cycle <= to; cycle++) {
+      const value = this.swarm.value(source, cycle);
+      if (value !== null) {
+        this.#drawLevel(pen, this.x(cycle - 1, start), this.x(cycle, start), [high, low], value, before);
+      }
+      before = value;
+    }
+  }
+
+  /** High is thick and low is thin, so that the values can be told apart without color. */
+  #drawLevel(pen: Pen, left: number, right: number, [high, low]: [number, number], value: number, before: number | null): void {
+    pen.fillStyle = value === 1 ? colors.value.one : colors.value.zero;
+    if (value === 1) {
+      pen.globalAlpha = 0.18;
+      pen.fillRect(left, high, right - left, low - high);
+      pen.globalAlpha = 1;
+      pen.fillRect(left, high, right - left, 3);
+    } else {
+      pen.fillRect(left, low - 1.5, right - left, 1.5);
+    }
+    if (before !== null && before !== value) {
+      pen.fillStyle = colors.value.dim;
+      pen.fillRect(left - 0.5, high, 1.2, low - high);
+    }
+  }
+
+  /** A box for each value, with the value in it where there is room. */
+  #drawBus(pen: Pen, sources: Source[], high: number, low: number): void {
+    const [start, from, to] = this.#cycles();
+    const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));
+    pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
+    pen.lineWidth = 1.2;
+    for (let left = from; left <= to; ) {
+      let right = left + 1;
+      while (right <= to && value(right) === value(left)) {
+        right++;
+      }
+      this.#drawBusValue(pen, this.x(left - 1, start), this.x(right - 1, start), high, low, value(left));
+      left = right;
+    }
+  }
+
+  #drawBusValue(pen: Pen, left: number, right: number, high: number, low: number, value: bigint): void {
+    pen.strokeStyle = value === 0n ? colors.value.zero : colors.value.one;
+    pen.strokeRect(left + 0.5, high, right - left - 1, low - high);
+    const text = String(value);
+    const inner = Math.max(left, this.label);
+    if (pen.measureText(text).width + 8 < right - inner) {
+      pen.fillStyle = colors.value.ink;
+      pen.fillText(text, inner + 4, (high + low) / 2 + 0.5);
+    }
+  }
+}
+
+function rowsOf(swarm: LiveSwarm): Row[] {
+  const definition = swarm.definition.value;
+  if (definition === null) {
+    return [];
+  }
+  const { inputs, outputs, robots, shown } = definition;
+  const range = (ports: Port[], port: Port): number[] =>
+    Array.from({ length: port.width }, (_, i) => offsetOf(ports, port) + i);
+  return [
+    ...inputs.map((port): Row => ({ name: port.name, group: "input", sources: range(inputs, port).map(input => ({ input })) })),
+    ...robots.map(({ net }, robot): Row => ({ name: net, group: "robot", sources: [{ robot }] })),
+    ...outputs.map((port): Row => ({
+      name: port.name,
+      group: "output",
+      sources: range(outputs, port).map(i => shown[i] ?? { constant: 0 }),
+    })),
+  ];
+}

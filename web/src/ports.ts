@@ -1,0 +1,72 @@
+// Ports as bits and as numbers. Bits are in order of the ports, the most significant bit of a port first.
+
+import type { Port } from "./protocol";
+
+/** One bit of a port. */
+export interface PortBit {
+  port: Port;
+  /** Within the port, 0 the least significant. */
+  place: number;
+  /** Among the bits of all ports. */
+  index: number;
+  /** `a`, or `a[2]` in a bus. */
+  name: string;
+}
+
+export function totalWidth(ports: Port[]): number {
+  return ports.reduce((sum, port) => sum + port.width, 0);
+}
+
+/** The index of a port's first bit among the bits of all ports. */
+export function offsetOf(ports: Port[], port: Port): number {
+  return totalWidth(ports.slice(0, ports.indexOf(port)));
+}
+
+export function bitsOf(ports: Port[]): PortBit[] {
+  let index = 0;
+  return ports.flatMap(port =>
+    Array.from({ length: port.width }, (_, i) => {
+      const place = port.width - 1 - i;
+      return { port, place, index: index++, name: port.width === 1 ? port.name : `${port.name}[${place}]` };
+    }),
+  );
+}
+
+/** The number that these bits are. */
+export function toNumber(bits: Iterable<number>): bigint {
+  let value = 0n;
+  for (const bit of bits) {
+    value = 2n * value + BigInt(bit);
+  }
+  return value;
+}
+
+/** The last `width` bits of a number. */
+export function toBits(value: bigint, width: number): number[] {
+  return Array.from({ length: width }, (_, i) => Number((value >> BigInt(width - 1 - i)) & 1n));
+}
+
+/** A number as typed: decimal, or binary or hexadecimal after `0b` or `0x`; null if it is none or too wide. */
+export function parseNumber(text: string, width: number): bigint | null {
+  const plain = text.trim().toLowerCase();
+  if (!/^(\d+|0b[01]+|0x[\da-f]+)$/.test(plain)) {
+    return null;
+  }
+  const value = BigInt(plain);
+  return value >> BigInt(width) === 0n ? value : null;
+}
+
+/** The bits of `text` with one of them changed. */
+export function withBit(text: string, index: number, bit: number): string {
+  return text.slice(0, index) + String(bit) + text.slice(index + 1);
+}
+
+/** The bits of inputs `after`, where ports that were among `before` keep their values. */
+export function keepBits(text: string, before: Port[], after: Port[]): string {
+  const kept = after.map(port => {
+    const same = before.find(other => other.name === port.name && other.width === port.width);
+    const start = same === undefined ? 0 : offsetOf(before, same);
+    return same === undefined ? "0".repeat(port.width) : text.slice(start, start + port.width);
+  });
+  return kept.join("");
+}

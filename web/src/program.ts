@@ -1,0 +1,233 @@
+// The program that is edited: its text and file, what is wrong with it, and the swarm that is compiled from it.
+
+import { CANCELLED, LOST, type Connection } from "./connection";
+import { draftOf, keepDraft } from "./editor/draft";
+import type { LiveSwarm } from "./live/swarm";
+import { Observable } from "./observable";
+import { RequestError, type Checked, type CircuitEntry, type FileText, type Hello } from "./protocol";
+import { sameProgram } from "./sameness";
+
+export interface Choice { circuit: string; swarm: string | null }
+
+export type Stage =
+  | { state: "idle" | "checking" | "ready" }
+  | { state: "compiling"; circuit: string }
+  | { state: "errors"; count: number }
+  | { state: "failed"; message: string; help: string | null };
+
+/** What a text must come from to be opened. */
+export type Origin = { path: string } | { example: string };
+
+const PAUSE = 350;
+
+export class Program {
+  readonly path = new Observable("");
+  readonly checked = new Observable<Checked | null>(null);
+  readonly choice = new Observable<Choice | null>(null);
+  readonly stage = new Observable<Stage>({ state: "idle" });
+  readonly unsaved = new Observable(false);
+  /** The stamp of the file, null while there is none. */
+  stamp: string | null = null;
+  hello: Hello | null = null;
+  /** Whether the swarm runs as soon as it is compiled. */
+  plays = true;
+  #text = "";
+  #saved: string | null = null;
+  #compiled: { path: string; text: string; choice: string } | null = null;
+  #timer = 0;
+  #compilation: AbortController | null = null;
+  #turn = 0;
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly swarm: LiveSwarm,
+  ) {}
+
+  get text(): string {
+    return this.#text;
+  }
+
+  get uri(): string {
+    const root = this.hello?.root ?? "file:///";
+    return `${root.replace(/\/?$/, "/")}${this.path.value.split("/").map(encodeURIComponent).join("/")}`;
+  }
+
+  get folder(): string {
+    return this.hello?.root ?? "";
+  }
+
+  /** Takes a file's text. The result is the draft that is shown in its place, if there is one. */
+  begin(file: FileText): ReturnType<typeof draftOf> {
+    const draft = draftOf(this.folder, file.path);
+    const restored = draft !== null && draft.text !== file.text ? draft : null;
+    this.path.set(file.path);
+    this.stamp = file.stamp;
+    this.#saved = file.text;
+    this.#text = restored?.text ?? file.text;
+    this.unsaved.set(restored !== null);
+    this.checked.set(null);
+    this.choice.set(null);
+    this.#check();
+    return restored;
+  }
+
+  /** Notes the file's present text, which the editor is about to show. */
+  adopt(file: FileText): void {
+    this.path.set(file.path);
+    this.stamp = file.stamp;
+    this.#saved = file.text;
+  }
+
+  /** Takes the text after an edit. */
+  edit(text: string): void {
+    this.#text = text;
+    const unsaved = text !== this.#saved;
+    this.unsaved.set(unsaved);
+    keepDraft(this.folder, this.path.value, unsaved ? { text, stamp: this.stamp } : null);
+    clearTimeout(this.#timer);
+    this.#timer = window.setTimeout(() => this.#check(), PAUSE);
+  }
+
+  /** The draft of a program that may have no file. */
+  draftAlone(path: string): string | null {
+    return draftOf(this.folder, path)?.text ?? null;
+  }
+
+  async save(path = this.path.value, stamp = path === this.path.value ? this.stamp : null): Promise<void> {
+    const text = this.#text;
+    const saved = await this.connection.request("save", { path, text, stamp });
+    keepDraft(this.folder, this.path.value, null);
+    this.path.set(path);
+    this.stamp = saved.stamp;
+    this.#saved = text;
+    this.unsaved.set(this.#text !== text);
+  }
+
+  choose(choice: Choice): void {
+    this.choice.set(choice);
+    void this.#compile();
+  }
+
+  cancel(): void {
+    this.#compilation?.abort();
+  }
+
+  /** Tells a server that has just been found again what this page works on. */
+  restore(): void {
+    this.#compiled = null;
+    this.plays = this.swarm.running.value || this.plays;
+    this.#check();
+  }
+
+  /** Notes that the swarm is now another than that of the program, such as that of a replay. */
+  forgetCompiled(choice: Choice | null): void {
+    this.#compiled = null;
+    this.choice.set(choice);
+  }
+
+  /** The circuits that can be compiled, with those of tests, which give parameters. */
+  circuits(): CircuitEntry[] {
+    const checked = this.checked.value;
+    const entries = [...(checked?.circuits ?? [])];
+    for (const { circuit, line } of checked?.tests ?? []) {
+      if (!entries.some(entry => entry.circuit === circuit)) {
+        entries.push({ name: circuit, circuit, swarms: [], line });
+      }
+    }
+    return entries;
+  }
+
+  async #check(): Promise<void> {
+    clearTimeout(this.#timer);
+    const turn = ++this.#turn;
+    const [path, text] = [this.path.value, this.#text];
+    this.stage.set({ state: "checking" });
+    try {
+      const checked = await this.connection.request("program", { path, text });
+      if (turn === this.#turn) {
+        this.checked.set(checked);
+        this.#proceed(checked);
+      }
+    } catch (error) {
+      this.#fail(error);
+    }
+  }
+
+  #proceed(checked: Checked): void {
+    if (checked.errors > 0) {
+      this.stage.set({ state: "errors", count: checked.errors });
+      return;
+    }
+    const circuits = this.circuits();
+    const kept = circuits.find(entry => entry.circuit === this.choice.value?.circuit);
+    // A test is about the circuit that matters; without one the last circuit uses the others.
+    const first = circuits.find(entry => entry.circuit === checked.tests[0]?.circuit) ?? circuits.at(-1);
+    if (first === undefined) {
+      this.choice.set(null);
+      this.stage.set({ state: "ready" });
+      return;
+    }
+    const swarm = kept?.swarms.includes(this.choice.value?.swarm ?? "") ? (this.choice.value?.swarm ?? null) : null;
+    const choice = { circuit: (kept ?? first).circuit, swarm };
+    if (JSON.stringify(choice) !== JSON.stringify(this.choice.value)) {
+      this.choice.set(choice);
+    }
+    void this.#compile();
+  }
+
+  async #compile(): Promise<void> {
+    const choice = this.choice.value;
+    const [path, text] = [this.path.value, this.#text];
+    if (choice === null || this.#isCompiled(path, text, choice)) {
+      this.stage.set({ state: "ready" });
+      return;
+    }
+    this.#compilation?.abort();
+    const compilation = new AbortController();
+    this.#compilation = compilation;
+    this.stage.set({ state: "compiling", circuit: choice.circuit });
+    try {
+      const { swarm } = await this.connection.request("compile", { path, ...choice }, { signal: compilation.signal });
+      if (this.#compilation === compilation) {
+        this.#compiled = { path, text, choice: JSON.stringify(choice) };
+        this.#start(swarm);
+      }
+    } catch (error) {
+      if (this.#compilation === compilation) {
+        this.#fail(error);
+      }
+    }
+  }
+
+  #isCompiled(path: string, text: string, choice: Choice): boolean {
+    const compiled = this.#compiled;
+    return (
+      compiled !== null && compiled.path === path && compiled.choice === JSON.stringify(choice) && sameProgram(compiled.text, text)
+    );
+  }
+
+  #start(swarm: Parameters<LiveSwarm["begin"]>[0]): void {
+    const plays = this.plays || this.swarm.running.value;
+    this.plays = false;
+    this.swarm.begin(swarm);
+    this.stage.set({ state: "ready" });
+    if (plays) {
+      this.swarm.play();
+    }
+  }
+
+  #fail(error: unknown): void {
+    if (error instanceof RequestError && error.code === LOST) {
+      return;
+    }
+    if (error instanceof RequestError && error.code === CANCELLED) {
+      this.stage.set({ state: "failed", message: "compiling was stopped", help: null });
+    } else if (error instanceof RequestError) {
+      const [diagnostic] = error.diagnostics;
+      const message = diagnostic === undefined ? error.message : diagnostic.message;
+      this.stage.set({ state: "failed", message, help: error.help ?? diagnostic?.help ?? null });
+    } else {
+      throw error;
+    }
+  }
+}

@@ -1,0 +1,111 @@
+// What can be done to a body: rows from the top, a material's code a character, `0` empty.
+
+import type { Paint } from "../protocol";
+
+export type Body = readonly string[];
+
+export const LARGEST = 10;
+export const EMPTY = "0";
+
+export function emptyBody(width: number, height: number): Body {
+  return Array.from({ length: height }, () => EMPTY.repeat(width));
+}
+
+export function sizeOf(body: Body): [width: number, height: number] {
+  return [body[0]?.length ?? 0, body.length];
+}
+
+export function voxelAt(body: Body, x: number, y: number): string {
+  return body[y]?.[x] ?? EMPTY;
+}
+
+export function paint(body: Body, x: number, y: number, code: string): Body {
+  const [width, height] = sizeOf(body);
+  if (x < 0 || y < 0 || x >= width || y >= height || voxelAt(body, x, y) === code) {
+    return body;
+  }
+  return body.map((row, i) => (i === y ? row.slice(0, x) + code + row.slice(x + 1) : row));
+}
+
+/** The body in a box of another size; it keeps its feet and its left side. */
+export function resized(body: Body, width: number, height: number): Body {
+  const missing = height - body.length;
+  const rows = missing >= 0 ? [...emptyBody(width, missing), ...body] : body.slice(-missing);
+  return rows.map(row => row.slice(0, width).padEnd(width, EMPTY));
+}
+
+export function mirrored(body: Body): Body {
+  return body.map(row => [...row].reverse().join(""));
+}
+
+/** Exchanges the two stimuli, by exchanging the materials that sense them. */
+export function swappedInputs(body: Body, palette: Paint[]): Body {
+  const partners = new Map<string, string>();
+  for (const { name, code } of palette) {
+    const other = palette.find(candidate => candidate.name === partnerName(name));
+    if (other !== undefined) {
+      partners.set(String(code), String(other.code));
+    }
+  }
+  return body.map(row => [...row].map(code => partners.get(code) ?? code).join(""));
+}
+
+/** The name of the material that does with the other stimulus what this one does with its own. */
+function partnerName(name: string): string | null {
+  const found = /^(.*s)([12])(_.*)$|^(s)([12])(_.*)$/.exec(name);
+  if (found === null) {
+    return null;
+  }
+  const [before, digit, after] = found.slice(1).filter(part => part !== undefined) as [string, string, string];
+  return `${before}${digit === "1" ? 2 : 1}${after}`;
+}
+
+export function countVoxels(body: Body): number {
+  return body.join("").replaceAll(EMPTY, "").length;
+}
+
+/** Whether all voxels hang together by their sides. */
+export function isConnected(body: Body): boolean {
+  const [width, height] = sizeOf(body);
+  const all = Array.from({ length: width * height }, (_, i): [number, number] => [i % width, Math.floor(i / width)]);
+  const start = all.find(([x, y]) => voxelAt(body, x, y) !== EMPTY);
+  if (start === undefined) {
+    return false;
+  }
+  const reached = new Set([start.join()]);
+  for (const waiting = [start]; waiting.length > 0; ) {
+    const [x, y] = waiting.pop() as [number, number];
+    for (const next of neighbors(x, y)) {
+      if (voxelAt(body, ...next) !== EMPTY && !reached.has(next.join())) {
+        reached.add(next.join());
+        waiting.push(next);
+      }
+    }
+  }
+  return reached.size === countVoxels(body);
+}
+
+function neighbors(x: number, y: number): [number, number][] {
+  return [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
+}
+
+/** A connected body of random materials that stands on the ground and can move. */
+export function randomBody(width: number, height: number, palette: Paint[], random: () => number = Math.random): Body {
+  const codes = palette.map(entry => String(entry.code)).filter(code => code !== EMPTY);
+  const pick = <T>(list: readonly T[]): T => list[Math.floor(random() * list.length)] as T;
+  const actuators = palette.filter(entry => /muscle|actuator/.test(entry.name + entry.about)).map(entry => String(entry.code));
+  const wanted = Math.max(2, Math.round(width * height * (0.45 + 0.4 * random())));
+  let body = paint(emptyBody(width, height), Math.floor(width / 2), height - 1, pick(actuators.length > 0 ? actuators : codes));
+  while (countVoxels(body) < wanted) {
+    body = paint(body, ...pick(border(body)), pick(codes));
+  }
+  return body;
+}
+
+/** The empty places beside voxels. */
+function border(body: Body): [number, number][] {
+  const [width, height] = sizeOf(body);
+  const all = Array.from({ length: width * height }, (_, i): [number, number] => [i % width, Math.floor(i / width)]);
+  const free = (x: number, y: number): boolean => voxelAt(body, x, y) === EMPTY;
+  return all.filter(([x, y]) => free(x, y) && neighbors(x, y).some(([a, b]) => !free(a, b)));
+}

@@ -1,0 +1,119 @@
+// The robots of the library and of the program, as cards on which they walk.
+
+import { button, element, fill } from "../element";
+import { PATTERNS, gateName, outputsOf } from "../gate";
+import { truthTableElement } from "../live/inspector";
+import type { Card, Look, Paint } from "../protocol";
+import { prefersStillness } from "../theme";
+import { GaitView, decodeGait, type Gait } from "./gait";
+import { drawBody } from "./portrait";
+import type { Probing } from "./probing";
+import type { Ticker } from "./ticker";
+
+/** Cycles that a robot walks under a pattern before the next pattern's turn. */
+const CYCLES = 6;
+
+export interface CardDoors {
+  design: (body: string[]) => void;
+}
+
+export class Cards {
+  readonly host = element("div", { class: "cards" });
+  readonly #observer: IntersectionObserver;
+  readonly #begin = new Map<Element, () => () => void>();
+  readonly #ends = new Map<Element, () => void>();
+
+  constructor(
+    private readonly probing: Probing,
+    private readonly ticker: Ticker,
+    private readonly doors: CardDoors,
+  ) {
+    this.#observer = new IntersectionObserver(entries => entries.forEach(entry => this.#see(entry)));
+  }
+
+  show(robots: Card[], looks: Look[], palette: Paint[]): void {
+    this.#ends.forEach(end => end());
+    this.#ends.clear();
+    this.#begin.clear();
+    this.#observer.disconnect();
+    fill(this.host, ...robots.map(robot => this.#card(robot, looks, palette)));
+  }
+
+  #see(entry: IntersectionObserverEntry): void {
+    this.#ends.get(entry.target)?.();
+    this.#ends.delete(entry.target);
+    const begin = this.#begin.get(entry.target);
+    if (entry.isIntersecting && begin !== undefined) {
+      this.#ends.set(entry.target, begin());
+    }
+  }
+
+  #card(robot: Card, looks: Look[], palette: Paint[]): HTMLElement {
+    const canvas = element("canvas", { class: "gait", role: "img", "aria-label": `${robot.name} walking` });
+    const caption = element("p", { class: "pattern dim" }, "\u00a0");
+    const card = element(
+      "article",
+      { class: "card robot", "data-robot": robot.name },
+      element("header", {}, element("h3", {}, gateName(robot.function)), element("span", { class: "dim" }, robot.name)),
+      canvas,
+      caption,
+      element("div", { class: "facts" }, truthTableElement(robot.function), factsOf(robot)),
+      button("Open in the designer", () => this.doors.design(robot.body), { "data-do": "design" }),
+    );
+    this.#begin.set(card, () => this.#walk(robot, canvas, caption, () => drawBody(canvas, robot.body, looks, palette)));
+    this.#observer.observe(card);
+    return card;
+  }
+
+  /** Lets the robot walk until the result is called. */
+  #walk(robot: Card, canvas: HTMLCanvasElement, caption: HTMLElement, portrait: () => void): () => void {
+    let ended = false;
+    let stop = (): void => {};
+    portrait();
+    this.probing.of(robot.body, CYCLES).then(
+      probe => {
+        if (!ended && !("fault" in probe)) {
+          const view = new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height: robot.height });
+          stop = this.ticker.add(play(view, probe.gaits.map(decodeGait), probe.letters, caption));
+        }
+      },
+      () => {},
+    );
+    return () => {
+      ended = true;
+      stop();
+    };
+  }
+}
+
+/** Plays the four gaits one after the other. */
+function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLElement): (seconds: number) => void {
+  let time = 0;
+  let shown = -1;
+  return seconds => {
+    time = (time + seconds * 4) % (gaits.length * CYCLES);
+    const pattern = Math.floor(time / CYCLES);
+    const moment = prefersStillness() ? 0 : time % CYCLES;
+    if (gaits[pattern] !== undefined) {
+      view.draw(gaits[pattern], moment);
+    }
+    if (pattern !== shown) {
+      shown = pattern;
+      caption.textContent = `${PATTERNS[pattern]}: ${outputsOf(letters)[pattern] === 1 ? "walks right ▶" : "walks left ◀"}`;
+    }
+  };
+}
+
+function factsOf(robot: Card): HTMLElement {
+  const facts: [string, string][] = [
+    ["clock", `${robot.clock} ${robot.clock === 1 ? "cycle" : "cycles"}`],
+    ["margin", `${robot.margin.toFixed(3)} voxels`],
+    ["errors", percent(robot.errors)],
+    ["from", robot.shipped ? "the library" : "the program"],
+  ];
+  return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+}
+
+export function percent(share: number): string {
+  return share === 0 ? "none" : `${(100 * share).toFixed(2)} %`;
+}

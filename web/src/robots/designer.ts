@@ -1,0 +1,182 @@
+// The designer: paint a body, and see at once how it walks and which gate it is.
+
+import { element, fill, iconButton, button } from "../element";
+import { swatch } from "../live/legend";
+import { Observable } from "../observable";
+import type { Look, Paint, ProbeResult, Robots } from "../protocol";
+import { recall, remember } from "../memory";
+import {
+  LARGEST, countVoxels, emptyBody, mirrored, paint, randomBody, resized, sizeOf, swappedInputs, type Body,
+} from "./body";
+import { Grid } from "./grid";
+import { History } from "./history";
+import { looksByCode } from "./portrait";
+import type { Probing } from "./probing";
+
+/** After the last change, in milliseconds. */
+const PAUSE = 150;
+const CYCLES = 8;
+
+/** A body and how it walks; null while that is not known. */
+export interface Design { body: Body; probe: ProbeResult | null }
+
+export class Designer {
+  readonly host = element("section", { class: "designer", "aria-label": "Designer" });
+  readonly design: Observable<Design>;
+  readonly #history: History<Body>;
+  readonly #grid: Grid;
+  readonly #palette = element("div", { class: "palette", role: "radiogroup", "aria-label": "Material to paint with" });
+  readonly #undo = iconButton("undo", "Undo (Ctrl-Z)", () => this.#back(() => this.#history.undo()), { "data-do": "undo" });
+  readonly #redo = iconButton("redo", "Redo (Ctrl-Y)", () => this.#back(() => this.#history.redo()), { "data-do": "redo" });
+  readonly #sizes = { width: this.#sizeField("width"), height: this.#sizeField("height") };
+  #materials: Paint[] = [];
+  #looks: Look[] = [];
+  #brush = "3";
+  #timer = 0;
+
+  constructor(private readonly probing: Probing) {
+    const body = recall<string[]>("design") ?? emptyBody(5, 5);
+    this.#history = new History<Body>(body);
+    this.design = new Observable<Design>({ body, probe: null });
+    this.#grid = new Grid({
+      brush: () => this.#brush,
+      paint: (x, y, code, merge) => this.#paint(x, y, code ?? this.#brush, merge),
+    });
+    this.host.append(
+      element("div", { class: "bench" }, this.#grid.host, this.#palette),
+      this.#tools(),
+    );
+    this.host.addEventListener("keydown", event => this.#key(event));
+  }
+
+  get body(): Body {
+    return this.#history.present;
+  }
+
+  setMaterials({ palette, looks }: Robots): void {
+    this.#materials = palette;
+    this.#looks = looks;
+    this.#showPalette();
+    this.#show();
+    if (this.design.value.probe === null) {
+      this.#probe();
+    }
+  }
+
+  /** Puts a body into the designer. */
+  take(body: Body): void {
+    this.#change(body);
+  }
+
+  #paint(x: number, y: number, code: string, merge: boolean): void {
+    const known = this.#materials.some(material => String(material.code) === code);
+    if (known) {
+      this.#change(paint(this.body, x, y, code), merge);
+    }
+  }
+
+  #change(body: Body, merge = false): void {
+    this.#history.push(body, merge);
+    this.#show();
+    this.#probeSoon();
+  }
+
+  #back(step: () => void): void {
+    step();
+    this.#show();
+    this.#probeSoon();
+  }
+
+  #show(): void {
+    const names = new Map(this.#materials.map(({ code, name }) => [String(code), name]));
+    this.#grid.show(this.body, looksByCode(this.#looks, this.#materials), names);
+    this.#undo.disabled = !this.#history.canUndo;
+    this.#redo.disabled = !this.#history.canRedo;
+    const [width, height] = sizeOf(this.body);
+    this.#sizes.width.value = String(width);
+    this.#sizes.height.value = String(height);
+    remember("design", this.body);
+  }
+
+  #probeSoon(): void {
+    this.design.set({ body: this.body, probe: null });
+    clearTimeout(this.#timer);
+    this.#timer = window.setTimeout(() => this.#probe(), PAUSE);
+  }
+
+  #probe(): void {
+    const { body } = this;
+    if (countVoxels(body) === 0) {
+      this.design.set({ body, probe: { fault: "the body is empty: choose a material and paint" } });
+      return;
+    }
+    const show = (probe: ProbeResult): void => {
+      if (body === this.body) {
+        this.design.set({ body, probe });
+      }
+    };
+    this.probing.of(body, CYCLES).then(show, (error: Error) => show({ fault: error.message }));
+  }
+
+  #showPalette(): void {
+    const choose = (code: string): void => {
+      this.#brush = code;
+      this.#showPalette();
+    };
+    fill(
+      this.#palette,
+      ...this.#materials.map(({ code, name, about, look }) =>
+        element(
+          "button",
+          {
+            type: "button", role: "radio", title: about, "data-code": String(code),
+            "aria-checked": String(String(code) === this.#brush), onclick: () => choose(String(code)),
+          },
+          element("kbd", {}, String(code)),
+          String(code) === "0" ? element("span", { class: "swatch none" }) : swatch(this.#looks[look]),
+          element("span", {}, name),
+        ),
+      ),
+    );
+  }
+
+  #tools(): HTMLElement {
+    const random = (): void => this.#change(randomBody(...sizeOf(this.body), this.#materials));
+    return element(
+      "div",
+      { class: "tools row" },
+      this.#undo,
+      this.#redo,
+      button("Mirror", () => this.#change(mirrored(this.body)), { "data-do": "mirror", title: "Left becomes right" }),
+      button("Swap inputs", () => this.#change(swappedInputs(this.body, this.#materials)), {
+        "data-do": "swap", title: "Exchange the materials that sense stimulus 1 and stimulus 2",
+      }),
+      button("Random", random, { "data-do": "random", title: "A random body" }),
+      button("Clear", () => this.#change(emptyBody(...sizeOf(this.body))), { "data-do": "clear" }),
+      element("label", {}, "size ", this.#sizes.width, " × ", this.#sizes.height),
+    );
+  }
+
+  #sizeField(side: "width" | "height"): HTMLInputElement {
+    const field: HTMLInputElement = element("input", {
+      type: "number", min: 1, max: LARGEST, "aria-label": `${side} of the body`, "data-size": side,
+      onchange: () => {
+        const [width, height] = [Number(this.#sizes.width.value), Number(this.#sizes.height.value)];
+        if ([width, height].every(size => Number.isInteger(size) && size >= 1 && size <= LARGEST)) {
+          this.#change(resized(this.body, width, height));
+        } else {
+          this.#show();
+        }
+      },
+    });
+    return field;
+  }
+
+  #key(event: KeyboardEvent): void {
+    const key = event.key.toLowerCase();
+    if ((event.ctrlKey || event.metaKey) && (key === "z" || key === "y")) {
+      event.preventDefault();
+      this.#back(() => (key === "y" || event.shiftKey ? this.#history.redo() : this.#history.undo()));
+    }
+  }
+}

@@ -1,0 +1,89 @@
+// How the body in the designer walks under the four patterns, and what follows from it.
+
+import { element, fill } from "../element";
+import { PATTERNS, gateName } from "../gate";
+import { truthTableElement } from "../live/inspector";
+import type { Probe } from "../protocol";
+import { prefersStillness } from "../theme";
+import { sizeOf } from "./body";
+import { percent } from "./cards";
+import type { Design } from "./designer";
+import { GaitView, decodeGait } from "./gait";
+import type { Ticker } from "./ticker";
+
+export class ProbeView {
+  readonly host = element("section", { class: "probe", "aria-label": "How it walks" });
+  readonly #title = element("h3", { role: "status", "aria-live": "polite" });
+  readonly #lanes = element("div", { class: "lanes" });
+  readonly #facts = element("div", { class: "facts" });
+  #stop: () => void = () => {};
+
+  constructor(private readonly ticker: Ticker) {
+    this.host.append(this.#title, this.#lanes, this.#facts);
+  }
+
+  show({ body, probe }: Design): void {
+    this.host.toggleAttribute("data-waiting", probe === null);
+    if (probe === null) {
+      return;
+    }
+    this.#stop();
+    if ("fault" in probe) {
+      this.host.dataset["letters"] = "";
+      this.#title.textContent = probe.fault;
+      fill(this.#lanes);
+      fill(this.#facts);
+      return;
+    }
+    this.host.dataset["letters"] = probe.letters;
+    this.#title.textContent = probe.function === null ? "no gate yet" : gateName(probe.function);
+    this.#showLanes(probe, sizeOf(body)[1]);
+    fill(this.#facts, truthTableElement(probe.function, [...probe.letters].map(letterValue)), this.#numbers(probe));
+  }
+
+  #showLanes(probe: Probe, height: number): void {
+    const gaits = probe.gaits.map(decodeGait);
+    const views = gaits.map((_, i) => {
+      const letter = probe.letters[i] ?? "?";
+      const canvas = element("canvas", { class: "gait", role: "img", "aria-label": `under ${PATTERNS[i]}: ${directionOf(letter)}` });
+      const lane = element(
+        "div",
+        { class: "lane" },
+        element("span", { class: "pattern" }, PATTERNS[i] ?? ""),
+        canvas,
+        element("span", { class: "letter", "data-letter": letter, title: directionOf(letter) }, letter),
+      );
+      return { lane, view: new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height }) };
+    });
+    fill(this.#lanes, ...views.map(({ lane }) => lane));
+    let time = 0;
+    this.#stop = this.ticker.add(seconds => {
+      const cycles = gaits[0]?.cycles ?? 1;
+      time = prefersStillness() ? cycles : (time + 4 * seconds) % cycles;
+      views.forEach(({ view }, i) => gaits[i] !== undefined && view.draw(gaits[i], time));
+    });
+  }
+
+  #numbers({ character, displacement, letters }: Probe): HTMLElement {
+    const facts: [string, string][] = [
+      ["behavior", `${letters} (under 00, 01, 10, 11)`],
+      ["walks", displacement.map(voxels => voxels.toFixed(2)).join(", ") + " voxels"],
+    ];
+    if (character !== null) {
+      facts.push(
+        ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
+        ["margin", `${character.margin.toFixed(3)} voxels a cycle`],
+        ["errors", percent(character.errors ?? character.error_rate ?? 0)],
+      );
+    }
+    return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+  }
+}
+
+function letterValue(letter: string): number {
+  return letter === "R" ? 1 : 0;
+}
+
+function directionOf(letter: string): string {
+  return letter === "R" ? "walks right: 1" : letter === "L" ? "walks left: 0" : "walks nowhere in particular";
+}

@@ -1,0 +1,37 @@
+// What is pointed at and what is followed, the same in all views of a swarm.
+
+import { Observable } from "./observable";
+import type { Source } from "./protocol";
+
+export class Selection {
+  /** The source of the net that is pointed at. */
+  readonly pointed = new Observable<Source | null>(null);
+  /** The robot that is followed alone. */
+  readonly followed = new Observable<number | null>(null);
+
+  point(source: Source | null): void {
+    if (!sameSource(source, this.pointed.value)) {
+      this.pointed.set(source);
+    }
+  }
+
+  /** Follows a robot alone, or all again when it is followed already. */
+  follow(robot: number | null): void {
+    this.followed.set(this.followed.value === robot ? null : robot);
+  }
+
+  clear(): void {
+    this.pointed.set(null);
+    this.followed.set(null);
+  }
+}
+
+export function sameSource(a: Source | null, b: Source | null): boolean {
+  if (a === null || b === null) {
+    return a === b;
+  }
+  if ("robot" in a) {
+    return "robot" in b && a.robot === b.robot;
+  }
+  return "input" in a ? "input" in b && a.input === b.input : "constant" in b && a.constant === b.constant;
+}

@@ -1,0 +1,75 @@
+// Files to take away: the program, and what the server makes of the run.
+
+import { CANCELLED, type Connection } from "./connection";
+import { button, element, fill } from "./element";
+import type { LiveSwarm } from "./live/swarm";
+import { closeOutside } from "./menu";
+import type { Program } from "./program";
+import { RequestError, type Picture } from "./protocol";
+
+const PICTURES: [Picture, string][] = [
+  ["page", "Report page (HTML)"],
+  ["gif", "Film (GIF)"],
+  ["png", "Schematic (PNG)"],
+  ["svg", "Schematic (SVG)"],
+  ["vcd", "Waveforms (VCD)"],
+  ["csv", "Table of cycles (CSV)"],
+];
+
+export class TakeAway {
+  readonly host: HTMLElement;
+  readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
+  readonly #cycles = element("input", { type: "number", min: 1, max: 1000, value: 40, "aria-label": "Cycles up to now" });
+  #work: AbortController | null = null;
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly program: Program,
+    private readonly swarm: LiveSwarm,
+  ) {
+    this.host = element(
+      "details",
+      { class: "menu take" },
+      element("summary", {}, "Take away"),
+      element(
+        "div",
+        { class: "sheet" },
+        button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
+        ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
+        element("label", {}, "of the last ", this.#cycles, " cycles"),
+        this.#status,
+      ),
+    );
+    closeOutside(this.host as HTMLDetailsElement);
+  }
+
+  #program(): void {
+    const url = URL.createObjectURL(new Blob([this.program.text], { type: "text/plain" }));
+    download(url, this.program.path.value.split("/").at(-1) ?? "program.nb");
+    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+  }
+
+  async #take(what: Picture, label: string): Promise<void> {
+    this.#work?.abort();
+    const work = new AbortController();
+    this.#work = work;
+    const now = this.swarm.frame.value?.now ?? 0;
+    const cycles = Math.max(1, Math.min(now, Number(this.#cycles.value) || 40));
+    fill(this.#status, `making ${label} … `, button("Stop", () => work.abort()));
+    try {
+      const { url, name } = await this.connection.request("take", { what, cycles }, { signal: work.signal });
+      download(new URL(url, document.baseURI).href, name);
+      fill(this.#status, `${name} is ready`);
+    } catch (error) {
+      const known = error instanceof RequestError;
+      fill(this.#status, known && error.code !== CANCELLED ? `${error.message}${error.help ? `; ${error.help}` : ""}` : "");
+    }
+  }
+}
+
+function download(url: string, name: string): void {
+  const link = element("a", { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+}

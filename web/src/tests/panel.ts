@@ -1,0 +1,173 @@
+// The tests of the program: run them, and go from a failing row to its line or to its moment in the run.
+
+import { CANCELLED, type Connection } from "../connection";
+import { button, element, fill } from "../element";
+import type { LiveSwarm } from "../live/swarm";
+import { Observable } from "../observable";
+import type { Program } from "../program";
+import { RequestError, type Level, type TestEntry, type Verdict } from "../protocol";
+import { verdictTable } from "./verdict";
+
+/** What is known of a test. */
+export type TestState =
+  | { state: "running"; done: number; all: number; work: AbortController }
+  | { state: "done"; level: Level; results: Verdict[] }
+  | { state: "failed"; message: string };
+
+export class TestsPanel {
+  readonly host = element("div", { class: "tests" });
+  /** The results by the number of the test, for the present text. */
+  readonly states = new Observable(new Map<number, TestState>());
+  readonly #list = element("div", { class: "list" });
+  readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly program: Program,
+    private readonly swarm: LiveSwarm,
+    private readonly reveal: (line: number) => void,
+    private readonly showSwarm: () => void,
+  ) {
+    this.host.append(
+      element(
+        "div",
+        { class: "bar" },
+        button("Run all in physics", () => void this.#runAll("physics"), { class: "primary", "data-do": "all-physics" }),
+        button("Run all as logic", () => void this.#runAll("logic"), { "data-do": "all-logic" }),
+        this.#status,
+      ),
+      this.#list,
+    );
+    program.checked.on(() => {
+      this.#stopAll();
+      this.states.set(new Map());
+    });
+    this.states.follow(() => this.#build());
+  }
+
+  #tests(): TestEntry[] {
+    return this.program.checked.value?.tests ?? [];
+  }
+
+  #set(index: number, state: TestState): void {
+    this.states.value.set(index, state);
+    this.states.notify();
+  }
+
+  #stopAll(): void {
+    for (const state of this.states.value.values()) {
+      if (state.state === "running") {
+        state.work.abort();
+      }
+    }
+  }
+
+  async #runAll(level: Level): Promise<void> {
+    for (const { index } of this.#tests()) {
+      await this.#run(index, level);
+    }
+  }
+
+  async #run(index: number, level: Level): Promise<void> {
+    const work = new AbortController();
+    const states = this.states.value;
+    this.#set(index, { state: "running", done: 0, all: 0, work });
+    const fields = { path: this.program.path.value, test: index, level };
+    const progress = (done: number, all: number): void => this.#set(index, { state: "running", done, all, work });
+    try {
+      const { results } = await this.connection.request("test", fields, { signal: work.signal, progress });
+      // After an edit the result is about a test that is no longer there.
+      if (states === this.states.value) {
+        this.#set(index, { state: "done", level, results });
+      }
+    } catch (error) {
+      if (error instanceof RequestError && states === this.states.value) {
+        const message = error.code === CANCELLED ? "stopped" : `${error.message}${error.help === null ? "" : `; ${error.help}`}`;
+        this.#set(index, { state: "failed", message });
+      }
+    }
+  }
+
+  async #replay(test: TestEntry, verdict: Verdict, row: number): Promise<void> {
+    this.#status.textContent = "running the test up to this row …";
+    try {
+      const { swarm } = await this.connection.request(
+        "replay",
+        { path: this.program.path.value, test: test.index, swarm: verdict.swarm, row },
+        { progress: (done, all) => (this.#status.textContent = `running the test up to this row: ${done} of ${all}`) },
+      );
+      this.program.forgetCompiled({ circuit: test.circuit, swarm: verdict.swarm });
+      this.swarm.begin(swarm, true);
+      this.showSwarm();
+      this.#status.textContent = "";
+    } catch (error) {
+      this.#status.textContent = error instanceof RequestError ? error.message : "";
+    }
+  }
+
+  #build(): void {
+    const tests = this.#tests();
+    if (tests.length === 0) {
+      const text = this.program.checked.value?.errors ? "The program has errors." : "This program has no tests.";
+      fill(this.#list, element("p", { class: "empty" }, text));
+      return;
+    }
+    fill(this.#list, ...tests.map(test => this.#card(test)));
+  }
+
+  #card(test: TestEntry): HTMLElement {
+    const state = this.states.value.get(test.index);
+    const passed = state?.state === "done" ? String(state.results.every(verdict => verdict.passed)) : "";
+    return element(
+      "article",
+      { class: "card test", "data-test": test.index, "data-state": state?.state ?? "none", "data-passed": passed },
+      element(
+        "header",
+        {},
+        element("h3", {}, button(test.circuit, () => this.reveal(test.line), { class: "link", title: `Line ${test.line}` })),
+        element("span", { class: "title" }, test.title),
+        element("span", { class: "count" }, `${test.rows.length} ${test.rows.length === 1 ? "row" : "rows"}`),
+      ),
+      element(
+        "div",
+        { class: "bar" },
+        button("Run in physics", () => void this.#run(test.index, "physics"), { "data-do": "physics", disabled: state?.state === "running" }),
+        button("Run as logic", () => void this.#run(test.index, "logic"), { "data-do": "logic", disabled: state?.state === "running" }),
+        this.#result(state),
+      ),
+      ...this.#tables(test, state),
+    );
+  }
+
+  #result(state: TestState | undefined): HTMLElement | null {
+    if (state === undefined) {
+      return null;
+    }
+    if (state.state === "failed") {
+      return element("span", { class: "verdict fail" }, state.message);
+    }
+    if (state.state === "running") {
+      return element(
+        "span",
+        { class: "verdict" },
+        element("progress", { max: Math.max(1, state.all), value: state.all === 0 ? null : state.done, "aria-label": "Progress" }),
+        button("Stop", () => state.work.abort(), { "data-do": "stop" }),
+      );
+    }
+    const passed = state.results.every(verdict => verdict.passed);
+    const level = state.level === "physics" ? "in physics" : "as logic";
+    return element("span", { class: `verdict ${passed ? "pass" : "fail"}` }, passed ? `✓ passes ${level}` : `✗ fails ${level}`);
+  }
+
+  #tables(test: TestEntry, state: TestState | undefined): HTMLElement[] {
+    if (state?.state !== "done") {
+      return [];
+    }
+    return state.results.map(verdict =>
+      verdictTable(verdict, {
+        line: line => this.reveal(line),
+        moment: verdict.level === "physics" ? row => void this.#replay(test, verdict, row) : null,
+      }),
+    );
+  }
+}

@@ -1,0 +1,62 @@
+// The rows of a test with what was expected and observed.
+
+import { button, element } from "../element";
+import type { Verdict, VerdictRow } from "../protocol";
+
+export interface Leads {
+  line: (line: number) => void;
+  /** Shows the row in the run; null if there was no run in physics. */
+  moment: ((row: number) => void) | null;
+}
+
+/** More rows than this are long to read, so passing ones are left out. */
+const MANY = 64;
+
+export function verdictTable(verdict: Verdict, leads: Leads): HTMLElement {
+  const rows = verdict.rows.length > MANY ? verdict.rows.filter(row => !row.passed).slice(0, MANY) : verdict.rows;
+  const left = verdict.rows.length - rows.length;
+  return element(
+    "div",
+    { class: "scroll" },
+    verdict.swarm === null ? null : element("h4", {}, `swarm ${verdict.swarm}`),
+    element("table", { class: "rows" }, head(verdict), element("tbody", {}, ...rows.map(row => tableRow(row, leads)))),
+    left > 0 && element("p", { class: "dim" }, `${left} more ${left === 1 ? "row" : "rows"}`),
+  );
+}
+
+function head(verdict: Verdict): HTMLElement {
+  const names = (ports: { name: string }[]): HTMLElement[] => ports.map(port => element("th", { scope: "col" }, port.name));
+  return element(
+    "thead",
+    {},
+    element(
+      "tr",
+      {},
+      element("th", { scope: "colgroup", colspan: verdict.inputs.length, class: "group" }, "inputs"),
+      element("th", { scope: "colgroup", colspan: verdict.outputs.length, class: "group" }, "expected"),
+      element("th", { scope: "colgroup", colspan: verdict.outputs.length, class: "group" }, "observed"),
+      element("th", { rowspan: 2 }, ""),
+      element("th", { rowspan: 2 }, ""),
+    ),
+    element("tr", {}, ...names(verdict.inputs), ...names(verdict.outputs), ...names(verdict.outputs)),
+  );
+}
+
+function tableRow(row: VerdictRow, leads: Leads): HTMLElement {
+  const cells = (values: ({ text: string } | null)[]): HTMLElement[] =>
+    values.map((value, i) => element("td", { class: i === 0 ? "first" : "" }, value?.text ?? "–"));
+  return element(
+    "tr",
+    { "data-passed": row.passed, "data-row": row.row },
+    ...cells(row.inputs),
+    ...cells(row.expected),
+    ...cells(row.observed),
+    element("td", { class: row.passed ? "pass" : "fail" }, row.passed ? "✓ pass" : "✗ fail"),
+    element(
+      "td",
+      { class: "leads" },
+      button(`line ${row.line}`, () => leads.line(row.line), { class: "link", "data-do": "line" }),
+      leads.moment !== null && button("show the moment", () => leads.moment?.(row.row), { class: "link", "data-do": "moment" }),
+    ),
+  );
+}

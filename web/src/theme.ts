@@ -1,0 +1,95 @@
+// Light or dark, large type for a projector, and the colors that canvases draw with.
+
+import { Observable } from "./observable";
+import { recall, remember } from "./memory";
+
+export interface Colors {
+  ink: string;
+  dim: string;
+  paper: string;
+  panel: string;
+  line: string;
+  one: string;
+  zero: string;
+  accent: string;
+  highlight: string;
+  sky: string;
+  ground: string;
+  tick: string;
+  edge: string;
+  good: string;
+  bad: string;
+  font: string;
+}
+
+type Theme = "light" | "dark";
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+
+export const colors = new Observable<Colors>(readColors());
+/** The size of type relative to the usual one. */
+export const enlargement = new Observable(1);
+
+export function prefersStillness(): boolean {
+  return still.matches;
+}
+
+export function theme(): Theme {
+  return (document.documentElement.dataset["theme"] as Theme | undefined) ?? (dark.matches ? "dark" : "light");
+}
+
+export function switchTheme(): void {
+  const chosen: Theme = theme() === "dark" ? "light" : "dark";
+  // A choice that agrees with the system follows the system again.
+  if ((chosen === "dark") === dark.matches) {
+    delete document.documentElement.dataset["theme"];
+    remember("theme", null);
+  } else {
+    document.documentElement.dataset["theme"] = chosen;
+    remember("theme", chosen);
+  }
+  colors.set(readColors());
+}
+
+export function switchProjector(): boolean {
+  const large = document.documentElement.toggleAttribute("data-projector");
+  remember("projector", large ? true : null);
+  enlargement.set(large ? 1.35 : 1);
+  return large;
+}
+
+export function restoreTheme(): void {
+  const chosen = recall<Theme>("theme");
+  if (chosen !== null) {
+    document.documentElement.dataset["theme"] = chosen;
+  }
+  if (recall<boolean>("projector") === true) {
+    switchProjector();
+  }
+  dark.addEventListener("change", () => colors.set(readColors()));
+  colors.set(readColors());
+}
+
+function readColors(): Colors {
+  const style = getComputedStyle(document.documentElement);
+  const named = (name: string): string => style.getPropertyValue(`--${name}`).trim();
+  return {
+    ink: named("ink"),
+    dim: named("dim"),
+    paper: named("paper"),
+    panel: named("panel"),
+    line: named("line"),
+    one: named("one"),
+    zero: named("zero"),
+    accent: named("accent"),
+    highlight: named("highlight"),
+    sky: named("sky"),
+    ground: named("ground"),
+    tick: named("tick"),
+    edge: named("edge"),
+    good: named("good"),
+    bad: named("bad"),
+    font: named("font"),
+  };
+}
