@@ -37,7 +37,7 @@ export class App {
       { program: this.#program, swarm: this.#swarm, tests, robots },
       { open: (path, text) => this.#edit.begin(path, text), show: tab => this.#layout.show(tab) },
     );
-    this.#layout = new Layout(this.#header.host, this.#edit.host, [
+    this.#layout = new Layout(this.#header.host, this.#edit.host, learn.strip, [
       { name: "swarm", label: "Swarm", panel: swarm.host },
       { name: "tests", label: "Tests", panel: tests.host },
       { name: "robots", label: "Robots", panel: robots.host },

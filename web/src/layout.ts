@@ -13,14 +13,15 @@ const WIDEST = 75;
 
 export class Layout {
   readonly host: HTMLElement;
+  /** The tab that is shown. */
   readonly tab = new Observable<TabName>("swarm");
   readonly #buttons = new Map<TabName, HTMLButtonElement>();
   readonly #main = element("main");
 
-  constructor(head: HTMLElement, edit: HTMLElement, readonly tabs: Tab[]) {
+  constructor(head: HTMLElement, edit: HTMLElement, strip: HTMLElement, readonly tabs: Tab[]) {
     const bar = element("div", { class: "tabs", role: "tablist", "aria-label": "Views" });
     const panels = tabs.map(tab => this.#panel(tab, bar));
-    const live = element("section", { class: "live", "aria-label": "Live" }, bar, ...panels);
+    const live = element("section", { class: "live", "aria-label": "Live" }, bar, strip, ...panels);
     this.#main.append(edit, this.#divider(), live);
     this.host = element("div", { class: "page" }, head, this.#main);
     this.#resize(recall<number>("divide") ?? 38);

@@ -2,6 +2,7 @@
 
 import { button, element, fill, iconButton } from "../element";
 import type { Choice, Program, Stage as CompileStage } from "../program";
+import { recall, remember } from "../memory";
 import { colors } from "../theme";
 import { Animation } from "./animation";
 import { ClockPanel } from "./clock";
@@ -43,7 +44,7 @@ export class SwarmPanel {
     const clock = new ClockPanel(swarm);
     this.host.append(
       element("div", { class: "head" }, this.#choices, this.#status, takeAway),
-      element("div", { class: "ports" }, inputs.host, clock.host, outputs.host),
+      element("div", { class: "ports" }, inputs.host, clock.host, firstHint(swarm), outputs.host),
       this.controls.host,
       element("div", { class: "scene" }, this.stage.pane.host, inspector.host),
       element("div", { class: "diagrams" }, schematic.host, diagrams(waveform, spacetime, timeline)),
@@ -127,6 +128,19 @@ const MATERIALS = [
   "shrinks while stimulus 1 is present", "shrinks while stimulus 2 is present",
   "grows while stimulus 1 is present", "grows while stimulus 2 is present",
 ];
+
+/** Until the first switch was flipped. */
+function firstHint(swarm: LiveSwarm): HTMLElement {
+  const hint = element("span", { class: "hint", role: "note", hidden: recall("flipped") === true }, "◀ flip a switch, and robots turn round");
+  const stop = swarm.inputs.on(bits => {
+    if (bits.includes("1")) {
+      hint.hidden = true;
+      remember("flipped", true);
+      stop();
+    }
+  });
+  return hint;
+}
 
 function diagrams(waveform: Waveform, spacetime: Spacetime, timeline: Timeline): HTMLElement {
   return element(

@@ -30,12 +30,14 @@ export class Spacetime extends Diagram {
     this.#drawPlaces(pen, scale);
     pen.save();
     pen.beginPath();
-    pen.rect(this.label, 0, this.span + 8, scale.bottom + 2);
+    const end = this.swarm.running.value ? this.x(this.swarm.playback.time, scale.start) : this.pane.width;
+    pen.rect(this.label, 0, end - this.label, scale.bottom + 2);
     pen.clip();
     const lines = this.#robots();
     lines.filter(robot => !this.#isPointed(robot)).forEach(robot => this.#drawLine(pen, robot, scale, false));
     lines.filter(robot => this.#isPointed(robot)).forEach(robot => this.#drawLine(pen, robot, scale, true));
     pen.restore();
+    lines.forEach(robot => this.#drawName(pen, robot, scale));
   }
 
   protected point(x: number, y: number): void {
@@ -63,10 +65,16 @@ export class Spacetime extends Diagram {
     return cycle === 0 ? 0 : (this.swarm.log.at(cycle)?.places[robot] ?? null);
   }
 
-  /** The newest cycle whose end is shown already. */
+  /** The place at a moment within a cycle. */
+  #placeAt(robot: number, time: number): number | null {
+    const [from, to] = [this.#place(robot, Math.floor(time)), this.#place(robot, Math.ceil(time))];
+    return from === null || to === null ? null : from + (to - from) * (time - Math.floor(time));
+  }
+
+  /** The newest cycle that is shown at least in part. */
   #newest(): number {
-    const { log, playback, frame } = this.swarm;
-    return frame.value?.running ? Math.floor(playback.time + 1e-6) : log.last;
+    const { log, playback, running } = this.swarm;
+    return running.value ? playback.cycle : log.last;
   }
 
   #scale(): Scale {
@@ -115,13 +123,14 @@ export class Spacetime extends Diagram {
         pen.stroke();
       }
     }
-    this.#drawName(pen, robot, last, scale, pointed);
     pen.globalAlpha = 1;
   }
 
-  #drawName(pen: Pen, robot: number, cycle: number, scale: Scale, pointed: boolean): void {
+  #drawName(pen: Pen, robot: number, scale: Scale): void {
     const definition = this.swarm.definition.value;
-    const place = this.#place(robot, cycle);
+    const pointed = this.#isPointed(robot);
+    const time = this.swarm.running.value ? this.swarm.playback.time : this.#newest();
+    const place = this.#placeAt(robot, time);
     if (place === null || definition === null || (!pointed && definition.robots.length > NAMED)) {
       return;
     }
@@ -129,6 +138,6 @@ export class Spacetime extends Diagram {
     pen.textAlign = "left";
     pen.textBaseline = "middle";
     pen.fillStyle = colors.value.ink;
-    pen.fillText(definition.robots[robot]?.net ?? "", this.x(cycle, scale.start) + 6, scale.y(place));
+    pen.fillText(definition.robots[robot]?.net ?? "", Math.min(this.x(time, scale.start), this.pane.width - 40) + 6, scale.y(place));
   }
 }

@@ -5,6 +5,7 @@ import { LaneGrid, followWithSlack, middleOf } from "./camera";
 import { drawGround, drawLamp, drawRobot, drawStimulus, type Lane } from "./drawing";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
+import type { Source } from "../protocol";
 import type { View } from "./animation";
 import { sameSource } from "../selection";
 import { gateName } from "../gate";
@@ -64,7 +65,8 @@ export class Stage implements View {
     const count = this.#robots().length;
     const columns = count <= FEW ? 1 : Math.max(1, Math.floor(this.pane.width / (COLUMN * enlargement.value)));
     const share = this.pane.height / Math.ceil(count / columns);
-    const height = count === 1 ? this.pane.height : Math.max(74 * enlargement.value, Math.min(150, share));
+    const least = (count <= FEW ? 54 : 66) * enlargement.value;
+    const height = count === 1 ? this.pane.height : Math.max(least, Math.min(150, share));
     this.#grid = new LaneGrid(count, columns, this.pane.width, height);
   }
 
@@ -116,17 +118,21 @@ export class Stage implements View {
     pen.textBaseline = "alphabetic";
     pen.fillStyle = colors.value.ink;
     pen.font = `600 ${14 * size}px ${colors.value.font}`;
-    pen.fillText(robot.net, left, middle - 11 * size, width);
+    pen.fillText(robot.net, left, middle - 9 * size, width);
     pen.fillStyle = colors.value.dim;
     pen.font = `${12 * size}px ${colors.value.font}`;
     pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
-    robot.senses.forEach((source, i) => {
-      const x = left + i * Math.max(40 * size, width / 2);
-      drawStimulus(pen, this.swarm.value(source), x, middle + 12 * size, 13 * size, colors.value);
-      pen.fillStyle = colors.value.dim;
-      pen.font = `${11 * size}px ${colors.value.font}`;
-      pen.fillText(this.swarm.nameOf(source), x + 17 * size, middle + 22.5 * size, width / 2 - 20 * size);
-    });
+    // A robot of one input senses nothing but a constant by its other side.
+    const senses = robot.senses.filter(source => !("constant" in source));
+    senses.forEach((source, i) => this.#drawSense(pen, source, left + (i * width) / 2, middle + 9 * size, width / 2));
+  }
+
+  #drawSense(pen: Pen, source: Source, x: number, top: number, width: number): void {
+    const size = enlargement.value;
+    drawStimulus(pen, this.swarm.value(source), x, top, 12 * size, colors.value);
+    pen.fillStyle = colors.value.dim;
+    pen.font = `${11 * size}px ${colors.value.font}`;
+    pen.fillText(this.swarm.nameOf(source), x + 16 * size, top + 10 * size, width - 20 * size);
   }
 
   #drawWalk(pen: Pen, robot: number, area: { left: number; top: number; width: number; height: number }): void {

@@ -52,7 +52,8 @@ export class Waveform extends Diagram {
   }
 
   #rowHeight(): number {
-    return 22 * enlargement.value;
+    const room = (this.pane.height - AXIS * enlargement.value) / Math.max(1, this.#rows.length);
+    return Math.max(15, Math.min(24, room)) * Math.max(1, enlargement.value * 0.85);
   }
 
   #drawRow(pen: Pen, row: Row, top: number, height: number): void {
@@ -70,10 +71,11 @@ export class Waveform extends Diagram {
     pen.fillText(name, 6, top + height / 2, this.label - 12);
     pen.save();
     pen.beginPath();
-    pen.rect(this.label, top, this.span + 8, height);
+    const end = this.swarm.running.value ? this.x(this.swarm.playback.time, this.range()[0]) : this.pane.width;
+    pen.rect(this.label, top, end - this.label, height);
     pen.clip();
     if (row.sources.length === 1) {
-      this.#drawBit(pen, row.sources[0] as Source, top + 4, top + height - 4);
+      this.#drawBit(pen, row.sources[0] as Source, top + 3, top + height - 3);
     } else {
       this.#drawBus(pen, row.sources, top + 3, top + height - 3);
     }
@@ -83,8 +85,9 @@ export class Waveform extends Diagram {
   /** The cycles of the log in view. */
   #cycles(): [number, number, number] {
     const [start, end] = this.range();
-    const { first, last } = this.swarm.log;
-    return [start, Math.max(first + 1, Math.floor(start) + 1), Math.min(last, Math.ceil(end))];
+    const { log, playback, running } = this.swarm;
+    const last = running.value ? playback.cycle : log.last;
+    return [start, Math.max(log.first + 1, Math.floor(start) + 1), Math.min(last, Math.ceil(end))];
   }
 
   #drawBit(pen: Pen, source: Source, high: number, low: number): void {
