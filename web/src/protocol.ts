@@ -149,6 +149,7 @@ export interface Probe {
   letters: string;
   function: string | null;
   displacement: number[];
+  /** Null if it is no gate, or was not asked for. */
   character: Character | null;
   voxels: Voxel[];
   looks: Look[];
@@ -194,7 +195,7 @@ export interface Verbs {
   seek: [{ cycle: number }, object];
   view: [{ robots: number[] }, object];
   robots: [{ path: string | null }, Robots];
-  probe: [{ body: string[]; cycles: number }, ProbeResult];
+  probe: [{ body: string[]; cycles: number; character: boolean }, ProbeResult];
   keep: [{ name: string; body: string[] }, { path: string; use: string }];
   evolve: [
     { body: string[] | null; box: [number, number]; generations: number; seed: number },

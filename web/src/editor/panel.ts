@@ -82,6 +82,7 @@ export class EditPanel {
       this.notices.hide("draft");
       this.notices.hide("save");
       this.#remember();
+      this.#showName();
     } catch (error) {
       this.#saveFailed(error, path);
     }
@@ -102,6 +103,7 @@ export class EditPanel {
     this.notices.clear();
     const draft = this.program.begin(file);
     this.editor.open(this.program.uri, this.program.text);
+    this.#showName();
     this.#remember();
     if (draft !== null) {
       const changed = draft.stamp === file.stamp ? "" : " The file was changed since then.";

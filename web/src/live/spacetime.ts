@@ -4,6 +4,7 @@ import { sameSource } from "../selection";
 import { colors, enlargement } from "../theme";
 import { AXIS, Diagram } from "./diagram";
 import type { Pen } from "./pane";
+import { spread } from "./spread";
 import type { LiveSwarm } from "./swarm";
 import type { Timeline } from "./timeline";
 
@@ -37,7 +38,7 @@ export class Spacetime extends Diagram {
     lines.filter(robot => !this.#isPointed(robot)).forEach(robot => this.#drawLine(pen, robot, scale, false));
     lines.filter(robot => this.#isPointed(robot)).forEach(robot => this.#drawLine(pen, robot, scale, true));
     pen.restore();
-    lines.forEach(robot => this.#drawName(pen, robot, scale));
+    this.#drawNames(pen, lines, scale);
   }
 
   protected point(x: number, y: number): void {
@@ -126,18 +127,23 @@ export class Spacetime extends Diagram {
     pen.globalAlpha = 1;
   }
 
-  #drawName(pen: Pen, robot: number, scale: Scale): void {
+  /** The names at the ends of the lines, moved apart where they would cover each other. */
+  #drawNames(pen: Pen, robots: number[], scale: Scale): void {
     const definition = this.swarm.definition.value;
-    const pointed = this.#isPointed(robot);
     const time = this.swarm.running.value ? this.swarm.playback.time : this.#newest();
-    const place = this.#placeAt(robot, time);
-    if (place === null || definition === null || (!pointed && definition.robots.length > NAMED)) {
-      return;
-    }
-    pen.font = `${pointed ? "600 " : ""}${11 * enlargement.value}px ${colors.value.font}`;
+    const named = robots.length <= NAMED ? robots : robots.filter(robot => this.#isPointed(robot));
+    const ends = named.flatMap(robot => {
+      const place = this.#placeAt(robot, time);
+      return place === null || time === 0 ? [] : [{ robot, y: scale.y(place) }];
+    });
+    const size = 11 * enlargement.value;
+    spread(ends, size + 1, scale.top + 4, scale.bottom - 4);
     pen.textAlign = "left";
     pen.textBaseline = "middle";
     pen.fillStyle = colors.value.ink;
-    pen.fillText(definition.robots[robot]?.net ?? "", Math.min(this.x(time, scale.start), this.pane.width - 40) + 6, scale.y(place));
+    for (const { robot, y } of ends) {
+      pen.font = `${this.#isPointed(robot) ? "600 " : ""}${size}px ${colors.value.font}`;
+      pen.fillText(definition?.robots[robot]?.net ?? "", Math.min(this.x(time, scale.start), this.pane.width - 40) + 6, y);
+    }
   }
 }

@@ -65,7 +65,7 @@ export class Stage implements View {
     const count = this.#robots().length;
     const columns = count <= FEW ? 1 : Math.max(1, Math.floor(this.pane.width / (COLUMN * enlargement.value)));
     const share = this.pane.height / Math.ceil(count / columns);
-    const least = (count <= FEW ? 54 : 66) * enlargement.value;
+    const least = (count <= FEW ? 48 : 66) * enlargement.value;
     const height = count === 1 ? this.pane.height : Math.max(least, Math.min(150, share));
     this.#grid = new LaneGrid(count, columns, this.pane.width, height);
   }

@@ -94,7 +94,7 @@ export function randomBody(width: number, height: number, palette: Paint[], rand
   const codes = palette.map(entry => String(entry.code)).filter(code => code !== EMPTY);
   const pick = <T>(list: readonly T[]): T => list[Math.floor(random() * list.length)] as T;
   const actuators = palette.filter(entry => /muscle|actuator/.test(entry.name + entry.about)).map(entry => String(entry.code));
-  const wanted = Math.max(2, Math.round(width * height * (0.45 + 0.4 * random())));
+  const wanted = Math.ceil(width * height * (0.45 + 0.4 * random()));
   let body = paint(emptyBody(width, height), Math.floor(width / 2), height - 1, pick(actuators.length > 0 ? actuators : codes));
   while (countVoxels(body) < wanted) {
     body = paint(body, ...pick(border(body)), pick(codes));

@@ -5,10 +5,11 @@ import { PATTERNS, gateName, outputsOf } from "../gate";
 import { truthTableElement } from "../live/inspector";
 import type { Card, Look, Paint } from "../protocol";
 import { prefersStillness } from "../theme";
-import { GaitView, decodeGait, type Gait } from "./gait";
+import { decodeGait, type Gait } from "./gait";
 import { drawBody } from "./portrait";
 import type { Probing } from "./probing";
 import type { Ticker } from "./ticker";
+import { GaitView } from "./walk";
 
 /** Cycles that a robot walks under a pattern before the next pattern's turn. */
 const CYCLES = 6;
@@ -70,7 +71,7 @@ export class Cards {
     let ended = false;
     let stop = (): void => {};
     portrait();
-    this.probing.of(robot.body, CYCLES).then(
+    this.probing.later(robot.body, CYCLES, () => !ended).then(
       probe => {
         if (!ended && !("fault" in probe)) {
           const view = new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height: robot.height });

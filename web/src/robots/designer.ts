@@ -6,7 +6,7 @@ import { Observable } from "../observable";
 import type { Look, Paint, ProbeResult, Robots } from "../protocol";
 import { recall, remember } from "../memory";
 import {
-  LARGEST, countVoxels, emptyBody, mirrored, paint, randomBody, resized, sizeOf, swappedInputs, type Body,
+  EMPTY, LARGEST, countVoxels, emptyBody, mirrored, paint, randomBody, resized, sizeOf, swappedInputs, type Body,
 } from "./body";
 import { Grid } from "./grid";
 import { History } from "./history";
@@ -33,6 +33,7 @@ export class Designer {
   #looks: Look[] = [];
   #brush = "3";
   #timer = 0;
+  #work: AbortController | null = null;
 
   constructor(private readonly probing: Probing) {
     const body = recall<string[]>("design") ?? emptyBody(5, 5);
@@ -54,7 +55,8 @@ export class Designer {
   }
 
   setMaterials({ palette, looks }: Robots): void {
-    this.#materials = palette;
+    const empty: Paint = { code: EMPTY, name: "empty", about: "no voxel", look: -1 };
+    this.#materials = [empty, ...palette.filter(({ code }) => String(code) !== EMPTY)];
     this.#looks = looks;
     this.#showPalette();
     this.#show();
@@ -99,6 +101,7 @@ export class Designer {
   }
 
   #probeSoon(): void {
+    this.#work?.abort();
     this.design.set({ body: this.body, probe: null });
     clearTimeout(this.#timer);
     this.#timer = window.setTimeout(() => this.#probe(), PAUSE);
@@ -110,12 +113,24 @@ export class Designer {
       this.design.set({ body, probe: { fault: "the body is empty: choose a material and paint" } });
       return;
     }
+    this.#work?.abort();
+    const work = new AbortController();
+    this.#work = work;
     const show = (probe: ProbeResult): void => {
-      if (body === this.body) {
+      if (!work.signal.aborted && body === this.body) {
         this.design.set({ body, probe });
       }
     };
-    this.probing.of(body, CYCLES).then(show, (error: Error) => show({ fault: error.message }));
+    void this.#ask(body, work.signal, show).catch((error: Error) => show({ fault: error.message }));
+  }
+
+  /** The gaits come at once, the numbers of a gate after them. */
+  async #ask(body: Body, signal: AbortSignal, show: (probe: ProbeResult) => void): Promise<void> {
+    const quick = await this.probing.now(body, CYCLES, signal);
+    show(quick);
+    if (!signal.aborted && !("fault" in quick) && quick.function !== null && quick.character === null) {
+      show(await this.probing.thoroughly(body, CYCLES, signal));
+    }
   }
 
   #showPalette(): void {
@@ -133,7 +148,7 @@ export class Designer {
             "aria-checked": String(String(code) === this.#brush), onclick: () => choose(String(code)),
           },
           element("kbd", {}, String(code)),
-          String(code) === "0" ? element("span", { class: "swatch none" }) : swatch(this.#looks[look]),
+          String(code) === EMPTY ? element("span", { class: "swatch none" }) : swatch(this.#looks[look]),
           element("span", {}, name),
         ),
       ),

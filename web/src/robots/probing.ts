@@ -1,4 +1,4 @@
-// Asks the server how bodies walk; a few at a time, each body once.
+// Asks the server how bodies walk. Each body is asked for once, and those that nobody sees any more are not.
 
 import type { Connection } from "../connection";
 import type { ProbeResult } from "../protocol";
@@ -6,20 +6,39 @@ import type { ProbeResult } from "../protocol";
 const AT_ONCE = 2;
 const KEPT = 200;
 
+interface Waiting { body: readonly string[]; cycles: number; wanted: () => boolean; begin: () => void }
+
 export class Probing {
   readonly #known = new Map<string, Promise<ProbeResult>>();
-  readonly #waiting: (() => void)[] = [];
+  #waiting: Waiting[] = [];
   #working = 0;
 
   constructor(private readonly connection: Connection) {}
 
-  of(body: readonly string[], cycles: number): Promise<ProbeResult> {
+  /** The gaits of a body of the gallery, as soon as it is its turn; never if it is no longer wanted then. */
+  later(body: readonly string[], cycles: number, wanted: () => boolean): Promise<ProbeResult> {
+    return new Promise((resolve, reject) => {
+      const begin = (): void => {
+        this.#working++;
+        const done = (): void => {
+          this.#working--;
+          this.#next();
+        };
+        this.now(body, cycles).then(resolve, reject).finally(done);
+      };
+      this.#waiting.push({ body, cycles, wanted, begin });
+      this.#next();
+    });
+  }
+
+  /** The gaits of a body, before all that wait. */
+  now(body: readonly string[], cycles: number, signal?: AbortSignal): Promise<ProbeResult> {
     const key = `${cycles}:${body.join("/")}`;
     const known = this.#known.get(key);
     if (known !== undefined) {
       return known;
     }
-    const asked = this.#ask(body, cycles);
+    const asked = this.connection.request("probe", { body: [...body], cycles, character: false }, signal ? { signal } : {});
     this.#known.set(key, asked);
     asked.catch(() => this.#known.delete(key));
     if (this.#known.size > KEPT) {
@@ -28,16 +47,19 @@ export class Probing {
     return asked;
   }
 
-  async #ask(body: readonly string[], cycles: number): Promise<ProbeResult> {
-    if (this.#working >= AT_ONCE) {
-      await new Promise<void>(resolve => this.#waiting.push(resolve));
-    }
-    this.#working++;
-    try {
-      return await this.connection.request("probe", { body: [...body], cycles });
-    } finally {
-      this.#working--;
-      this.#waiting.shift()?.();
+  /** The gaits with the character of the gate, which takes many more simulations. */
+  thoroughly(body: readonly string[], cycles: number, signal: AbortSignal): Promise<ProbeResult> {
+    return this.connection.request("probe", { body: [...body], cycles, character: true }, { signal });
+  }
+
+  #next(): void {
+    this.#waiting = this.#waiting.filter(({ wanted }) => wanted());
+    while (this.#working < AT_ONCE) {
+      const first = this.#waiting.shift();
+      if (first === undefined) {
+        return;
+      }
+      first.begin();
     }
   }
 }

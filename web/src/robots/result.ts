@@ -8,8 +8,9 @@ import { prefersStillness } from "../theme";
 import { sizeOf } from "./body";
 import { percent } from "./cards";
 import type { Design } from "./designer";
-import { GaitView, decodeGait } from "./gait";
+import { decodeGait } from "./gait";
 import type { Ticker } from "./ticker";
+import { GaitView } from "./walk";
 
 export class ProbeView {
   readonly host = element("section", { class: "probe", "aria-label": "How it walks" });
@@ -22,13 +23,17 @@ export class ProbeView {
     this.host.append(this.#title, this.#lanes, this.#facts);
   }
 
+  /** Lanes go on walking when only the numbers are new. */
+  #shown = "";
+
   show({ body, probe }: Design): void {
     this.host.toggleAttribute("data-waiting", probe === null);
     if (probe === null) {
       return;
     }
-    this.#stop();
     if ("fault" in probe) {
+      this.#stop();
+      this.#shown = "";
       this.host.dataset["letters"] = "";
       this.#title.textContent = probe.fault;
       fill(this.#lanes);
@@ -37,7 +42,11 @@ export class ProbeView {
     }
     this.host.dataset["letters"] = probe.letters;
     this.#title.textContent = probe.function === null ? "no gate yet" : gateName(probe.function);
-    this.#showLanes(probe, sizeOf(body)[1]);
+    if (this.#shown !== body.join()) {
+      this.#shown = body.join();
+      this.#stop();
+      this.#showLanes(probe, sizeOf(body)[1]);
+    }
     fill(this.#facts, truthTableElement(probe.function, [...probe.letters].map(letterValue)), this.#numbers(probe));
   }
 
@@ -64,12 +73,14 @@ export class ProbeView {
     });
   }
 
-  #numbers({ character, displacement, letters }: Probe): HTMLElement {
+  #numbers({ character, displacement, letters, function: gate }: Probe): HTMLElement {
     const facts: [string, string][] = [
       ["behavior", `${letters} (under 00, 01, 10, 11)`],
       ["walks", displacement.map(voxels => voxels.toFixed(2)).join(", ") + " voxels"],
     ];
-    if (character !== null) {
+    if (character === null) {
+      facts.push(["as a gate", gate === null ? "no gate yet" : "being measured …"]);
+    } else {
       facts.push(
         ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
         ["margin", `${character.margin.toFixed(3)} voxels a cycle`],

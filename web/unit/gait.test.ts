@@ -1,0 +1,41 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { GATES, gateName, gateOf, truthTable } from "../src/gate";
+import { decodeGait, outlineAt } from "../src/robots/gait";
+import { Archive } from "../src/robots/archive";
+
+function encode(numbers: number[]): string {
+  return Buffer.from(Int16Array.from(numbers).buffer).toString("base64");
+}
+
+test("a gait has the pose at the start and those of all cycles", () => {
+  // One point, two poses in a cycle, two cycles.
+  const gait = decodeGait({ frames: 2, cycles: 2, poses: encode([0, 0, 50, 0, 100, 0, 150, 0, -200, 0]) });
+  assert.equal(gait.points, 1);
+  assert.deepEqual([...outlineAt(gait, 0)], [0, 0]);
+  assert.deepEqual([...outlineAt(gait, 0.25)], [0.25, 0]);
+  assert.deepEqual([...outlineAt(gait, 1)], [1, 0]);
+  assert.deepEqual([...outlineAt(gait, 2)], [-2, 0]);
+  assert.deepEqual([...outlineAt(gait, 99)], [-2, 0]);
+});
+
+test("the sixteen gates have distinct behaviors and names", () => {
+  assert.equal(new Set(GATES.map(gate => gate.behavior)).size, 16);
+  assert.deepEqual(truthTable("nand"), [1, 1, 1, 0]);
+  assert.equal(gateOf("RRRL"), "nand");
+  assert.equal(gateOf("R?RL"), null);
+  assert.equal(gateName(null), "no gate");
+});
+
+test("niches of an archive open and improve", () => {
+  const archive = new Archive();
+  const niche = { place: [1, 0, 14], fitness: [1, 0.5], body: ["3"], letters: "RRRL", function: "nand" };
+  const event = { event: "archive" as const, id: 1, generation: 1, evaluations: 8, niches: [niche] };
+  const axes: [string, number][] = [["voxels", 3], ["active", 3], ["behavior", 16]];
+  archive.merge({ ...event, axes });
+  archive.merge({ ...event, axes, generation: 2, niches: [{ ...niche, fitness: [1, 0.75] }] });
+  assert.equal(archive.niches.size, 1);
+  assert.equal(archive.best(), 0.75);
+  assert.equal(archive.layers().length, 16);
+});
