@@ -10,9 +10,11 @@ export class ClockPanel {
   readonly host = element("div", { class: "clock", role: "group", "aria-label": "Clock" });
   #pulse: (() => void) | null = null;
   #unfollow: () => void = () => {};
+  #name: HTMLElement | null = null;
 
   constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.on(() => this.#build());
+    swarm.clock.on(() => this.#showName());
   }
 
   #build(): void {
@@ -53,9 +55,20 @@ export class ClockPanel {
       fill(this.host, element("span", { class: "caption" }, "Clock"), ...parts);
       return;
     }
-    const menu = element("details", { class: "menu" }, element("summary", {}, "Clock"), element("div", { class: "sheet row" }, ...parts));
+    const name = element("summary");
+    this.#name = name;
+    this.#showName();
+    const menu = element("details", { class: "menu" }, name, element("div", { class: "sheet row" }, ...parts));
     closeOutside(menu);
     fill(this.host, menu);
+  }
+
+  /** The menu says what it does while it is closed. */
+  #showName(): void {
+    const clock = this.swarm.clock.value;
+    if (this.#name !== null) {
+      this.#name.textContent = clock === null ? "Clock" : `Clock: ${this.swarm.nameOf({ input: clock.bit })} every ${clock.half}`;
+    }
   }
 
   #apply(which: HTMLSelectElement, half: HTMLInputElement, on: boolean): void {

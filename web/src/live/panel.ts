@@ -118,7 +118,8 @@ export class SwarmPanel {
       return "";
     }
     const count = definition.robots.length;
-    const settles = definition.hold === null ? "" : `, settles within ${definition.hold} cycles`;
+    const { hold } = definition;
+    const settles = hold === null ? "" : `, settles within ${hold} ${hold === 1 ? "cycle" : "cycles"}`;
     return `${count} ${count === 1 ? "robot" : "robots"}${settles}`;
   }
 }

@@ -1,0 +1,68 @@
+// Starts the program named by NBC with a folder of its own.
+
+import { spawn } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+
+const PROGRAM = process.env.NBC;
+if (PROGRAM === undefined) {
+  throw new Error("NBC must name the program, for example NBC=../target/release/nbc");
+}
+
+export const LATCH = `//! The paper's D latch, built from five evolved robots.
+
+circuit d_latch(d, e) -> (q, nq) {
+    q init 0  = nand(nand(d, e), nq)
+    nq init 1 = nand(nand(not d, e), q)
+}
+
+test d_latch "follows d while e is on, remembers when e goes off" {
+    d e | q
+    0 1 | 0
+    1 1 | 1
+    1 0 | 1
+    0 0 | 1
+    0 1 | 0
+}
+`;
+
+/** A folder with files, removed at the end. */
+export function folderWith(files) {
+  const folder = mkdtempSync(path.join(tmpdir(), "nbc-play-"));
+  for (const [name, text] of Object.entries(files)) {
+    writeFileSync(path.join(folder, name), text);
+  }
+  return { folder, remove: () => rmSync(folder, { recursive: true, force: true }) };
+}
+
+/** Serves a folder, and opens its `file` first. */
+export async function play(folder, file, { port = 0, token } = {}) {
+  const options = ["--no-open", "--port", String(port), ...(token === undefined ? [] : ["--token", token])];
+  const child = spawn(path.resolve(PROGRAM), ["play", file, ...options], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  const ended = new Promise(resolve => child.once("exit", resolve));
+  const url = await addressOf(child);
+  return {
+    url,
+    port: Number(new URL(url).port),
+    token: new URL(url).pathname.split("/")[1],
+    stop: async () => {
+      child.kill("SIGTERM");
+      await ended;
+    },
+  };
+}
+
+function addressOf(child) {
+  return new Promise((resolve, reject) => {
+    let text = "";
+    child.stdout.on("data", part => {
+      text += part;
+      const found = /http:\/\/\S+/.exec(text);
+      if (found !== null) {
+        resolve(found[0]);
+      }
+    });
+    child.once("exit", code => reject(new Error(`the program ended with ${code} before it printed its address`)));
+  });
+}
