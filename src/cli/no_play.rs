@@ -9,12 +9,15 @@ use crate::cli::{Context, Failure, Status};
 
 /// Show robots live in a browser (not in this build)
 #[derive(Args)]
-pub struct PlayArguments {
+pub struct NoPlayArguments {
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     rest: Vec<OsString>,
 }
 
-impl PlayArguments {
+/// Takes the place of the arguments of the server.
+pub type PlayArguments = NoPlayArguments;
+
+impl NoPlayArguments {
     /// Says how to get it.
     ///
     /// # Errors

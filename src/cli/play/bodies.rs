@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::circuit::formats::is_word;
 use crate::cli::play::history::FRAMES;
-use crate::cli::play::jobs::{Ended, Job};
+use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::evolve;
 use crate::model::{
@@ -99,7 +99,7 @@ fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
 ///
 /// # Errors
 /// When it cannot be simulated.
-pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> Ended {
+pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> JobEnd {
     let body = body(rows)?;
     let cycles = cycles.clamp(1, MOST_CYCLES);
     let gaits: Vec<Recorded> =

@@ -5,7 +5,7 @@ use rayon::ThreadPool;
 use serde_json::{Value, json};
 
 use crate::cli::play::bodies;
-use crate::cli::play::jobs::{Ended, Job};
+use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::EvolveRequest;
 use crate::evolve::{Archive, CandidateOutcome, Elite, NicheKey, Search, neighbor, stream};
@@ -26,7 +26,7 @@ const BATCH: u32 = 16;
 ///
 /// # Errors
 /// When the body is not one, or the box is too small or too large.
-pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut Job) -> Ended {
+pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut Job) -> JobEnd {
     let start = request.body.as_deref().map(bodies::body).transpose()?;
     let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
     if !SIDES.contains(&width) || !SIDES.contains(&height) {

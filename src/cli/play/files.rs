@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::UNIX_EPOCH;
 
-use include_dir::{Dir, include_dir};
+use include_dir::{Dir, File, include_dir};
 use serde_json::{Value, json};
 
 use crate::cli::play::refusal::Refused;
@@ -15,12 +15,12 @@ use crate::store::{self, FolderWorld};
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
 /// The files that a page has read, with the stamps that it knows.
-pub(super) struct Files {
+pub(super) struct PageFiles {
     world: FolderWorld,
     known: BTreeMap<String, Option<String>>,
 }
 
-impl Files {
+impl PageFiles {
     pub(super) fn new(world: FolderWorld) -> Self {
         Self { world, known: BTreeMap::new() }
     }
@@ -116,7 +116,7 @@ pub(super) fn examples() -> Vec<Value> {
         let comment = text.lines().next().and_then(|line| line.trim_start().strip_prefix("//"));
         comment.unwrap_or_default().trim_start_matches(['/', '!']).trim().to_owned()
     };
-    let one = |file: &include_dir::File<'_>| json!({ "name": file.path().to_string_lossy(), "about": about(file.contents_utf8().unwrap_or_default()) });
+    let one = |file: &File<'_>| json!({ "name": file.path().to_string_lossy(), "about": about(file.contents_utf8().unwrap_or_default()) });
     files.into_iter().map(one).collect()
 }
 
@@ -125,7 +125,7 @@ pub(super) fn examples() -> Vec<Value> {
 /// # Errors
 /// When there is none of that name.
 pub(super) fn example(name: &str) -> Result<Value, Refused> {
-    let text = EXAMPLES.get_file(name).and_then(include_dir::File::contents_utf8);
+    let text = EXAMPLES.get_file(name).and_then(File::contents_utf8);
     let text = text.ok_or_else(|| Refused::NoExample(name.to_owned()))?;
     Ok(json!({ "path": name, "text": text, "stamp": null }))
 }

@@ -3,7 +3,7 @@
 use crate::cli::play::history::{LoggedCycle, Poses};
 
 /// The swarm at a moment.
-pub(super) struct Frame<'a, L> {
+pub(super) struct SwarmFrame<'a, L> {
     /// The number of the swarm.
     pub(super) number: u32,
     /// Poses in a cycle.
@@ -25,7 +25,7 @@ pub(super) struct Frame<'a, L> {
     pub(super) view: &'a [usize],
 }
 
-impl<'a, L: ExactSizeIterator<Item = &'a LoggedCycle>> Frame<'a, L> {
+impl<'a, L: ExactSizeIterator<Item = &'a LoggedCycle>> SwarmFrame<'a, L> {
     /// The message.
     pub(super) fn encode(self) -> Vec<u8> {
         let (first_logged, log) = self.logged;
@@ -83,7 +83,7 @@ mod tests {
             com_x: vec![12.5],
         }];
         let poses = Poses { points: 1, origin: 11.0, frames: vec![100, -1] };
-        let frame = Frame {
+        let frame = SwarmFrame {
             number: 258,
             frames: 1,
             now: 3,

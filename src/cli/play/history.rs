@@ -41,7 +41,7 @@ impl LoggedCycle {
 }
 
 /// The last cycles with snapshots between them.
-pub(super) struct History {
+pub(super) struct SwarmHistory {
     /// Snapshots with their cycles, the earliest first. There is always one.
     marks: VecDeque<(u32, SwarmSnapshot)>,
     /// The cycles after the first snapshot.
@@ -52,7 +52,7 @@ pub(super) struct History {
     memory: u32,
 }
 
-impl History {
+impl SwarmHistory {
     /// The history of a swarm at its start, which will remember at least that many cycles.
     pub(super) fn new(start: &LiveSwarm, memory: u32) -> Self {
         let points: usize = start.trace().recording.robots.iter().map(|robot| robot.points).sum();
@@ -160,7 +160,7 @@ mod tests {
         session.swarm(&compiled)
     }
 
-    fn step(swarm: &mut LiveSwarm, history: &mut History, input: bool) {
+    fn step(swarm: &mut LiveSwarm, history: &mut SwarmHistory, input: bool) {
         swarm.step(&[input]);
         let logged = LoggedCycle::last_of(swarm);
         swarm.forget();
@@ -170,7 +170,7 @@ mod tests {
     #[test]
     fn the_last_cycles_are_remembered_and_earlier_ones_forgotten() {
         let mut swarm = swarm();
-        let mut history = History::new(&swarm, 4);
+        let mut history = SwarmHistory::new(&swarm, 4);
         for cycle in 0..10 {
             step(&mut swarm, &mut history, cycle % 2 == 0);
         }
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn what_comes_after_a_cycle_that_is_done_again_is_forgotten() {
         let mut swarm = swarm();
-        let mut history = History::new(&swarm, 100);
+        let mut history = SwarmHistory::new(&swarm, 100);
         (0..6).for_each(|_| step(&mut swarm, &mut history, true));
         let (at, mark) = history.mark(3);
         assert_eq!(at, 3);

@@ -51,7 +51,7 @@ pub(super) struct Job {
 }
 
 /// How a request ended: with an answer, or it left the answer to another thread.
-pub(super) type Ended = Result<Option<Value>, Refused>;
+pub(super) type JobEnd = Result<Option<Value>, Refused>;
 
 impl Jobs {
     pub(super) fn new(outbox: Outbox) -> Self {
@@ -59,7 +59,7 @@ impl Jobs {
     }
 
     /// Starts a request.
-    pub(super) fn start(&self, id: u64, work: impl FnOnce(&mut Job) -> Ended + Send + 'static) {
+    pub(super) fn start(&self, id: u64, work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) {
         let (stop, monitor, end) = (CancelFlag::default(), Arc::new(Monitor::default()), Instant::now() + TIME);
         {
             let mut running = lock(&self.running);

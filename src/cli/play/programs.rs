@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use crate::circuit::Effort;
 use crate::cli::play::history::FRAMES;
-use crate::cli::play::jobs::{Ended, Job};
+use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
-use crate::cli::play::runner::Loaded;
+use crate::cli::play::runner::LoadedSwarm;
 use crate::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
 use crate::report::{self, Looks, Scheme};
 use crate::session::{Checked, Choice, CompileOptions, Compiled, RunEnd, Session, TestOptions};
@@ -83,7 +83,7 @@ pub(super) fn loaded(
     compiled: Compiled,
     inputs: Vec<Vec<bool>>,
     (number, job): (u32, &Job),
-) -> Result<Loaded, Refused> {
+) -> Result<LoadedSwarm, Refused> {
     job.check()?;
     let robots = compiled.assembly.members.len();
     if robots > MOST_ROBOTS {
@@ -91,7 +91,7 @@ pub(super) fn loaded(
     }
     let swarm = session.swarm(&compiled);
     let answer = json!({ "swarm": describe(number, &compiled, &swarm) });
-    Ok(Loaded { number, compiled, swarm, inputs, request: job.id, answer, stop: job.stop.clone() })
+    Ok(LoadedSwarm { number, compiled, swarm, inputs, request: job.id, answer, stop: job.stop.clone() })
 }
 
 fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> Value {
@@ -118,7 +118,7 @@ fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> Value {
 ///
 /// # Errors
 /// When its circuit cannot be compiled, or it was stopped.
-pub(super) fn run_test(session: &Session, checked: &Checked, test: usize, level: Level, job: &mut Job) -> Ended {
+pub(super) fn run_test(session: &Session, checked: &Checked, test: usize, level: Level, job: &mut Job) -> JobEnd {
     let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
     let compile = CompileOptions { cancel: job.stop.clone(), ..CompileOptions::default() };
     let runs = session.test(checked, test, &TestOptions { level: Some(level), compile }, job)?;

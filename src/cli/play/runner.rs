@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::circuit::CancelFlag;
-use crate::cli::play::frame::Frame;
-use crate::cli::play::history::{FRAMES, History, LoggedCycle, MEMORY, Poses};
+use crate::cli::play::frame::SwarmFrame;
+use crate::cli::play::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory};
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::{Refusal, Refused};
 use crate::session::{Compiled, Excerpt, Session};
@@ -25,7 +25,7 @@ const GROUND_LEFT: f64 = 64.0;
 const PACE_CYCLES: usize = 64;
 
 /// A swarm to run, from its start.
-pub(super) struct Loaded {
+pub(super) struct LoadedSwarm {
     pub(super) number: u32,
     pub(super) compiled: Compiled,
     pub(super) swarm: LiveSwarm,
@@ -39,7 +39,7 @@ pub(super) struct Loaded {
 
 /// What a page wants of its swarm.
 pub(super) enum SwarmOrder {
-    Load(Box<Loaded>),
+    Load(Box<LoadedSwarm>),
     /// With the request to answer.
     Change(u64, Change),
     /// The last cycles up to now, for work on another thread.
@@ -87,7 +87,7 @@ struct Shown {
     number: u32,
     compiled: Compiled,
     swarm: LiveSwarm,
-    history: History,
+    history: SwarmHistory,
     start: SwarmSnapshot,
     /// The input bits of the next cycle.
     inputs: Vec<bool>,
@@ -143,8 +143,8 @@ impl Runner {
         }
     }
 
-    fn load(&mut self, loaded: Loaded) {
-        let Loaded { number, compiled, swarm, inputs, request, answer, stop } = loaded;
+    fn load(&mut self, loaded: LoadedSwarm) {
+        let LoadedSwarm { number, compiled, swarm, inputs, request, answer, stop } = loaded;
         let mut shown = Shown::new(number, compiled, swarm);
         let all = inputs.len();
         for (done, bits) in inputs.into_iter().enumerate() {
@@ -178,7 +178,7 @@ impl Shown {
         let robots = trace.robots.len();
         Self {
             number,
-            history: History::new(&swarm, MEMORY),
+            history: SwarmHistory::new(&swarm, MEMORY),
             start: swarm.snapshot(),
             inputs: vec![false; trace.inputs.iter().map(|port| port.width).sum()],
             clock: None,
@@ -316,7 +316,7 @@ impl Shown {
     fn reset(&mut self) {
         self.set_paused();
         self.swarm.restore(&self.start);
-        self.history = History::new(&self.swarm, MEMORY);
+        self.history = SwarmHistory::new(&self.swarm, MEMORY);
         self.poses = Poses::of(&self.swarm);
         self.clock = self.clock.map(|(bit, half, _)| (bit, half, 0));
         self.sent = 0;
@@ -361,7 +361,7 @@ impl Shown {
         if !self.is_new || too_soon || !outbox.has_room() {
             return;
         }
-        let frame = Frame {
+        let frame = SwarmFrame {
             number: self.number,
             frames: FRAMES,
             now: self.now(),

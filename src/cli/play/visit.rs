@@ -8,9 +8,9 @@ use axum::extract::ws::Utf8Bytes;
 use serde_json::{Value, json};
 use tokio::sync::mpsc;
 
-use crate::cli::play::files::{Files, example, examples};
+use crate::cli::play::files::{PageFiles, example, examples};
 use crate::cli::play::history::MEMORY;
-use crate::cli::play::jobs::{Ended, Job, Jobs};
+use crate::cli::play::jobs::{Job, JobEnd, Jobs};
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::{Refusal, Refused};
 use crate::cli::play::request::{Request, TakeKind, Verb};
@@ -29,7 +29,7 @@ pub(super) struct Visit {
     session: Session,
     /// What was last said of each path, to give texts growing revisions.
     revision: u64,
-    files: Files,
+    files: PageFiles,
     jobs: Jobs,
     runner: Sender<SwarmOrder>,
     outbox: Outbox,
@@ -43,7 +43,7 @@ impl Visit {
         Self {
             session: Session::new(world.clone()),
             revision: 0,
-            files: Files::new(world),
+            files: PageFiles::new(world),
             jobs: Jobs::new(outbox.clone()),
             runner: runner::start(outbox.clone()),
             outbox,
@@ -202,7 +202,7 @@ impl Visit {
     fn with_program(
         &mut self,
         path: &str,
-        work: impl FnOnce(&Session, &Checked, &mut Job) -> Ended + Send + 'static,
+        work: impl FnOnce(&Session, &Checked, &mut Job) -> JobEnd + Send + 'static,
     ) -> Result<Work, Refused> {
         let checked = self.session.open(path)?;
         let session = self.fresh();
@@ -234,8 +234,8 @@ impl Visit {
 }
 
 /// The work of a long request.
-type Work = Box<dyn FnOnce(&mut Job) -> Ended + Send>;
+type Work = Box<dyn FnOnce(&mut Job) -> JobEnd + Send>;
 
-fn boxed(work: impl FnOnce(&mut Job) -> Ended + Send + 'static) -> Work {
+fn boxed(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Work {
     Box::new(work)
 }
