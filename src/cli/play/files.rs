@@ -116,7 +116,10 @@ pub(super) fn examples() -> Vec<Value> {
         let comment = text.lines().next().and_then(|line| line.trim_start().strip_prefix("//"));
         comment.unwrap_or_default().trim_start_matches(['/', '!']).trim().to_owned()
     };
-    let one = |file: &File<'_>| json!({ "name": file.path().to_string_lossy(), "about": about(file.contents_utf8().unwrap_or_default()) });
+    let one = |file: &File<'_>| {
+        let text = file.contents_utf8().unwrap_or_default();
+        json!({ "name": file.path().to_string_lossy(), "about": about(text) })
+    };
     files.into_iter().map(one).collect()
 }
 

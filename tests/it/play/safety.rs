@@ -99,12 +99,11 @@ fn the_language_server_works_in_the_folder() {
     let (_folder, server) = served();
     let mut socket = server.socket("language", &format!("http://{}", server.host())).unwrap();
     let mut send = |message: Value| socket.send(Message::text(message.to_string())).unwrap();
-    send(
-        json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": { "capabilities": {}, "rootUri": "file:///" } }),
-    );
+    let parameters = json!({ "capabilities": {}, "rootUri": "file:///" });
+    send(json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": parameters }));
     send(json!({ "jsonrpc": "2.0", "method": "initialized", "params": {} }));
-    let document =
-        json!({ "uri": "file:///a.nb", "languageId": "nb", "version": 1, "text": "circuit a(x) -> (y) { y = z }" });
+    let text = "circuit a(x) -> (y) { y = z }";
+    let document = json!({ "uri": "file:///a.nb", "languageId": "nb", "version": 1, "text": text });
     send(json!({ "jsonrpc": "2.0", "method": "textDocument/didOpen", "params": { "textDocument": document } }));
     send(json!({ "jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": { "query": "" } }));
     let mut found = (None, None);
