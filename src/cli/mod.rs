@@ -19,11 +19,10 @@ mod library;
 mod lsp;
 mod mapping;
 mod new;
+#[cfg(not(feature = "play"))]
+mod no_play;
 mod output;
 #[cfg(feature = "play")]
-mod play;
-#[cfg(not(feature = "play"))]
-#[path = "no_play.rs"]
 mod play;
 mod program;
 mod progress;
@@ -48,6 +47,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::diag::{is_hidden, render, visible};
 use crate::source::Sources;
+
+#[cfg(not(feature = "play"))]
+use no_play as play;
 
 pub use context::{Context, OutputFormat};
 pub use failure::Failure;

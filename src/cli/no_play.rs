@@ -14,8 +14,7 @@ pub struct NoPlayArguments {
     rest: Vec<OsString>,
 }
 
-/// Takes the place of the arguments of the server.
-pub type PlayArguments = NoPlayArguments;
+pub use NoPlayArguments as PlayArguments;
 
 impl NoPlayArguments {
     /// Says how to get it.

@@ -1,0 +1,69 @@
+// Films the page for the manual: the latch, whose inputs are flipped. Writes docs/pictures/play.gif.
+
+import { writeFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+
+import gifenc from "gifenc";
+import { PNG } from "pngjs";
+
+import { closeBrowser, setInput, visit, walking } from "./browser.mjs";
+import { LATCH, folderWith, play } from "./program.mjs";
+
+const { GIFEncoder, applyPalette, quantize } = gifenc;
+
+const SIZE = { width: 1120, height: 700 };
+const FRAMES = 72;
+/** Milliseconds from frame to frame. */
+const DELAY = 125;
+/** The frames at which an input is set: with e on, q follows d; then e goes off, and q stays. */
+const FLIPS = new Map([[6, ["e", 1]], [20, ["d", 1]], [40, ["e", 0]], [54, ["d", 0]]]);
+/** The color that leaves a pixel as it was. */
+const SAME = 0;
+
+async function shots(page) {
+  const frames = [];
+  const start = Date.now();
+  for (let i = 0; i < FRAMES; i++) {
+    if (FLIPS.has(i)) {
+      await setInput(page, ...FLIPS.get(i));
+    }
+    await page.waitForTimeout(Math.max(0, start + i * DELAY - Date.now()));
+    frames.push(PNG.sync.read(await page.screenshot()).data);
+  }
+  return frames;
+}
+
+/** One palette for all frames, and of each frame only the pixels that have changed. */
+function encode(frames) {
+  const sample = Buffer.concat([frames[0], frames[FRAMES >> 1], frames[FRAMES - 1]]);
+  const palette = [[0, 0, 0], ...quantize(sample, 127)];
+  const gif = GIFEncoder();
+  let before;
+  for (const frame of frames) {
+    const now = applyPalette(frame, palette.slice(1)).map(color => color + 1);
+    const shown = before === undefined ? now : now.map((color, at) => (color === before[at] ? SAME : color));
+    gif.writeFrame(shown, SIZE.width, SIZE.height, {
+      palette: before === undefined ? palette : undefined,
+      delay: DELAY,
+      transparent: true,
+      transparentIndex: SAME,
+      dispose: 1,
+    });
+    before = now;
+  }
+  gif.finish();
+  return gif.bytes();
+}
+
+const { folder, remove } = folderWith({ "latch.nb": LATCH });
+const server = await play(folder, "latch.nb");
+const page = await visit(server.url, { viewport: SIZE });
+await walking(page);
+const bytes = encode(await shots(page));
+const path = fileURLToPath(new URL("../../docs/pictures/play.gif", import.meta.url));
+writeFileSync(path, bytes);
+console.log(`${path}: ${bytes.length} bytes`);
+await page.leave();
+await closeBrowser();
+await server.stop();
+remove();
