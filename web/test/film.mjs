@@ -1,6 +1,7 @@
-// Films the page for the manual: the latch, whose inputs are flipped. Writes docs/pictures/play.gif.
+// Films the page for the manual: the latch, whose inputs are flipped. Writes docs/play/latch.gif.
 
-import { writeFileSync } from "node:fs";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 import gifenc from "gifenc";
@@ -11,7 +12,7 @@ import { LATCH, folderWith, play } from "./program.mjs";
 
 const { GIFEncoder, applyPalette, quantize } = gifenc;
 
-const SIZE = { width: 1120, height: 700 };
+const SIZE = { width: 1120, height: 760 };
 const FRAMES = 72;
 /** Milliseconds from frame to frame. */
 const DELAY = 125;
@@ -55,14 +56,18 @@ function encode(frames) {
   return gif.bytes();
 }
 
-const { folder, remove } = folderWith({ "latch.nb": LATCH });
-const server = await play(folder, "latch.nb");
+// The page shows the name of the folder.
+const { folder, remove } = folderWith({});
+const circuits = join(folder, "circuits");
+mkdirSync(circuits);
+writeFileSync(join(circuits, "latch.nb"), LATCH);
+const server = await play(circuits, "latch.nb");
 const page = await visit(server.url, { viewport: SIZE });
 await walking(page);
 const bytes = encode(await shots(page));
-const path = fileURLToPath(new URL("../../docs/pictures/play.gif", import.meta.url));
-writeFileSync(path, bytes);
-console.log(`${path}: ${bytes.length} bytes`);
+const file = fileURLToPath(new URL("../../docs/play/latch.gif", import.meta.url));
+writeFileSync(file, bytes);
+console.log(`${file}: ${bytes.length} bytes`);
 await page.leave();
 await closeBrowser();
 await server.stop();
