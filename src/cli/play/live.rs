@@ -25,11 +25,17 @@ pub(super) async fn serve(served: Arc<Served>, mut socket: WebSocket) {
     thread::spawn(move || Visit::new(served, inbox).serve(waiting));
     let mut allowance = Allowance::new(Instant::now());
     let mut pause = interval(PAUSE);
+    // A request for which the visit has no time yet. Meanwhile answers still go out, for which the visit may wait.
+    let mut next = None;
     loop {
         tokio::select! {
-            text = receive(&mut socket, &mut allowance) => match text {
-                Some(text) => if requests.send(text).await.is_err() { return },
+            text = receive(&mut socket, &mut allowance), if next.is_none() => match text {
+                Some(text) => next = Some(text),
                 None => return,
+            },
+            place = requests.reserve(), if next.is_some() => match (place, next.take()) {
+                (Ok(place), Some(text)) => place.send(text),
+                _ => return,
             },
             message = outgoing.next() => match message {
                 Some(message) => if !send(&mut socket, message).await { return },

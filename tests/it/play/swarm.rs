@@ -212,7 +212,7 @@ fn a_page_that_does_not_read_does_not_hold_up_its_swarm() {
     let id = page.begin(json!({ "do": "run", "speed": null }));
     page.wait(id).unwrap();
     // Nothing is read meanwhile: requests are sent, and answered into the buffers.
-    let last = (0..50).map(|_| page.begin(json!({ "do": "files" }))).last().unwrap();
+    let last = (0..1500).map(|_| page.begin(json!({ "do": "files" }))).last().unwrap();
     page.wait(last).unwrap();
     let cycles = page.frame(|frame| frame.now >= 40).now;
     assert!(cycles >= 40);
