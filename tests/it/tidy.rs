@@ -116,7 +116,7 @@ fn the_core_has_no_statics() {
 
 #[test]
 fn the_papers_materials_are_a_default() {
-    let rule = "a body has its own palette; the paper's stands where a file, a measurement of speed or the designer names none";
+    let rule = "a body has its own palette; the paper's stands where a file, a speed test or the designer names none";
     let defaults = ["model/palette.rs", "model/body.rs", "store/robot.rs", "store/shape.rs", "play/bodies.rs"];
     forbid(rule, &["Palette::paper", "Setting::paper"], |path| defaults.iter().any(|name| path.ends_with(name)));
 }
