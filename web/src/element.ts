@@ -6,7 +6,10 @@ type Handlers = { [Name in keyof HTMLElementEventMap as `on${Name}`]?: (event: H
 
 export type Attributes = Handlers & { [name: string]: unknown };
 
-/** Makes an element. `true` gives an empty attribute, `false` and `null` none, and a function is a listener. */
+/**
+ * Makes an element. A function is a listener. `true` gives an empty attribute, `false` and `null` none; attributes of
+ * data and accessibility have the words `true` and `false`.
+ */
 export function element<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
   attributes: Attributes = {},
@@ -16,6 +19,8 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") {
       made.addEventListener(name.slice(2), value as EventListener);
+    } else if (typeof value === "boolean" && /^(aria|data)-/.test(name)) {
+      made.setAttribute(name, String(value));
     } else if (value !== false && value !== null && value !== undefined) {
       made.setAttribute(name, value === true ? "" : String(value));
     }

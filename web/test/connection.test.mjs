@@ -35,7 +35,7 @@ test("two pages have a swarm each", async () => {
 
 test("a lost program is noticed, and the page goes on where it was", async () => {
   await typeProgram(page, LATCH.replace("d_latch(d, e)", "my_latch(d, e)").replace("test d_latch", "test my_latch"));
-  await page.waitForFunction(() => document.querySelector(".circuit").textContent === "my_latch");
+  await page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("my_latch"));
   await walking(page);
   await program.stop();
   await page.getByText("Connection lost").waitFor();

@@ -42,8 +42,8 @@ test("the lamps follow the inputs in all patterns", async () => {
 
 test("pause, step, rewind and reset", async () => {
   await page.locator("[data-do=play]").click();
-  await page.locator("[data-do=play][data-running=false]").waitFor();
-  await cyclesLater(page, 0);
+  // No rate is shown once the server has said that it is paused.
+  await page.waitForFunction(() => document.querySelector(".rate").textContent === "");
   const stopped = await cycle(page);
   await page.locator("[data-do=step]").click();
   await page.waitForFunction(now => document.querySelector(".cycle").textContent === `cycle ${now}`, stopped + 1);

@@ -48,6 +48,7 @@ export class Controls implements View {
   draw(): void {
     const frame = this.swarm.frame.value;
     if (frame === null) {
+      this.#cycle.textContent = this.#rate.textContent = "";
       return;
     }
     if (this.#asked === frame.now || frame.running) {

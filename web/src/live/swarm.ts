@@ -5,7 +5,7 @@ import { decodeFrame, isFrameOf, type Frame } from "../frame";
 import { RunLog } from "../log";
 import { Observable } from "../observable";
 import { bitsOf, keepBits, totalWidth, withBit } from "../ports";
-import type { Source, Swarm } from "../protocol";
+import type { Source, Swarm, Verbs } from "../protocol";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
 
@@ -31,6 +31,8 @@ export class LiveSwarm {
   readonly stopped = new Observable<string | null>(null);
   /** The numbers of robots, inputs and outputs of each net by its name. */
   nets = new Map<string, Source>();
+  /** Orders to run or to stop that have no answer yet; until then frames are about the time before them. */
+  #orders = 0;
   #early: ArrayBuffer | null = null;
   #shown: number[] | null = null;
   #adopt = false;
@@ -90,40 +92,35 @@ export class LiveSwarm {
 
   play(): void {
     if (this.definition.value !== null && this.stopped.value === null) {
-      this.running.set(true);
-      this.connection.tell("run", { speed: this.speed.value });
+      this.#drive(true, "run", { speed: this.speed.value });
     }
   }
 
   pause(): void {
-    this.running.set(false);
-    this.connection.tell("pause", {});
+    this.#drive(false, "pause", {});
   }
 
   setSpeed(speed: number | null): void {
     this.speed.set(speed);
     if (this.running.value) {
-      this.connection.tell("run", { speed });
+      this.#drive(true, "run", { speed });
     }
   }
 
   step(cycles = 1): void {
-    this.running.set(false);
-    this.connection.tell("step", { cycles });
+    this.#drive(false, "step", { cycles });
   }
 
   reset(): void {
-    this.running.set(false);
     this.stopped.set(null);
-    this.connection.tell("reset", {});
+    this.#drive(false, "reset", {});
   }
 
   /** Shows an earlier moment, whose inputs become those of the next cycle. */
   seek(cycle: number): void {
-    this.running.set(false);
     this.stopped.set(null);
     this.#adopt = true;
-    this.connection.tell("seek", { cycle });
+    this.#drive(false, "seek", { cycle });
   }
 
   /** Asks for the poses of these robots only. */
@@ -171,9 +168,18 @@ export class LiveSwarm {
     const frame = decodeFrame(buffer, totalWidth(swarm.inputs), totalWidth(swarm.outputs));
     this.log.merge(frame);
     this.playback.push(frame);
-    this.running.set(frame.running);
+    if (this.#orders === 0) {
+      this.running.set(frame.running);
+    }
     this.#adoptInputs(frame);
     this.frame.set(frame);
+  }
+
+  #drive<V extends "run" | "pause" | "step" | "reset" | "seek">(running: boolean, verb: V, fields: Verbs[V][0]): void {
+    this.running.set(running);
+    this.#orders++;
+    const done = (): void => void this.#orders--;
+    this.connection.request(verb, fields).then(done, done);
   }
 
   #adoptInputs(frame: Frame): void {
