@@ -28,7 +28,9 @@ circuit one_bit(a, b, c) -> (sum, carry) {
     carry = nand(n1, n4)
 }
 
-swarm wide_nands { circuit: wide, cells: [nand] }
+library nands { from: shipped, behaviors: [nand] }
+
+swarm wide_nands { circuit: wide, library: nands }
 
 test wide {
     a b cin | sum cout

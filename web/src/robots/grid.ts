@@ -25,6 +25,10 @@ export class Grid {
     addEventListener("pointerup", () => {
       this.#stroke = null;
     });
+    this.host.addEventListener("focusin", event => {
+      const { x, y } = (event.target as HTMLElement).dataset;
+      this.#at = [Number(x), Number(y)];
+    });
     this.host.addEventListener("keydown", event => this.#key(event));
     this.host.addEventListener("contextmenu", event => event.preventDefault());
   }
