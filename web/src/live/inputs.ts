@@ -11,12 +11,14 @@ const SWITCHED = 8;
 
 export class InputPanel implements View {
   readonly host = element("div", { class: "inputs", role: "group", "aria-label": "Inputs" });
+  // These are called at every drawing, so they touch the page only after a change.
   readonly #updates: (() => void)[] = [];
+  readonly #marks: (() => void)[] = [];
 
   constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.on(() => this.#build());
     swarm.inputs.on(() => this.draw());
-    swarm.clock.on(() => this.draw());
+    swarm.clock.on(() => this.#marks.forEach(mark => mark()));
   }
 
   draw(): void {
@@ -29,6 +31,7 @@ export class InputPanel implements View {
     const inputs = this.swarm.definition.value?.inputs ?? [];
     const bits = bitsOf(inputs);
     this.#updates.length = 0;
+    this.#marks.length = 0;
     fill(
       this.host,
       element("span", { class: "caption" }, inputs.length === 0 ? "No inputs" : "Inputs"),
@@ -65,12 +68,17 @@ export class InputPanel implements View {
       element("span", { class: "track", "aria-hidden": "true" }, element("span", { class: "knob" })),
       value,
     );
+    let before: boolean | null = null;
     this.#updates.push(() => {
       const on = this.#shown(bit.index) === 1;
+      if (on === before) {
+        return;
+      }
+      before = on;
       made.setAttribute("aria-checked", String(on));
       value.textContent = on ? "1" : "0";
-      made.classList.toggle("clocked", swarm.clock.value?.bit === bit.index);
     });
+    this.#marks.push(() => made.classList.toggle("clocked", swarm.clock.value?.bit === bit.index));
     return made;
   }
 
@@ -102,8 +110,9 @@ export class InputPanel implements View {
       },
     });
     this.#updates.push(() => {
-      if (document.activeElement !== field) {
-        field.value = String(this.#current(port, start));
+      const text = String(this.#current(port, start));
+      if (document.activeElement !== field && field.value !== text) {
+        field.value = text;
       }
     });
     return element(

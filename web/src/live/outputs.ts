@@ -6,6 +6,9 @@ import type { Port, Source } from "../protocol";
 import type { View } from "./animation";
 import type { LiveSwarm } from "./swarm";
 
+/** Wider buses have no lamps, only their number. */
+const LIT = 16;
+
 export class OutputPanel implements View {
   readonly host = element("div", { class: "outputs", role: "group", "aria-label": "Outputs" });
   #updates: (() => void)[] = [];
@@ -37,6 +40,7 @@ export class OutputPanel implements View {
 
   #port(port: Port, sources: Source[]): HTMLElement {
     const lamps = sources.map((source, i) => this.#lamp(source, port.width === 1 ? port.name : `${port.name}[${port.width - 1 - i}]`));
+    const few = port.width <= LIT;
     const number = element("output", { class: "number", "data-output": port.name });
     if (port.width > 1) {
       this.#updates.push(() => {
@@ -51,7 +55,7 @@ export class OutputPanel implements View {
       "div",
       { class: "output" },
       element("span", { class: "name" }, port.name),
-      element("span", { class: port.width > 1 ? "lamps small" : "lamps" }, ...lamps),
+      few && element("span", { class: port.width > 1 ? "lamps small" : "lamps" }, ...lamps),
       port.width > 1 && number,
     );
   }

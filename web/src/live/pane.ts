@@ -7,26 +7,25 @@ export type Pen = CanvasRenderingContext2D;
 export class CanvasPane {
   readonly canvas = element("canvas");
   readonly host: HTMLElement;
+  // Sizes are noted when they change: to ask for them at every drawing would make the browser lay out the page.
+  width = 0;
+  height = 0;
+  scrolled = 0;
   readonly #spacer = element("div", { class: "spacer" });
-  #pen: Pen;
+  readonly #pen: Pen;
+  #total = -1;
 
   constructor(name: string, label: string, changed: () => void) {
     this.host = element("div", { class: `pane ${name}`, tabindex: 0, role: "img", "aria-label": label }, this.canvas, this.#spacer);
     this.#pen = this.canvas.getContext("2d") as Pen;
-    this.host.addEventListener("scroll", changed, { passive: true });
-    new ResizeObserver(changed).observe(this.host);
-  }
-
-  get width(): number {
-    return this.host.clientWidth;
-  }
-
-  get height(): number {
-    return this.host.clientHeight;
-  }
-
-  get scrolled(): number {
-    return this.host.scrollTop;
+    const note = (): void => {
+      this.width = this.host.clientWidth;
+      this.height = this.host.clientHeight;
+      this.scrolled = this.host.scrollTop;
+      changed();
+    };
+    this.host.addEventListener("scroll", note, { passive: true });
+    new ResizeObserver(note).observe(this.host);
   }
 
   /** Whether it can be seen at all. */
@@ -44,7 +43,10 @@ export class CanvasPane {
       this.canvas.style.width = `${this.width}px`;
       this.canvas.style.height = `${this.height}px`;
     }
-    this.#spacer.style.height = `${Math.max(0, total - this.height)}px`;
+    if (total !== this.#total) {
+      this.#total = total;
+      this.#spacer.style.height = `${Math.max(0, total - this.height)}px`;
+    }
     this.#pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.#pen.clearRect(0, 0, this.width, this.height);
     return this.#pen;

@@ -43,8 +43,8 @@ export class SwarmPanel {
     const [waveform, spacetime] = [new Waveform(swarm, timeline, wake), new Spacetime(swarm, timeline, wake)];
     const clock = new ClockPanel(swarm);
     this.host.append(
-      element("div", { class: "head" }, this.#choices, this.#status, takeAway),
-      element("div", { class: "ports" }, inputs.host, clock.host, firstHint(swarm), outputs.host),
+      element("div", { class: "head" }, this.#choices, this.#status, firstHint(swarm), takeAway),
+      element("div", { class: "ports" }, inputs.host, clock.host, outputs.host),
       this.controls.host,
       element("div", { class: "scene" }, this.stage.pane.host, inspector.host),
       element("div", { class: "diagrams" }, schematic.host, diagrams(waveform, spacetime, timeline)),
@@ -132,7 +132,7 @@ const MATERIALS = [
 
 /** Until the first switch was flipped. */
 function firstHint(swarm: LiveSwarm): HTMLElement {
-  const hint = element("span", { class: "hint", role: "note", hidden: recall("flipped") === true }, "◀ flip a switch, and robots turn round");
+  const hint = element("span", { class: "hint", role: "note", hidden: recall("flipped") === true }, "▼ flip a switch: robots turn round");
   const stop = swarm.inputs.on(bits => {
     if (bits.includes("1")) {
       hint.hidden = true;

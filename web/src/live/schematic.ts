@@ -9,6 +9,10 @@ import type { View } from "./animation";
 interface Marked { element: Element; source: Source; shown: number | null | undefined }
 interface Box { x: number; y: number; width: number; height: number }
 
+/** Below this scale texts cannot be read, and below the other bodies are only noise. */
+const READABLE = 0.6;
+const FAR = 0.3;
+
 export class Schematic implements View {
   readonly host = element("div", { class: "schematic pane", tabindex: 0, "aria-label": "Schematic of the circuit" });
   readonly #tools: HTMLElement;
@@ -16,6 +20,8 @@ export class Schematic implements View {
   #marked: Marked[] = [];
   #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
   #box: Box = this.#whole;
+  #width = 0;
+  #height = 0;
 
   constructor(private readonly swarm: LiveSwarm) {
     this.#tools = element(
@@ -27,12 +33,16 @@ export class Schematic implements View {
     );
     swarm.definition.on(definition => this.#load(definition?.schematic ?? ""));
     swarm.selection.pointed.on(() => this.#select());
-    swarm.selection.followed.on(() => this.#select());
+    swarm.selection.followed.on(robot => {
+      this.#select();
+      this.#reveal(robot);
+    });
     this.#listen();
+    new ResizeObserver(() => this.#resize()).observe(this.host);
   }
 
   draw(): void {
-    if (this.host.clientWidth === 0) {
+    if (this.#width === 0) {
       return;
     }
     for (const marked of this.#marked) {
@@ -42,6 +52,15 @@ export class Schematic implements View {
         marked.element.classList.toggle("one", value === 1);
         marked.element.classList.toggle("zero", value === 0);
       }
+    }
+  }
+
+  #resize(): void {
+    const hidden = this.#width === 0;
+    this.#width = this.host.clientWidth;
+    this.#height = this.host.clientHeight;
+    if (hidden && this.#width > 0) {
+      this.#showFirst();
     }
   }
 
@@ -59,8 +78,9 @@ export class Schematic implements View {
     this.#svg.removeAttribute("width");
     this.#svg.removeAttribute("height");
     this.host.replaceChildren(this.#svg, this.#tools);
-    this.#show(this.#whole);
+    hideLegend(this.#svg);
     this.#mark(this.#svg);
+    this.#showFirst();
   }
 
   #mark(svg: SVGSVGElement): void {
@@ -93,6 +113,37 @@ export class Schematic implements View {
   #show(box: Box): void {
     this.#box = box;
     this.#svg?.setAttribute("viewBox", `${box.x} ${box.y} ${box.width} ${box.height}`);
+    // Voxels of a pixel or two are not worth drawing.
+    this.host.classList.toggle("far", this.#scale() < FAR);
+  }
+
+  /** All of it, or as much around the first robot as can be read. */
+  #showFirst(): void {
+    this.#show(this.#whole);
+    const svg = this.#svg;
+    const first = svg?.querySelector<SVGGraphicsElement>('[data-id="cell-0"]');
+    if (svg !== null && first && this.#width > 0 && this.#scale() < READABLE) {
+      this.#center(first, READABLE);
+    }
+  }
+
+  /** Pixels in a unit of the drawing. */
+  #scale(): number {
+    return Math.min(this.#width / this.#box.width, this.#height / this.#box.height);
+  }
+
+  #center(part: SVGGraphicsElement, scale: number): void {
+    const { x, y, width, height } = part.getBBox();
+    const [across, down] = [this.#width / scale, this.#height / scale];
+    this.#show({ x: x + width / 2 - across / 2, y: y + height / 2 - down / 2, width: across, height: down });
+  }
+
+  /** Brings the robot that is followed into view. */
+  #reveal(robot: number | null): void {
+    const part = this.#svg?.querySelector<SVGGraphicsElement>(`[data-id="cell-${robot}"]`);
+    if (part && robot !== null && this.#box !== this.#whole) {
+      this.#center(part, Math.max(READABLE, this.#scale()));
+    }
   }
 
   /** Shows `factor` times as much around a place, given as shares of the width and height. */
@@ -159,5 +210,15 @@ export class Schematic implements View {
     };
     window.addEventListener("pointermove", move);
     window.addEventListener("pointerup", end, { once: true });
+  }
+}
+
+/** Colors show values here, so the legend of the critical path would mislead. */
+function hideLegend(svg: SVGSVGElement): void {
+  for (const text of svg.querySelectorAll(":scope > text")) {
+    if (text.textContent === "critical path") {
+      text.previousElementSibling?.remove();
+      text.remove();
+    }
   }
 }
