@@ -75,7 +75,7 @@ export interface Robot {
   errors: number;
 }
 
-export interface Look { name?: string; color: string; ink?: string | null; mark?: [number, number][][] | null }
+export interface Look { name: string; color: string; ink?: string | null; mark?: [number, number][][] | null }
 
 export interface Swarm {
   /** Counts the swarms of a connection. */
@@ -142,7 +142,7 @@ export interface Paint { code: string | number; name: string; about: string; loo
 export interface Robots { robots: Card[]; looks: Look[]; palette: Paint[] }
 
 export interface EncodedGait { frames: number; cycles: number; poses: string }
-export interface Character { clock: number; margin: number; errors?: number; error_rate?: number; glitch_rate?: number }
+export interface Character { clock: number; margin: number; errors: number; glitches: number; topples: boolean }
 
 export interface Probe {
   gaits: EncodedGait[];
@@ -154,8 +154,6 @@ export interface Probe {
   voxels: Voxel[];
   looks: Look[];
 }
-
-export type ProbeResult = Probe | { fault: string };
 
 export interface Niche { place: number[]; fitness: number[]; body: string[]; letters: string; function: string | null }
 /** A name and a number of bins. */
@@ -195,7 +193,7 @@ export interface Verbs {
   seek: [{ cycle: number }, object];
   view: [{ robots: number[] }, object];
   robots: [{ path: string | null }, Robots];
-  probe: [{ body: string[]; cycles: number; character: boolean }, ProbeResult];
+  probe: [{ body: string[]; cycles: number; character: boolean }, Probe];
   keep: [{ name: string; body: string[] }, { path: string; use: string }];
   evolve: [
     { body: string[] | null; box: [number, number]; generations: number; seed: number },

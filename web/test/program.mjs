@@ -1,4 +1,4 @@
-// Starts the program named by NBC with a folder of its own.
+// Starts the program named by NBC with a folder of its own. It serves its built-in page, or that of the folder NBC_PAGE.
 
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import path from "node:path";
 
 const PROGRAM = process.env.NBC;
+const PAGE = process.env.NBC_PAGE && path.resolve(process.env.NBC_PAGE);
 if (PROGRAM === undefined) {
   throw new Error("NBC must name the program, for example NBC=../target/release/nbc");
 }
@@ -38,7 +39,7 @@ export function folderWith(files) {
 
 /** Serves a folder, and opens its `file` first. */
 export async function play(folder, file, { port = 0, token } = {}) {
-  const options = ["--no-open", "--port", String(port), ...(token === undefined ? [] : ["--token", token])];
+  const options = ["--no-open", "--port", String(port), ...option("--token", token), ...option("--page", PAGE)];
   const child = spawn(path.resolve(PROGRAM), ["play", file, ...options], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise(resolve => child.once("exit", resolve));
   const url = await addressOf(child);
@@ -51,6 +52,10 @@ export async function play(folder, file, { port = 0, token } = {}) {
       await ended;
     },
   };
+}
+
+function option(name, value) {
+  return value ? [name, value] : [];
 }
 
 function addressOf(child) {

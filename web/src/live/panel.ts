@@ -69,7 +69,7 @@ export class SwarmPanel {
     swarm.stopped.on(() => this.#showStage(program.stage.value));
     swarm.definition.on(definition => {
       this.host.classList.toggle("few", (definition?.robots.length ?? 0) <= 8);
-      const looks = (definition?.looks ?? []).map((look, i) => ({ look, name: look.name ?? MATERIALS[i] ?? `material ${i + 1}` }));
+      const looks = (definition?.looks ?? []).map(look => ({ look, name: MATERIALS[look.name] ?? look.name }));
       fill(this.#legend, legend(looks));
     });
     swarm.selection.pointed.on(wake);
@@ -124,11 +124,17 @@ export class SwarmPanel {
   }
 }
 
-const MATERIALS = [
-  "bone: rigid", "flesh: soft", "muscle: swells and shrinks by itself", "antimuscle: the same, in antiphase",
-  "shrinks while stimulus 1 is present", "shrinks while stimulus 2 is present",
-  "grows while stimulus 1 is present", "grows while stimulus 2 is present",
-];
+/** What the materials of the paper do. */
+const MATERIALS: Record<string, string> = {
+  bone: "bone: rigid",
+  flesh: "flesh: soft",
+  muscle: "muscle: swells and shrinks by itself",
+  antimuscle: "antimuscle: the same, in antiphase",
+  s1_shrink: "shrinks while stimulus 1 is present",
+  s2_shrink: "shrinks while stimulus 2 is present",
+  s1_grow: "grows while stimulus 1 is present",
+  s2_grow: "grows while stimulus 2 is present",
+};
 
 /** Until the first switch was flipped. */
 function firstHint(swarm: LiveSwarm): HTMLElement {

@@ -73,7 +73,7 @@ export class Cards {
     portrait();
     this.probing.later(robot.body, CYCLES, () => !ended).then(
       probe => {
-        if (!ended && !("fault" in probe)) {
+        if (!ended) {
           const view = new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height: robot.height });
           stop = this.ticker.add(play(view, probe.gaits.map(decodeGait), probe.letters, caption));
         }

@@ -3,7 +3,7 @@
 import { element, fill, iconButton, button } from "../element";
 import { swatch } from "../live/legend";
 import { Observable } from "../observable";
-import type { Look, Paint, ProbeResult, Robots } from "../protocol";
+import type { Look, Paint, Probe, Robots } from "../protocol";
 import { recall, remember } from "../memory";
 import {
   EMPTY, LARGEST, countVoxels, emptyBody, mirrored, paint, randomBody, resized, sizeOf, swappedInputs, type Body,
@@ -18,7 +18,10 @@ const PAUSE = 150;
 const CYCLES = 8;
 
 /** A body and how it walks; null while that is not known. */
-export interface Design { body: Body; probe: ProbeResult | null }
+export interface Design { body: Body; probe: Probe | Fault | null }
+
+/** Why a body cannot walk. */
+export interface Fault { fault: string }
 
 export class Designer {
   readonly host = element("section", { class: "designer", "aria-label": "Designer" });
@@ -116,7 +119,7 @@ export class Designer {
     this.#work?.abort();
     const work = new AbortController();
     this.#work = work;
-    const show = (probe: ProbeResult): void => {
+    const show = (probe: Probe | Fault): void => {
       if (!work.signal.aborted && body === this.body) {
         this.design.set({ body, probe });
       }
@@ -125,10 +128,10 @@ export class Designer {
   }
 
   /** The gaits come at once, the numbers of a gate after them. */
-  async #ask(body: Body, signal: AbortSignal, show: (probe: ProbeResult) => void): Promise<void> {
+  async #ask(body: Body, signal: AbortSignal, show: (probe: Probe) => void): Promise<void> {
     const quick = await this.probing.now(body, CYCLES, signal);
     show(quick);
-    if (!signal.aborted && !("fault" in quick) && quick.function !== null && quick.character === null) {
+    if (!signal.aborted && quick.function !== null && quick.character === null) {
       show(await this.probing.thoroughly(body, CYCLES, signal));
     }
   }

@@ -1,7 +1,7 @@
 // Asks the server how bodies walk. Each body is asked for once, and those that nobody sees any more are not.
 
 import type { Connection } from "../connection";
-import type { ProbeResult } from "../protocol";
+import type { Probe } from "../protocol";
 
 const AT_ONCE = 2;
 const KEPT = 200;
@@ -9,14 +9,14 @@ const KEPT = 200;
 interface Waiting { body: readonly string[]; cycles: number; wanted: () => boolean; begin: () => void }
 
 export class Probing {
-  readonly #known = new Map<string, Promise<ProbeResult>>();
+  readonly #known = new Map<string, Promise<Probe>>();
   #waiting: Waiting[] = [];
   #working = 0;
 
   constructor(private readonly connection: Connection) {}
 
   /** The gaits of a body of the gallery, as soon as it is its turn; never if it is no longer wanted then. */
-  later(body: readonly string[], cycles: number, wanted: () => boolean): Promise<ProbeResult> {
+  later(body: readonly string[], cycles: number, wanted: () => boolean): Promise<Probe> {
     return new Promise((resolve, reject) => {
       const begin = (): void => {
         this.#working++;
@@ -32,7 +32,7 @@ export class Probing {
   }
 
   /** The gaits of a body, before all that wait. */
-  now(body: readonly string[], cycles: number, signal?: AbortSignal): Promise<ProbeResult> {
+  now(body: readonly string[], cycles: number, signal?: AbortSignal): Promise<Probe> {
     const key = `${cycles}:${body.join("/")}`;
     const known = this.#known.get(key);
     if (known !== undefined) {
@@ -48,7 +48,7 @@ export class Probing {
   }
 
   /** The gaits with the character of the gate, which takes many more simulations. */
-  thoroughly(body: readonly string[], cycles: number, signal: AbortSignal): Promise<ProbeResult> {
+  thoroughly(body: readonly string[], cycles: number, signal: AbortSignal): Promise<Probe> {
     return this.connection.request("probe", { body: [...body], cycles, character: true }, { signal });
   }
 

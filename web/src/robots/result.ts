@@ -84,7 +84,8 @@ export class ProbeView {
       facts.push(
         ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
         ["margin", `${character.margin.toFixed(3)} voxels a cycle`],
-        ["errors", percent(character.errors ?? character.error_rate ?? 0)],
+        ["errors", percent(character.errors)],
+        ...(character.topples ? [["falls over", "sometimes"] satisfies [string, string]] : []),
       );
     }
     return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
