@@ -24,14 +24,14 @@ export class Controls implements View {
     this.host.append(
       iconButton("reset", "Back to the start", () => swarm.reset(), { "data-do": "reset" }),
       this.#play,
-      iconButton("step", "One cycle", () => swarm.step(), { "data-do": "step" }),
+      iconButton("step", "One cycle (.)", () => swarm.step(), { "data-do": "step" }),
       this.#speeds(),
       this.#slider,
       this.#cycle,
       this.#rate,
     );
     swarm.running.follow(running => {
-      changeIcon(this.#play, running ? "pause" : "play", running ? "Pause" : "Play");
+      changeIcon(this.#play, running ? "pause" : "play", running ? "Pause (Space)" : "Play (Space)");
       this.#play.dataset["running"] = String(running);
     });
     swarm.frame.on(() => this.draw());

@@ -73,10 +73,10 @@ export class Inspector implements View {
     this.#facts.dataset["net"] = robot.net;
     fill(
       this.#facts,
+      button("Show all robots", () => this.swarm.selection.followed.set(null), { "data-do": "all" }),
       element("h3", {}, `${robot.net} = ${gateName(robot.function)}`),
       truthTableElement(robot.function),
       factList(robot.about),
-      button("Show all robots", () => this.swarm.selection.followed.set(null), { "data-do": "all" }),
     );
   }
 }

@@ -68,7 +68,6 @@ export class SwarmPanel {
     program.stage.follow(stage => this.#showStage(stage));
     swarm.stopped.on(() => this.#showStage(program.stage.value));
     swarm.definition.on(definition => {
-      this.host.classList.toggle("few", (definition?.robots.length ?? 0) <= 8);
       const looks = (definition?.looks ?? []).map(look => ({ look, name: MATERIALS[look.name] ?? look.name }));
       fill(this.#legend, legend(looks));
     });

@@ -9,8 +9,9 @@ import type { View } from "./animation";
 interface Marked { element: Element; source: Source; shown: number | null | undefined }
 interface Box { x: number; y: number; width: number; height: number }
 
-/** Below this scale texts cannot be read, and below the other bodies are only noise. */
+/** A good scale for reading; and those below which the whole cannot be read, and bodies are only noise. */
 const READABLE = 0.6;
+const UNREADABLE = 0.34;
 const FAR = 0.3;
 
 export class Schematic implements View {
@@ -122,7 +123,7 @@ export class Schematic implements View {
     this.#show(this.#whole);
     const svg = this.#svg;
     const first = svg?.querySelector<SVGGraphicsElement>('[data-id="cell-0"]');
-    if (svg !== null && first && this.#width > 0 && this.#scale() < READABLE) {
+    if (svg !== null && first && this.#width > 0 && this.#scale() < UNREADABLE) {
       this.#center(first, READABLE);
     }
   }

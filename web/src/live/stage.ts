@@ -14,6 +14,8 @@ const GAP = 6;
 /** A lane is at least this wide before there are two columns. */
 const COLUMN = 430;
 const FEW = 6;
+/** A lane lower than this has no room for three lines. */
+const LOW = 50;
 
 export class Stage implements View {
   readonly pane: CanvasPane;
@@ -65,7 +67,7 @@ export class Stage implements View {
     const count = this.#robots().length;
     const columns = count <= FEW ? 1 : Math.max(1, Math.floor(this.pane.width / (COLUMN * enlargement.value)));
     const share = this.pane.height / Math.ceil(count / columns);
-    const least = (count <= FEW ? 48 : 66) * enlargement.value;
+    const least = (count <= FEW ? 44 : 66) * enlargement.value;
     const height = count === 1 ? this.pane.height : Math.max(least, Math.min(150, share));
     this.#grid = new LaneGrid(count, columns, this.pane.width, height);
   }
@@ -118,13 +120,21 @@ export class Stage implements View {
     pen.textBaseline = "alphabetic";
     pen.fillStyle = colors.value.ink;
     pen.font = `600 ${14 * size}px ${colors.value.font}`;
-    pen.fillText(robot.net, left, middle - 9 * size, width);
+    // A low lane has the net and its gate in one line.
+    const low = height < LOW * size;
+    const above = middle - (low ? 5 : 9) * size;
+    pen.fillText(robot.net, left, above, low ? width / 2 : width);
+    const beside = Math.min(width / 2, pen.measureText(robot.net).width) + 8 * size;
     pen.fillStyle = colors.value.dim;
     pen.font = `${12 * size}px ${colors.value.font}`;
-    pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
+    if (low) {
+      pen.fillText(gateName(robot.function), left + beside, above, width - beside);
+    } else {
+      pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
+    }
     // A robot of one input senses nothing but a constant by its other side.
     const senses = robot.senses.filter(source => !("constant" in source));
-    senses.forEach((source, i) => this.#drawSense(pen, source, left + (i * width) / 2, middle + 9 * size, width / 2));
+    senses.forEach((source, i) => this.#drawSense(pen, source, left + (i * width) / 2, middle + (low ? 2 : 9) * size, width / 2));
   }
 
   #drawSense(pen: Pen, source: Source, x: number, top: number, width: number): void {

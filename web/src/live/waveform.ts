@@ -155,9 +155,11 @@ function rowsOf(swarm: LiveSwarm): Row[] {
   const { inputs, outputs, robots, shown } = definition;
   const range = (ports: Port[], port: Port): number[] =>
     Array.from({ length: port.width }, (_, i) => offsetOf(ports, port) + i);
+  // A robot that drives an output of the same name is shown there.
+  const lamps = new Set(outputs.filter(port => port.width === 1).map(port => port.name));
   return [
     ...inputs.map((port): Row => ({ name: port.name, group: "input", sources: range(inputs, port).map(input => ({ input })) })),
-    ...robots.map(({ net }, robot): Row => ({ name: net, group: "robot", sources: [{ robot }] })),
+    ...robots.flatMap(({ net }, robot): Row[] => (lamps.has(net) ? [] : [{ name: net, group: "robot", sources: [{ robot }] }])),
     ...outputs.map((port): Row => ({
       name: port.name,
       group: "output",

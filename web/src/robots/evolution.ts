@@ -60,6 +60,8 @@ export class Evolution {
     this.#archive.clear();
     this.#start.textContent = "Stop";
     this.#progress.hidden = false;
+    this.#progress.removeAttribute("value");
+    this.#status.textContent = "simulating the first bodies …";
     const generations = Math.max(1, Math.round(Number(this.#generations.value)) || GENERATIONS);
     const fields = {
       body: countVoxels(body) === 0 ? null : [...body], box: sizeOf(body), generations,
