@@ -41,17 +41,18 @@ const TOPPLED: f64 = 0.7;
 /// The fault of a simulation.
 pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
     let probe = Probe::new(simulator, body, behavior);
-    let tally = probe.best_clock()?;
+    let tally = probe.best_clock(SWITCHES)?;
     let (settle, toppled) = probe.settle()?;
-    Ok(Character {
-        clock: tally.clock,
-        switches: tally.switches,
-        error_rate: tally.error_rate(),
-        glitch_rate: f64::from(tally.glitches) / f64::from(tally.quiet.max(1)),
-        margin: tally.margin,
-        topples: tally.toppled || toppled,
-        settle,
-    })
+    Ok(tally.character(settle, toppled))
+}
+
+/// As [`characterize`], but over an eighth of the switches and without settle times.
+///
+/// # Errors
+/// The fault of a simulation.
+pub fn sketch(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
+    let tally = Probe::new(simulator, body, behavior).best_clock(FIRST_SWITCHES)?;
+    Ok(tally.character(Vec::new(), false))
 }
 
 /// The smallest clock of at most `most` cycles whose first, cheap sequences have no errors, with their margin.
@@ -93,6 +94,19 @@ struct Tally {
 }
 
 impl Tally {
+    /// The character that follows from it, with settle times and whether the body fell over in those.
+    fn character(self, settle: Vec<Transition>, toppled: bool) -> Character {
+        Character {
+            clock: self.clock,
+            switches: self.switches,
+            error_rate: self.error_rate(),
+            glitch_rate: f64::from(self.glitches) / f64::from(self.quiet.max(1)),
+            margin: self.margin,
+            topples: self.toppled || toppled,
+            settle,
+        }
+    }
+
     fn error_rate(&self) -> f64 {
         f64::from(self.wrong) / f64::from(self.switches.max(1))
     }
@@ -136,13 +150,13 @@ impl<'a> Probe<'a> {
     }
 
     /// Random sequences at the smallest clock without errors, or at the one with the fewest errors. A clock that fails
-    /// in short sequences is not tried in long ones unless all fail.
-    fn best_clock(&self) -> Result<Tally, Fault> {
+    /// in short sequences is not tried in ones of that many switches unless all fail.
+    fn best_clock(&self, switches: usize) -> Result<Tally, Fault> {
         let mut best: Option<Tally> = None;
         for clock in CLOCKS {
             let mut tally = self.random(clock, FIRST_SWITCHES)?;
-            if tally.wrong == 0 {
-                tally = self.random(clock, SWITCHES)?;
+            if tally.wrong == 0 && switches > FIRST_SWITCHES {
+                tally = self.random(clock, switches)?;
             }
             if tally.wrong == 0 {
                 return Ok(tally);
@@ -152,7 +166,7 @@ impl<'a> Probe<'a> {
             }
         }
         let best = best.expect("there are clocks");
-        if best.switches as usize >= SWITCHES * LANES { Ok(best) } else { self.random(best.clock, SWITCHES) }
+        if best.switches as usize >= switches * LANES { Ok(best) } else { self.random(best.clock, switches) }
     }
 
     /// Random sequences at a clock.

@@ -23,7 +23,7 @@ mod work;
 pub use activity::{RowActivity, SimulationResult, activity};
 pub use assemble::{Assembly, Member, StimulusSource, assemble};
 pub use cells::{cells, prefer};
-pub use characterize::{characterize, screen};
+pub use characterize::{characterize, screen, sketch};
 pub use evaluate::{evaluate, evaluate_bodies, evolve_generation, fixed_displacements, fixed_trials};
 pub use judge::{Demand, STEADY_CYCLES, judge_logic, judge_swarm};
 pub use live::{LiveSwarm, SwarmSnapshot, setting};

@@ -14,7 +14,7 @@ use crate::report::{self, Looks, Scheme, Stage, describe_material};
 use crate::session::{Checked, CompileOptions, Session};
 use crate::sim::Simulator;
 use crate::store;
-use crate::swarm::{FIXED_STEPS, Recorded, fixed_displacements, fixed_trials, measure};
+use crate::swarm::{FIXED_STEPS, Recorded, fixed_displacements, fixed_trials, measure, sketch};
 
 /// The largest side of a body that is simulated for a page.
 const MOST_SIDE: usize = 20;
@@ -105,7 +105,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
     let gaits: Vec<Recorded> =
         Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
     job.check()?;
-    let (displacement, behavior, character) = measured(&body, is_whole, job)?;
+    let (displacement, behavior, sketched) = measured(&body, is_whole, job)?;
     let looks = Looks::of([&body], Scheme::default());
     let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
     Ok(Some(json!({
@@ -113,24 +113,23 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         "letters": behavior.to_string(),
         "function": behavior.function().name(),
         "displacement": displacement,
-        "character": character,
+        "character": sketched.as_ref().map(character),
         "points": gaits[0].points,
         "voxels": report::voxel_data(&gaits[0], &body, &looks),
         "looks": report::look_data(&looks),
     })))
 }
 
-/// Displacements and behavior of a body, and its character if it is asked for, which takes longer.
-fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Value>), Refused> {
+/// Displacements and behavior of a body, and a sketch of its character if it is asked for, which takes longer.
+fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Character>), Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
-    if is_whole {
-        let found = measure(&job.simulator(), body).map_err(stopped)?;
-        return Ok((found.displacement, found.behavior, Some(character(&found.character))));
-    }
-    let trajectories = job.simulator().run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
+    let simulator = job.simulator();
+    let trajectories = simulator.run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
     let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
     let displacement = fixed_displacements(four).map_err(stopped)?;
-    Ok((displacement, Behavior::of(&displacement), None))
+    let behavior = Behavior::of(&displacement);
+    let character = is_whole.then(|| sketch(&simulator, body, behavior)).transpose().map_err(stopped)?;
+    Ok((displacement, behavior, character))
 }
 
 fn character(character: &Character) -> Value {
@@ -138,6 +137,7 @@ fn character(character: &Character) -> Value {
         "clock": character.clock,
         "margin": character.margin,
         "errors": character.error_rate,
+        "switches": character.switches,
         "glitches": character.glitch_rate,
         "topples": character.topples,
     })
