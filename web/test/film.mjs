@@ -1,4 +1,4 @@
-// Films the page for the manual: the latch, whose inputs are flipped. Writes docs/play/latch.gif.
+// Films the page for the manual, and takes pictures of its parts. Writes docs/play/.
 
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -56,19 +56,43 @@ function encode(frames) {
   return gif.bytes();
 }
 
+/** Where a picture of the manual is. */
+function place(name) {
+  return fileURLToPath(new URL(`../../docs/play/${name}`, import.meta.url));
+}
+
+/** The latch, whose inputs are flipped. */
+async function film(url) {
+  const page = await visit(url, { viewport: SIZE });
+  await walking(page);
+  const bytes = encode(await shots(page));
+  writeFileSync(place("latch.gif"), bytes);
+  console.log(`latch.gif: ${bytes.length} bytes`);
+  await page.leave();
+}
+
+/** The designer with a NAND, and a lesson, in the dark. */
+async function pictures(url) {
+  const page = await visit(url, { viewport: { width: 1280, height: 860 }, colorScheme: "dark" });
+  await walking(page);
+  await page.locator("#tab-robots").click();
+  await page.locator("[data-robot=nand_5x5] [data-do=design]").first().click();
+  await page.locator('.probe[data-letters="RRRL"]:not([data-waiting])').waitFor();
+  await page.locator(".probe .facts").getByText("1 cycle").waitFor();
+  await page.screenshot({ path: place("designer.png") });
+  await page.locator("#tab-learn").click();
+  await page.screenshot({ path: place("learn.png") });
+  await page.leave();
+}
+
 // The page shows the name of the folder.
 const { folder, remove } = folderWith({});
 const circuits = join(folder, "circuits");
 mkdirSync(circuits);
 writeFileSync(join(circuits, "latch.nb"), LATCH);
 const server = await play(circuits, "latch.nb");
-const page = await visit(server.url, { viewport: SIZE });
-await walking(page);
-const bytes = encode(await shots(page));
-const file = fileURLToPath(new URL("../../docs/play/latch.gif", import.meta.url));
-writeFileSync(file, bytes);
-console.log(`${file}: ${bytes.length} bytes`);
-await page.leave();
+await film(server.url);
+await pictures(server.url);
 await closeBrowser();
 await server.stop();
 remove();
