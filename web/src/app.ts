@@ -32,7 +32,10 @@ export class App {
     const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
     const reveal = (line: number): void => this.#edit.editor.reveal(line);
     const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () => this.#layout.show("swarm"));
-    const robots = new RobotsPanel(this.#connection, this.#program, line => this.#edit.editor.insertAtTop(line));
+    const robots = new RobotsPanel(this.#connection, this.#program, {
+      declare: line => this.#edit.editor.insertAtTop(line),
+      append: line => this.#edit.editor.append(line),
+    });
     const learn = new LearnPanel(
       { program: this.#program, swarm: this.#swarm, tests, robots },
       { open: (path, text) => this.#edit.begin(path, text), show: tab => this.#layout.show(tab) },
@@ -46,7 +49,9 @@ export class App {
     this.#layout.tab.follow(tab => {
       robots.shown(tab === "robots");
       swarm.wake();
+      this.#watch();
     });
+    document.addEventListener("visibilitychange", () => this.#watch());
     this.#program.plays = !prefersStillness();
     this.#bindKeys(swarm);
   }
@@ -72,6 +77,10 @@ export class App {
       this.#begun = true;
       await this.#openFirst(hello);
     }
+  }
+
+  #watch(): void {
+    this.#swarm.watch(this.#layout.tab.value === "swarm" && !document.hidden);
   }
 
   /** The program of the address, else that of the command line, else the latch. */

@@ -115,7 +115,7 @@ export class Program {
   /** Tells a server that has just been found again what this page works on. */
   restore(): void {
     this.#compiled = null;
-    this.plays = this.swarm.running.value || this.plays;
+    this.plays = this.swarm.wantsToRun || this.plays;
     this.#check();
   }
 
@@ -149,7 +149,9 @@ export class Program {
         this.#proceed(checked);
       }
     } catch (error) {
-      this.#fail(error);
+      if (turn === this.#turn) {
+        this.#fail(error);
+      }
     }
   }
 
@@ -207,7 +209,7 @@ export class Program {
   }
 
   #start(swarm: Parameters<LiveSwarm["begin"]>[0]): void {
-    const plays = this.plays || this.swarm.running.value;
+    const plays = this.plays || this.swarm.wantsToRun;
     this.plays = false;
     this.swarm.begin(swarm);
     this.stage.set({ state: "ready" });

@@ -10,8 +10,8 @@ import { RequestError, type Picture } from "./protocol";
 const PICTURES: [Picture, string][] = [
   ["page", "Report page (HTML)"],
   ["gif", "Film (GIF)"],
-  ["png", "Schematic (PNG)"],
-  ["svg", "Schematic (SVG)"],
+  ["png", "Spacetime diagram (PNG)"],
+  ["svg", "Spacetime diagram (SVG)"],
   ["vcd", "Waveforms (VCD)"],
   ["csv", "Table of cycles (CSV)"],
 ];
@@ -19,7 +19,7 @@ const PICTURES: [Picture, string][] = [
 export class TakeAway {
   readonly host: HTMLElement;
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
-  readonly #cycles = element("input", { type: "number", min: 1, max: 1000, value: 40, "aria-label": "Cycles up to now" });
+  readonly #cycles = element("input", { type: "number", min: 1, max: 200, value: 40, "aria-label": "Cycles up to now" });
   #work: AbortController | null = null;
 
   constructor(
@@ -35,6 +35,7 @@ export class TakeAway {
         "div",
         { class: "sheet" },
         button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
+        button("Schematic (SVG)", () => this.#schematic(), { "data-take": "schematic" }),
         ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
         element("label", {}, "of the last ", this.#cycles, " cycles"),
         this.#status,
@@ -44,9 +45,14 @@ export class TakeAway {
   }
 
   #program(): void {
-    const url = URL.createObjectURL(new Blob([this.program.text], { type: "text/plain" }));
-    download(url, this.program.path.value.split("/").at(-1) ?? "program.nb");
-    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+    downloadText(this.program.text, "text/plain", this.program.path.value.split("/").at(-1) ?? "program.nb");
+  }
+
+  #schematic(): void {
+    const definition = this.swarm.definition.value;
+    if (definition !== null) {
+      downloadText(definition.schematic, "image/svg+xml", `${definition.circuit.replace(/\W+/g, "_")}.svg`);
+    }
   }
 
   async #take(what: Picture, label: string): Promise<void> {
@@ -65,6 +71,12 @@ export class TakeAway {
       fill(this.#status, known && error.code !== CANCELLED ? `${error.message}${error.help ? `; ${error.help}` : ""}` : "");
     }
   }
+}
+
+function downloadText(text: string, type: string, name: string): void {
+  const url = URL.createObjectURL(new Blob([text], { type }));
+  download(url, name);
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
 function download(url: string, name: string): void {

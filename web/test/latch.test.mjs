@@ -84,7 +84,7 @@ test("what is pointed at is marked in all views, and a robot can be followed alo
 });
 
 test("every kind of file can be taken away", async () => {
-  const kinds = ["nb", "svg", "csv", "vcd", "png", "page", "gif"];
+  const kinds = ["nb", "schematic", "svg", "csv", "vcd", "png", "page", "gif"];
   await page.locator(".take summary").click();
   for (const kind of kinds) {
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-take=${kind}]`).click()]);

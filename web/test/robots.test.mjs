@@ -50,7 +50,8 @@ test("painting the voxels of a NAND makes a NAND", async () => {
   assert.deepEqual(await body(), NAND);
   await letters("RRRL");
   assert.equal(await page.locator(".probe h3").textContent(), "a NAND b");
-  await page.locator(".probe .facts").getByText("1 cycle").waitFor();
+  // Its errors are counted over many switches, which takes a while.
+  await page.locator(".probe .facts").getByText("1 cycle").waitFor({ timeout: 240_000 });
 });
 
 test("undo, mirror, and swapping inputs", async () => {
@@ -107,7 +108,13 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await page.getByText("wrote robots/mine.yaml").waitFor();
   assert.ok(existsSync(path.join(place.folder, "robots", "mine.yaml")));
   await page.waitForFunction(() => /library \w+ \{/.test(document.querySelector(".editor").shadowRoot.textContent));
-  await page.locator('.swarm .status[data-state="ready"]').waitFor({ state: "attached" });
+  await page.locator("[data-do=build]").click();
+  await page.locator("#tab-swarm").click();
+  await page.locator(".circuit").selectOption({ label: "d_latch as d_latch_own" });
+  await page.locator('.schematic [data-id="cell-0"] text', { hasText: "mine" }).waitFor();
+  await page.waitForFunction(() => /^\d+ robots/.test(document.querySelector(".swarm .status").textContent));
+  assert.equal(await page.locator(".circuit").evaluate(select => select.selectedOptions[0].textContent), "d_latch as d_latch_own");
+  await page.locator("#tab-robots").click();
 });
 
 test("a robot of the library walks on its card and opens in the designer", async () => {

@@ -85,6 +85,13 @@ export class Editor {
     this.#view.dispatch({ changes: { from, insert: atEnd ? `\n${line}\n` : `${line}\n` }, scrollIntoView: true });
   }
 
+  /** Adds lines at the end, after an empty one. */
+  append(lines: string): void {
+    const { doc } = this.#view.state;
+    const before = doc.line(doc.lines).length === 0 ? "\n" : "\n\n";
+    this.#view.dispatch({ changes: { from: doc.length, insert: `${before}${lines}\n` }, scrollIntoView: true });
+  }
+
   /** Leads to a line, from 1. */
   reveal(line: number): void {
     const { doc } = this.#view.state;

@@ -6,7 +6,14 @@ import type { LiveSwarm } from "./swarm";
 export interface View {
   /** Draws the shown moment. */
   draw(): void;
+  /** Whether a slow machine may draw it less often than the robots. */
+  readonly patient?: boolean;
 }
+
+/** A screen frame that takes longer, in seconds, is that of a slow machine. */
+const SLOW = 0.024;
+/** There patient views are drawn once in so many frames. */
+const SHARE = 3;
 
 /** Longer pauses, as of a hidden tab, do not count as time. */
 const LONGEST_STEP = 0.1;
@@ -15,6 +22,9 @@ export class Animation {
   readonly #views: View[] = [];
   #asked = 0;
   #before = 0;
+  /** The usual time between two frames, in seconds. */
+  #usual = 1 / 60;
+  #count = 0;
 
   constructor(private readonly swarm: LiveSwarm) {
     swarm.frame.on(() => this.wake());
@@ -43,11 +53,20 @@ export class Animation {
     } else {
       playback.advance(seconds);
     }
-    for (const view of this.#views) {
-      view.draw();
-    }
+    this.#draw(seconds, !playback.moving);
     if (playback.moving) {
       this.wake();
+    }
+  }
+
+  #draw(seconds: number, last: boolean): void {
+    this.#usual += 0.1 * (seconds - this.#usual);
+    this.#count++;
+    const all = last || this.#usual < SLOW || this.#count % SHARE === 0;
+    for (const view of this.#views) {
+      if (all || !view.patient) {
+        view.draw();
+      }
     }
   }
 }

@@ -10,6 +10,7 @@ export const AXIS = 18;
 
 export abstract class Diagram implements View {
   readonly pane: CanvasPane;
+  readonly patient = true;
 
   constructor(
     protected readonly swarm: LiveSwarm,

@@ -94,6 +94,7 @@ export class Schematic implements View {
       if (kind === "cell") {
         part.setAttribute("tabindex", "0");
         part.setAttribute("role", "button");
+        part.setAttribute("aria-label", part.querySelector("title")?.textContent ?? `robot ${name}`);
       }
     }
   }

@@ -36,6 +36,8 @@ export class LiveSwarm {
   #early: ArrayBuffer | null = null;
   #shown: number[] | null = null;
   #adopt = false;
+  #watched = true;
+  #rests = false;
 
   constructor(private readonly connection: Connection) {
     connection.onframe = buffer => this.#receive(buffer);
@@ -91,12 +93,31 @@ export class LiveSwarm {
   }
 
   play(): void {
-    if (this.definition.value !== null && this.stopped.value === null) {
+    this.#rests = !this.#watched;
+    if (this.#watched && this.definition.value !== null && this.stopped.value === null) {
       this.#drive(true, "run", { speed: this.speed.value });
     }
   }
 
+  /** Whether it runs, or will as soon as somebody looks. */
+  get wantsToRun(): boolean {
+    return this.running.value || this.#rests;
+  }
+
+  /** A swarm that nobody sees rests. */
+  watch(watched: boolean): void {
+    const wanted = this.wantsToRun;
+    this.#watched = watched;
+    if (!watched && wanted) {
+      this.pause();
+      this.#rests = true;
+    } else if (watched && this.#rests) {
+      this.play();
+    }
+  }
+
   pause(): void {
+    this.#rests = false;
     this.#drive(false, "pause", {});
   }
 
@@ -177,6 +198,7 @@ export class LiveSwarm {
 
   #drive<V extends "run" | "pause" | "step" | "reset" | "seek">(running: boolean, verb: V, fields: Verbs[V][0]): void {
     this.running.set(running);
+    this.#rests &&= running;
     this.#orders++;
     const done = (): void => void this.#orders--;
     this.connection.request(verb, fields).then(done, done);
@@ -205,6 +227,7 @@ export class LiveSwarm {
     this.frame.set(null);
     this.stopped.set(null);
     this.running.set(false);
+    this.#rests = false;
     this.#shown = null;
   }
 }

@@ -1,9 +1,16 @@
 // Keeping the designed body as a robot file, and using it in the program.
 
 import type { Connection } from "../connection";
-import { button, element } from "../element";
+import { button, element, fill } from "../element";
+import type { Program } from "../program";
 import { RequestError } from "../protocol";
 import type { Body } from "./body";
+
+export interface KeepDoors {
+  /** Puts a declaration at the start or at the end of the program. */
+  declare: (line: string) => void;
+  append: (line: string) => void;
+}
 
 export class Keeping {
   readonly host: HTMLElement;
@@ -13,7 +20,8 @@ export class Keeping {
   constructor(
     private readonly connection: Connection,
     private readonly body: () => Body,
-    private readonly use: (line: string) => void,
+    private readonly program: Program,
+    private readonly doors: KeepDoors,
     private readonly kept: () => void,
   ) {
     this.host = element(
@@ -25,11 +33,28 @@ export class Keeping {
     );
   }
 
+  /** A swarm that is built of the library, where there is a circuit for it. */
+  #offer(use: string): HTMLElement | null {
+    const library = /\blibrary\s+(\w+)/.exec(use)?.[1];
+    const circuit = this.program.choice.value?.circuit;
+    if (library === undefined || circuit === undefined) {
+      return null;
+    }
+    const name = `${circuit.replace(/\W+/g, "_").replace(/_$/, "")}_${library}`;
+    const build = (): void => {
+      this.doors.append(`swarm ${name} { circuit: ${circuit}, library: ${library} }`);
+      this.#status.textContent = `choose “${circuit} as ${name}” in the tab Swarm; its robots come from this library alone`;
+    };
+    return button(`Build ${circuit} with it`, build, { "data-do": "build", title: "Declare a swarm of this library" });
+  }
+
   async #keep(): Promise<void> {
     try {
       const { path, use } = await this.connection.request("keep", { name: this.#name.value.trim(), body: [...this.body()] });
-      this.use(use);
-      this.#status.textContent = `wrote ${path}; the program has a line that uses it`;
+      if (!this.program.text.includes(use)) {
+        this.doors.declare(use);
+      }
+      fill(this.#status, `wrote ${path}; the program has a library with it. `, this.#offer(use));
       this.kept();
     } catch (error) {
       this.#status.textContent = error instanceof RequestError ? [error.message, error.help].filter(Boolean).join("; ") : String(error);

@@ -6,7 +6,7 @@ import type { Program } from "../program";
 import { Cards } from "./cards";
 import { Designer } from "./designer";
 import { Evolution } from "./evolution";
-import { Keeping } from "./keeping";
+import { Keeping, type KeepDoors } from "./keeping";
 import { Probing } from "./probing";
 import { ProbeView } from "./result";
 import { Ticker } from "./ticker";
@@ -24,13 +24,13 @@ export class RobotsPanel {
   constructor(
     private readonly connection: Connection,
     private readonly program: Program,
-    insert: (line: string) => void,
+    doors: KeepDoors,
   ) {
     const probing = new Probing(connection);
     this.designer = new Designer(probing);
     this.evolution = new Evolution(connection, () => this.designer.body, body => this.designer.take(body));
     const result = new ProbeView(this.#ticker);
-    const keeping = new Keeping(connection, () => this.designer.body, insert, () => void this.#load());
+    const keeping = new Keeping(connection, () => this.designer.body, program, doors, () => void this.#load());
     this.#cards = new Cards(probing, this.#ticker, {
       design: body => {
         this.designer.take(body);
