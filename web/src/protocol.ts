@@ -142,7 +142,7 @@ export interface Paint { code: string | number; name: string; about: string; loo
 export interface Robots { robots: Card[]; looks: Look[]; palette: Paint[] }
 
 export interface EncodedGait { frames: number; cycles: number; poses: string }
-export interface Character { clock: number; margin: number; errors: number; glitches: number; topples: boolean }
+export interface Character { clock: number; switches?: number; margin: number; errors: number; glitches: number; topples: boolean }
 
 export interface Probe {
   gaits: EncodedGait[];

@@ -37,5 +37,9 @@ test("niches of an archive open and improve", () => {
   archive.merge({ ...event, axes, generation: 2, niches: [{ ...niche, fitness: [1, 0.75] }] });
   assert.equal(archive.niches.size, 1);
   assert.equal(archive.best(), 0.75);
-  assert.equal(archive.layers().length, 16);
+  assert.deepEqual(archive.split(), { across: [0, 1], layers: [2] });
+  assert.equal(archive.places([2]).length, 16);
+  archive.merge({ ...event, axes: [["behavior", 16], ["active", 8]] });
+  assert.deepEqual(archive.split(), { across: [1], layers: [0] });
+  assert.equal(archive.places([]).length, 1);
 });

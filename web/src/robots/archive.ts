@@ -31,10 +31,17 @@ export class Archive {
     return Math.max(1e-9, ...[...this.niches.values()].map(strength));
   }
 
-  /** The places of the axes after the first two, each a map of its own. */
-  layers(): number[][] {
-    return this.axes.slice(2).reduce<number[][]>(
-      (layers, [, bins]) => layers.flatMap(layer => Array.from({ length: bins }, (_, i) => [...layer, i])),
+  /** The axes that a map shows, and those of which each combination of places is a map of its own. */
+  split(): { across: number[]; layers: number[] } {
+    const all = this.axes.map((_, axis) => axis);
+    const across = all.filter(axis => this.axes[axis]?.[0] !== "behavior").slice(0, 2);
+    return { across, layers: all.filter(axis => !across.includes(axis)) };
+  }
+
+  /** The places along these axes in all combinations. */
+  places(axes: number[]): number[][] {
+    return axes.reduce<number[][]>(
+      (places, axis) => places.flatMap(place => Array.from({ length: this.axes[axis]?.[1] ?? 1 }, (_, i) => [...place, i])),
       [[]],
     );
   }
@@ -79,7 +86,7 @@ export class HeatMap {
     square.style.setProperty("--share", `${Math.round(15 + 85 * share)}%`);
     square.title = words;
     square.setAttribute("aria-label", words);
-    const title = this.#titles.get(layerOf(niche.place));
+    const title = this.#titles.get(this.archive.split().layers.map(axis => niche.place[axis]).join());
     if (title !== undefined) {
       title.textContent = niche.function === null ? niche.letters : gateName(niche.function);
       title.closest(".map")?.classList.remove("none");
@@ -89,17 +96,25 @@ export class HeatMap {
   #build(): void {
     this.#squares.clear();
     this.#titles.clear();
-    const [first = ["", 1], second = ["", 1]] = this.archive.axes;
-    fill(this.host, ...this.archive.layers().map(layer => this.#map(layer, first[1], second[1])));
-    const names = this.archive.axes.slice(0, 2).map(([name]) => name).join(" from left to right, ");
-    this.host.setAttribute("aria-label", `Archive: ${names} from the bottom up`);
+    const { across, layers } = this.archive.split();
+    fill(this.host, ...this.archive.places(layers).map(layer => this.#map(layer, layers, across)));
+    const [columns = "", rows] = across.map(axis => this.archive.axes[axis]?.[0] ?? "");
+    const names = rows === undefined ? `${columns} from left to right` : `${columns} from left to right, ${rows} from the bottom up`;
+    this.host.setAttribute("aria-label", `Archive: ${names}`);
+    this.host.title = names;
   }
 
-  #map(layer: number[], columns: number, rows: number): HTMLElement {
+  #map(layer: number[], layers: number[], across: number[]): HTMLElement {
     const title = element("h4", {}, "–");
     this.#titles.set(layer.join(), title);
+    const [columns = 1, rows = 1] = across.map(axis => this.archive.axes[axis]?.[1] ?? 1);
     const squares = Array.from({ length: rows }, (_, row) =>
-      Array.from({ length: columns }, (__, column) => this.#square([column, rows - 1 - row, ...layer])),
+      Array.from({ length: columns }, (__, column) => {
+        const place: number[] = [];
+        layers.forEach((axis, i) => (place[axis] = layer[i] ?? 0));
+        across.forEach((axis, i) => (place[axis] = i === 0 ? column : rows - 1 - row));
+        return this.#square(place);
+      }),
     );
     const niches = element("div", { class: "niches" }, ...squares.flat());
     niches.style.setProperty("--columns", String(columns));
@@ -120,8 +135,4 @@ export class HeatMap {
     this.#squares.set(key, square);
     return square;
   }
-}
-
-function layerOf(place: number[]): string {
-  return place.slice(2).join();
 }

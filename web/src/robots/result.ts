@@ -84,7 +84,7 @@ export class ProbeView {
       facts.push(
         ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
         ["margin", `${character.margin.toFixed(3)} voxels a cycle`],
-        ["errors", percent(character.errors)],
+        ["errors", percent(character.errors) + (character.switches === undefined ? "" : ` in ${character.switches} switches`)],
         ...(character.topples ? [["falls over", "sometimes"] satisfies [string, string]] : []),
       );
     }
