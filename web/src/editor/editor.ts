@@ -73,16 +73,16 @@ export class Editor {
     this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text } });
   }
 
-  /** Inserts a line after the comment at the top of the file. */
+  /** Inserts a declaration after the comment at the top of the file. */
   insertAtTop(line: string): void {
     const { doc } = this.#view.state;
     let number = 1;
     while (number <= doc.lines && /^\s*(\/\/.*|use\s.*)$/.test(doc.line(number).text)) {
       number++;
     }
-    const atEnd = number > doc.lines;
-    const from = atEnd ? doc.length : doc.line(number).from;
-    this.#view.dispatch({ changes: { from, insert: atEnd ? `\n${line}\n` : `${line}\n` }, scrollIntoView: true });
+    const next = number > doc.lines ? null : doc.line(number);
+    const insert = `${number > 1 ? "\n" : ""}${line}\n${next !== null && next.length > 0 ? "\n" : ""}`;
+    this.#view.dispatch({ changes: { from: next?.from ?? doc.length, insert }, scrollIntoView: true });
   }
 
   /** Adds lines at the end, after an empty one. */

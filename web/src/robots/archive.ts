@@ -1,7 +1,7 @@
 // The archive of a search as it fills: a heat map for each behavior, with a square for each niche.
 
 import { element, fill } from "../element";
-import { gateName } from "../gate";
+import { gateName, gateOf } from "../gate";
 import type { ArchiveEvent, Axis, Niche } from "../protocol";
 
 export class Archive {
@@ -105,7 +105,7 @@ export class HeatMap {
   }
 
   #map(layer: number[], layers: number[], across: number[]): HTMLElement {
-    const title = element("h4", {}, "–");
+    const title = element("h4", {}, this.#titleOf(layer, layers));
     this.#titles.set(layer.join(), title);
     const [columns = 1, rows = 1] = across.map(axis => this.archive.axes[axis]?.[1] ?? 1);
     const squares = Array.from({ length: rows }, (_, row) =>
@@ -119,6 +119,14 @@ export class HeatMap {
     const niches = element("div", { class: "niches" }, ...squares.flat());
     niches.style.setProperty("--columns", String(columns));
     return element("div", { class: "map none" }, title, niches);
+  }
+
+  /** The gate of a behavior. Its number has a bit for each pattern, 00 the lowest. */
+  #titleOf(layer: number[], layers: number[]): string {
+    const index = layers.findIndex(axis => this.archive.axes[axis]?.[0] === "behavior" && this.archive.axes[axis]?.[1] === 16);
+    const number = layer[index];
+    const letters = number === undefined ? "" : [0, 1, 2, 3].map(bit => ((number >> bit) & 1 ? "R" : "L")).join("");
+    return letters === "" ? "–" : gateName(gateOf(letters));
   }
 
   #square(place: number[]): HTMLElement {

@@ -1,0 +1,79 @@
+// The page on a phone, on a projector, in the dark, and for someone who asks for stillness.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { closeBrowser, cycle, visit, walking } from "./browser.mjs";
+import { LATCH, folderWith, play } from "./program.mjs";
+
+let place, program;
+
+before(async () => {
+  place = folderWith({ "latch.nb": LATCH });
+  program = await play(place.folder, "latch.nb");
+});
+
+after(async () => {
+  await closeBrowser();
+  await program?.stop();
+  place?.remove();
+});
+
+const TABS = ["swarm", "tests", "robots", "learn"];
+
+test("a phone shows everything in its width", async () => {
+  const page = await visit(program.url, { viewport: { width: 360, height: 740 } });
+  await walking(page);
+  for (const tab of TABS) {
+    await page.locator(`#tab-${tab}`).click();
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(width <= 360, `${tab} is ${width} wide`);
+  }
+  await page.leave();
+});
+
+test("large type for a projector, and light and dark, are remembered", async () => {
+  const page = await visit(program.url, { colorScheme: "dark" });
+  await walking(page);
+  const size = () => page.evaluate(() => parseFloat(getComputedStyle(document.body).fontSize));
+  const paper = () => page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--paper").trim());
+  const [small, dark] = [await size(), await paper()];
+  await page.locator("[data-do=projector]").click();
+  await page.locator("[data-do=theme]").click();
+  assert.ok((await size()) >= 1.3 * small);
+  assert.notEqual(await paper(), dark);
+  await page.reload();
+  await walking(page);
+  assert.ok((await size()) >= 1.3 * small);
+  assert.notEqual(await paper(), dark);
+  await page.leave();
+});
+
+test("without motion the swarm waits to be asked", async () => {
+  const page = await visit(program.url, { reducedMotion: "reduce" });
+  await page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 0");
+  assert.equal(await page.locator("[data-do=play]").getAttribute("data-running"), "false");
+  await page.locator("[data-do=step]").click();
+  await page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 1");
+  assert.equal(await cycle(page), 1);
+  await page.leave();
+});
+
+test("the keyboard reaches what the mouse does", async () => {
+  const page = await visit(program.url);
+  await walking(page);
+  await page.locator('button[data-input="d"]').focus();
+  await page.keyboard.press("Space");
+  await page.locator('button[data-input="d"][aria-checked="true"]').waitFor();
+  await page.locator("#tab-swarm").focus();
+  await page.keyboard.press("ArrowRight");
+  await page.locator("#tab-tests[aria-selected=true]").waitFor();
+  await page.keyboard.press("ArrowLeft");
+  await page.locator(".stage").focus();
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  await page.locator(".inspector .facts:not([hidden])").waitFor();
+  await page.keyboard.press("Escape");
+  await page.locator(".inspector .facts").waitFor({ state: "hidden" });
+  await page.leave();
+});
