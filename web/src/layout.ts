@@ -38,6 +38,8 @@ export class Layout {
       tab.panel.parentElement?.toggleAttribute("hidden", !chosen);
     }
     remember("tab", name);
+    // Where the whole page scrolls, as on a phone, the new tab begins at its top.
+    scrollTo(0, 0);
     this.tab.set(name);
   }
 

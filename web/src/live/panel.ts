@@ -138,13 +138,14 @@ const MATERIALS: Record<string, string> = {
 /** Until the first switch was flipped. */
 function firstHint(swarm: LiveSwarm): HTMLElement {
   const hint = element("span", { class: "hint", role: "note", hidden: recall("flipped") === true }, "▼ flip a switch: robots turn round");
-  const stop = swarm.inputs.on(bits => {
-    if (bits.includes("1")) {
+  const note = (): void => {
+    if (swarm.inputs.value.includes("1") || swarm.clock.value !== null) {
       hint.hidden = true;
       remember("flipped", true);
-      stop();
     }
-  });
+  };
+  swarm.inputs.on(note);
+  swarm.clock.on(note);
   return hint;
 }
 
