@@ -36,7 +36,9 @@ function notices(files) {
   const packages = [...new Set(folders.filter(folder => folder !== undefined))].sort();
   const sections = packages.map(folder => {
     const { name, version, license } = JSON.parse(readFileSync(path.join(folder, "package.json"), "utf8"));
-    const text = readdirSync(folder).sort().find(file => /^licen[cs]e/i.test(file));
+    const text = readdirSync(folder)
+      .sort()
+      .find(file => /^licen[cs]e/i.test(file));
     if (text === undefined) {
       throw new Error(`${name} has no text of its license`);
     }
@@ -47,7 +49,9 @@ function notices(files) {
 
 async function unitTests() {
   rmSync("build/unit", { recursive: true, force: true });
-  const files = readdirSync("unit").filter(file => file.endsWith(".test.ts")).sort();
+  const files = readdirSync("unit")
+    .filter(file => file.endsWith(".test.ts"))
+    .sort();
   await build({
     ...common,
     entryPoints: files.map(file => `unit/${file}`),

@@ -31,7 +31,9 @@ export class App {
     const take = new TakeAway(this.#connection, this.#program, this.#swarm);
     const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
     const reveal = (line: number): void => this.#edit.editor.reveal(line);
-    const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () => this.#layout.show("swarm"));
+    const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () =>
+      this.#layout.show("swarm"),
+    );
     const robots = new RobotsPanel(this.#connection, this.#program, {
       declare: line => this.#edit.editor.insertAtTop(line),
       append: line => this.#edit.editor.append(line),
@@ -108,7 +110,8 @@ export class App {
   #bindKeys(swarm: SwarmPanel): void {
     addEventListener("keydown", event => {
       const target = event.composedPath()[0] as HTMLElement;
-      const busy = target.closest?.("input, select, button, summary, [contenteditable], [role=button], dialog") !== null;
+      const busy =
+        target.closest?.("input, select, button, summary, [contenteditable], [role=button], dialog") !== null;
       if (busy || this.#layout.tab.value !== "swarm" || event.ctrlKey || event.metaKey || event.altKey) {
         return;
       }

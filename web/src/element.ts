@@ -43,7 +43,11 @@ export function fill(parent: Element, ...children: Child[]): void {
   append(parent, children);
 }
 
-export function button(label: string, onclick: (event: MouseEvent) => void, attributes: Attributes = {}): HTMLButtonElement {
+export function button(
+  label: string,
+  onclick: (event: MouseEvent) => void,
+  attributes: Attributes = {},
+): HTMLButtonElement {
   return element("button", { type: "button", onclick, ...attributes }, label);
 }
 
@@ -54,7 +58,14 @@ export function iconButton(
   onclick: (event: MouseEvent) => void,
   attributes: Attributes = {},
 ): HTMLButtonElement {
-  const made = element("button", { type: "button", class: "icon", title: label, "aria-label": label, onclick, ...attributes });
+  const made = element("button", {
+    type: "button",
+    class: "icon",
+    title: label,
+    "aria-label": label,
+    onclick,
+    ...attributes,
+  });
   made.append(drawIcon(icon));
   return made;
 }

@@ -15,14 +15,24 @@ export class Header {
   #timer = 0;
 
   constructor() {
-    const projector = iconButton("projector", "Large type, for a projector", () => {
-      projector.setAttribute("aria-pressed", String(switchProjector()));
-    }, { "data-do": "projector" });
+    const projector = iconButton(
+      "projector",
+      "Large type, for a projector",
+      () => {
+        projector.setAttribute("aria-pressed", String(switchProjector()));
+      },
+      { "data-do": "projector" },
+    );
     projector.setAttribute("aria-pressed", String(document.documentElement.hasAttribute("data-projector")));
-    const light = iconButton("theme", "Light or dark", () => {
-      switchTheme();
-      light.setAttribute("aria-pressed", String(theme() === "dark"));
-    }, { "data-do": "theme" });
+    const light = iconButton(
+      "theme",
+      "Light or dark",
+      () => {
+        switchTheme();
+        light.setAttribute("aria-pressed", String(theme() === "dark"));
+      },
+      { "data-do": "theme" },
+    );
     this.host = element(
       "header",
       { class: "head" },

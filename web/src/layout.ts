@@ -6,7 +6,11 @@ import { Observable } from "./observable";
 
 export type TabName = "swarm" | "tests" | "robots" | "learn";
 
-export interface Tab { name: TabName; label: string; panel: HTMLElement }
+export interface Tab {
+  name: TabName;
+  label: string;
+  panel: HTMLElement;
+}
 
 const NARROWEST = 18;
 const WIDEST = 75;
@@ -18,7 +22,12 @@ export class Layout {
   readonly #buttons = new Map<TabName, HTMLButtonElement>();
   readonly #main = element("main");
 
-  constructor(head: HTMLElement, edit: HTMLElement, strip: HTMLElement, readonly tabs: Tab[]) {
+  constructor(
+    head: HTMLElement,
+    edit: HTMLElement,
+    strip: HTMLElement,
+    readonly tabs: Tab[],
+  ) {
     const bar = element("div", { class: "tabs", role: "tablist", "aria-label": "Views" });
     const panels = tabs.map(tab => this.#panel(tab, bar));
     const live = element("section", { class: "live", "aria-label": "Live" }, bar, strip, ...panels);
@@ -44,10 +53,24 @@ export class Layout {
   }
 
   #panel({ name, label, panel }: Tab, bar: HTMLElement): HTMLElement {
-    const made = element("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `panel-${name}`, onclick: () => this.show(name) }, label);
+    const made = element(
+      "button",
+      {
+        type: "button",
+        role: "tab",
+        id: `tab-${name}`,
+        "aria-controls": `panel-${name}`,
+        onclick: () => this.show(name),
+      },
+      label,
+    );
     this.#buttons.set(name, made);
     bar.append(made);
-    return element("div", { class: "panel", role: "tabpanel", id: `panel-${name}`, "aria-labelledby": `tab-${name}` }, panel);
+    return element(
+      "div",
+      { class: "panel", role: "tabpanel", id: `panel-${name}`, "aria-labelledby": `tab-${name}` },
+      panel,
+    );
   }
 
   /** Arrows go from tab to tab. */
@@ -64,8 +87,13 @@ export class Layout {
 
   #divider(): HTMLElement {
     const divider = element("div", {
-      class: "divider", role: "separator", tabindex: 0, "aria-orientation": "vertical",
-      "aria-label": "Width of the editor", "aria-valuemin": NARROWEST, "aria-valuemax": WIDEST,
+      class: "divider",
+      role: "separator",
+      tabindex: 0,
+      "aria-orientation": "vertical",
+      "aria-label": "Width of the editor",
+      "aria-valuemin": NARROWEST,
+      "aria-valuemax": WIDEST,
     });
     divider.addEventListener("pointerdown", event => {
       event.preventDefault();

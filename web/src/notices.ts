@@ -2,7 +2,10 @@
 
 import { button, element, iconButton } from "./element";
 
-export interface Action { label: string; run: () => void }
+export interface Action {
+  label: string;
+  run: () => void;
+}
 
 export class Notices {
   readonly host = element("div", { class: "notices", role: "status", "aria-live": "polite" });

@@ -7,7 +7,10 @@ import { Observable } from "./observable";
 import { RequestError, type Checked, type CircuitEntry, type FileText, type Hello } from "./protocol";
 import { sameProgram } from "./sameness";
 
-export interface Choice { circuit: string; swarm: string | null }
+export interface Choice {
+  circuit: string;
+  swarm: string | null;
+}
 
 export type Stage =
   | { state: "idle" | "checking" | "ready" }
@@ -204,7 +207,10 @@ export class Program {
   #isCompiled(path: string, text: string, choice: Choice): boolean {
     const compiled = this.#compiled;
     return (
-      compiled !== null && compiled.path === path && compiled.choice === JSON.stringify(choice) && sameProgram(compiled.text, text)
+      compiled !== null &&
+      compiled.path === path &&
+      compiled.choice === JSON.stringify(choice) &&
+      sameProgram(compiled.text, text)
     );
   }
 

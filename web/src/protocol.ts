@@ -11,11 +11,24 @@ export interface Hello {
   cycle_seconds: number;
 }
 
-export interface FileEntry { path: string; size: number }
-export interface Example { name: string; about: string }
-export interface FileText { path: string; text: string; stamp: string | null }
+export interface FileEntry {
+  path: string;
+  size: number;
+}
+export interface Example {
+  name: string;
+  about: string;
+}
+export interface FileText {
+  path: string;
+  text: string;
+  stamp: string | null;
+}
 
-export interface Port { name: string; width: number }
+export interface Port {
+  name: string;
+  width: number;
+}
 
 export interface CircuitEntry {
   name: string;
@@ -24,7 +37,12 @@ export interface CircuitEntry {
   line: number;
 }
 
-export interface TestRow { row: number; line: number; inputs: string[]; outputs: string[] }
+export interface TestRow {
+  row: number;
+  line: number;
+  inputs: string[];
+  outputs: string[];
+}
 
 export interface TestEntry {
   index: number;
@@ -36,8 +54,17 @@ export interface TestEntry {
   outputs: Port[];
 }
 
-export interface Place { byte: number; line: number; column: number }
-export interface Label { file: string; start: Place; end: Place; text: string }
+export interface Place {
+  byte: number;
+  line: number;
+  column: number;
+}
+export interface Label {
+  file: string;
+  start: Place;
+  end: Place;
+  text: string;
+}
 
 export interface Diagnostic {
   code: string;
@@ -75,7 +102,12 @@ export interface Robot {
   errors: number;
 }
 
-export interface Look { name: string; color: string; ink?: string | null; mark?: [number, number][][] | null }
+export interface Look {
+  name: string;
+  color: string;
+  ink?: string | null;
+  mark?: [number, number][][] | null;
+}
 
 export interface Swarm {
   /** Counts the swarms of a connection. */
@@ -96,8 +128,14 @@ export interface Swarm {
   frames: number;
 }
 
-export interface VerdictPort { name: string; width: number }
-export interface VerdictValue { bits: string; text: string }
+export interface VerdictPort {
+  name: string;
+  width: number;
+}
+export interface VerdictValue {
+  bits: string;
+  text: string;
+}
 
 export interface VerdictRow {
   row: number;
@@ -138,11 +176,31 @@ export interface Card {
   shipped: boolean;
 }
 
-export interface Paint { code: string | number; name: string; about: string; look: number }
-export interface Robots { robots: Card[]; looks: Look[]; palette: Paint[] }
+export interface Paint {
+  code: string | number;
+  name: string;
+  about: string;
+  look: number;
+}
+export interface Robots {
+  robots: Card[];
+  looks: Look[];
+  palette: Paint[];
+}
 
-export interface EncodedGait { frames: number; cycles: number; poses: string }
-export interface Character { clock: number; switches?: number; margin: number; errors: number; glitches: number; topples: boolean }
+export interface EncodedGait {
+  frames: number;
+  cycles: number;
+  poses: string;
+}
+export interface Character {
+  clock: number;
+  switches?: number;
+  margin: number;
+  errors: number;
+  glitches: number;
+  topples: boolean;
+}
 
 export interface Probe {
   gaits: EncodedGait[];
@@ -155,7 +213,13 @@ export interface Probe {
   looks: Look[];
 }
 
-export interface Niche { place: number[]; fitness: number[]; body: string[]; letters: string; function: string | null }
+export interface Niche {
+  place: number[];
+  fitness: number[];
+  body: string[];
+  letters: string;
+  function: string | null;
+}
 /** A name and a number of bins. */
 export type Axis = [string, number];
 
@@ -168,8 +232,15 @@ export interface ArchiveEvent {
   evaluations: number;
 }
 
-export interface ChangedEvent { event: "changed"; path: string; stamp: string | null }
-export interface StoppedEvent { event: "stopped"; reason: string }
+export interface ChangedEvent {
+  event: "changed";
+  path: string;
+  stamp: string | null;
+}
+export interface StoppedEvent {
+  event: "stopped";
+  reason: string;
+}
 export type LiveEvent = ArchiveEvent | ChangedEvent | StoppedEvent;
 
 export type Picture = "page" | "gif" | "png" | "svg" | "vcd" | "csv";

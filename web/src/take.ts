@@ -19,7 +19,13 @@ const PICTURES: [Picture, string][] = [
 export class TakeAway {
   readonly host: HTMLElement;
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
-  readonly #cycles = element("input", { type: "number", min: 1, max: 200, value: 40, "aria-label": "Cycles up to now" });
+  readonly #cycles = element("input", {
+    type: "number",
+    min: 1,
+    max: 200,
+    value: 40,
+    "aria-label": "Cycles up to now",
+  });
   #work: AbortController | null = null;
 
   constructor(
@@ -61,14 +67,21 @@ export class TakeAway {
     this.#work = work;
     const now = this.swarm.frame.value?.now ?? 0;
     const cycles = Math.max(1, Math.min(now, Number(this.#cycles.value) || 40));
-    fill(this.#status, `making ${label} … `, button("Stop", () => work.abort()));
+    fill(
+      this.#status,
+      `making ${label} … `,
+      button("Stop", () => work.abort()),
+    );
     try {
       const { url, name } = await this.connection.request("take", { what, cycles }, { signal: work.signal });
       download(new URL(url, document.baseURI).href, name);
       fill(this.#status, `${name} is ready`);
     } catch (error) {
       const known = error instanceof RequestError;
-      fill(this.#status, known && error.code !== CANCELLED ? `${error.message}${error.help ? `; ${error.help}` : ""}` : "");
+      fill(
+        this.#status,
+        known && error.code !== CANCELLED ? `${error.message}${error.help ? `; ${error.help}` : ""}` : "",
+      );
     }
   }
 }

@@ -35,7 +35,9 @@ test("a mistake is shown at its place, and the swarm follows its fix", async () 
   await typeProgram(page, GATE.replace("a and b", "a nor b"));
   await page.locator(".cm-lintRange-error").waitFor({ state: "detached" });
   await page.waitForFunction(() => /^1 robot/.test(document.querySelector(".swarm .status").textContent));
-  await page.waitForFunction(() => document.querySelector('.schematic [data-id="cell-0"]')?.textContent.includes("NOR"));
+  await page.waitForFunction(() =>
+    document.querySelector('.schematic [data-id="cell-0"]')?.textContent.includes("NOR"),
+  );
 });
 
 test("nothing is written until it is saved", async () => {
@@ -81,7 +83,9 @@ test("the language server explains, completes, formats and renames", async () =>
   await page.locator(".cm-content").getByText("gate").hover();
   await page.locator(".cm-tooltip-hover").waitFor();
   await page.keyboard.press("Shift+Alt+F");
-  await page.waitForFunction(() => document.querySelector(".editor").shadowRoot.textContent.includes("    q = first and b"));
+  await page.waitForFunction(() =>
+    document.querySelector(".editor").shadowRoot.textContent.includes("    q = first and b"),
+  );
   await page.keyboard.press("Control+Home");
   for (let column = 0; column < "circuit gate(fi".length; column++) {
     await page.keyboard.press("ArrowRight");
@@ -89,12 +93,14 @@ test("the language server explains, completes, formats and renames", async () =>
   await page.keyboard.press("F2");
   await page.locator(".cm-lsp-rename-panel input").fill("second");
   await page.keyboard.press("Enter");
-  await page.waitForFunction(() => document.querySelector(".editor").shadowRoot.textContent.includes("q = second and b"));
+  await page.waitForFunction(() =>
+    document.querySelector(".editor").shadowRoot.textContent.includes("q = second and b"),
+  );
 });
 
 test("other files, examples and new files can be opened", async () => {
   await page.locator("[data-do=open]").click();
-  await page.locator('.files section').first().locator('[data-open="latch.nb"]').click();
+  await page.locator(".files section").first().locator('[data-open="latch.nb"]').click();
   await page.waitForFunction(() => document.querySelector(".file").textContent === "latch.nb");
   await walking(page);
   await page.locator("[data-do=open]").click();

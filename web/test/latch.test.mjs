@@ -30,7 +30,16 @@ test("the page opens with the file, compiled and walking", async () => {
 
 test("the lamps follow the inputs in all patterns", async () => {
   await page.locator(".speed").selectOption("16×");
-  const patterns = [[0, 1, 0], [1, 1, 1], [1, 0, 1], [0, 0, 1], [0, 1, 0], [0, 0, 0], [1, 0, 0], [1, 1, 1]];
+  const patterns = [
+    [0, 1, 0],
+    [1, 1, 1],
+    [1, 0, 1],
+    [0, 0, 1],
+    [0, 1, 0],
+    [0, 0, 0],
+    [1, 0, 0],
+    [1, 1, 1],
+  ];
   for (const [d, e, q] of patterns) {
     await setInput(page, "d", d);
     await setInput(page, "e", e);
@@ -49,7 +58,10 @@ test("pause, step, rewind and reset", async () => {
   await page.waitForFunction(now => document.querySelector(".cycle").textContent === `cycle ${now}`, stopped + 1);
   const slider = page.locator(".rewind");
   await slider.fill("5");
-  await page.waitForFunction(last => document.querySelector(".cycle").textContent === `cycle 5 of ${last}`, stopped + 1);
+  await page.waitForFunction(
+    last => document.querySelector(".cycle").textContent === `cycle 5 of ${last}`,
+    stopped + 1,
+  );
   await page.locator("[data-do=step]").click();
   await page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 6");
   await page.locator("[data-do=reset]").click();

@@ -22,7 +22,11 @@ after(async () => {
   place?.remove();
 });
 
-const done = count => page.locator('.strip li[data-done="true"]').nth(count - 1).waitFor();
+const done = count =>
+  page
+    .locator('.strip li[data-done="true"]')
+    .nth(count - 1)
+    .waitFor();
 
 test("the lesson on the latch is finished by using the latch as a memory", async () => {
   await page.locator("#tab-learn").click();

@@ -36,7 +36,8 @@ test("large type for a projector, and light and dark, are remembered", async () 
   const page = await visit(program.url, { colorScheme: "dark" });
   await walking(page);
   const size = () => page.evaluate(() => parseFloat(getComputedStyle(document.body).fontSize));
-  const paper = () => page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--paper").trim());
+  const paper = () =>
+    page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--paper").trim());
   const [small, dark] = [await size(), await paper()];
   await page.locator("[data-do=projector]").click();
   await page.locator("[data-do=theme]").click();

@@ -56,7 +56,9 @@ after(async () => {
 
 test("a swarm of two hundred walks", async () => {
   await page.locator(".circuit").selectOption({ label: "wide as wide_nands" });
-  await page.waitForFunction(() => Number(/^(\d+) robots/.exec(document.querySelector(".swarm .status").textContent)?.[1]) >= 200);
+  await page.waitForFunction(
+    () => Number(/^(\d+) robots/.exec(document.querySelector(".swarm .status").textContent)?.[1]) >= 200,
+  );
   await walking(page);
 });
 

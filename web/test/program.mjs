@@ -40,7 +40,10 @@ export function folderWith(files) {
 /** Serves a folder, and opens its `file` first. */
 export async function play(folder, file, { port = 0, token } = {}) {
   const options = ["--no-open", "--port", String(port), ...option("--token", token), ...option("--page", PAGE)];
-  const child = spawn(path.resolve(PROGRAM), ["play", file, ...options], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(path.resolve(PROGRAM), ["play", file, ...options], {
+    cwd: folder,
+    stdio: ["ignore", "pipe", "inherit"],
+  });
   const ended = new Promise(resolve => child.once("exit", resolve));
   const url = await addressOf(child);
   return {

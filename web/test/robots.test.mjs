@@ -29,7 +29,11 @@ after(async () => {
 });
 
 const body = () =>
-  page.evaluate(() => [...document.querySelectorAll(".grid .line")].map(row => [...row.children].map(voxel => voxel.dataset.code).join("")));
+  page.evaluate(() =>
+    [...document.querySelectorAll(".grid .line")].map(row =>
+      [...row.children].map(voxel => voxel.dataset.code).join(""),
+    ),
+  );
 
 const letters = text => page.locator(`.probe[data-letters="${text}"]:not([data-waiting])`).waitFor();
 
@@ -56,7 +60,10 @@ test("painting the voxels of a NAND makes a NAND", async () => {
 
 test("undo, mirror, and swapping inputs", async () => {
   await page.locator("[data-do=mirror]").click();
-  assert.deepEqual(await body(), NAND.map(row => [...row].reverse().join("")));
+  assert.deepEqual(
+    await body(),
+    NAND.map(row => [...row].reverse().join("")),
+  );
   await page.locator("[data-do=undo]").click();
   assert.deepEqual(await body(), NAND);
   await page.locator("[data-do=swap]").click();
@@ -113,7 +120,10 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await page.locator(".circuit").selectOption({ label: "d_latch as d_latch_own" });
   await page.locator('.schematic [data-id="cell-0"] text', { hasText: "mine" }).waitFor();
   await page.waitForFunction(() => /^\d+ robots/.test(document.querySelector(".swarm .status").textContent));
-  assert.equal(await page.locator(".circuit").evaluate(select => select.selectedOptions[0].textContent), "d_latch as d_latch_own");
+  assert.equal(
+    await page.locator(".circuit").evaluate(select => select.selectedOptions[0].textContent),
+    "d_latch as d_latch_own",
+  );
   await page.locator("#tab-robots").click();
 });
 

@@ -42,11 +42,17 @@ function socketTo(path, headers = {}) {
     "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
     ...headers,
   };
-  const lines = Object.entries(all).filter(([, value]) => value !== null).map(([name, value]) => `${name}: ${value}\r\n`);
+  const lines = Object.entries(all)
+    .filter(([, value]) => value !== null)
+    .map(([name, value]) => `${name}: ${value}\r\n`);
   return new Promise((resolve, reject) => {
-    const socket = connect(program.port, "127.0.0.1", () => socket.write(`GET ${path} HTTP/1.1\r\n${lines.join("")}\r\n`));
+    const socket = connect(program.port, "127.0.0.1", () =>
+      socket.write(`GET ${path} HTTP/1.1\r\n${lines.join("")}\r\n`),
+    );
     socket.once("error", reject);
-    socket.once("data", data => resolve({ socket, status: Number(/^HTTP\/1.1 (\d+)/.exec(data.toString("latin1"))?.[1]) }));
+    socket.once("data", data =>
+      resolve({ socket, status: Number(/^HTTP\/1.1 (\d+)/.exec(data.toString("latin1"))?.[1]) }),
+    );
     socket.once("close", () => resolve({ socket, status: 0 }));
   });
 }
@@ -77,7 +83,14 @@ test("the page is there with its token, and strict about what it loads", async (
 });
 
 test("without the right token there is nothing", async () => {
-  for (const path of ["/", "/app.js", "/wrong/", `/${program.token}x/`, `/${program.token.slice(0, -1)}/`, "/wrong/live"]) {
+  for (const path of [
+    "/",
+    "/app.js",
+    "/wrong/",
+    `/${program.token}x/`,
+    `/${program.token.slice(0, -1)}/`,
+    "/wrong/live",
+  ]) {
     assert.ok((await statusOf(path)) >= 400, path);
   }
   const { socket, status } = await socketTo("/wrong/live");
@@ -86,7 +99,12 @@ test("without the right token there is nothing", async () => {
 });
 
 test("pages of other origins and other host names are refused", async () => {
-  for (const headers of [{ Origin: "http://evil.example" }, { Origin: "null" }, { Host: "evil.example" }, { Host: `evil.example:${program.port}` }]) {
+  for (const headers of [
+    { Origin: "http://evil.example" },
+    { Origin: "null" },
+    { Host: "evil.example" },
+    { Host: `evil.example:${program.port}` },
+  ]) {
     for (const path of ["live", "language"]) {
       const { socket, status } = await socketTo(own(path), headers);
       assert.notEqual(status, 101, JSON.stringify(headers));
@@ -100,7 +118,12 @@ test("pages of other origins and other host names are refused", async () => {
 });
 
 test("paths lead nowhere else", async () => {
-  for (const path of ["../../etc/passwd", "..%2f..%2fetc%2fpasswd", "%2e%2e/%2e%2e/etc/passwd", "take/1/../../../etc/passwd"]) {
+  for (const path of [
+    "../../etc/passwd",
+    "..%2f..%2fetc%2fpasswd",
+    "%2e%2e/%2e%2e/etc/passwd",
+    "take/1/../../../etc/passwd",
+  ]) {
     assert.ok((await statusOf(own(path))) >= 400, path);
   }
 });

@@ -43,7 +43,9 @@ test("it leads to its line", async () => {
   await active.waitFor();
   const line = await page.evaluate(() => {
     const { shadowRoot } = document.querySelector(".editor");
-    return [...shadowRoot.querySelectorAll(".cm-lineNumbers .cm-activeLineGutter")].map(gutter => gutter.textContent).join();
+    return [...shadowRoot.querySelectorAll(".cm-lineNumbers .cm-activeLineGutter")]
+      .map(gutter => gutter.textContent)
+      .join();
   });
   assert.equal(line, String(FAILING_LINE));
 });

@@ -3,7 +3,14 @@ import { test } from "node:test";
 
 import type { Paint } from "../src/protocol";
 import {
-  countVoxels, emptyBody, isConnected, mirrored, paint, randomBody, resized, swappedInputs,
+  countVoxels,
+  emptyBody,
+  isConnected,
+  mirrored,
+  paint,
+  randomBody,
+  resized,
+  swappedInputs,
 } from "../src/robots/body";
 import { History } from "../src/robots/history";
 
@@ -31,7 +38,10 @@ test("mirroring twice changes nothing", () => {
 
 test("swapping inputs exchanges the materials of the two stimuli", () => {
   assert.deepEqual(swappedInputs(["1234", "5678"], palette), ["1234", "6587"]);
-  const own: Paint[] = [{ code: 9, name: "my_s1_slow", about: "", look: 0 }, { code: "a", name: "my_s2_slow", about: "", look: 1 }];
+  const own: Paint[] = [
+    { code: 9, name: "my_s1_slow", about: "", look: 0 },
+    { code: "a", name: "my_s2_slow", about: "", look: 1 },
+  ];
   assert.deepEqual(swappedInputs(["9a1"], own), ["a91"]);
 });
 

@@ -15,8 +15,17 @@ interface Written {
 
 export function encodeFrame(given: Partial<Written>): ArrayBuffer {
   const frame: Written = {
-    now: 0, first: 0, last: given.now ?? 0, rate: 4, running: false, number: 1, from: 1, log: [], poses: [],
-    robots: given.log?.[0]?.robots.length ?? 0, ...given,
+    now: 0,
+    first: 0,
+    last: given.now ?? 0,
+    rate: 4,
+    running: false,
+    number: 1,
+    from: 1,
+    log: [],
+    poses: [],
+    robots: given.log?.[0]?.robots.length ?? 0,
+    ...given,
   };
   const bytes: number[] = [];
   const add = (size: number, write: (view: DataView) => void): void => {

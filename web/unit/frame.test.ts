@@ -10,15 +10,33 @@ test("bits are unpacked from the lowest of the first byte", () => {
 
 test("a frame is what was written", () => {
   const buffer = encodeFrame({
-    now: 7, first: 2, last: 9, rate: 3.5, running: true, number: 258, from: 7,
+    now: 7,
+    first: 2,
+    last: 9,
+    rate: 3.5,
+    running: true,
+    number: 258,
+    from: 7,
     log: [
       { inputs: [1, 0], robots: [0, 1, 1], outputs: [1], places: [0.5, -1.25, 3] },
       { inputs: [0, 1], robots: [1, 0, 0], outputs: [0], places: [1.5, -2, 4] },
     ],
-    poses: [{ robot: 2, origin: -4.5, frames: [[0, 0, 100, 50], [10, 0, 110, 50]] }],
+    poses: [
+      {
+        robot: 2,
+        origin: -4.5,
+        frames: [
+          [0, 0, 100, 50],
+          [10, 0, 110, 50],
+        ],
+      },
+    ],
   });
   const frame = decodeFrame(buffer, 2, 1);
-  assert.deepEqual([frame.now, frame.first, frame.last, frame.rate, frame.running, frame.from], [7, 2, 9, 3.5, true, 7]);
+  assert.deepEqual(
+    [frame.now, frame.first, frame.last, frame.rate, frame.running, frame.from],
+    [7, 2, 9, 3.5, true, 7],
+  );
   assert.deepEqual([...(frame.log[1]?.robots ?? [])], [1, 0, 0]);
   assert.deepEqual([...(frame.log[0]?.inputs ?? [])], [1, 0]);
   assert.deepEqual([...(frame.log[0]?.places ?? [])], [0.5, -1.25, 3]);

@@ -32,14 +32,24 @@ test("niches of an archive open and improve", () => {
   const archive = new Archive();
   const niche = { place: [1, 0, 14], fitness: [1, 0.5], body: ["3"], letters: "RRRL", function: "nand" };
   const event = { event: "archive" as const, id: 1, generation: 1, evaluations: 8, niches: [niche] };
-  const axes: [string, number][] = [["voxels", 3], ["active", 3], ["behavior", 16]];
+  const axes: [string, number][] = [
+    ["voxels", 3],
+    ["active", 3],
+    ["behavior", 16],
+  ];
   archive.merge({ ...event, axes });
   archive.merge({ ...event, axes, generation: 2, niches: [{ ...niche, fitness: [1, 0.75] }] });
   assert.equal(archive.niches.size, 1);
   assert.equal(archive.best(), 0.75);
   assert.deepEqual(archive.split(), { across: [0, 1], layers: [2] });
   assert.equal(archive.places([2]).length, 16);
-  archive.merge({ ...event, axes: [["behavior", 16], ["active", 8]] });
+  archive.merge({
+    ...event,
+    axes: [
+      ["behavior", 16],
+      ["active", 8],
+    ],
+  });
   assert.deepEqual(archive.split(), { across: [1], layers: [0] });
   assert.equal(archive.places([]).length, 1);
 });

@@ -9,7 +9,14 @@ import type { Situation } from "../src/learn/situation";
 /** A page that has run these cycles, each with the numbers at its ports. */
 function situation(cycles: Values[], given: Partial<Situation> = {}): Situation {
   return {
-    path: "", text: "", errors: 0, circuits: 1, tests: 0, passed: 0, now: cycles.length, hold: 2,
+    path: "",
+    text: "",
+    errors: 0,
+    circuits: 1,
+    tests: 0,
+    passed: 0,
+    now: cycles.length,
+    hold: 2,
     port: (name, cycle) => cycles[cycle - 1]?.[name] ?? null,
     design: { body: [], probe: null },
     search: { running: false, niches: [], chosen: null },
@@ -36,7 +43,8 @@ test("the lesson on the latch is done by using it as a memory", () => {
   const lesson = LESSONS.find(({ name }) => name === "latch");
   assert.ok(lesson !== undefined);
   const progress = new Progress({});
-  const held = (d: number, e: number, q: number): Situation => situation(Array.from({ length: 3 }, () => ({ d, e, q })));
+  const held = (d: number, e: number, q: number): Situation =>
+    situation(Array.from({ length: 3 }, () => ({ d, e, q })));
   assert.equal(progress.advance(lesson, held(1, 0, 1)), false);
   assert.equal(progress.advance(lesson, held(1, 1, 1)), true);
   assert.equal(progress.advance(lesson, held(0, 0, 1)), false);

@@ -8,7 +8,10 @@ import { encodeFrame } from "./encode";
 /** Cycles `from` to `to` of a run with one input, whose bit and place tell the runs apart. */
 function push(log: RunLog, from: number, to: number, bit: number, last = to, first = 0): void {
   const cycles = Array.from({ length: Math.max(0, to - from + 1) }, (_, i) => ({
-    inputs: [bit], robots: [bit], outputs: [bit], places: [from + i],
+    inputs: [bit],
+    robots: [bit],
+    outputs: [bit],
+    places: [from + i],
   }));
   log.merge(decodeFrame(encodeFrame({ now: to, last, first, from, log: cycles, robots: 1 }), 1, 1));
 }

@@ -3,11 +3,21 @@ import { test } from "node:test";
 
 import { bitsOf, keepBits, offsetOf, parseNumber, toBits, toNumber, totalWidth, withBit } from "../src/ports";
 
-const ports = [{ name: "a", width: 3 }, { name: "clk", width: 1 }, { name: "b", width: 2 }];
+const ports = [
+  { name: "a", width: 3 },
+  { name: "clk", width: 1 },
+  { name: "b", width: 2 },
+];
 
 test("bits are named from the most significant of each port", () => {
-  assert.deepEqual(bitsOf(ports).map(bit => bit.name), ["a[2]", "a[1]", "a[0]", "clk", "b[1]", "b[0]"]);
-  assert.deepEqual(bitsOf(ports).map(bit => bit.index), [0, 1, 2, 3, 4, 5]);
+  assert.deepEqual(
+    bitsOf(ports).map(bit => bit.name),
+    ["a[2]", "a[1]", "a[0]", "clk", "b[1]", "b[0]"],
+  );
+  assert.deepEqual(
+    bitsOf(ports).map(bit => bit.index),
+    [0, 1, 2, 3, 4, 5],
+  );
   assert.equal(totalWidth(ports), 6);
   assert.equal(offsetOf(ports, ports[2] as (typeof ports)[0]), 4);
 });
@@ -36,7 +46,11 @@ test("one bit changes", () => {
 });
 
 test("inputs of the same name and width keep their values", () => {
-  const after = [{ name: "b", width: 2 }, { name: "a", width: 4 }, { name: "clk", width: 1 }];
+  const after = [
+    { name: "b", width: 2 },
+    { name: "a", width: 4 },
+    { name: "clk", width: 1 },
+  ];
   assert.equal(keepBits("101110", ports, after), "1000001");
   assert.equal(keepBits("", [], after), "0000000");
 });

@@ -7,7 +7,12 @@ import { lintGutter, lintKeymap } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
 import {
-  EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers,
+  EditorView,
+  drawSelection,
+  highlightActiveLine,
+  highlightActiveLineGutter,
+  keymap,
+  lineNumbers,
 } from "@codemirror/view";
 import type { LSPClient } from "@codemirror/lsp-client";
 
@@ -27,16 +32,42 @@ const look = EditorView.theme({
   },
   ".cm-selectionMatch": { backgroundColor: "var(--highlight)" },
   "&.cm-focused .cm-matchingBracket": { backgroundColor: "var(--selection)" },
-  ".cm-tooltip, .cm-panels": { backgroundColor: "var(--panel)", color: "var(--ink)", border: "1px solid var(--line)", borderRadius: "6px" },
+  ".cm-tooltip, .cm-panels": {
+    backgroundColor: "var(--panel)",
+    color: "var(--ink)",
+    border: "1px solid var(--line)",
+    borderRadius: "6px",
+  },
   ".cm-tooltip": { maxWidth: "min(38rem, 92vw)", boxShadow: "0 4px 16px rgba(0,0,0,.18)" },
   ".cm-tooltip.cm-tooltip-hover": { maxHeight: "60vh", overflow: "auto" },
   ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent)", color: "var(--on-accent)" },
-  ".cm-lsp-documentation": { fontFamily: "var(--font)", fontSize: "14px", "& pre": { fontFamily: "var(--mono)", whiteSpace: "pre-wrap" }, "& img": { maxWidth: "100%", background: "#fff" } },
+  ".cm-lsp-documentation": {
+    fontFamily: "var(--font)",
+    fontSize: "14px",
+    "& pre": { fontFamily: "var(--mono)", whiteSpace: "pre-wrap" },
+    "& img": { maxWidth: "100%", background: "#fff" },
+  },
   ".cm-diagnostic": { fontFamily: "var(--font)", padding: "5px 10px" },
   ".cm-diagnostic-error": { borderLeft: "4px solid var(--bad)" },
-  ".cm-lintRange-error": { backgroundImage: "none", textDecoration: "underline wavy var(--bad)", textUnderlineOffset: "3px" },
-  ".cm-lintRange-warning": { backgroundImage: "none", textDecoration: "underline wavy var(--zero)", textUnderlineOffset: "3px" },
-  ".cm-panel input, .cm-panel button": { font: "inherit", color: "inherit", backgroundColor: "var(--paper)", backgroundImage: "none", border: "1px solid var(--line)", borderRadius: "4px", padding: "3px 8px" },
+  ".cm-lintRange-error": {
+    backgroundImage: "none",
+    textDecoration: "underline wavy var(--bad)",
+    textUnderlineOffset: "3px",
+  },
+  ".cm-lintRange-warning": {
+    backgroundImage: "none",
+    textDecoration: "underline wavy var(--zero)",
+    textUnderlineOffset: "3px",
+  },
+  ".cm-panel input, .cm-panel button": {
+    font: "inherit",
+    color: "inherit",
+    backgroundColor: "var(--paper)",
+    backgroundImage: "none",
+    border: "1px solid var(--line)",
+    borderRadius: "4px",
+    padding: "3px 8px",
+  },
 });
 
 export interface EditorEvents {
@@ -121,17 +152,36 @@ export class Editor {
     return EditorState.create({
       doc: text,
       extensions: [
-        lineNumbers(), highlightActiveLineGutter(), highlightActiveLine(), history(), drawSelection(), bracketMatching(),
-        closeBrackets(), highlightSelectionMatches(), autocompletion(), lintGutter(), indentUnit.of("    "), nb(), look,
+        lineNumbers(),
+        highlightActiveLineGutter(),
+        highlightActiveLine(),
+        history(),
+        drawSelection(),
+        bracketMatching(),
+        closeBrackets(),
+        highlightSelectionMatches(),
+        autocompletion(),
+        lintGutter(),
+        indentUnit.of("    "),
+        nb(),
+        look,
         EditorView.contentAttributes.of({ "aria-label": "The program" }),
         keymap.of([
           { key: "Mod-s", preventDefault: true, run: () => (this.events.save(), true) },
-          ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, ...lintKeymap,
+          ...closeBracketsKeymap,
+          ...defaultKeymap,
+          ...searchKeymap,
+          ...historyKeymap,
+          ...completionKeymap,
+          ...lintKeymap,
           indentWithTab,
         ]),
         this.#language.of(this.#plugin()),
         EditorView.updateListener.of(update => {
-          if (update.docChanged && update.transactions.some(made => made.annotation(Transaction.addToHistory) !== false)) {
+          if (
+            update.docChanged &&
+            update.transactions.some(made => made.annotation(Transaction.addToHistory) !== false)
+          ) {
             this.events.changed(update.state.doc.toString());
           }
         }),

@@ -34,9 +34,20 @@ export class FilePicker {
   show(files: FileEntry[], examples: Example[]): void {
     fill(
       this.host,
-      element("header", {}, element("h2", {}, "Open a program"), iconButton("close", "Close", () => this.host.close())),
-      this.#list("In this folder", files.map(({ path }) => ({ label: path, about: "", origin: { path } }))),
-      this.#list("Examples", examples.map(({ name, about }) => ({ label: name, about, origin: { example: name } }))),
+      element(
+        "header",
+        {},
+        element("h2", {}, "Open a program"),
+        iconButton("close", "Close", () => this.host.close()),
+      ),
+      this.#list(
+        "In this folder",
+        files.map(({ path }) => ({ label: path, about: "", origin: { path } })),
+      ),
+      this.#list(
+        "Examples",
+        examples.map(({ name, about }) => ({ label: name, about, origin: { example: name } })),
+      ),
       this.#new(files),
     );
     this.host.showModal();
@@ -44,9 +55,19 @@ export class FilePicker {
 
   #list(title: string, entries: { label: string; about: string; origin: Origin }[]): HTMLElement {
     const items = entries.map(({ label, about, origin }) =>
-      element("li", {}, button(label, () => this.#choose(origin), { "data-open": label }), about !== "" && element("span", {}, about)),
+      element(
+        "li",
+        {},
+        button(label, () => this.#choose(origin), { "data-open": label }),
+        about !== "" && element("span", {}, about),
+      ),
     );
-    return element("section", {}, element("h3", {}, title), items.length === 0 ? element("p", {}, "none") : element("ul", {}, ...items));
+    return element(
+      "section",
+      {},
+      element("h3", {}, title),
+      items.length === 0 ? element("p", {}, "none") : element("ul", {}, ...items),
+    );
   }
 
   #choose(origin: Origin): void {
@@ -55,7 +76,12 @@ export class FilePicker {
   }
 
   #new(files: FileEntry[]): HTMLElement {
-    const field = element("input", { type: "text", value: freeName(files), "aria-label": "Name of the new file", spellcheck: "false" });
+    const field = element("input", {
+      type: "text",
+      value: freeName(files),
+      "aria-label": "Name of the new file",
+      spellcheck: "false",
+    });
     const make = (): void => {
       const name = withEnding(field.value);
       if (name !== null) {
@@ -68,7 +94,12 @@ export class FilePicker {
         make();
       }
     };
-    return element("section", {}, element("h3", {}, "New"), element("p", { class: "row" }, field, button("Begin", make, { "data-do": "new" })));
+    return element(
+      "section",
+      {},
+      element("h3", {}, "New"),
+      element("p", { class: "row" }, field, button("Begin", make, { "data-do": "new" })),
+    );
   }
 }
 
@@ -90,7 +121,12 @@ export function withEnding(text: string): string | null {
 /** Asks for a path to save at. */
 export function askPath(suggested: string): Promise<string | null> {
   return new Promise(resolve => {
-    const field = element("input", { type: "text", value: suggested, "aria-label": "Path within the folder", spellcheck: "false" });
+    const field = element("input", {
+      type: "text",
+      value: suggested,
+      "aria-label": "Path within the folder",
+      spellcheck: "false",
+    });
     let answer: string | null = null;
     const dialog = element(
       "dialog",

@@ -1,6 +1,12 @@
 // Highlighting of nb, for the time before the language server has answered.
 
-import { HighlightStyle, LanguageSupport, StreamLanguage, syntaxHighlighting, type StringStream } from "@codemirror/language";
+import {
+  HighlightStyle,
+  LanguageSupport,
+  StreamLanguage,
+  syntaxHighlighting,
+  type StringStream,
+} from "@codemirror/language";
 import { tags } from "@lezer/highlight";
 
 const DECLARATIONS = /^(circuit|test|material|evolution|library|swarm|schedule|simulate|stimulus)\b/;
@@ -8,7 +14,9 @@ const WORDS = /^(if|then|else|for|in|init|net|table|log2|use|with|all|inputs|aga
 const OPERATORS = /^(and|or|xor|nand|nor|xnor|not)\b(?!\()/;
 const UNITS = /^(steps?|cycles?|seconds?|ms|milliseconds|deg|degrees?|bins)\b/;
 
-interface State { declares: boolean }
+interface State {
+  declares: boolean;
+}
 
 function token(stream: StringStream, state: State): string | null {
   if (stream.eatSpace()) {

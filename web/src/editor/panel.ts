@@ -14,7 +14,11 @@ export class EditPanel {
   readonly editor: Editor;
   readonly notices = new Notices();
   readonly #picker: FilePicker;
-  readonly #name = button("", () => void this.pick(), { class: "file", title: "Open another program", "data-do": "open" });
+  readonly #name = button("", () => void this.pick(), {
+    class: "file",
+    title: "Open another program",
+    "data-do": "open",
+  });
   readonly #save = button("Save", () => void this.save(), { "data-do": "save", title: "Save (Ctrl-S)" });
 
   constructor(
@@ -23,7 +27,10 @@ export class EditPanel {
     server: LanguageServer,
   ) {
     this.editor = new Editor({ changed: text => program.edit(text), save: () => void this.save() });
-    this.#picker = new FilePicker(origin => void this.open(origin), path => this.begin(path, NEW_PROGRAM));
+    this.#picker = new FilePicker(
+      origin => void this.open(origin),
+      path => this.begin(path, NEW_PROGRAM),
+    );
     this.host = element(
       "section",
       { class: "edit", "aria-label": "Program" },
@@ -145,9 +152,10 @@ export class EditPanel {
       { label: "Load theirs", run: () => void read().then(file => this.#adopt(file)) },
       {
         label: "Keep mine",
-        run: () => void read().then(file => {
-          this.program.stamp = file.stamp;
-        }),
+        run: () =>
+          void read().then(file => {
+            this.program.stamp = file.stamp;
+          }),
       },
     ]);
   }

@@ -1,8 +1,7 @@
 // Documentation from the language server contains texts of the user's files, so only harmless HTML is kept.
 
-const ELEMENTS = new Set(
-  "A B BLOCKQUOTE BR CODE DD DEL DL DT EM H1 H2 H3 H4 H5 H6 HR I IMG LI OL P PRE S SPAN STRONG TABLE TBODY TD TH THEAD TR UL".split(" "),
-);
+const TEXT = "A B BLOCKQUOTE BR CODE DD DEL DL DT EM H1 H2 H3 H4 H5 H6 HR I IMG LI OL P PRE S SPAN STRONG UL";
+const ELEMENTS = new Set(`${TEXT} TABLE TBODY TD TH THEAD TR`.split(" "));
 const ATTRIBUTES = new Set(["alt", "class", "height", "href", "src", "title", "width"]);
 
 export function sanitize(html: string): string {

@@ -19,7 +19,12 @@ export class LanguageServer {
     const socket = new WebSocket(this.address);
     this.#socket = socket;
     socket.onopen = () => {
-      const client = new LSPClient({ rootUri, timeout: TIMEOUT, extensions: languageServerExtensions(), sanitizeHTML: sanitize });
+      const client = new LSPClient({
+        rootUri,
+        timeout: TIMEOUT,
+        extensions: languageServerExtensions(),
+        sanitizeHTML: sanitize,
+      });
       this.client.set(client.connect(transportOver(socket)));
     };
     socket.onclose = () => {

@@ -15,7 +15,10 @@ export function shows(values: Values): Check {
 export function keeps(values: Values): Check {
   return situation => {
     const start = situation.now - situation.hold;
-    return start >= 1 && Array.from({ length: situation.hold + 1 }, (_, i) => start + i).every(cycle => holds(situation, values, cycle));
+    return (
+      start >= 1 &&
+      Array.from({ length: situation.hold + 1 }, (_, i) => start + i).every(cycle => holds(situation, values, cycle))
+    );
   };
 }
 
@@ -35,7 +38,10 @@ export function all(...checks: Check[]): Check {
 /** The body in the designer is this gate. */
 export function designs(gate: (name: string) => boolean): Check {
   return ({ design }) =>
-    design.probe !== null && !("fault" in design.probe) && design.probe.function !== null && gate(design.probe.function);
+    design.probe !== null &&
+    !("fault" in design.probe) &&
+    design.probe.function !== null &&
+    gate(design.probe.function);
 }
 
 function holds(situation: Situation, values: Values, cycle: number): boolean {

@@ -4,7 +4,10 @@ import { NEW_PROGRAM } from "../editor/files";
 import type { TabName } from "../layout";
 import { all, designs, hasShown, keeps, type Check } from "./checks";
 
-export interface Step { task: string; check: Check }
+export interface Step {
+  task: string;
+  check: Check;
+}
 
 export interface Lesson {
   name: string;
@@ -70,8 +73,10 @@ export const LESSONS: Lesson[] = [
     name: "gate",
     title: "A robot is a gate",
     text: [
-      "This robot has no brain. Some of its voxels swell and shrink by themselves, others change when a stimulus is present. So its body decides which way it walks.",
-      "A robot that walks right stands for 1, and one that walks left stands for 0. This one walks right where a is 0: it is a NOT gate.",
+      "This robot has no brain. Some of its voxels swell and shrink by themselves, others change when " +
+        "a stimulus is present. So its body decides which way it walks.",
+      "A robot that walks right stands for 1, and one that walks left stands for 0. This one walks " +
+        "right where a is 0: it is a NOT gate.",
     ],
     program: NOT,
     tab: "swarm",
@@ -93,7 +98,12 @@ export const LESSONS: Lesson[] = [
       { task: "Find the one pattern of a and b in which this robot walks right.", check: keeps({ q: 1 }) },
       {
         task: "Show it all four patterns, each until it has settled.",
-        check: hasShown([{ a: 0, b: 0, q: 0 }, { a: 0, b: 1, q: 0 }, { a: 1, b: 0, q: 0 }, { a: 1, b: 1, q: 1 }]),
+        check: hasShown([
+          { a: 0, b: 0, q: 0 },
+          { a: 0, b: 1, q: 0 },
+          { a: 1, b: 0, q: 0 },
+          { a: 1, b: 1, q: 1 },
+        ]),
       },
     ],
   },
@@ -101,15 +111,22 @@ export const LESSONS: Lesson[] = [
     name: "nand",
     title: "NAND",
     text: [
-      "NAND is 0 only where both inputs are 1. Every circuit can be built of NAND gates alone, and so of one kind of robot.",
+      "NAND is 0 only where both inputs are 1. Every circuit can be built of NAND gates alone, and so " +
+        "of one kind of robot.",
       "The tab Robots has all robots of the library as cards. Each shows its truth table and how it walks.",
     ],
     program: NAND,
     tab: "swarm",
     steps: [
       { task: "Make q go out.", check: keeps({ a: 1, b: 1, q: 0 }) },
-      { task: "In the tab Robots, find a NAND robot and open it in the designer.", check: designs(name => name === "nand") },
-      { task: "There, change its body until it is another gate. Swapping inputs changes nothing here: why?", check: designs(name => name !== "nand") },
+      {
+        task: "In the tab Robots, find a NAND robot and open it in the designer.",
+        check: designs(name => name === "nand"),
+      },
+      {
+        task: "There, change its body until it is another gate. Swapping inputs changes nothing here: why?",
+        check: designs(name => name !== "nand"),
+      },
     ],
   },
   {
@@ -117,20 +134,25 @@ export const LESSONS: Lesson[] = [
     title: "An adder",
     text: [
       "The motion of one robot can be the stimulus of the next. So robots become circuits.",
-      "This one adds two numbers of two bits. The compiler chose the robots; each of them computes one net of the schematic.",
+      "This one adds two numbers of two bits. The compiler chose the robots; each of them computes " +
+        "one net of the schematic.",
     ],
     program: ADDER,
     tab: "swarm",
     steps: [
       { task: "Let it compute 3 + 2, and wait until the sum is 5.", check: keeps({ a: 3, b: 2, sum: 5 }) },
-      { task: "In the tab Tests, run its test as logic or in physics.", check: ({ tests, passed }) => tests > 0 && passed === tests },
+      {
+        task: "In the tab Tests, run its test as logic or in physics.",
+        check: ({ tests, passed }) => tests > 0 && passed === tests,
+      },
     ],
   },
   {
     name: "memory",
     title: "Feedback and memory",
     text: [
-      "Here two robots sense each other: each is the stimulus of the other. Such a loop can rest in two states, and stays in the one it is in.",
+      "Here two robots sense each other: each is the stimulus of the other. Such a loop can rest in " +
+        "two states, and stays in the one it is in.",
       "That is a memory of one bit. set makes it 1, and reset makes it 0.",
     ],
     program: MEMORY,
@@ -145,7 +167,8 @@ export const LESSONS: Lesson[] = [
     name: "latch",
     title: "The paper's latch",
     text: [
-      "This is the circuit of the paper “No-brainer”: a D latch of five evolved robots. While e is on, q follows d. When e goes off, q keeps its value, whatever d does.",
+      "This is the circuit of the paper “No-brainer”: a D latch of five evolved robots. While e is " +
+        "on, q follows d. When e goes off, q keeps its value, whatever d does.",
       "Look at the spacetime diagram: each line is one robot. Where it bends, the robot has turned round.",
     ],
     program: LATCH,
@@ -160,37 +183,57 @@ export const LESSONS: Lesson[] = [
     name: "evolution",
     title: "Evolution",
     text: [
-      "Nobody designed these bodies. A search changed random bodies again and again, and kept the best of each kind: by their size, by how much of them is active, and by how they behave.",
+      "Nobody designed these bodies. A search changed random bodies again and again, and kept the " +
+        "best of each kind: by their size, by how much of them is active, and by how they behave.",
       "The archive shows the kinds as squares. They fill as the search finds bodies.",
     ],
     program: null,
     tab: "robots",
     steps: [
-      { task: "In the tab Robots, make a body, such as a random one, and choose “Evolve from here”.", check: ({ search }) => search.running || search.niches.length > 0 },
+      {
+        task: "In the tab Robots, make a body, such as a random one, and choose “Evolve from here”.",
+        check: ({ search }) => search.running || search.niches.length > 0,
+      },
       { task: "Wait until at least five kinds are filled.", check: ({ search }) => search.niches.length >= 5 },
-      { task: "Click one of them to put its body in the designer, and watch it walk.", check: all(({ search }) => search.chosen !== null, ({ design }) => design.probe !== null) },
+      {
+        task: "Click one of them to put its body in the designer, and watch it walk.",
+        check: all(
+          ({ search }) => search.chosen !== null,
+          ({ design }) => design.probe !== null,
+        ),
+      },
     ],
   },
   {
     name: "own",
     title: "Your own circuit",
     text: [
-      "Write a circuit of your own. The swarm follows whenever the program has no errors. Some ideas: a light with two switches, a vote of three, a comparison of two numbers.",
+      "Write a circuit of your own. The swarm follows whenever the program has no errors. Some ideas: " +
+        "a light with two switches, a vote of three, a comparison of two numbers.",
       "The button with the file's name has examples to look at.",
     ],
     program: NEW_PROGRAM,
     tab: "swarm",
     steps: [
-      { task: "Change the circuit and its test.", check: ({ text, errors, circuits, tests }) => errors === 0 && circuits > 0 && tests > 0 && text.trim() !== NEW_PROGRAM.trim() },
+      {
+        task: "Change the circuit and its test.",
+        check: ({ text, errors, circuits, tests }) =>
+          errors === 0 && circuits > 0 && tests > 0 && text.trim() !== NEW_PROGRAM.trim(),
+      },
       { task: "Run its tests until all of them pass.", check: ({ tests, passed }) => tests > 0 && passed === tests },
-      { task: "Make an output light up.", check: ({ now, text, port }) => outputNames(text).some(name => (port(name, now) ?? 0) > 0) },
+      {
+        task: "Make an output light up.",
+        check: ({ now, text, port }) => outputNames(text).some(name => (port(name, now) ?? 0) > 0),
+      },
     ],
   },
 ];
 
 /** The names of the outputs of all circuits in a text. */
 export function outputNames(text: string): string[] {
-  return [...text.matchAll(/->\s*\(([^)]*)\)/g)].flatMap(([, list = ""]) => [...list.matchAll(/([A-Za-z_]\w*)(?:\[[^\]]*\])?\s*(?:,|$)/g)].map(([, name = ""]) => name));
+  return [...text.matchAll(/->\s*\(([^)]*)\)/g)].flatMap(([, list = ""]) =>
+    [...list.matchAll(/([A-Za-z_]\w*)(?:\[[^\]]*\])?\s*(?:,|$)/g)].map(([, name = ""]) => name),
+  );
 }
 
 /** Where a lesson's program is, until it is saved elsewhere. */

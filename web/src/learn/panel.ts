@@ -11,7 +11,12 @@ import { LESSONS, lessonPath, type Lesson } from "./lessons";
 import { Progress } from "./progress";
 import { situationOf } from "./situation";
 
-interface Parts { program: Program; swarm: LiveSwarm; tests: TestsPanel; robots: RobotsPanel }
+interface Parts {
+  program: Program;
+  swarm: LiveSwarm;
+  tests: TestsPanel;
+  robots: RobotsPanel;
+}
 
 interface Doors {
   /** Opens a program without a file. */
@@ -72,7 +77,11 @@ export class LearnPanel {
     const finished = LESSONS.filter(lesson => this.#progress.isFinished(lesson)).length;
     fill(
       this.host,
-      element("p", { class: "dim" }, `Eight short lessons, each with something to do. ${finished} of ${LESSONS.length} are done.`),
+      element(
+        "p",
+        { class: "dim" },
+        `Eight short lessons, each with something to do. ${finished} of ${LESSONS.length} are done.`,
+      ),
       element("ol", { class: "lessons" }, ...LESSONS.map((lesson, i) => this.#card(lesson, i))),
     );
     this.#showStrip();
@@ -86,7 +95,12 @@ export class LearnPanel {
     return element(
       "li",
       { class: "card lesson", "data-lesson": lesson.name, "data-finished": finished },
-      element("header", {}, element("span", { class: "number", "aria-hidden": "true" }, finished ? "✓" : String(index + 1)), element("h3", {}, lesson.title)),
+      element(
+        "header",
+        {},
+        element("span", { class: "number", "aria-hidden": "true" }, finished ? "✓" : String(index + 1)),
+        element("h3", {}, lesson.title),
+      ),
       ...lesson.text.map(text => element("p", {}, text)),
       element("ul", { class: "steps" }, ...lesson.steps.map((step, i) => stepElement(step.task, i < done))),
       button(label, () => this.#begin(lesson), { class: suggested && !finished ? "primary" : "", "data-do": "begin" }),
@@ -110,10 +124,17 @@ export class LearnPanel {
         { class: "said" },
         element("h3", {}, lesson.title),
         element("p", { class: "about" }, lesson.text.join(" ")),
-        element("ul", { class: "steps" }, ...lesson.steps.slice(0, done + 1).map((step, i) => stepElement(step.task, i < done))),
-        finished && element("p", { class: "pass" }, next === undefined ? "Well done. That was the last lesson." : "Well done."),
+        element(
+          "ul",
+          { class: "steps" },
+          ...lesson.steps.slice(0, done + 1).map((step, i) => stepElement(step.task, i < done)),
+        ),
+        finished &&
+          element("p", { class: "pass" }, next === undefined ? "Well done. That was the last lesson." : "Well done."),
       ),
-      finished && next !== undefined && button(`Next: ${next.title}`, () => this.#begin(next), { class: "primary", "data-do": "next" }),
+      finished &&
+        next !== undefined &&
+        button(`Next: ${next.title}`, () => this.#begin(next), { class: "primary", "data-do": "next" }),
       iconButton("close", "Leave the lesson", () => this.#leave()),
     );
   }

@@ -29,16 +29,24 @@ export class ClockPanel {
     const likely = named ?? (bits[0] as PortBit);
     const which = element(
       "select",
-      { "aria-label": "The input that is the clock", onchange: () => this.#apply(which, half, this.swarm.clock.value !== null) },
+      {
+        "aria-label": "The input that is the clock",
+        onchange: () => this.#apply(which, half, this.swarm.clock.value !== null),
+      },
       ...bits.map(bit => element("option", { value: bit.index, selected: bit === likely }, bit.name)),
     );
     const half = element("input", {
-      type: "number", min: 1, max: 999, value: Math.max(2, definition.hold ?? 4),
+      type: "number",
+      min: 1,
+      max: 999,
+      value: Math.max(2, definition.hold ?? 4),
       "aria-label": "Cycles between two changes of the clock",
       onchange: () => this.#apply(which, half, this.swarm.clock.value !== null),
     });
     const automatic = element("button", {
-      type: "button", class: "toggle", "data-do": "clock",
+      type: "button",
+      class: "toggle",
+      "data-do": "clock",
       title: "Let this input change by itself",
       onclick: () => this.#apply(which, half, this.swarm.clock.value === null),
     });
@@ -48,7 +56,8 @@ export class ClockPanel {
       automatic.setAttribute("aria-pressed", String(clock !== null));
     });
     const pulse = button("Pulse", () => this.#press(Number(which.value), Number(half.value)), {
-      title: "Set the input to 1 for half a period, then to 0", "data-do": "pulse",
+      title: "Set the input to 1 for half a period, then to 0",
+      "data-do": "pulse",
     });
     const parts = [which, pulse, automatic, element("label", { class: "half" }, "every ", half, " cycles")];
     if (named !== undefined) {
@@ -67,7 +76,8 @@ export class ClockPanel {
   #showName(): void {
     const clock = this.swarm.clock.value;
     if (this.#name !== null) {
-      this.#name.textContent = clock === null ? "Clock" : `Clock: ${this.swarm.nameOf({ input: clock.bit })} every ${clock.half}`;
+      this.#name.textContent =
+        clock === null ? "Clock" : `Clock: ${this.swarm.nameOf({ input: clock.bit })} every ${clock.half}`;
     }
   }
 

@@ -6,14 +6,25 @@ import { REAL_TIME, type LiveSwarm } from "./swarm";
 
 /** Speeds as multiples of real time; null is as fast as possible. */
 export const SPEEDS: [string, number | null][] = [
-  ["¼×", 0.25], ["1×", 1], ["2×", 2], ["4×", 4], ["16×", 16], ["max", null],
+  ["¼×", 0.25],
+  ["1×", 1],
+  ["2×", 2],
+  ["4×", 4],
+  ["16×", 16],
+  ["max", null],
 ];
 
 export class Controls implements View {
   readonly host = element("div", { class: "controls", role: "group", "aria-label": "Run" });
   readonly #play = iconButton("play", "Play", () => this.toggle(), { class: "icon primary", "data-do": "play" });
   readonly #slider = element("input", {
-    type: "range", min: 0, max: 0, value: 0, class: "rewind", "aria-label": "Rewind to a cycle", title: "Rewind",
+    type: "range",
+    min: 0,
+    max: 0,
+    value: 0,
+    class: "rewind",
+    "aria-label": "Rewind to a cycle",
+    title: "Rewind",
     oninput: () => this.#rewind(),
   });
   readonly #cycle = element("output", { class: "cycle", title: "The cycle that is shown, and the last one" });
@@ -60,7 +71,9 @@ export class Controls implements View {
       this.#slider.value = String(frame.now);
     }
     this.#cycle.textContent = frame.now === frame.last ? `cycle ${frame.now}` : `cycle ${frame.now} of ${frame.last}`;
-    this.#rate.textContent = frame.running ? `${frame.rate < 10 ? frame.rate.toFixed(1) : Math.round(frame.rate)} cycles/s` : "";
+    this.#rate.textContent = frame.running
+      ? `${frame.rate < 10 ? frame.rate.toFixed(1) : Math.round(frame.rate)} cycles/s`
+      : "";
   }
 
   #rewind(): void {

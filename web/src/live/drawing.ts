@@ -41,7 +41,14 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
   }
 }
 
-export function drawRobot(pen: Pen, outline: Outline, voxels: Voxel[], looks: Look[], lane: Lane, colors: Colors): void {
+export function drawRobot(
+  pen: Pen,
+  outline: Outline,
+  voxels: Voxel[],
+  looks: Look[],
+  lane: Lane,
+  colors: Colors,
+): void {
   const { left, width, ground, scale, camera } = lane;
   const place = (point: number): Point => [
     left + width / 2 + ((outline[2 * point] ?? 0) - camera) * scale,
@@ -71,10 +78,12 @@ function drawMark(pen: Pen, [a, b, c, d]: [Point, Point, Point, Point], mark: [n
   const across = (from: number, to: number, share: number): number => from + (to - from) * share;
   pen.fillStyle = ink;
   for (const polygon of mark) {
-    const placed = polygon.map(([x, y]): Point => [
-      across(across(a[0], b[0], x), across(d[0], c[0], x), y),
-      across(across(a[1], b[1], x), across(d[1], c[1], x), y),
-    ]);
+    const placed = polygon.map(
+      ([x, y]): Point => [
+        across(across(a[0], b[0], x), across(d[0], c[0], x), y),
+        across(across(a[1], b[1], x), across(d[1], c[1], x), y),
+      ],
+    );
     tracePolygon(pen, placed);
     pen.fill();
   }
@@ -101,7 +110,11 @@ export function drawLamp(pen: Pen, value: number | null, x: number, y: number, r
   }
   const reach = (value === 1 ? 0.5 : -0.5) * radius;
   pen.fillStyle = value === 1 ? colors.paper : colors.zero;
-  tracePolygon(pen, [[x + reach, y], [x - reach * 0.6, y - radius * 0.5], [x - reach * 0.6, y + radius * 0.5]]);
+  tracePolygon(pen, [
+    [x + reach, y],
+    [x - reach * 0.6, y - radius * 0.5],
+    [x - reach * 0.6, y + radius * 0.5],
+  ]);
   pen.fill();
 }
 

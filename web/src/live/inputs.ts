@@ -35,7 +35,12 @@ export class InputPanel implements View {
     fill(
       this.host,
       element("span", { class: "caption" }, inputs.length === 0 ? "No inputs" : "Inputs"),
-      ...inputs.map(port => this.#port(port, bits.filter(bit => bit.port === port))),
+      ...inputs.map(port =>
+        this.#port(
+          port,
+          bits.filter(bit => bit.port === port),
+        ),
+      ),
     );
     this.draw();
   }

@@ -54,7 +54,9 @@ export class Inspector implements View {
       return `input ${name} is ${value ?? "not known yet"}`;
     }
     const robot = definition.robots[source.robot] as Robot;
-    const senses = robot.senses.map(sense => `${this.swarm.nameOf(sense)} = ${this.swarm.value(sense) ?? "?"}`).join(", ");
+    const senses = robot.senses
+      .map(sense => `${this.swarm.nameOf(sense)} = ${this.swarm.value(sense) ?? "?"}`)
+      .join(", ");
     const walk = value === null ? "has not walked yet" : value === 1 ? "walks right: 1" : "walks left: 0";
     return `${name}: ${gateName(robot.function)} (${robot.robot}) senses ${senses} and ${walk}`;
   }

@@ -5,7 +5,8 @@ import type { Look } from "../protocol";
 
 export function legend(looks: { look: Look; name: string }[]): HTMLElement {
   const entry = (sign: HTMLElement, text: string): HTMLElement => element("li", {}, sign, element("span", {}, text));
-  const lamp = (value: 0 | 1): HTMLElement => element("span", { class: "lamp", "data-value": value, "aria-hidden": "true" }, String(value));
+  const lamp = (value: 0 | 1): HTMLElement =>
+    element("span", { class: "lamp", "data-value": value, "aria-hidden": "true" }, String(value));
   const line = (name: string): HTMLElement => element("span", { class: `sample ${name}`, "aria-hidden": "true" });
   return element(
     "details",

@@ -39,7 +39,9 @@ export class OutputPanel implements View {
   }
 
   #port(port: Port, sources: Source[]): HTMLElement {
-    const lamps = sources.map((source, i) => this.#lamp(source, port.width === 1 ? port.name : `${port.name}[${port.width - 1 - i}]`));
+    const lamps = sources.map((source, i) =>
+      this.#lamp(source, port.width === 1 ? port.name : `${port.name}[${port.width - 1 - i}]`),
+    );
     const few = port.width <= LIT;
     const number = element("output", { class: "number", "data-output": port.name });
     if (port.width > 1) {

@@ -16,7 +16,12 @@ export class CanvasPane {
   #total = -1;
 
   constructor(name: string, label: string, changed: () => void) {
-    this.host = element("div", { class: `pane ${name}`, tabindex: 0, role: "group", "aria-label": label }, this.canvas, this.#spacer);
+    this.host = element(
+      "div",
+      { class: `pane ${name}`, tabindex: 0, role: "group", "aria-label": label },
+      this.canvas,
+      this.#spacer,
+    );
     this.#pen = this.canvas.getContext("2d") as Pen;
     const note = (): void => {
       this.width = this.host.clientWidth;

@@ -78,10 +78,12 @@ export class SwarmPanel {
   }
 
   #listChoices(): void {
-    const choices = this.program.circuits().flatMap(({ circuit, swarms }) => [
-      { label: circuit, value: { circuit, swarm: null } },
-      ...swarms.map(swarm => ({ label: `${circuit} as ${swarm}`, value: { circuit, swarm } })),
-    ]);
+    const choices = this.program
+      .circuits()
+      .flatMap(({ circuit, swarms }) => [
+        { label: circuit, value: { circuit, swarm: null } },
+        ...swarms.map(swarm => ({ label: `${circuit} as ${swarm}`, value: { circuit, swarm } })),
+      ]);
     const chosen = JSON.stringify(this.program.choice.value);
     fill(
       this.#choices,
@@ -98,13 +100,24 @@ export class SwarmPanel {
     const reason = this.swarm.stopped.value;
     switch (stage.state) {
       case "compiling":
-        fill(this.#status, `compiling ${stage.circuit} … `, button("Stop", () => this.program.cancel()));
+        fill(
+          this.#status,
+          `compiling ${stage.circuit} … `,
+          button("Stop", () => this.program.cancel()),
+        );
         return;
       case "errors":
-        fill(this.#status, `${stage.count === 1 ? "1 error" : `${stage.count} errors`} in the program; this is its last version without`);
+        fill(
+          this.#status,
+          `${stage.count === 1 ? "1 error" : `${stage.count} errors`} in the program; this is its last version without`,
+        );
         return;
       case "failed":
-        fill(this.#status, stage.message, stage.help === null ? null : element("span", { class: "help" }, ` ${stage.help}`));
+        fill(
+          this.#status,
+          stage.message,
+          stage.help === null ? null : element("span", { class: "help" }, ` ${stage.help}`),
+        );
         return;
       default:
         fill(this.#status, reason === null ? this.#summary() : `The swarm has stopped: ${reason}`);
@@ -137,7 +150,11 @@ const MATERIALS: Record<string, string> = {
 
 /** Until the first switch was flipped. */
 function firstHint(swarm: LiveSwarm): HTMLElement {
-  const hint = element("span", { class: "hint", role: "note", hidden: recall("flipped") === true }, "▼ flip a switch: robots turn round");
+  const hint = element(
+    "span",
+    { class: "hint", role: "note", hidden: recall("flipped") === true },
+    "▼ flip a switch: robots turn round",
+  );
   const note = (): void => {
     if (swarm.inputs.value.includes("1") || swarm.clock.value !== null) {
       hint.hidden = true;

@@ -104,7 +104,12 @@ export class Playback {
   }
 
   #newest(robot: number): Poses | null {
-    return [...this.#cycles.values()].reverse().find(poses => poses.has(robot))?.get(robot) ?? null;
+    return (
+      [...this.#cycles.values()]
+        .reverse()
+        .find(poses => poses.has(robot))
+        ?.get(robot) ?? null
+    );
   }
 }
 

@@ -6,8 +6,17 @@ import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
 
-interface Marked { element: Element; source: Source; shown: number | null | undefined }
-interface Box { x: number; y: number; width: number; height: number }
+interface Marked {
+  element: Element;
+  source: Source;
+  shown: number | null | undefined;
+}
+interface Box {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
 
 /** A good scale for reading; and those below which the whole cannot be read, and bodies are only noise. */
 const READABLE = 0.6;

@@ -13,7 +13,13 @@ const NAMED = 12;
 /** How near the pointer must be to a line, in pixels. */
 const REACH = 14;
 
-interface Scale { start: number; end: number; y: (place: number) => number; top: number; bottom: number }
+interface Scale {
+  start: number;
+  end: number;
+  y: (place: number) => number;
+  top: number;
+  bottom: number;
+}
 
 export class Spacetime extends Diagram {
   constructor(swarm: LiveSwarm, timeline: Timeline, changed: () => void) {
@@ -80,7 +86,10 @@ export class Spacetime extends Diagram {
 
   #scale(): Scale {
     const [start, end] = this.range();
-    const [from, to] = [Math.max(this.swarm.log.first, Math.floor(start)), Math.min(this.swarm.log.last, Math.ceil(end))];
+    const [from, to] = [
+      Math.max(this.swarm.log.first, Math.floor(start)),
+      Math.min(this.swarm.log.last, Math.ceil(end)),
+    ];
     let [low, high] = [-2, 2];
     for (const robot of this.#robots()) {
       for (let cycle = from; cycle <= to; cycle++) {
@@ -143,7 +152,11 @@ export class Spacetime extends Diagram {
     pen.fillStyle = colors.value.ink;
     for (const { robot, y } of ends) {
       pen.font = `${this.#isPointed(robot) ? "600 " : ""}${size}px ${colors.value.font}`;
-      pen.fillText(definition?.robots[robot]?.net ?? "", Math.min(this.x(time, scale.start), this.pane.width - 40) + 6, y);
+      pen.fillText(
+        definition?.robots[robot]?.net ?? "",
+        Math.min(this.x(time, scale.start), this.pane.width - 40) + 6,
+        y,
+      );
     }
   }
 }

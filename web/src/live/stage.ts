@@ -38,7 +38,10 @@ export class Stage implements View {
   reveal(robot: number): void {
     const lane = this.#robots().indexOf(robot);
     const top = this.#grid.top(lane);
-    if (lane >= 0 && (top < this.pane.scrolled || top + this.#grid.laneHeight > this.pane.scrolled + this.pane.height)) {
+    if (
+      lane >= 0 &&
+      (top < this.pane.scrolled || top + this.#grid.laneHeight > this.pane.scrolled + this.pane.height)
+    ) {
       this.pane.host.scrollTop = top;
     }
   }
@@ -96,7 +99,14 @@ export class Stage implements View {
     this.#drawLabel(pen, robot, left + 12, top, height, label - 16);
     this.#drawWalk(pen, robot, { left: left + label, top, width: this.#grid.laneWidth - label - lamp, height });
     const value = this.swarm.value({ robot });
-    drawLamp(pen, value, left + this.#grid.laneWidth - lamp / 2, top + height / 2, Math.min(17 * size, height / 3.4), colors.value);
+    drawLamp(
+      pen,
+      value,
+      left + this.#grid.laneWidth - lamp / 2,
+      top + height / 2,
+      Math.min(17 * size, height / 3.4),
+      colors.value,
+    );
   }
 
   #drawFrame(pen: Pen, robot: number, left: number, top: number, height: number): void {
@@ -134,7 +144,9 @@ export class Stage implements View {
     }
     // A robot of one input senses nothing but a constant by its other side.
     const senses = robot.senses.filter(source => !("constant" in source));
-    senses.forEach((source, i) => this.#drawSense(pen, source, left + (i * width) / 2, middle + (low ? 2 : 9) * size, width / 2));
+    senses.forEach((source, i) =>
+      this.#drawSense(pen, source, left + (i * width) / 2, middle + (low ? 2 : 9) * size, width / 2),
+    );
   }
 
   #drawSense(pen: Pen, source: Source, x: number, top: number, width: number): void {

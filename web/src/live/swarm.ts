@@ -9,7 +9,10 @@ import type { Source, Swarm, Verbs } from "../protocol";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
 
-export interface AutomaticClock { bit: number; half: number }
+export interface AutomaticClock {
+  bit: number;
+  half: number;
+}
 
 /** Real time: a cycle is a quarter of a second. */
 export const REAL_TIME = 4;

@@ -103,7 +103,14 @@ export class Waveform extends Diagram {
   }
 
   /** High is thick and low is thin, so that the values can be told apart without color. */
-  #drawLevel(pen: Pen, left: number, right: number, [high, low]: [number, number], value: number, before: number | null): void {
+  #drawLevel(
+    pen: Pen,
+    left: number,
+    right: number,
+    [high, low]: [number, number],
+    value: number,
+    before: number | null,
+  ): void {
     pen.fillStyle = value === 1 ? colors.value.one : colors.value.zero;
     if (value === 1) {
       pen.globalAlpha = 0.18;
@@ -158,12 +165,18 @@ function rowsOf(swarm: LiveSwarm): Row[] {
   // A robot that drives an output of the same name is shown there.
   const lamps = new Set(outputs.filter(port => port.width === 1).map(port => port.name));
   return [
-    ...inputs.map((port): Row => ({ name: port.name, group: "input", sources: range(inputs, port).map(input => ({ input })) })),
-    ...robots.flatMap(({ net }, robot): Row[] => (lamps.has(net) ? [] : [{ name: net, group: "robot", sources: [{ robot }] }])),
-    ...outputs.map((port): Row => ({
-      name: port.name,
-      group: "output",
-      sources: range(outputs, port).map(i => shown[i] ?? { constant: 0 }),
-    })),
+    ...inputs.map(
+      (port): Row => ({ name: port.name, group: "input", sources: range(inputs, port).map(input => ({ input })) }),
+    ),
+    ...robots.flatMap(({ net }, robot): Row[] =>
+      lamps.has(net) ? [] : [{ name: net, group: "robot", sources: [{ robot }] }],
+    ),
+    ...outputs.map(
+      (port): Row => ({
+        name: port.name,
+        group: "output",
+        sources: range(outputs, port).map(i => shown[i] ?? { constant: 0 }),
+      }),
+    ),
   ];
 }

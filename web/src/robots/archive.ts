@@ -41,7 +41,8 @@ export class Archive {
   /** The places along these axes in all combinations. */
   places(axes: number[]): number[][] {
     return axes.reduce<number[][]>(
-      (places, axis) => places.flatMap(place => Array.from({ length: this.axes[axis]?.[1] ?? 1 }, (_, i) => [...place, i])),
+      (places, axis) =>
+        places.flatMap(place => Array.from({ length: this.axes[axis]?.[1] ?? 1 }, (_, i) => [...place, i])),
       [[]],
     );
   }
@@ -81,12 +82,18 @@ export class HeatMap {
       return;
     }
     const share = Math.max(0, Math.min(1, strength(niche) / best));
-    const words = `${gateName(niche.function)}, ${niche.letters}, fitness ${niche.fitness.map(part => part.toFixed(3)).join(" and ")}`;
+    const fitness = niche.fitness.map(part => part.toFixed(3)).join(" and ");
+    const words = `${gateName(niche.function)}, ${niche.letters}, fitness ${fitness}`;
     square.disabled = false;
     square.style.setProperty("--share", `${Math.round(15 + 85 * share)}%`);
     square.title = words;
     square.setAttribute("aria-label", words);
-    const title = this.#titles.get(this.archive.split().layers.map(axis => niche.place[axis]).join());
+    const title = this.#titles.get(
+      this.archive
+        .split()
+        .layers.map(axis => niche.place[axis])
+        .join(),
+    );
     if (title !== undefined) {
       title.textContent = niche.function === null ? niche.letters : gateName(niche.function);
       title.closest(".map")?.classList.remove("none");
@@ -99,7 +106,10 @@ export class HeatMap {
     const { across, layers } = this.archive.split();
     fill(this.host, ...this.archive.places(layers).map(layer => this.#map(layer, layers, across)));
     const [columns = "", rows] = across.map(axis => this.archive.axes[axis]?.[0] ?? "");
-    const names = rows === undefined ? `${columns} from left to right` : `${columns} from left to right, ${rows} from the bottom up`;
+    const names =
+      rows === undefined
+        ? `${columns} from left to right`
+        : `${columns} from left to right, ${rows} from the bottom up`;
     this.host.setAttribute("aria-label", `Archive: ${names}`);
     this.host.title = names;
   }
@@ -123,7 +133,9 @@ export class HeatMap {
 
   /** The gate of a behavior. Its number has a bit for each pattern, 00 the lowest. */
   #titleOf(layer: number[], layers: number[]): string {
-    const index = layers.findIndex(axis => this.archive.axes[axis]?.[0] === "behavior" && this.archive.axes[axis]?.[1] === 16);
+    const index = layers.findIndex(
+      axis => this.archive.axes[axis]?.[0] === "behavior" && this.archive.axes[axis]?.[1] === 16,
+    );
     const number = layer[index];
     const letters = number === undefined ? "" : [0, 1, 2, 3].map(bit => ((number >> bit) & 1 ? "R" : "L")).join("");
     return letters === "" ? "–" : gateName(gateOf(letters));
@@ -132,7 +144,11 @@ export class HeatMap {
   #square(place: number[]): HTMLElement {
     const key = place.join();
     const square = element("button", {
-      type: "button", class: "niche", disabled: true, "data-niche": key, "aria-label": "empty niche",
+      type: "button",
+      class: "niche",
+      disabled: true,
+      "data-niche": key,
+      "aria-label": "empty niche",
       onclick: () => {
         const niche = this.archive.niches.get(key);
         if (niche !== undefined) {

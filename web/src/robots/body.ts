@@ -86,16 +86,28 @@ export function isConnected(body: Body): boolean {
 }
 
 function neighbors(x: number, y: number): [number, number][] {
-  return [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
+  return [
+    [x - 1, y],
+    [x + 1, y],
+    [x, y - 1],
+    [x, y + 1],
+  ];
 }
 
 /** A connected body of random materials that stands on the ground and can move. */
 export function randomBody(width: number, height: number, palette: Paint[], random: () => number = Math.random): Body {
   const codes = palette.map(entry => String(entry.code)).filter(code => code !== EMPTY);
   const pick = <T>(list: readonly T[]): T => list[Math.floor(random() * list.length)] as T;
-  const actuators = palette.filter(entry => /muscle|actuator/.test(entry.name + entry.about)).map(entry => String(entry.code));
+  const actuators = palette
+    .filter(entry => /muscle|actuator/.test(entry.name + entry.about))
+    .map(entry => String(entry.code));
   const wanted = Math.ceil(width * height * (0.45 + 0.4 * random()));
-  let body = paint(emptyBody(width, height), Math.floor(width / 2), height - 1, pick(actuators.length > 0 ? actuators : codes));
+  let body = paint(
+    emptyBody(width, height),
+    Math.floor(width / 2),
+    height - 1,
+    pick(actuators.length > 0 ? actuators : codes),
+  );
   while (countVoxels(body) < wanted) {
     body = paint(body, ...pick(border(body)), pick(codes));
   }

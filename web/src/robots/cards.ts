@@ -71,15 +71,17 @@ export class Cards {
     let ended = false;
     let stop = (): void => {};
     portrait();
-    this.probing.later(robot.body, CYCLES, () => !ended).then(
-      probe => {
-        if (!ended) {
-          const view = new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height: robot.height });
-          stop = this.ticker.add(play(view, probe.gaits.map(decodeGait), probe.letters, caption));
-        }
-      },
-      () => {},
-    );
+    this.probing
+      .later(robot.body, CYCLES, () => !ended)
+      .then(
+        probe => {
+          if (!ended) {
+            const view = new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height: robot.height });
+            stop = this.ticker.add(play(view, probe.gaits.map(decodeGait), probe.letters, caption));
+          }
+        },
+        () => {},
+      );
     return () => {
       ended = true;
       stop();
@@ -100,7 +102,8 @@ function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLEleme
     }
     if (pattern !== shown) {
       shown = pattern;
-      caption.textContent = `${PATTERNS[pattern]}: ${outputsOf(letters)[pattern] === 1 ? "walks right ▶" : "walks left ◀"}`;
+      const way = outputsOf(letters)[pattern] === 1 ? "walks right ▶" : "walks left ◀";
+      caption.textContent = `${PATTERNS[pattern]}: ${way}`;
     }
   };
 }

@@ -6,7 +6,17 @@ import { Observable } from "../observable";
 import type { Look, Paint, Probe, Robots } from "../protocol";
 import { recall, remember } from "../memory";
 import {
-  EMPTY, LARGEST, countVoxels, emptyBody, mirrored, paint, randomBody, resized, sizeOf, swappedInputs, type Body,
+  EMPTY,
+  LARGEST,
+  countVoxels,
+  emptyBody,
+  mirrored,
+  paint,
+  randomBody,
+  resized,
+  sizeOf,
+  swappedInputs,
+  type Body,
 } from "./body";
 import { Grid } from "./grid";
 import { History } from "./history";
@@ -18,10 +28,15 @@ const PAUSE = 150;
 const CYCLES = 8;
 
 /** A body and how it walks; null while that is not known. */
-export interface Design { body: Body; probe: Probe | Fault | null }
+export interface Design {
+  body: Body;
+  probe: Probe | Fault | null;
+}
 
 /** Why a body cannot walk. */
-export interface Fault { fault: string }
+export interface Fault {
+  fault: string;
+}
 
 export class Designer {
   readonly host = element("section", { class: "designer", "aria-label": "Designer" });
@@ -29,8 +44,12 @@ export class Designer {
   readonly #history: History<Body>;
   readonly #grid: Grid;
   readonly #palette = element("div", { class: "palette", role: "radiogroup", "aria-label": "Material to paint with" });
-  readonly #undo = iconButton("undo", "Undo (Ctrl-Z)", () => this.#back(() => this.#history.undo()), { "data-do": "undo" });
-  readonly #redo = iconButton("redo", "Redo (Ctrl-Y)", () => this.#back(() => this.#history.redo()), { "data-do": "redo" });
+  readonly #undo = iconButton("undo", "Undo (Ctrl-Z)", () => this.#back(() => this.#history.undo()), {
+    "data-do": "undo",
+  });
+  readonly #redo = iconButton("redo", "Redo (Ctrl-Y)", () => this.#back(() => this.#history.redo()), {
+    "data-do": "redo",
+  });
   readonly #sizes = { width: this.#sizeField("width"), height: this.#sizeField("height") };
   #materials: Paint[] = [];
   #looks: Look[] = [];
@@ -46,10 +65,7 @@ export class Designer {
       brush: () => this.#brush,
       paint: (x, y, code, merge) => this.#paint(x, y, code ?? this.#brush, merge),
     });
-    this.host.append(
-      element("div", { class: "bench" }, this.#grid.host, this.#palette),
-      this.#tools(),
-    );
+    this.host.append(element("div", { class: "bench" }, this.#grid.host, this.#palette), this.#tools());
     this.host.addEventListener("keydown", event => this.#key(event));
   }
 
@@ -147,8 +163,12 @@ export class Designer {
         element(
           "button",
           {
-            type: "button", role: "radio", title: about, "data-code": String(code),
-            "aria-checked": String(String(code) === this.#brush), onclick: () => choose(String(code)),
+            type: "button",
+            role: "radio",
+            title: about,
+            "data-code": String(code),
+            "aria-checked": String(String(code) === this.#brush),
+            onclick: () => choose(String(code)),
           },
           element("kbd", {}, String(code)),
           String(code) === EMPTY ? element("span", { class: "swatch none" }) : swatch(this.#looks[look]),
@@ -167,7 +187,8 @@ export class Designer {
       this.#redo,
       button("Mirror", () => this.#change(mirrored(this.body)), { "data-do": "mirror", title: "Left becomes right" }),
       button("Swap inputs", () => this.#change(swappedInputs(this.body, this.#materials)), {
-        "data-do": "swap", title: "Exchange the materials that sense stimulus 1 and stimulus 2",
+        "data-do": "swap",
+        title: "Exchange the materials that sense stimulus 1 and stimulus 2",
       }),
       button("Random", random, { "data-do": "random", title: "A random body" }),
       button("Clear", () => this.#change(emptyBody(...sizeOf(this.body))), { "data-do": "clear" }),
@@ -177,7 +198,11 @@ export class Designer {
 
   #sizeField(side: "width" | "height"): HTMLInputElement {
     const field: HTMLInputElement = element("input", {
-      type: "number", min: 1, max: LARGEST, "aria-label": `${side} of the body`, "data-size": side,
+      type: "number",
+      min: 1,
+      max: LARGEST,
+      "aria-label": `${side} of the body`,
+      "data-size": side,
       onchange: () => {
         const [width, height] = [Number(this.#sizes.width.value), Number(this.#sizes.height.value)];
         if ([width, height].every(size => Number.isInteger(size) && size >= 1 && size <= LARGEST)) {

@@ -9,7 +9,11 @@ import { countVoxels, sizeOf, type Body } from "./body";
 
 const GENERATIONS = 60;
 
-export interface Search { running: boolean; niches: Niche[]; chosen: Niche | null }
+export interface Search {
+  running: boolean;
+  niches: Niche[];
+  chosen: Niche | null;
+}
 
 export class Evolution {
   readonly host: HTMLElement;
@@ -18,7 +22,13 @@ export class Evolution {
   readonly #map: HeatMap;
   readonly #status = element("p", { class: "status", role: "status" });
   readonly #progress = element("progress", { max: 1, value: 0, hidden: true, "aria-label": "Generations" });
-  readonly #generations = element("input", { type: "number", min: 1, max: 2000, value: GENERATIONS, "aria-label": "Generations" });
+  readonly #generations = element("input", {
+    type: "number",
+    min: 1,
+    max: 2000,
+    value: GENERATIONS,
+    "aria-label": "Generations",
+  });
   readonly #start = button("Evolve from here", () => void this.#toggle(), { class: "primary", "data-do": "evolve" });
   #work: AbortController | null = null;
   #id = -1;
@@ -36,8 +46,19 @@ export class Evolution {
       "section",
       { class: "evolution card", "aria-label": "Evolution" },
       element("h3", {}, "Evolution"),
-      element("p", { class: "dim" }, "Changes the body at random, again and again, and keeps the best of each kind. A square that fills is a new kind; click it to see its robot."),
-      element("div", { class: "row" }, this.#start, element("label", {}, "for ", this.#generations, " generations"), this.#progress),
+      element(
+        "p",
+        { class: "dim" },
+        "Changes the body at random, again and again, and keeps the best of each kind. A square that " +
+          "fills is a new kind; click it to see its robot.",
+      ),
+      element(
+        "div",
+        { class: "row" },
+        this.#start,
+        element("label", {}, "for ", this.#generations, " generations"),
+        this.#progress,
+      ),
       this.#status,
       this.#map.host,
     );
@@ -64,7 +85,9 @@ export class Evolution {
     this.#status.textContent = "simulating the first bodies …";
     const generations = Math.max(1, Math.round(Number(this.#generations.value)) || GENERATIONS);
     const fields = {
-      body: countVoxels(body) === 0 ? null : [...body], box: sizeOf(body), generations,
+      body: countVoxels(body) === 0 ? null : [...body],
+      box: sizeOf(body),
+      generations,
       seed: Math.floor(Math.random() * 2 ** 31),
     };
     let problem = "";

@@ -12,7 +12,11 @@ export interface GridEvents {
 }
 
 export class Grid {
-  readonly host = element("div", { class: "grid", role: "grid", "aria-label": "Body; arrows move, digits paint, Delete empties" });
+  readonly host = element("div", {
+    class: "grid",
+    role: "grid",
+    "aria-label": "Body; arrows move, digits paint, Delete empties",
+  });
   #cells: HTMLElement[][] = [];
   #body: Body = [];
   #at: [number, number] = [0, 0];
@@ -54,7 +58,9 @@ export class Grid {
     const [width, height] = sizeOf(body);
     this.host.style.setProperty("--columns", String(width));
     this.#cells = Array.from({ length: height }, (_, y) =>
-      Array.from({ length: width }, (__, x) => element("div", { role: "gridcell", class: "voxel", "data-x": x, "data-y": y, tabindex: -1 })),
+      Array.from({ length: width }, (__, x) =>
+        element("div", { role: "gridcell", class: "voxel", "data-x": x, "data-y": y, tabindex: -1 }),
+      ),
     );
     fill(this.host, ...this.#cells.map(row => element("div", { role: "row", class: "line" }, ...row)));
     this.#move(Math.min(this.#at[0], width - 1), Math.min(this.#at[1], height - 1), false);
@@ -101,7 +107,10 @@ export class Grid {
   #key(event: KeyboardEvent): void {
     const [x, y] = this.#at;
     const step: [number, number] | undefined = (
-      { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] } as Record<string, [number, number]>
+      { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] } as Record<
+        string,
+        [number, number]
+      >
     )[event.key];
     if (step !== undefined) {
       this.#move(x + step[0], y + step[1], true);

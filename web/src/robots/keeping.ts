@@ -14,7 +14,12 @@ export interface KeepDoors {
 
 export class Keeping {
   readonly host: HTMLElement;
-  readonly #name = element("input", { type: "text", value: "my_robot", spellcheck: "false", "aria-label": "Name of the robot" });
+  readonly #name = element("input", {
+    type: "text",
+    value: "my_robot",
+    spellcheck: "false",
+    "aria-label": "Name of the robot",
+  });
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
 
   constructor(
@@ -43,21 +48,26 @@ export class Keeping {
     const name = `${circuit.replace(/\W+/g, "_").replace(/_$/, "")}_${library}`;
     const build = (): void => {
       this.doors.append(`swarm ${name} { circuit: ${circuit}, library: ${library} }`);
-      this.#status.textContent = `choose “${circuit} as ${name}” in the tab Swarm; its robots come from this library alone`;
+      const where = `choose “${circuit} as ${name}” in the tab Swarm`;
+      this.#status.textContent = `${where}; its robots come from this library alone`;
     };
     return button(`Build ${circuit} with it`, build, { "data-do": "build", title: "Declare a swarm of this library" });
   }
 
   async #keep(): Promise<void> {
     try {
-      const { path, use } = await this.connection.request("keep", { name: this.#name.value.trim(), body: [...this.body()] });
+      const { path, use } = await this.connection.request("keep", {
+        name: this.#name.value.trim(),
+        body: [...this.body()],
+      });
       if (!this.program.text.includes(use)) {
         this.doors.declare(use);
       }
       fill(this.#status, `wrote ${path}; the program has a library with it. `, this.#offer(use));
       this.kept();
     } catch (error) {
-      this.#status.textContent = error instanceof RequestError ? [error.message, error.help].filter(Boolean).join("; ") : String(error);
+      this.#status.textContent =
+        error instanceof RequestError ? [error.message, error.help].filter(Boolean).join("; ") : String(error);
     }
   }
 }

@@ -28,9 +28,19 @@ export class RobotsPanel {
   ) {
     const probing = new Probing(connection);
     this.designer = new Designer(probing);
-    this.evolution = new Evolution(connection, () => this.designer.body, body => this.designer.take(body));
+    this.evolution = new Evolution(
+      connection,
+      () => this.designer.body,
+      body => this.designer.take(body),
+    );
     const result = new ProbeView(this.#ticker);
-    const keeping = new Keeping(connection, () => this.designer.body, program, doors, () => void this.#load());
+    const keeping = new Keeping(
+      connection,
+      () => this.designer.body,
+      program,
+      doors,
+      () => void this.#load(),
+    );
     this.#cards = new Cards(probing, this.#ticker, {
       design: body => {
         this.designer.take(body);

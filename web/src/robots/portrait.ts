@@ -31,7 +31,10 @@ export function drawBody(canvas: HTMLCanvasElement, body: Body, looks: Look[], p
     [...row].forEach((code, x) => {
       const look = byCode.get(code);
       if (look !== undefined) {
-        const place: [number, number] = [(canvas.width - width * side) / 2 + x * side, canvas.height - (height - y) * side];
+        const place: [number, number] = [
+          (canvas.width - width * side) / 2 + x * side,
+          canvas.height - (height - y) * side,
+        ];
         pen.fillStyle = look.color;
         pen.fillRect(...place, side, side);
         pen.strokeRect(...place, side, side);

@@ -6,7 +6,12 @@ import type { Probe } from "../protocol";
 const AT_ONCE = 2;
 const KEPT = 200;
 
-interface Waiting { body: readonly string[]; cycles: number; wanted: () => boolean; begin: () => void }
+interface Waiting {
+  body: readonly string[];
+  cycles: number;
+  wanted: () => boolean;
+  begin: () => void;
+}
 
 export class Probing {
   readonly #known = new Map<string, Promise<Probe>>();
@@ -38,7 +43,11 @@ export class Probing {
     if (known !== undefined) {
       return known;
     }
-    const asked = this.connection.request("probe", { body: [...body], cycles, character: false }, signal ? { signal } : {});
+    const asked = this.connection.request(
+      "probe",
+      { body: [...body], cycles, character: false },
+      signal ? { signal } : {},
+    );
     this.#known.set(key, asked);
     asked.catch(() => this.#known.delete(key));
     if (this.#known.size > KEPT) {

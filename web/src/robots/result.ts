@@ -54,7 +54,11 @@ export class ProbeView {
     const gaits = probe.gaits.map(decodeGait);
     const views = gaits.map((_, i) => {
       const letter = probe.letters[i] ?? "?";
-      const canvas = element("canvas", { class: "gait", role: "img", "aria-label": `under ${PATTERNS[i]}: ${directionOf(letter)}` });
+      const canvas = element("canvas", {
+        class: "gait",
+        role: "img",
+        "aria-label": `under ${PATTERNS[i]}: ${directionOf(letter)}`,
+      });
       const lane = element(
         "div",
         { class: "lane" },
@@ -84,7 +88,10 @@ export class ProbeView {
       facts.push(
         ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
         ["margin", `${character.margin.toFixed(3)} voxels a cycle`],
-        ["errors", percent(character.errors) + (character.switches === undefined ? "" : ` in ${character.switches} switches`)],
+        [
+          "errors",
+          percent(character.errors) + (character.switches === undefined ? "" : ` in ${character.switches} switches`),
+        ],
         ...(character.topples ? [["falls over", "sometimes"] satisfies [string, string]] : []),
       );
     }

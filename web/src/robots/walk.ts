@@ -7,7 +7,11 @@ import { colors } from "../theme";
 import { outlineAt, type Gait } from "./gait";
 
 /** The part of a body that never changes while it walks. */
-export interface Looking { voxels: Voxel[]; looks: Look[]; height: number }
+export interface Looking {
+  voxels: Voxel[];
+  looks: Look[];
+  height: number;
+}
 
 /** A canvas with one robot on the ground. */
 export class GaitView {

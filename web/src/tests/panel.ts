@@ -32,7 +32,10 @@ export class TestsPanel {
       element(
         "div",
         { class: "bar" },
-        button("Run all in physics", () => void this.#runAll("physics"), { class: "primary", "data-do": "all-physics" }),
+        button("Run all in physics", () => void this.#runAll("physics"), {
+          class: "primary",
+          "data-do": "all-physics",
+        }),
         button("Run all as logic", () => void this.#runAll("logic"), { "data-do": "all-logic" }),
         this.#status,
       ),
@@ -82,7 +85,8 @@ export class TestsPanel {
       }
     } catch (error) {
       if (error instanceof RequestError && states === this.states.value) {
-        const message = error.code === CANCELLED ? "stopped" : `${error.message}${error.help === null ? "" : `; ${error.help}`}`;
+        const message =
+          error.code === CANCELLED ? "stopped" : `${error.message}${error.help === null ? "" : `; ${error.help}`}`;
         this.#set(index, { state: "failed", message });
       }
     }
@@ -124,15 +128,25 @@ export class TestsPanel {
       element(
         "header",
         {},
-        element("h3", {}, button(test.circuit, () => this.reveal(test.line), { class: "link", title: `Line ${test.line}` })),
+        element(
+          "h3",
+          {},
+          button(test.circuit, () => this.reveal(test.line), { class: "link", title: `Line ${test.line}` }),
+        ),
         element("span", { class: "title" }, test.title),
         element("span", { class: "count" }, `${test.rows.length} ${test.rows.length === 1 ? "row" : "rows"}`),
       ),
       element(
         "div",
         { class: "bar" },
-        button("Run in physics", () => void this.#run(test.index, "physics"), { "data-do": "physics", disabled: state?.state === "running" }),
-        button("Run as logic", () => void this.#run(test.index, "logic"), { "data-do": "logic", disabled: state?.state === "running" }),
+        button("Run in physics", () => void this.#run(test.index, "physics"), {
+          "data-do": "physics",
+          disabled: state?.state === "running",
+        }),
+        button("Run as logic", () => void this.#run(test.index, "logic"), {
+          "data-do": "logic",
+          disabled: state?.state === "running",
+        }),
         this.#result(state),
       ),
       ...this.#tables(test, state),
@@ -150,13 +164,21 @@ export class TestsPanel {
       return element(
         "span",
         { class: "verdict" },
-        element("progress", { max: Math.max(1, state.all), value: state.all === 0 ? null : state.done, "aria-label": "Progress" }),
+        element("progress", {
+          max: Math.max(1, state.all),
+          value: state.all === 0 ? null : state.done,
+          "aria-label": "Progress",
+        }),
         button("Stop", () => state.work.abort(), { "data-do": "stop" }),
       );
     }
     const passed = state.results.every(verdict => verdict.passed);
     const level = state.level === "physics" ? "in physics" : "as logic";
-    return element("span", { class: `verdict ${passed ? "pass" : "fail"}` }, passed ? `✓ passes ${level}` : `✗ fails ${level}`);
+    return element(
+      "span",
+      { class: `verdict ${passed ? "pass" : "fail"}` },
+      passed ? `✓ passes ${level}` : `✗ fails ${level}`,
+    );
   }
 
   #tables(test: TestEntry, state: TestState | undefined): HTMLElement[] {

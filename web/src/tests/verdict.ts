@@ -25,7 +25,8 @@ export function verdictTable(verdict: Verdict, leads: Leads): HTMLElement {
 }
 
 function head(verdict: Verdict): HTMLElement {
-  const names = (ports: { name: string }[]): HTMLElement[] => ports.map(port => element("th", { scope: "col" }, port.name));
+  const names = (ports: { name: string }[]): HTMLElement[] =>
+    ports.map(port => element("th", { scope: "col" }, port.name));
   return element(
     "thead",
     {},
@@ -56,7 +57,8 @@ function tableRow(row: VerdictRow, leads: Leads): HTMLElement {
       "td",
       { class: "leads" },
       button(`line ${row.line}`, () => leads.line(row.line), { class: "link", "data-do": "line" }),
-      leads.moment !== null && button("show the moment", () => leads.moment?.(row.row), { class: "link", "data-do": "moment" }),
+      leads.moment !== null &&
+        button("show the moment", () => leads.moment?.(row.row), { class: "link", "data-do": "moment" }),
     ),
   );
 }
