@@ -128,8 +128,6 @@ test("it is kept as a robot file, and the program uses it", async () => {
 });
 
 test("a robot of the library walks on its card and opens in the designer", async () => {
-  // The cards are new since the program has a robot of its own.
-  await page.locator('[data-robot="mine"]').waitFor();
   const card = page.locator('[data-robot="xor_5x5"]');
   await card.scrollIntoViewIfNeeded();
   await card.getByText("walks").waitFor();

@@ -20,6 +20,7 @@ export class RobotsPanel {
   readonly #status = element("p", { class: "status" });
   #loaded: string | null = null;
   #visible = false;
+  #shown = "";
 
   constructor(
     private readonly connection: Connection,
@@ -85,8 +86,13 @@ export class RobotsPanel {
       const robots = await this.connection.request("robots", { path: this.program.path.value || null });
       this.#loaded = key;
       this.#status.textContent = `${robots.robots.length} robots`;
-      this.designer.setMaterials(robots);
-      this.#cards.show(robots.robots, robots.looks, robots.palette);
+      // Cards of the same robots stay as they are, and go on walking.
+      const shown = JSON.stringify(robots);
+      if (shown !== this.#shown) {
+        this.#shown = shown;
+        this.designer.setMaterials(robots);
+        this.#cards.show(robots.robots, robots.looks, robots.palette);
+      }
     } catch (error) {
       this.#status.textContent = (error as Error).message;
     }
