@@ -40,6 +40,7 @@ export class FilePicker {
         element("h2", {}, "Open a program"),
         iconButton("close", "Close", () => this.host.close()),
       ),
+      this.#new(files),
       this.#list(
         "In this folder",
         files.map(({ path }) => ({ label: path, about: "", origin: { path } })),
@@ -48,7 +49,6 @@ export class FilePicker {
         "Examples",
         examples.map(({ name, about }) => ({ label: name, about, origin: { example: name } })),
       ),
-      this.#new(files),
     );
     this.host.showModal();
   }

@@ -109,7 +109,7 @@ export class SwarmPanel {
       case "errors":
         fill(
           this.#status,
-          `${stage.count === 1 ? "1 error" : `${stage.count} errors`} in the program; this is its last version without`,
+          `${stage.count === 1 ? "1 error" : `${stage.count} errors`} in the program; these robots are from before`,
         );
         return;
       case "failed":
