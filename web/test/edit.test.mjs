@@ -100,7 +100,7 @@ test("the language server explains, completes, formats and renames", async () =>
 
 test("other files, examples and new files can be opened", async () => {
   await page.locator("[data-do=open]").click();
-  await page.locator(".files section").first().locator('[data-open="latch.nb"]').click();
+  await page.locator(".files section", { hasText: "In this folder" }).locator('[data-open="latch.nb"]').click();
   await page.waitForFunction(() => document.querySelector(".file").textContent === "latch.nb");
   await walking(page);
   await page.locator("[data-do=open]").click();

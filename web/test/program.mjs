@@ -1,4 +1,4 @@
-// Starts the program named by NBC with a folder of its own. It serves its built-in page, or that of the folder NBC_PAGE.
+// Starts the program named by NBC with a folder of its own. It serves its own page, or that of the folder NBC_PAGE.
 
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
