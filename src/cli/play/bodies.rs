@@ -33,8 +33,7 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Val
     if let Some(checked) = checked {
         for library in &checked.program.libraries {
             let Library { robots } = session.robots(checked, Some(&library.name), &CompileOptions::default())?;
-            let new: Vec<_> =
-                robots.into_iter().filter(|robot| all.iter().all(|known| known.body != robot.body)).collect();
+            let new: Vec<_> = robots.into_iter().filter(|robot| !all.contains(robot)).collect();
             all.extend(new);
         }
     }
