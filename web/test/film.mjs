@@ -17,7 +17,12 @@ const FRAMES = 72;
 /** Milliseconds from frame to frame. */
 const DELAY = 125;
 /** The frames at which an input is set: with e on, q follows d; then e goes off, and q stays. */
-const FLIPS = new Map([[6, ["e", 1]], [20, ["d", 1]], [40, ["e", 0]], [54, ["d", 0]]]);
+const FLIPS = new Map([
+  [6, ["e", 1]],
+  [20, ["d", 1]],
+  [40, ["e", 0]],
+  [54, ["d", 0]],
+]);
 /** The color that leaves a pixel as it was. */
 const SAME = 0;
 
