@@ -139,7 +139,9 @@ test("a search from there opens niches, and their robots can be taken", async ()
   await page.locator(".evolution input").fill("30");
   await page.locator("[data-do=evolve]").click();
   await page.locator(".niche:not(:disabled)").nth(2).waitFor();
-  const niche = page.locator(".niche:not(:disabled)").first();
+  // Others open meanwhile, so it is found again by its place.
+  const place = await page.locator(".niche:not(:disabled)").first().getAttribute("data-niche");
+  const niche = page.locator(`.niche[data-niche="${place}"]`);
   const label = await niche.getAttribute("aria-label");
   await niche.click();
   await letters(/, ([RL?]{4}),/.exec(label)?.[1] ?? label);
