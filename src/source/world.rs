@@ -54,27 +54,35 @@ pub trait SourceWorld {
 /// A world that several sessions share.
 pub type SharedWorld = Arc<dyn SourceWorld + Send + Sync>;
 
-impl SourceWorld for SharedWorld {
-    fn read(&self, path: &str) -> Result<String, FileError> {
-        (**self).read(path)
-    }
+/// Worlds behind a pointer are worlds.
+macro_rules! forward {
+    ($pointer:ident) => {
+        impl<W: SourceWorld + ?Sized> SourceWorld for $pointer<W> {
+            fn read(&self, path: &str) -> Result<String, FileError> {
+                (**self).read(path)
+            }
 
-    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        (**self).read_bytes(path)
-    }
+            fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+                (**self).read_bytes(path)
+            }
 
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        (**self).translate_verilog(path, text)
-    }
+            fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+                (**self).translate_verilog(path, text)
+            }
 
-    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        (**self).list(folder)
-    }
+            fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+                (**self).list(folder)
+            }
 
-    fn identity(&self, path: &str) -> String {
-        (**self).identity(path)
-    }
+            fn identity(&self, path: &str) -> String {
+                (**self).identity(path)
+            }
+        }
+    };
 }
+
+forward!(Arc);
+forward!(Box);
 
 /// Files in memory, for tests and for programs that generate source text.
 #[derive(Clone, Debug, Default)]
@@ -161,28 +169,6 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
 
     fn identity(&self, path: &str) -> String {
         self.under.identity(path)
-    }
-}
-
-impl<W: SourceWorld + ?Sized> SourceWorld for Box<W> {
-    fn read(&self, path: &str) -> Result<String, FileError> {
-        (**self).read(path)
-    }
-
-    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        (**self).read_bytes(path)
-    }
-
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        (**self).translate_verilog(path, text)
-    }
-
-    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        (**self).list(folder)
-    }
-
-    fn identity(&self, path: &str) -> String {
-        (**self).identity(path)
     }
 }
 

@@ -27,7 +27,7 @@ const LOOK: Duration = Duration::from_millis(500);
 pub(super) struct Visit {
     served: Arc<Served>,
     session: Session,
-    /// What was last said of each path, to give texts growing revisions.
+    /// Counts the texts of the page, so that each has a later revision than the one before.
     revision: u64,
     files: PageFiles,
     jobs: Jobs,
