@@ -35,20 +35,28 @@ export function prefersStillness(): boolean {
   return still.matches;
 }
 
+/** What the reader chose; null follows the system. */
+let chosen: Theme | null = null;
+
 export function theme(): Theme {
-  return (document.documentElement.dataset["theme"] as Theme | undefined) ?? (dark.matches ? "dark" : "light");
+  return chosen ?? systemTheme();
+}
+
+function systemTheme(): Theme {
+  return dark.matches ? "dark" : "light";
 }
 
 export function switchTheme(): void {
-  const chosen: Theme = theme() === "dark" ? "light" : "dark";
+  const other: Theme = theme() === "dark" ? "light" : "dark";
   // A choice that agrees with the system follows the system again.
-  if ((chosen === "dark") === dark.matches) {
-    delete document.documentElement.dataset["theme"];
-    remember("theme", null);
-  } else {
-    document.documentElement.dataset["theme"] = chosen;
-    remember("theme", chosen);
-  }
+  chosen = other === systemTheme() ? null : other;
+  remember("theme", chosen);
+  applyTheme();
+}
+
+/** Style sheets and canvases take the colors of the theme. */
+function applyTheme(): void {
+  document.documentElement.dataset["theme"] = theme();
   colors.set(readColors());
 }
 
@@ -60,15 +68,12 @@ export function switchProjector(): boolean {
 }
 
 export function restoreTheme(): void {
-  const chosen = recall<Theme>("theme");
-  if (chosen !== null) {
-    document.documentElement.dataset["theme"] = chosen;
-  }
+  chosen = recall<Theme>("theme");
   if (recall<boolean>("projector") === true) {
     switchProjector();
   }
-  dark.addEventListener("change", () => colors.set(readColors()));
-  colors.set(readColors());
+  dark.addEventListener("change", applyTheme);
+  applyTheme();
 }
 
 function readColors(): Colors {

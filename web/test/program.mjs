@@ -1,7 +1,7 @@
 // Starts the program named by NBC with a folder of its own. It serves its own page, or that of the folder NBC_PAGE.
 
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 
@@ -11,22 +11,7 @@ if (PROGRAM === undefined) {
   throw new Error("NBC must name the program, for example NBC=../target/release/nbc");
 }
 
-export const LATCH = `//! The paper's D latch, built from five evolved robots.
-
-circuit d_latch(d, e) -> (q, nq) {
-    q init 0  = nand(nand(d, e), nq)
-    nq init 1 = nand(nand(not d, e), q)
-}
-
-test d_latch "follows d while e is on, remembers when e goes off" {
-    d e | q
-    0 1 | 0
-    1 1 | 1
-    1 0 | 1
-    0 0 | 1
-    0 1 | 0
-}
-`;
+export const LATCH = readFileSync(new URL("../../circuits/latch.nb", import.meta.url), "utf8");
 
 /** A folder with files, removed at the end. */
 export function folderWith(files) {
