@@ -70,6 +70,17 @@ export async function lamp(page, name) {
   return Number(await page.locator(`[data-lamp="${name}"]`).getAttribute("data-value"));
 }
 
+/** Waits until the lamps of these outputs show these values. */
+export async function lampsShow(page, values) {
+  await page.waitForFunction(
+    wanted =>
+      Object.entries(wanted).every(
+        ([name, value]) => document.querySelector(`[data-lamp="${name}"]`)?.dataset.value === String(value),
+      ),
+    values,
+  );
+}
+
 /** Replaces the text of the editor. */
 export async function typeProgram(page, text) {
   await page.locator(".cm-content").click();

@@ -1,50 +1,40 @@
 // A page that loses its program says so and comes back; two pages do not disturb each other.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 
-import { closeBrowser, cyclesLater, lamp, setInput, typeProgram, visit, walking } from "./browser.mjs";
-import { LATCH, folderWith, play } from "./program.mjs";
+import { cyclesLater, lamp, setInput, typeProgram, visit, walking } from "./browser.mjs";
+import { opened } from "./opened.mjs";
+import { LATCH, play } from "./program.mjs";
 
-let place, program, page;
-
-before(async () => {
-  place = folderWith({ "latch.nb": LATCH });
-  program = await play(place.folder, "latch.nb");
-  page = await visit(program.url);
-  await walking(page);
-});
-
-after(async () => {
-  await page?.leave();
-  await closeBrowser();
-  await program?.stop();
-  place?.remove();
-});
+const here = opened({ "latch.nb": LATCH }, "latch.nb");
 
 test("two pages have a swarm each", async () => {
-  const other = await visit(program.url);
+  const other = await visit(here.program.url);
   await walking(other);
-  await setInput(page, "d", 1);
-  await setInput(page, "e", 1);
+  await setInput(here.page, "d", 1);
+  await setInput(here.page, "e", 1);
   await setInput(other, "e", 1);
-  await Promise.all([cyclesLater(page, 8), cyclesLater(other, 8)]);
-  assert.deepEqual([await lamp(page, "q"), await lamp(other, "q")], [1, 0]);
+  await Promise.all([cyclesLater(here.page, 8), cyclesLater(other, 8)]);
+  assert.deepEqual([await lamp(here.page, "q"), await lamp(other, "q")], [1, 0]);
   await other.leave();
 });
 
 test("a lost program is noticed, and the page goes on where it was", async () => {
-  await typeProgram(page, LATCH.replace("d_latch(d, e)", "my_latch(d, e)").replace("test d_latch", "test my_latch"));
-  await page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("my_latch"));
-  await walking(page);
-  await program.stop();
-  await page.getByText("Connection lost").waitFor();
-  program = await play(place.folder, "latch.nb", { port: program.port, token: program.token });
-  await page.locator(".banner").waitFor({ state: "hidden" });
-  await walking(page);
-  await cyclesLater(page, 8);
-  assert.equal(await page.locator('button[data-input="d"]').getAttribute("aria-checked"), "true");
-  assert.equal(await lamp(page, "q"), 1);
-  await typeProgram(page, "circuit broken(a) -> (q) {\n    q = b\n}\n");
-  await page.locator(".cm-lintRange-error").waitFor();
+  await typeProgram(
+    here.page,
+    LATCH.replace("d_latch(d, e)", "my_latch(d, e)").replace("test d_latch", "test my_latch"),
+  );
+  await here.page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("my_latch"));
+  await walking(here.page);
+  await here.program.stop();
+  await here.page.getByText("Connection lost").waitFor();
+  here.program = await play(here.place.folder, "latch.nb", { port: here.program.port, token: here.program.token });
+  await here.page.locator(".banner").waitFor({ state: "hidden" });
+  await walking(here.page);
+  await cyclesLater(here.page, 8);
+  assert.equal(await here.page.locator('button[data-input="d"]').getAttribute("aria-checked"), "true");
+  assert.equal(await lamp(here.page, "q"), 1);
+  await typeProgram(here.page, "circuit broken(a) -> (q) {\n    q = b\n}\n");
+  await here.page.locator(".cm-lintRange-error").waitFor();
 });
