@@ -1,6 +1,8 @@
-//! Makes every picture of README.md and docs/ again, by the commands that docs/pictures.md shows:
+//! Makes every picture of README.md and docs/ again, by the commands that docs/pictures.md shows, or those of another
+//! page by its commands:
 //!
 //!     cargo run --release --example gallery
+//!     cargo run --release --example gallery docs/paper.md
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -9,10 +11,13 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     std::env::set_current_dir(root).expect("the package is a folder");
-    let manual = std::fs::read_to_string("docs/pictures.md").expect("docs/pictures.md is a text");
-    // The runs are deleted, because their pictures must come from this version.
-    let _ = std::fs::remove_dir_all("out/gallery");
-    for line in manual.lines().filter_map(|line| line.strip_prefix("    nbc ")) {
+    let page = std::env::args().nth(1);
+    if page.is_none() {
+        // The runs are deleted, because their pictures must come from this version.
+        let _ = std::fs::remove_dir_all("out/gallery");
+    }
+    let page = std::fs::read_to_string(page.as_deref().unwrap_or("docs/pictures.md")).expect("the page is a text");
+    for line in page.lines().filter_map(|line| line.strip_prefix("    nbc ")) {
         eprintln!("nbc {line}");
         let ended = nbc::cli::run(words(&format!("nbc {line}")));
         if ended != ExitCode::SUCCESS {

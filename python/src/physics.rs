@@ -52,7 +52,7 @@ pub fn pattern(digits: String) -> PyResult<Pattern> {
 
 /// The setting, in which each of the bodies stands on the ground.
 pub fn setting(world_width: usize, start_x: Option<usize>, bodies: &[Body]) -> PyResult<Setting> {
-    let setting = Setting { world_width, start_x };
+    let setting = Setting { world_width, start_x, ..Setting::default() };
     for (i, body) in bodies.iter().enumerate() {
         setting.check(body).map_err(|error| bad_value(format!("bodies[{i}]: {error}")))?;
     }

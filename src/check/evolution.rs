@@ -3,15 +3,17 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::check::derived::{self, CheckState};
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::{EvolutionError, Expected, NameError};
+use crate::check::world::Worlds;
 use crate::diag::Diagnostic;
 use crate::evolve::LEAST_ACTUATORS;
 use crate::model::{
-    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Palette, Pattern, Program, Rules,
-    Schedule, SearchObjective, Symmetry,
+    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Palette, Pattern, PhysicsWorld, Program,
+    Rules, Schedule, SearchObjective, Symmetry,
 };
 use crate::source::Span;
 use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
@@ -28,39 +30,10 @@ pub(crate) struct Known<'a> {
     pub(crate) materials: &'a NameTable,
     pub(crate) schedules: &'a NameTable,
     pub(crate) evolutions: &'a NameTable,
+    /// The worlds by the position of their names.
+    pub(crate) worlds: Worlds<'a>,
     /// The evolutions by the position of their names, as far as they are checked.
-    pub(crate) checked: &'a [CheckState],
-}
-
-/// The state of checking an evolution.
-#[derive(Clone, Debug)]
-pub(crate) enum CheckState {
-    /// Not yet checked. If another evolution takes its fields from it at this time, the two form a circle.
-    Open,
-    /// Invalid; its errors are already reported.
-    Faulty,
-    /// Valid.
-    Sound(Box<Evolution>),
-}
-
-/// The positions of evolutions, each after the one named by its `from`, as far as such an order exists.
-pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &NameTable) -> Vec<usize> {
-    let mut taken = vec![false; sources.len()];
-    let mut order = Vec::new();
-    for start in 0..sources.len() {
-        let mut chain = Vec::new();
-        let mut at = Some(start);
-        while let Some(place) = at.filter(|&place| !taken[place]) {
-            taken[place] = true;
-            chain.push(place);
-            let (home, source) = sources[place];
-            let from = source.record.fields.iter().find(|field| field.name.text == "from");
-            let word = from.and_then(|field| fields::word(&field.value, Expected::Name("evolution")).ok());
-            at = word.and_then(|name| names.find(&name.text, home));
-        }
-        order.extend(chain.into_iter().rev());
-    }
-    order
+    pub(crate) checked: &'a [CheckState<Evolution>],
 }
 
 /// Checks an evolution.
@@ -69,9 +42,10 @@ pub(crate) fn evolution(
     home: Home,
     known: &Known<'_>,
     faults: &mut Vec<Diagnostic>,
-) -> CheckState {
+) -> CheckState<Evolution> {
     let mut fields = Fields::new("evolution", source);
-    let base = fields.read("from", &known.checked[0], |value| base(value, home, known));
+    let base =
+        fields.read("from", &known.checked[0], |value| derived::base(value, home, known.evolutions, known.checked));
     let (base, whole) = match base {
         CheckState::Sound(base) => (Evolution::clone(base), true),
         // The first evolution of the prelude has the default values of the others.
@@ -102,6 +76,7 @@ pub(crate) fn evolution(
             fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
         }),
         niche: fields.read("niche", base.niche, niche),
+        world: fields.read("world", base.world, |value| known.worlds.of(value, home)),
     };
     let found = fields.finish();
     let sound = found.is_empty() && whole;
@@ -128,16 +103,8 @@ fn paper() -> Evolution {
         objective: SearchObjective::default(),
         symmetry: Symmetry::default(),
         niche: Niche::default(),
+        world: PhysicsWorld::default(),
     }
-}
-
-fn base<'a>(value: &ValueSyntax, home: Home, known: &Known<'a>) -> Result<&'a CheckState, Diagnostic> {
-    let name = fields::word(value, Expected::Name("evolution"))?;
-    let found = &known.checked[known.evolutions.resolve(name, home)?];
-    if matches!(found, CheckState::Open) {
-        return Err(EvolutionError::Circular { evolution: name.text.clone() }.at(name.span));
-    }
-    Ok(found)
 }
 
 fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {

@@ -5,6 +5,7 @@ mod analysis;
 mod cell;
 mod circuit;
 pub(crate) mod constant;
+mod derived;
 mod evolution;
 mod expression;
 mod fields;
@@ -25,6 +26,7 @@ mod table;
 mod test;
 mod uses;
 mod wording;
+mod world;
 
 pub use analysis::Analysis;
 pub use instance::named;

@@ -44,6 +44,11 @@ impl NameTable {
         Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0), uses: RefCell::default() }
     }
 
+    /// What the names stand for.
+    pub(crate) fn kind(&self) -> NameKind {
+        self.kind
+    }
+
     /// Adds a name, unless it is taken.
     pub(crate) fn declare(&mut self, name: &NameSyntax, index: usize, home: Home) -> Result<(), Diagnostic> {
         let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };

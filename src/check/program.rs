@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::analysis::Analysis;
 use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::derived::{CheckState, order};
 use crate::check::evolution::{self, evolution};
 use crate::check::instance::instance;
 use crate::check::library::library;
@@ -16,9 +17,13 @@ use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
 use crate::check::uses::{NameKind, NameUse, NameUses};
 use crate::check::wording::{CircuitError, EvolutionError};
+use crate::check::world::{Worlds, world};
 use crate::circuit::{Inspection, Inspector};
 use crate::diag::{Code, Diagnostic};
-use crate::model::{CircuitId, CircuitTest, Column, Instance, Pattern, Program, Reference, Simulation, Stimulation};
+use crate::model::{
+    CircuitId, CircuitTest, Column, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference, Simulation,
+    Stimulation,
+};
 use crate::source::{Sources, Span};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
 
@@ -28,6 +33,7 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
     assembly.stimuli();
     assembly.materials();
     assembly.schedules();
+    assembly.worlds();
     assembly.evolutions();
     assembly.libraries();
     assembly.circuits();
@@ -54,6 +60,9 @@ struct Assembly<'a> {
     libraries: NameTable,
     circuits: NameTable,
     swarms: NameTable,
+    worlds: NameTable,
+    /// The worlds by the position of their names.
+    checked_worlds: Vec<CheckState<NamedWorld>>,
     headers: Headers,
     /// The position of each circuit in the program, by name.
     places: BTreeMap<String, CircuitId>,
@@ -79,6 +88,8 @@ impl<'a> Assembly<'a> {
             libraries: NameTable::new(NameKind::Library),
             circuits: NameTable::new(NameKind::Circuit),
             swarms: NameTable::new(NameKind::Swarm),
+            worlds: NameTable::new(NameKind::World),
+            checked_worlds: Vec::new(),
             headers: Headers::default(),
             places: BTreeMap::new(),
             sound: Vec::new(),
@@ -154,26 +165,53 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    fn worlds(&mut self) {
+        let sources = self.records(RecordKeyword::World);
+        for (place, (home, source)) in sources.iter().enumerate() {
+            let declared = self.worlds.declare(&source.name, place, *home);
+            self.note(declared);
+        }
+        self.checked_worlds = vec![CheckState::Open; sources.len()];
+        for place in order(&sources, &self.worlds) {
+            let (home, source) = sources[place];
+            let checked = world(source, home, &self.worlds, &self.checked_worlds, &mut self.faults);
+            self.checked_worlds[place] = checked;
+        }
+        let sound = self.checked_worlds.iter().filter_map(|state| match state {
+            CheckState::Sound(world) => Some(NamedWorld::clone(world)),
+            _ => None,
+        });
+        self.program.worlds.extend(sound);
+    }
+
+    /// The world that a test or simulation of the file names.
+    fn world(&mut self, name: Option<&NameSyntax>) -> Option<PhysicsWorld> {
+        let worlds = Worlds { names: &self.worlds, checked: &self.checked_worlds };
+        let named = worlds.named(name?, Home::Own);
+        named.map_err(|fault| self.faults.push(fault)).ok()
+    }
+
     fn evolutions(&mut self) {
         let sources = self.records(RecordKeyword::Evolution);
         for (place, (home, source)) in sources.iter().enumerate() {
             let declared = self.evolutions.declare(&source.name, place, *home);
             self.note(declared);
         }
-        let mut checked = vec![evolution::CheckState::Open; sources.len()];
-        for place in evolution::order(&sources, &self.evolutions) {
+        let mut checked = vec![CheckState::Open; sources.len()];
+        for place in order(&sources, &self.evolutions) {
             let (home, source) = sources[place];
             let known = evolution::Known {
                 program: &self.program,
                 materials: &self.materials,
                 schedules: &self.schedules,
                 evolutions: &self.evolutions,
+                worlds: Worlds { names: &self.worlds, checked: &self.checked_worlds },
                 checked: &checked,
             };
             checked[place] = evolution(source, home, &known, &mut self.faults);
         }
         self.program.evolutions.extend(checked.into_iter().filter_map(|state| match state {
-            evolution::CheckState::Sound(evolution) => Some(*evolution),
+            CheckState::Sound(evolution) => Some(*evolution),
             _ => None,
         }));
     }
@@ -227,6 +265,7 @@ impl<'a> Assembly<'a> {
             &self.libraries,
             &self.circuits,
             &self.swarms,
+            &self.worlds,
         ];
         let mut list = std::mem::take(&mut self.inner);
         list.extend(tables.into_iter().flat_map(NameTable::take_uses));
@@ -264,6 +303,7 @@ impl<'a> Assembly<'a> {
         keep_last(&mut self.program.evolutions, |evolution| &evolution.name);
         keep_last(&mut self.program.libraries, |library| &library.name);
         keep_last(&mut self.program.swarms, |swarm| &swarm.name);
+        keep_last(&mut self.program.worlds, |world| &world.name);
     }
 
     fn own_tests(&self) -> impl Iterator<Item = (Span, &'a tree::Test)> + use<'a> {
@@ -277,7 +317,8 @@ impl<'a> Assembly<'a> {
 
     fn swarms(&mut self) {
         for (home, source) in self.records(RecordKeyword::Swarm) {
-            let checked = swarm(source, home, &self.circuits, &self.headers, &self.libraries, &mut self.faults);
+            let worlds = Worlds { names: &self.worlds, checked: &self.checked_worlds };
+            let checked = swarm(source, home, &self.circuits, &self.headers, &self.libraries, worlds, &mut self.faults);
             let index = if checked.is_some() { self.program.swarms.len() } else { usize::MAX };
             let declared = self.swarms.declare(&source.name, index, home);
             self.note(declared);
@@ -368,14 +409,16 @@ impl<'a> Assembly<'a> {
             let schedules = Schedules { names: &self.schedules, declared: &program.schedules };
             let at = source.swarm.span;
             let spells = spells(&source.with, at, &inputs, home, schedules, self.sources, &mut self.faults);
+            let world = self.world(source.world.as_ref());
             let (file, line) = self.place(declaration.span);
             let (swarm, span) = (swarm.name.clone(), source.swarm.span);
-            simulations.push(Simulation { swarm, span, file, line, inputs, spells });
+            simulations.push(Simulation { swarm, span, file, line, inputs, spells, world });
         }
         simulations
     }
 
     fn test(&mut self, span: Span, source: &'a tree::Test, inspector: &mut Inspector<'_>) -> Option<CircuitTest> {
+        let world = self.world(source.world.as_ref());
         let tested = self.instance(&source.circuit)?;
         let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
         let stimulation = match &source.kind {
@@ -396,7 +439,7 @@ impl<'a> Assembly<'a> {
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.place(span);
-        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation })
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world })
     }
 
     /// The circuit of a test.

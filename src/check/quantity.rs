@@ -92,6 +92,14 @@ pub(crate) fn bare(quantity: &Quantity) -> Result<f64, Diagnostic> {
     }
 }
 
+/// A number without a unit, or in percent.
+pub(crate) fn ratio(quantity: &Quantity) -> Result<f64, Diagnostic> {
+    match &quantity.unit {
+        Some(unit) if unit.text == "%" => Ok(number(&quantity.number)? / 100.0),
+        _ => bare(quantity),
+    }
+}
+
 /// A number as written.
 pub(crate) fn number(number: &Number) -> Result<f64, Diagnostic> {
     let value: f64 = number.text.parse().expect("the grammar lets numbers through only");

@@ -6,8 +6,9 @@ use crate::check::instance::instance;
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::Expected;
+use crate::check::world::Worlds;
 use crate::diag::Diagnostic;
-use crate::model::{Hold, RegisterStyle, Swarm};
+use crate::model::{Hold, PhysicsWorld, RegisterStyle, Swarm};
 use crate::syntax::tree::{RecordDeclaration, ValueKind, ValueSyntax};
 
 /// The default library of a swarm; the prelude declares it.
@@ -23,6 +24,7 @@ pub(crate) fn swarm(
     circuits: &NameTable,
     headers: &Headers,
     libraries: &NameTable,
+    worlds: Worlds<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Swarm> {
     let mut fields = Fields::new("swarm", source);
@@ -44,9 +46,10 @@ pub(crate) fn swarm(
     let registers = fields.read("registers", RegisterStyle::MasterSlave, |value| {
         fields::choice(value, &[("master_slave", RegisterStyle::MasterSlave), ("pulsed", RegisterStyle::Pulsed)])
     });
+    let world = fields.read("world", PhysicsWorld::default(), |value| worlds.of(value, home));
     faults.extend(fields.finish());
     let (name, span) = (source.name.text.clone(), source.name.span);
-    Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers })
+    Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers, world })
 }
 
 fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {

@@ -17,6 +17,8 @@ pub enum NameKind {
     Library,
     /// A swarm.
     Swarm,
+    /// A world.
+    World,
     /// A circuit.
     Circuit,
     /// A port or another net of a circuit.
@@ -35,6 +37,7 @@ impl NameKind {
             Self::Evolution => "evolution",
             Self::Library => "library",
             Self::Swarm => "swarm",
+            Self::World => "world",
             Self::Circuit => "circuit",
             Self::Net => "net",
             Self::Number => "number",

@@ -3,7 +3,11 @@
 use std::io;
 use std::path::Path;
 
-use crate::cli::wording::{DrawError, PlayError, ServerError, SubjectError, UsageError};
+#[cfg(feature = "gpu")]
+use crate::cli::wording::DeviceFailure;
+#[cfg(not(feature = "gpu"))]
+use crate::cli::wording::NoDevices;
+use crate::cli::wording::{ClusterError, DrawError, PlayError, ServerError, SubjectError, UsageError};
 use crate::diag::{Diagnostic, Diagnostics, io_words};
 use crate::source::Sources;
 
@@ -51,6 +55,26 @@ impl From<Diagnostics> for Failure {
 
 impl From<UsageError> for Failure {
     fn from(error: UsageError) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+impl From<ClusterError> for Failure {
+    fn from(error: ClusterError) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl From<DeviceFailure> for Failure {
+    fn from(error: DeviceFailure) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+#[cfg(not(feature = "gpu"))]
+impl From<NoDevices> for Failure {
+    fn from(error: NoDevices) -> Self {
         Self::plain(error.into())
     }
 }

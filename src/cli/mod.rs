@@ -6,22 +6,35 @@ mod bench;
 mod build;
 mod cancellable;
 mod check;
+#[cfg(feature = "cluster")]
+mod cluster;
 mod completions;
 mod context;
+mod device;
+mod distant;
 mod draw;
 mod evolve;
 mod explain;
 mod export;
 mod failure;
 mod fmt;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod interrupt;
+mod laboratory;
 mod library;
 mod lsp;
 mod mapping;
+mod nats_access;
 mod new;
+#[cfg(not(feature = "cluster"))]
+mod no_cluster;
+#[cfg(not(feature = "gpu"))]
+mod no_gpu;
 #[cfg(not(feature = "play"))]
 mod no_play;
 mod output;
+mod place;
 #[cfg(feature = "play")]
 mod play;
 mod program;
@@ -48,6 +61,10 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::diag::{is_hidden, render, visible};
 use crate::source::Sources;
 
+#[cfg(not(feature = "cluster"))]
+use no_cluster as cluster;
+#[cfg(not(feature = "gpu"))]
+use no_gpu as gpu;
 #[cfg(not(feature = "play"))]
 use no_play as play;
 
@@ -79,6 +96,7 @@ commands! {
     Build(build::BuildArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
+    Devices(gpu::DevicesArguments),
     Draw(draw::DrawArguments),
     Evolve(evolve::EvolveArguments),
     Explain(explain::ExplainArguments),
@@ -93,6 +111,8 @@ commands! {
     Synth(synth::SynthArguments),
     Test(test::TestArguments),
     Watch(watch::WatchArguments),
+    Worker(cluster::WorkerArguments),
+    Workers(cluster::WorkersArguments),
 }
 
 const EXAMPLES: &str = "\

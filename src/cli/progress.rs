@@ -81,6 +81,11 @@ impl Progress {
         self.change(|state| (state.done, state.note) = (done, note));
     }
 
+    /// Sets a note.
+    pub fn note(&self, note: String) {
+        self.change(|state| state.note = note);
+    }
+
     /// Calls a function that prints, with the bar hidden.
     pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
         self.bar.suspend(work)

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::cancellable::{complete_simulation, complete_test};
+use crate::cli::device::DeviceArguments;
+use crate::cli::gpu::OpenDevice;
 use crate::cli::mapping::GoalArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
@@ -48,6 +50,8 @@ pub struct RunArguments {
     runs: RunsArguments,
     #[command(flatten)]
     goal: GoalArguments,
+    #[command(flatten)]
+    device: DeviceArguments,
     #[command(flatten)]
     timings: Timings,
 }
@@ -96,7 +100,8 @@ impl RunArguments {
     /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
-        let mut session = Session::new(DiskWorld).with_simulator(timer.simulator());
+        let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
+        let mut session = Session::new(DiskWorld).with_simulator(device.simulator());
         if !self.no_report {
             session = session.with_poses(Room::SWARM);
         }
@@ -113,6 +118,7 @@ impl RunArguments {
         for simulation in simulations {
             runs.extend(run_simulation(&session, &file, simulation, &options, &interrupt)?.map(Ran::Simulation));
         }
+        device.end(context)?;
         context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
         if interrupt.is_raised() {
             context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", runs.len()));

@@ -3,6 +3,8 @@
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::device::DeviceArguments;
+use crate::cli::gpu::OpenDevice;
 use crate::cli::robots::read_body;
 use crate::cli::wording::{RunWarning, UsageError};
 use crate::cli::{Context, Failure, OutputFormat, Status};
@@ -10,7 +12,7 @@ use crate::diag::{Diagnostic, counted};
 use crate::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use crate::report::{Align, Schema, TextTable};
 use crate::session::read_schedule;
-use crate::sim::Simulator;
+use crate::sim::LaneBackend;
 use crate::source::Sources;
 
 /// Simulate one robot under a schedule of stimuli
@@ -34,6 +36,8 @@ pub struct SimulateArguments {
     /// Ground voxels in a row
     #[arg(long, value_name = "VOXELS", default_value_t = Setting::default().world_width)]
     world_width: usize,
+    #[command(flatten)]
+    device: DeviceArguments,
 }
 
 /// The output for programs.
@@ -54,11 +58,13 @@ impl SimulateArguments {
     /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let schedule = read_schedule("--schedule", &self.schedule)?;
-        let setting = Setting { world_width: self.world_width, start_x: self.start_x };
+        let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::default() };
         let body = read_body(&self.robot)?;
         setting.check(&body).map_err(UsageError::Setting)?;
-        let trajectory =
-            Simulator::default().run_trials(&setting, &[Trial { body, schedule: schedule.clone() }]).remove(0);
+        let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;
+        let trial = Trial { body, schedule: schedule.clone() };
+        let trajectory = device.simulator().run_trials(&setting, &[trial]).remove(0);
+        device.end(context)?;
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
         match context.format {

@@ -8,7 +8,8 @@ use std::thread;
 /// Does the work for each item and passes the results to `hand_on` in order of the items, each as soon as it and those
 /// before it are complete. After an error of `hand_on`, no more work is started.
 ///
-/// If simulation has one thread, or no other can be started, the work is done on the caller's thread.
+/// There are at most `most` threads. If that is one, or no other can be started, the work is done on the caller's
+/// thread.
 ///
 /// These are not rayon's threads, which run the parts of a simulation: a rayon thread that waits for a part would start
 /// another item, and return only when that is done.
@@ -16,11 +17,12 @@ use std::thread;
 /// # Errors
 /// The first error of `hand_on`.
 pub(super) fn in_order<T: Sync, R: Send, E>(
+    most: usize,
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
     mut hand_on: impl FnMut(R) -> Result<(), E>,
 ) -> Result<(), E> {
-    let threads = rayon::current_num_threads().min(items.len());
+    let threads = most.min(items.len());
     if threads <= 1 {
         return items.iter().try_for_each(|item| hand_on(work(item)));
     }
@@ -75,7 +77,7 @@ mod tests {
             item
         };
         let mut found = Vec::new();
-        let done: Result<(), ()> = in_order(&items, slow_at_first, |item| {
+        let done: Result<(), ()> = in_order(3, &items, slow_at_first, |item| {
             found.push(item);
             Ok(())
         });
@@ -92,7 +94,7 @@ mod tests {
             }
             item
         };
-        let done: Result<(), ()> = in_order(&items, wait, |item| {
+        let done: Result<(), ()> = in_order(2, &items, wait, |item| {
             if item == 0 {
                 handed_on.wait();
             }
@@ -108,7 +110,7 @@ mod tests {
             thread::sleep(Duration::from_millis(1));
             begun.fetch_add(1, Ordering::Relaxed)
         };
-        assert_eq!(in_order(&items, work, |_| Err("enough")), Err("enough"));
+        assert_eq!(in_order(3, &items, work, |_| Err("enough")), Err("enough"));
         assert!(begun.into_inner() < 1000);
     }
 }

@@ -62,7 +62,7 @@ codes! {
     Nesting = "nesting", Error: "Text that is nested too deeply.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
     OutOfRange = "out-of-range", Error: "A number out of range.";
-    Recursion = "recursion", Error: "A circuit that contains itself, or an evolution that uses its own fields.";
+    Recursion = "recursion", Error: "A circuit that contains itself, or a declaration that uses its own fields.";
     RobotFile = "robot-file", Error: "A robot file with an error.";
     RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";
     Syntax = "syntax", Error: "Text that does not follow the grammar.";

@@ -26,6 +26,11 @@ impl Diagnostic {
                 at_line(file, *line, message, label)
                     .with_help("reset it at the clock: `always @(posedge clk) if (reset) … else …`")
             }
+            VerilogError::Outside { line, word } => {
+                let message = format!("`{name}` uses `{word}`, which could read files outside of the served folder");
+                at_line(file, Some(*line), message, "expected Verilog that only computes")
+                    .with_help("write it without macros, included files and such functions, or use `nbc run`")
+            }
             VerilogError::Rejected { reason, line } => {
                 at_line(file, *line, format!("yosys cannot read `{name}`"), reason)
             }

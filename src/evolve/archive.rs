@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::evolve::rivals::{exceeds, reaches};
 use crate::evolve::{Descriptor, NicheKey};
 use crate::model::{Behavior, Body, Evolution, Genotype, Niche};
 
@@ -124,14 +125,16 @@ impl Archive {
         }
     }
 
-    /// Whether a body with fitnesses of at most `bound` could enter its niche. If it cannot now, it cannot later:
-    /// elites are only replaced by bodies that dominate them.
-    pub fn could_take(&self, body: &Body, behavior: Behavior, bound: &[f64; 2]) -> bool {
-        let Some(elites) = self.niches.get(&self.descriptor.niche(body, behavior)) else { return true };
-        match self.niche {
-            Niche::Dominance => elites.iter().all(|there| exceeds(bound, &there.fitness)),
-            Niche::Pareto(_) => !elites.iter().any(|there| reaches(&there.fitness, bound)),
-        }
+    /// The fitnesses of the elites in the niche of a body with that behavior. A body that they keep out now is kept out
+    /// later too: elites are only replaced by bodies that dominate them.
+    pub fn fitnesses(&self, body: &Body, behavior: Behavior) -> Vec<[f64; 2]> {
+        let elites = self.niches.get(&self.descriptor.niche(body, behavior));
+        elites.into_iter().flatten().map(|elite| elite.fitness).collect()
+    }
+
+    /// The elites that each niche keeps.
+    pub fn niche(&self) -> Niche {
+        self.niche
     }
 
     /// Coverage, QD-score and champions.
@@ -165,21 +168,12 @@ impl Archive {
     }
 }
 
-/// More in both.
-fn exceeds(a: &[f64; 2], b: &[f64; 2]) -> bool {
-    a[0] > b[0] && a[1] > b[1]
-}
-
-/// No less in either.
-fn reaches(a: &[f64; 2], b: &[f64; 2]) -> bool {
-    a[0] >= b[0] && a[1] >= b[1]
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::evolve::Rivals;
     use crate::evolve::search::tests::evolution;
 
     fn elite(voxels: usize, behavior: u8, fitness: [f64; 2]) -> Elite {
@@ -240,7 +234,8 @@ mod tests {
             for (voxels, behavior, fitness) in offers {
                 let before = archive.clone();
                 let offered = elite(voxels, behavior, fitness);
-                let could = archive.could_take(&offered.body, offered.behavior, &fitness);
+                let rivals = vec![archive.fitnesses(&offered.body, offered.behavior)];
+                let could = Rivals::new(niche, vec![rivals; 16]).admit(offered.behavior, &fitness);
                 let status = archive.add(elite(voxels, behavior, fitness));
                 prop_assert!(could || status == AddStatus::Rejected, "what cannot be taken is not");
                 prop_assert!(archive.stats().filled >= before.stats().filled);

@@ -8,6 +8,7 @@ mod develop;
 mod mutate;
 mod neighbors;
 mod outcome;
+mod rivals;
 mod search;
 mod symmetry;
 mod wording;
@@ -18,6 +19,9 @@ pub use develop::{LEAST_ACTUATORS, develop, phenotype, validate};
 pub use mutate::mutate;
 pub use neighbors::neighbor;
 pub use outcome::{CandidateOutcome, Counts, Scores};
+pub use rivals::Rivals;
+#[cfg(test)]
+pub(crate) use search::tests;
 pub use search::{Candidate, CandidateOrigin, Search, SearchState, stream};
 pub use symmetry::{Recoding, mirrored, recodings};
 pub use wording::Undeveloped;

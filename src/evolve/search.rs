@@ -6,10 +6,10 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::mutate::pick;
 use crate::evolve::{
-    AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Scores, cppn, develop,
+    AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Rivals, Scores, cppn, develop,
     mirrored, mutate, phenotype, recodings, validate,
 };
-use crate::model::{Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
+use crate::model::{Behavior, Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
@@ -191,14 +191,18 @@ impl Search {
         }
     }
 
-    /// Whether a body, or an image of it that its evaluation also fills, could still enter the archive with fitnesses
-    /// of at most `bound`.
-    pub fn could_take(&self, body: &Body, scores: &Scores) -> bool {
-        let own = || self.archive.could_take(body, scores.behavior, &scores.fitness);
-        let image = |recoding: &Recoding| {
-            self.archive.could_take(&recoding.body(body), recoding.behavior(scores.behavior), &scores.fitness)
+    /// The elites that a body, or an image of it that its evaluation also fills, must beat.
+    pub fn rivals(&self, body: &Body) -> Rivals {
+        let images: Vec<(Option<&Recoding>, Body)> = match self.recodings.as_slice() {
+            [] => vec![(None, body.clone())],
+            recodings => recodings.iter().map(|recoding| (Some(recoding), recoding.body(body))).collect(),
         };
-        if self.recodings.is_empty() { own() } else { self.recodings.iter().any(image) }
+        let in_niche = |behavior: Behavior, (recoding, image): &(Option<&Recoding>, Body)| {
+            let shown = recoding.map_or(behavior, |recoding| recoding.behavior(behavior));
+            self.archive.fitnesses(image, shown)
+        };
+        let niches = |behavior| images.iter().map(|image| in_niche(behavior, image)).collect();
+        Rivals::new(self.archive.niche(), Behavior::all().map(niches).collect())
     }
 
     fn take(&mut self, candidate: &Candidate, scores: &Scores) {
@@ -327,7 +331,7 @@ pub(crate) mod tests {
 
     use super::*;
     use crate::model::{
-        Axis, Behavior, Count, MutationWeights, Niche, Palette, Pattern, Schedule, SearchObjective, Spell,
+        Axis, Count, MutationWeights, Niche, Palette, Pattern, PhysicsWorld, Schedule, SearchObjective, Spell,
     };
 
     /// The paper's run in a 5 x 5 box.
@@ -351,6 +355,7 @@ pub(crate) mod tests {
             objective: SearchObjective::Distance,
             symmetry: Symmetry::None,
             niche: Niche::Dominance,
+            world: PhysicsWorld::default(),
         }
     }
 
@@ -454,7 +459,7 @@ pub(crate) mod tests {
             assert_eq!(phenotype(&elite.genotype, &Palette::paper(), Rules::Paper, 5, 5), elite.body);
             for recoding in recodings(&Palette::paper()) {
                 let (body, behavior) = (recoding.body(&elite.body), recoding.behavior(elite.behavior));
-                let held = !search.archive().could_take(&body, behavior, &elite.fitness);
+                let held = !search.rivals(&body).admit(behavior, &elite.fitness);
                 assert!(held, "the image's niche holds something as good");
             }
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Palette, Schedule};
+use super::{Palette, PhysicsWorld, Schedule};
 
 /// A declared evolution run (paper, Methods).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,6 +42,9 @@ pub struct Evolution {
     pub symmetry: Symmetry,
     /// The elites that a niche keeps.
     pub niche: Niche,
+    /// The world in which bodies are evaluated.
+    #[serde(default, skip_serializing_if = "PhysicsWorld::is_paper")]
+    pub world: PhysicsWorld,
 }
 
 /// The reading of the paper where its text and its code differ (docs/physics.md 11).

@@ -17,7 +17,9 @@ mod stimulus;
 mod test;
 mod trial;
 mod value;
+mod variation;
 mod wording;
+mod world;
 
 pub use behavior::{Behavior, Direction};
 pub use body::Body;
@@ -32,14 +34,20 @@ pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use palette::Palette;
-pub use program::{Hold, InputSpell, LibrarySource, NamedSchedule, Origin, Program, RegisterStyle, Simulation, Swarm};
-pub use robot::{Character, Library, Provenance, Robot, Transition};
+pub use program::{
+    Hold, InputSpell, LibrarySource, NamedSchedule, NamedWorld, Origin, Program, RegisterStyle, Simulation, Swarm,
+};
+pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;
 pub use test::{CircuitTest, Reference, Stimulation, TestRow};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
-pub use wording::{BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError, SettingError};
+pub use variation::Variation;
+pub use wording::{
+    BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
+};
+pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

@@ -1,6 +1,6 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
-use super::{Base, Behavior, Circuit, CircuitTest, Column, Evolution, Instance, Material, Schedule};
+use super::{Base, Behavior, Circuit, CircuitTest, Column, Evolution, Instance, Material, PhysicsWorld, Schedule};
 use crate::source::Span;
 
 /// All declarations of a source file and the files it uses.
@@ -9,6 +9,7 @@ pub struct Program {
     /// The stimuli, in the order that numbers them.
     pub stimuli: Vec<String>,
     pub materials: Vec<Material>,
+    pub worlds: Vec<NamedWorld>,
     /// The schedules of stimuli.
     pub schedules: Vec<NamedSchedule>,
     /// The evolution runs.
@@ -30,6 +31,13 @@ pub struct NamedSchedule {
     pub stimuli: Vec<usize>,
     /// The spells.
     pub schedule: Schedule,
+}
+
+/// A world with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedWorld {
+    pub name: String,
+    pub world: PhysicsWorld,
 }
 
 /// A declared library: the source of its robots, and the behaviors it is restricted to.
@@ -70,6 +78,8 @@ pub struct Swarm {
     pub window: u32,
     /// What its registers are made of.
     pub registers: RegisterStyle,
+    /// The world in which it runs, unless a test or a simulation names another.
+    pub world: PhysicsWorld,
 }
 
 /// What registers are made of.
@@ -107,6 +117,8 @@ pub struct Simulation {
     pub inputs: Vec<Column>,
     /// The spells in order of time.
     pub spells: Vec<InputSpell>,
+    /// The world, if it is not the swarm's.
+    pub world: Option<PhysicsWorld>,
 }
 
 /// Inputs held for a while.

@@ -51,6 +51,23 @@ pub struct Character {
     pub topples: bool,
     /// Settle times, one entry for each of the twelve transitions between different patterns.
     pub settle: Vec<Transition>,
+    /// How far a world may differ before the robot makes errors, if that was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<SafeRadius>,
+}
+
+/// How far a world may differ before a robot makes errors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SafeRadius {
+    /// The largest changes of the worlds at radius 1, such as `friction=10%,gravity=5%`.
+    pub vary: String,
+    /// The worlds that were tried at each radius.
+    pub worlds: u32,
+    /// Their seed.
+    pub seed: u64,
+    /// The largest factor of the changes up to which no output was wrong.
+    pub radius: f64,
 }
 
 impl Character {

@@ -2,22 +2,26 @@
 
 use serde::Serialize;
 
-use super::{Body, Schedule, SettingError};
+use super::{Body, Schedule, SettingError, WorldFactors};
 
-/// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1), and its physics.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// Ground voxels in a row.
     pub world_width: usize,
     /// The ground column of a body's left column; `None` puts the body in the middle: half the world less half the
     /// body, rounded down.
     pub start_x: Option<usize>,
+    /// Voxels by which a body starts to the right of that column.
+    pub shift: f64,
+    /// The physics as factors of the paper's.
+    pub factors: WorldFactors,
 }
 
 impl Default for Setting {
     /// The paper's world of 500 ground voxels.
     fn default() -> Self {
-        Self { world_width: 500, start_x: None }
+        Self { world_width: 500, start_x: None, shift: 0.0, factors: WorldFactors::default() }
     }
 }
 
@@ -69,6 +73,12 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
+    /// Adds a position of the center of mass, in voxels.
+    pub fn push(&mut self, [x, y]: [f64; 2]) {
+        self.com_x.push(x);
+        self.com_y.push(y);
+    }
+
     /// Voxels walked in each spell of the trial's schedule; `None` for spells that were not simulated to their end.
     pub fn displacements(&self, schedule: &Schedule) -> Vec<Option<f64>> {
         let mut start = 0;

@@ -270,3 +270,37 @@ impl fmt::Display for SettingError {
 }
 
 impl Error for SettingError {}
+
+/// The reason why a text is not a variation of worlds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VariationError {
+    /// A part without `=`.
+    NoAmount(String),
+    /// A quantity that worlds do not have, and those that they have.
+    Unknown(String, &'static [&'static str]),
+    /// An amount that is not a number in its range.
+    Amount {
+        /// The quantity.
+        name: String,
+        /// The text.
+        found: String,
+        /// The largest amount.
+        most: f64,
+    },
+}
+
+impl fmt::Display for VariationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoAmount(part) => write!(f, "`{part}` has no amount; expected a change such as `friction=10%`"),
+            Self::Unknown(name, known) => {
+                write!(f, "`{name}` does not vary; expected `all`, `{}`", known.join("`, `"))
+            }
+            Self::Amount { name, found, most } => {
+                write!(f, "`{found}` is not an amount of `{name}`; expected a number from 0 to {most}, or percent")
+            }
+        }
+    }
+}
+
+impl Error for VariationError {}

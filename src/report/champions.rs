@@ -4,7 +4,8 @@
 use crate::model::{Behavior, CYCLE_STEPS, Trajectory};
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
-use crate::report::svg::{Anchor, Paint, Svg, Type};
+use crate::report::element::{Anchor, Paint, Type};
+use crate::report::svg::Svg;
 
 const COLUMNS: usize = 8;
 /// The most points of one path.

@@ -1,7 +1,8 @@
 //! Charts: scales, axes, grids, lines and steps, drawn onto an [`Svg`].
 
 use crate::report::Color;
-use crate::report::svg::{Anchor, Paint, Point, Svg, Type};
+use crate::report::element::{Anchor, Paint, Point, Type};
+use crate::report::svg::Svg;
 
 /// A linear map from values to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,8 +4,9 @@
 use crate::diag::counted;
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
-use crate::report::groups::{BehaviorGroup, GroupComparison};
-use crate::report::svg::{Anchor, Paint, Point, Svg, Type};
+use crate::report::element::{Anchor, Paint, Point, Type};
+use crate::report::groups::{BehaviorGroup, GroupComparison, SideComparison};
+use crate::report::svg::Svg;
 
 /// Groups with an adjusted p below this differ significantly.
 const SIGNIFICANT: f64 = 0.05;
@@ -16,7 +17,13 @@ const NAMES: f64 = 100.0;
 const LINE: f64 = 14.0;
 
 /// Draws the groups side by side with all pairwise comparisons; `unit` is the measured quantity.
-pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> Svg {
+pub fn draw_comparison(
+    title: &str,
+    unit: &str,
+    groups: &[BehaviorGroup],
+    comparisons: &[GroupComparison],
+    sides: Option<SideComparison>,
+) -> Svg {
     let slots: Vec<f64> = (0..groups.len())
         .scan(-0.4, |slot, place| {
             *slot += if stands_apart(groups, comparisons, place) { 1.5 } else { 1.0 };
@@ -25,8 +32,11 @@ pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], compar
         .collect();
     let last = slots.last().copied().unwrap_or(0.0) + 0.6;
     let statistics = TOP + HEIGHT + NAMES;
-    let mut svg =
-        Svg::new((last * 96.0 + 100.0).max(520.0), statistics + (comparisons.len() as f64 + 1.0) * LINE + 14.0, title);
+    let mut svg = Svg::new(
+        (last * 96.0 + 100.0).max(520.0),
+        statistics + ((comparisons.len() + usize::from(sides.is_some())) as f64 + 1.0) * LINE + 14.0,
+        title,
+    );
     svg.text((14.0, 28.0), title, Type::new(16.0).bold());
     let high = range_of(groups.iter().flat_map(|group| group.values.iter().copied()), 0.08).1;
     let panel = Panel::new((64.0, TOP), svg.width() - 84.0, HEIGHT, (0.0, last), (0.0, high));
@@ -38,6 +48,10 @@ pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], compar
         svg.group(&format!("group-{first}"), group.name, |svg| draw_group(svg, &panel, group, slot));
     }
     draw_statistics(&mut svg, (14.0, statistics), groups, comparisons);
+    if let Some(SideComparison { p, a12 }) = sides {
+        let y = statistics + LINE * (comparisons.len() as f64 + 1.4);
+        draw_statistic(&mut svg, (14.0, y), "XXYY against XYXY", p, &format!("{a12:.2}, alone: not adjusted"));
+    }
     svg
 }
 
@@ -81,10 +95,15 @@ fn draw_statistics(svg: &mut Svg, (left, top): Point, groups: &[BehaviorGroup], 
         let y = top + LINE * (i as f64 + 1.4);
         let [a, b] = pair.groups.map(|place| groups[place].name.split(',').next().unwrap_or_default());
         let ties = if pair.is_approximate { ", approximate for ties" } else { "" };
-        svg.text((left, y), &format!("{a} against {b}"), Type::new(10.0));
-        svg.text((left + 130.0, y), &format!("p = {}", p_value(pair.p_adjusted)), Type::new(10.0));
-        svg.text((left + 220.0, y), &format!("A12 = {:.2}{ties}", pair.a12), Type::new(10.0));
+        let a12 = format!("{:.2}{ties}", pair.a12);
+        draw_statistic(svg, (left, y), &format!("{a} against {b}"), pair.p_adjusted, &a12);
     }
+}
+
+fn draw_statistic(svg: &mut Svg, (left, y): Point, compared: &str, p: f64, a12: &str) {
+    svg.text((left, y), compared, Type::new(10.0));
+    svg.text((left + 130.0, y), &format!("p = {}", p_value(p)), Type::new(10.0));
+    svg.text((left + 220.0, y), &format!("A12 = {a12}"), Type::new(10.0));
 }
 
 fn p_value(p: f64) -> String {

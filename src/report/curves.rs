@@ -3,8 +3,9 @@
 use crate::model::{CYCLE_STEPS, Material, MaterialKind, Palette, Pattern, Schedule};
 use crate::report::Color;
 use crate::report::chart::Panel;
+use crate::report::element::{Paint, Point, Type};
 use crate::report::scheme::Scheme;
-use crate::report::svg::{Paint, Point, Svg, Type};
+use crate::report::svg::Svg;
 use crate::sim::{Constants, Signals};
 
 const WIDTH: f64 = 420.0;

@@ -35,6 +35,7 @@ schemas! {
     Added = "added", 1: "Robots that were added to a library, and those that were not.";
     Bench = "bench", 1: "How fast a machine simulates.";
     Build = "build", 1: "A circuit as a netlist of cells.";
+    Devices = "devices", 1: "The OpenCL devices of a machine.";
     Diagnostics = "diagnostics", 2: "Errors and warnings, of any command.";
     Drawn = "drawn", 1: "A picture that was written.";
     Elites = "elites", 1: "The archive of evolution runs.";
@@ -43,14 +44,17 @@ schemas! {
     Formatted = "formatted", 1: "Which files are in their canonical form.";
     Library = "library", 1: "A summary of the robots of a library.";
     Play = "play", 1: "The address of a live page.";
+    Radii = "radii", 1: "How far worlds may differ before robots make errors.";
     Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";
     Robots = "robots", 1: "The robots of a library in full.";
+    Robustness = "robustness", 1: "Tests in many worlds.";
     Run = "run", 1: "The results of the tests and simulations of a file.";
     Simulate = "simulate", 1: "The path of one robot.";
     Synth = "synth", 1: "A circuit made of cells.";
     Test = "test", 1: "The results of tests, row by row.";
     Verify = "verify", 1: "Robots simulated again.";
+    Workers = "workers", 1: "The workers at a NATS server.";
 }
 
 /// A value for programs with its schema.

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 
 use crate::evolve::{Champion, Elite, NicheKey};
 use crate::model::{Axis, Behavior, Count, SearchObjective};
+use crate::report::discovery::Discovery;
+use crate::report::groups::group_of;
 use crate::report::history::ProgressLine;
 use crate::report::progress::Course;
 
@@ -101,6 +103,20 @@ impl EvolutionResults {
                 runs: runs(|line| line.qd_score),
             },
         ]
+    }
+
+    /// When each seed first found each behavior, in order of the paper's groups.
+    pub fn discoveries(&self) -> Vec<Discovery> {
+        let first = |run: &SeedRun, behavior| {
+            run.progress.iter().find(|line| line.behaviors.contains(&behavior)).map(|line| line.generation)
+        };
+        let discovery = |behavior| {
+            let generations = self.runs.values().filter_map(|run| first(run, behavior)).collect();
+            Discovery { behavior, generations }
+        };
+        let mut discoveries: Vec<Discovery> = Behavior::all().map(discovery).collect();
+        discoveries.sort_by_key(|discovery| group_of(discovery.behavior));
+        discoveries
     }
 
     /// The meaning of the first fitness.

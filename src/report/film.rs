@@ -3,26 +3,26 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use resvg::tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transform};
+use tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
-use crate::model::CYCLE_STEPS;
 use crate::report::Color;
+use crate::report::element::{Anchor, Paint, Type};
 use crate::report::looks::{Look, Looks, draw_mark};
-use crate::report::raster::rasterize;
+use crate::report::raster::{rasterize, solid};
 use crate::report::scheme::Scheme;
 use crate::report::sprite::Pose;
 use crate::report::stage::{Moment, Stage};
-use crate::report::svg::{Anchor, Paint, Svg, Type, shorten};
+use crate::report::svg::{Svg, shorten};
 use crate::report::swatches::{Swatches, UNCHANGED};
 
-/// Env steps from frame to frame: twelve frames a cycle.
-pub const STRIDE: u32 = CYCLE_STEPS / 12;
-/// Hundredths of a second for which a frame is shown: a cycle takes about half a second, half the robots' own pace.
+/// Frames for each cycle, where nothing else is asked for.
+pub const FRAMES_PER_CYCLE: u32 = 12;
+/// Hundredths of a second for which a frame is shown: with twelve frames, a cycle takes about half a second, which is
+/// half the robots' own pace.
 const DELAY: u16 = 4;
 
-/// The most lanes in a column; more lanes form further columns.
-const MAX_ROWS: usize = 8;
-const LABELS: f64 = 108.0;
+/// The most robots that are shown large.
+const LARGE: usize = 32;
 const HEAD: f64 = 34.0;
 const FOOT: f64 = 14.0;
 
@@ -105,7 +105,7 @@ impl<'a> Painter<'a> {
     fn paint_lane(&mut self, moment: &Moment, lane: usize) {
         let film = self.film;
         let (scale, ground, left) = (film.scale(), film.ground(lane), film.left(lane));
-        let middle = left + LABELS + film.span() / 2.0;
+        let middle = left + film.labels() + film.span() / 2.0;
         let camera = self.cameras[lane];
         let to_pixel = |(x, y): (f64, f64)| (middle + (x - camera) * scale, ground - (y - 1.0) * scale);
         let half = film.span() / 2.0 / scale;
@@ -115,21 +115,33 @@ impl<'a> Painter<'a> {
         }
         paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, to_pixel);
         for (i, color) in [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate() {
-            let place = (left + 16.0 + i as f64 * 22.0, ground - 16.0);
-            fill_rect(&mut self.frame, place, 16.0, 16.0, color);
+            let side = film.lamp();
+            let place = (left + side + i as f64 * side * 1.375, ground - side);
+            fill_rect(&mut self.frame, place, side, side, color);
             if !moment.patterns[lane].has(i) {
-                fill_rect(&mut self.frame, (place.0 + 2.0, place.1 + 2.0), 12.0, 12.0, Color::WHITE);
+                let (edge, inner) = (side / 8.0, side * 0.75);
+                fill_rect(&mut self.frame, (place.0 + edge, place.1 + edge), inner, inner, Color::WHITE);
             }
         }
         if moment.faults[lane] {
-            fill_rect(&mut self.frame, (left + LABELS, ground + 9.0), film.span(), 4.0, Color::FAULT);
+            fill_rect(&mut self.frame, (left + film.labels(), ground + 9.0), film.span(), 4.0, Color::FAULT);
         }
     }
 }
 
 impl Film {
+    /// Whether there are so many robots that each is small.
+    fn is_dense(&self) -> bool {
+        self.lanes.len() > LARGE
+    }
+
+    /// The most lanes in a column; more lanes form further columns.
+    fn max_rows(&self) -> usize {
+        if self.is_dense() { self.lanes.len().isqrt() * 4 / 3 } else { 8 }
+    }
+
     fn columns(&self) -> usize {
-        self.lanes.len().div_ceil(MAX_ROWS).max(1)
+        self.lanes.len().div_ceil(self.max_rows()).max(1)
     }
 
     /// Lanes one below the other; the columns are as even as can be.
@@ -139,12 +151,26 @@ impl Film {
 
     /// The width of a lane with its name.
     fn lane_width(&self) -> f64 {
-        if self.columns() == 1 { 560.0 } else { 340.0 }
+        match self.columns() {
+            1 => 560.0,
+            _ if self.is_dense() => 140.0,
+            _ => 340.0,
+        }
+    }
+
+    /// The width of the part of a lane that has its robot's name and stimuli.
+    fn labels(&self) -> f64 {
+        if self.is_dense() { 60.0 } else { 108.0 }
+    }
+
+    /// The side of a square that shows a stimulus.
+    fn lamp(&self) -> f64 {
+        if self.is_dense() { 8.0 } else { 16.0 }
     }
 
     /// The width of the part of a lane in which its robot walks.
     fn span(&self) -> f64 {
-        self.lane_width() - LABELS
+        self.lane_width() - self.labels()
     }
 
     /// Pixels for each voxel.
@@ -152,6 +178,7 @@ impl Film {
         let most = match (self.lanes.len(), self.columns()) {
             (1, _) => 16.0,
             (_, 1) => 10.0,
+            _ if self.is_dense() => return 3.0,
             _ => 6.0,
         };
         (120.0 / self.largest as f64).clamp(5.0, most)
@@ -182,22 +209,18 @@ impl Film {
         for (lane, name) in self.lanes.iter().enumerate() {
             let (left, ground) = (self.left(lane), self.ground(lane));
             let top = ground - self.lane_height() + 16.0;
-            svg.rect((left + LABELS, top), self.span(), ground - top, Paint::fill(Color::SKY));
-            svg.rect((left + LABELS, ground), self.span(), 9.0, Paint::fill(Color::GROUND));
-            svg.text((left + 14.0, ground - 24.0), &shorten(name, 15), Type::new(11.0));
+            svg.rect((left + self.labels(), top), self.span(), ground - top, Paint::fill(Color::SKY));
+            svg.rect((left + self.labels(), ground), self.span(), 9.0, Paint::fill(Color::GROUND));
+            let (letters, size) = if self.is_dense() { (13, 7.0) } else { (15, 11.0) };
+            let above = self.lamp() * 1.5;
+            svg.text((left + self.lamp() - 2.0, ground - above), &shorten(name, letters), Type::new(size));
         }
         svg
     }
 }
 
-fn skia_paint(color: Color) -> tiny_skia::Paint<'static> {
-    let mut paint = tiny_skia::Paint::default();
-    paint.set_color_rgba8(color.r, color.g, color.b, 255);
-    paint
-}
-
 fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, color: Color) {
-    let mut paint = skia_paint(color);
+    let mut paint = solid(color, 1.0);
     paint.anti_alias = false;
     if let Some(rect) = Rect::from_xywh(x as f32, y as f32, width as f32, height as f32) {
         frame.fill_rect(rect, &paint, Transform::identity(), None);
@@ -219,8 +242,8 @@ fn paint_pose(frame: &mut Pixmap, pose: &Pose, looks: &Looks, to_pixel: impl Fn(
         // Voxels whose corners are not finite have no path.
         let Some(path) = shape.finish() else { continue };
         let Look { color, mark } = looks.look(&pose.palette, code);
-        frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
-        let edge = skia_paint(color.mix(Color::BLACK, 0.5));
+        frame.fill_path(&path, &solid(color, 1.0), FillRule::Winding, Transform::identity(), None);
+        let edge = solid(color.mix(Color::BLACK, 0.5), 1.0);
         frame.stroke_path(&path, &edge, &Stroke { width: 0.8, ..Stroke::default() }, Transform::identity(), None);
         let Some(mark) = mark else { continue };
         for (corners, _) in pose.voxels.iter().filter(|(_, own)| *own == code) {
@@ -236,7 +259,7 @@ fn fill_polygon(frame: &mut Pixmap, points: &[(f64, f64)], color: Color) {
     }
     path.close();
     if let Some(path) = path.finish() {
-        frame.fill_path(&path, &skia_paint(color), FillRule::Winding, Transform::identity(), None);
+        frame.fill_path(&path, &solid(color, 1.0), FillRule::Winding, Transform::identity(), None);
     }
 }
 

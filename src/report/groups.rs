@@ -9,7 +9,7 @@ use statrs::stats_tests::Alternative;
 use statrs::stats_tests::mannwhitneyu::{MannWhitneyUMethod, mannwhitneyu};
 
 use crate::evolve::Champion;
-use crate::model::Behavior;
+use crate::model::{Behavior, Pattern};
 use crate::report::{Align, TextTable};
 
 /// The thresholds of significance that are spoken of; the paper's is the last.
@@ -43,10 +43,20 @@ pub struct GroupComparison {
     pub is_approximate: bool,
 }
 
+/// The robots that follow one stimulus, compared by which one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideComparison {
+    /// The probability as in [`GroupComparison`], of one test alone.
+    pub p: f64,
+    /// How often a robot of the first stimulus goes farther than one of the second, likewise.
+    pub a12: f64,
+}
+
 /// Groups and their names, in the paper's order of difficulty.
 const GROUPS: [(&str, usize); 4] = [("XXXX", 0), ("XXYY, XYXY", 1), ("XXXY, XXYX, XYXX, XYYY", 2), ("XYYX", 2)];
 
-fn group_of(behavior: Behavior) -> usize {
+/// The place of the group of a behavior.
+pub(super) fn group_of(behavior: Behavior) -> usize {
     let function = behavior.function();
     match (function.arity(), function.bits().count_ones()) {
         (0, _) => 0,
@@ -59,15 +69,39 @@ fn group_of(behavior: Behavior) -> usize {
 /// The groups' values, one for each run. Champions of one run are not independent samples, and neither are two runs
 /// with the same seed, so runs are grouped by seed.
 pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup> {
-    let values = |place: usize| {
-        runs.values().filter_map(move |run| {
-            let champions = run.iter().filter(|champion| group_of(champion.behavior) == place);
-            let distances: Vec<f64> = champions.map(|champion| champion.fitness[0]).collect();
-            (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
-        })
-    };
     let groups = GROUPS.iter().enumerate();
-    groups.map(|(i, &(name, stimuli))| BehaviorGroup { name, stimuli, values: values(i).collect() }).collect()
+    groups
+        .map(|(i, &(name, stimuli))| BehaviorGroup {
+            name,
+            stimuli,
+            values: values(runs, |behavior| group_of(behavior) == i),
+        })
+        .collect()
+}
+
+/// For each run that found any of these behaviors, the mean distance of their champions in voxels.
+fn values(runs: &BTreeMap<u64, Vec<Champion>>, is_member: impl Fn(Behavior) -> bool) -> Vec<f64> {
+    let mean = |run: &Vec<Champion>| {
+        let champions = run.iter().filter(|champion| is_member(champion.behavior));
+        let distances: Vec<f64> = champions.map(|champion| champion.fitness[0]).collect();
+        (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
+    };
+    runs.values().filter_map(mean).collect()
+}
+
+/// Compares XXYY with XYXY; `None` if one of them was never found.
+pub fn compare_sides(runs: &BTreeMap<u64, Vec<Champion>>) -> Option<SideComparison> {
+    let follows = |stimulus: usize| {
+        let changes = move |behavior: Behavior| {
+            let at = |i: usize| behavior.direction(Pattern::PAIRS[i]);
+            // The patterns 01 and 10 differ from 00 in the second and in the first stimulus.
+            at(0) != at([2, 1][stimulus]) && at(0) == at([1, 2][stimulus])
+        };
+        let is_member = move |behavior: Behavior| group_of(behavior) == 1 && changes(behavior);
+        BehaviorGroup { name: ["XXYY", "XYXY"][stimulus], stimuli: 1, values: values(runs, is_member) }
+    };
+    let GroupComparison { p, a12, .. } = compare(&[follows(0), follows(1)], [0, 1])?;
+    Some(SideComparison { p, a12 })
 }
 
 /// Every two groups compared, in order; pairs without values are left out.
@@ -267,6 +301,17 @@ mod tests {
             let found = compare(&[group(a), group(b)], [0, 1]).unwrap();
             assert!((found.p - 1.0 / 9.0).abs() < 1e-12 && (found.a12 - u / 20.0).abs() < 1e-12, "{found:?}");
         }
+    }
+
+    #[test]
+    fn one_stimulus_is_compared_with_the_other() {
+        let runs = seeds((0..4).map(|i| {
+            let shift = 0.1 * f64::from(i);
+            run(&[("LLRR", 10.0 + shift), ("RRLL", 12.0 + shift), ("LRLR", 8.0 + shift), ("LLLL", 90.0)])
+        }));
+        let sides = compare_sides(&runs).unwrap();
+        assert!((sides.p - 2.0 / 70.0).abs() < 1e-12 && sides.a12 == 1.0, "{sides:?}");
+        assert_eq!(compare_sides(&seeds([run(&[("LLRR", 1.0)])])), None);
     }
 
     #[test]

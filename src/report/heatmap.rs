@@ -7,8 +7,9 @@ use crate::evolve::NicheKey;
 use crate::model::{Axis, Behavior, Count, Function};
 use crate::report::Color;
 use crate::report::chart::{Scale, range_of, tick_label};
+use crate::report::element::{Anchor, Paint, Type};
 use crate::report::evolution_results::bins;
-use crate::report::svg::{Anchor, Paint, Svg, Type};
+use crate::report::svg::Svg;
 
 const CELL: f64 = 26.0;
 const COLUMNS: usize = 8;

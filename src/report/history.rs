@@ -2,10 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer};
+
+use crate::model::Behavior;
 
 /// The fields read from a line of `progress.jsonl`.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct ProgressLine {
     /// Generations done.
     pub generation: u32,
@@ -13,6 +16,15 @@ pub struct ProgressLine {
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
+    /// The behaviors found so far.
+    #[serde(default, rename = "best", deserialize_with = "behaviors")]
+    pub behaviors: Vec<Behavior>,
+}
+
+/// The names of an object that are behaviors.
+fn behaviors<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Behavior>, D::Error> {
+    let best: BTreeMap<String, IgnoredAny> = Deserialize::deserialize(deserializer)?;
+    Ok(best.keys().filter_map(|word| word.parse().ok()).collect())
 }
 
 /// The lines of a run up to a generation, each generation once and in order.
@@ -38,7 +50,7 @@ impl<'a> History<'a> {
 
     /// The valid lines.
     pub fn lines(&self) -> impl Iterator<Item = ProgressLine> {
-        self.lines.values().map(|(line, _)| *line)
+        self.lines.values().map(|(line, _)| line.clone())
     }
 
     /// The lines as the text of a file.
@@ -73,6 +85,15 @@ mod tests {
         assert_eq!(history.print(), (1..=3).map(line).collect::<String>());
         let killed = text + "{\"gener";
         assert_eq!(History::read(&killed, 5).damage(), None, "the line that was being written is made again");
+    }
+
+    #[test]
+    fn the_behaviors_found_so_far_are_read() {
+        let best = r#"{"LLRR":[5.9,1.4],"LRLL":[1.7,0.1],"?":0}"#;
+        let text = line(1).replace("true}", &format!("true,\"best\":{best}}}"));
+        let found: Vec<String> =
+            History::read(&text, 1).lines().flat_map(|line| line.behaviors).map(|b| b.to_string()).collect();
+        assert_eq!(found, ["LLRR", "LRLL"]);
     }
 
     #[test]

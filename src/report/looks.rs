@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use crate::model::{Body, Drive, Material, MaterialKind, Palette, Response};
 use crate::report::Color;
+use crate::report::element::{Paint, Point};
 use crate::report::scheme::Scheme;
-use crate::report::svg::{Paint, Point, Svg};
+use crate::report::svg::Svg;
 
 /// How one material looks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,13 +8,17 @@ mod comparison;
 mod csv;
 mod curves;
 mod cycles;
+mod discovery;
 mod document;
+mod element;
 mod evolution;
 mod evolution_page;
 mod evolution_results;
 mod export;
 #[cfg(feature = "pictures")]
 mod film;
+#[cfg(feature = "pictures")]
+mod font;
 mod groups;
 mod heatmap;
 mod heights;
@@ -32,6 +36,7 @@ mod progress;
 #[cfg(feature = "pictures")]
 mod raster;
 mod result;
+mod robustness;
 mod run_page;
 mod schematic;
 mod scheme;
@@ -54,14 +59,18 @@ pub use color::Color;
 pub use comparison::draw_comparison;
 pub use curves::{draw_response, draw_schedule};
 pub use cycles::cycle_table;
+pub use discovery::{Discovery, draw_discovery};
 pub use document::{Document, Schema};
+pub use element::{Anchor, Paint, Point, Type};
 pub use evolution::{EvolutionLine, evolution_table};
 pub use evolution_page::{Plate, draw_evolution_page};
 pub use evolution_results::{EvolutionResults, SeedRun, axis_word};
 pub use export::{Elites, robots_csv};
 #[cfg(feature = "pictures")]
-pub use film::{Film, STRIDE, write_apng, write_gif};
-pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
+pub use film::{FRAMES_PER_CYCLE, Film, write_apng, write_gif};
+pub use groups::{
+    BehaviorGroup, GroupComparison, SideComparison, behavior_groups, compare_groups, compare_sides, describe_groups,
+};
 pub use heatmap::{Terrain, draw_heatmap, heat};
 pub use history::{History, ProgressLine};
 pub use html::{base64, embedded};
@@ -76,6 +85,7 @@ pub use progress::{Course, draw_progress};
 #[cfg(feature = "pictures")]
 pub use raster::{png, rasterize};
 pub use result::{RobotResult, RunResult, SwarmResult};
+pub use robustness::{YieldCurve, describe_robustness, draw_yields};
 pub use run_page::{PageSwarm, SwarmOutcome, draw_run_page};
 pub use schematic::draw_schematic;
 pub use scheme::Scheme;
@@ -83,7 +93,7 @@ pub use spacetime::{Spells, Strip, Track, draw_chosen, draw_robot, draw_swarm};
 pub use sprite::{Pose, draw_body, draw_portrait, draw_sprite};
 pub use stage::{Moment, Stage};
 pub use strip::draw_strip;
-pub use svg::{Anchor, Paint, Point, Svg, Type};
+pub use svg::Svg;
 pub use table::{Align, TextTable};
 pub use timing::SwarmTiming;
 pub use vcd::vcd;

@@ -2,10 +2,11 @@
 
 use crate::model::Body;
 use crate::report::Color;
+use crate::report::element::{Anchor, Type};
 use crate::report::looks::{Looks, draw_swatch};
 use crate::report::scheme::Scheme;
 use crate::report::sprite::{LETTER, draw_body};
-use crate::report::svg::{Anchor, Svg, Type};
+use crate::report::svg::Svg;
 
 /// Pixels of the largest body's longer side, and of its slot.
 const SIDE: f64 = 84.0;

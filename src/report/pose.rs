@@ -2,11 +2,12 @@
 
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};
 use crate::report::Color;
+use crate::report::element::{Paint, Point, Type};
 use crate::report::looks::Looks;
 use crate::report::scheme::Scheme;
 use crate::report::sprite::{Pose, draw_legend, legend_size};
 use crate::report::stage::{Moment, Stage};
-use crate::report::svg::{Paint, Point, Svg, Type};
+use crate::report::svg::Svg;
 
 const VOXEL: f64 = 30.0;
 

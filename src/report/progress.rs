@@ -2,7 +2,8 @@
 
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
-use crate::report::svg::{Paint, Point, Svg, Type};
+use crate::report::element::{Paint, Point, Type};
+use crate::report::svg::Svg;
 
 /// A quantity over time, for several seeds.
 #[derive(Clone, Debug)]

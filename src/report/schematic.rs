@@ -5,12 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::circuit::{NetId, Netlist, Node};
 use crate::model::Robot;
 use crate::report::Color;
+use crate::report::element::{Anchor, Paint, Point, Type};
 use crate::report::heights;
 use crate::report::layers::{Layers, Slot};
 use crate::report::looks::Looks;
 use crate::report::scheme::Scheme;
 use crate::report::sprite::draw_body;
-use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
+use crate::report::svg::{Svg, shorten};
 
 const CELL: (f64, f64) = (108.0, 92.0);
 const PORT: (f64, f64) = (54.0, 24.0);

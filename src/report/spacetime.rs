@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use crate::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory};
 use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
-use crate::report::svg::{Anchor, Paint, Point, Svg, Type, shorten};
+use crate::report::element::{Anchor, Paint, Point, Type};
+use crate::report::svg::{Svg, shorten};
 use crate::swarm::{RobotTrace, StimulusSource, SwarmTrace};
 
 const PANEL_WIDTH: f64 = 150.0;

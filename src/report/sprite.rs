@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use crate::model::{Body, Palette, Robot};
 use crate::report::Color;
+use crate::report::element::{Paint, Point, Type};
 use crate::report::looks::{Look, Looks, draw_mark, draw_swatch};
 use crate::report::scheme::Scheme;
-use crate::report::svg::{Paint, Point, Svg, Type};
+use crate::report::svg::Svg;
 
 /// The mean width of a letter of a legend.
 pub const LETTER: f64 = 6.2;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting};
 use crate::report::sprite::Pose;
 use crate::sim::{Flock, Simulator, Snapshot};
-use crate::swarm::{self, Assembly, Recording, SwarmTrace};
+use crate::swarm::{Assembly, Recording, SwarmTrace};
 
 /// Robots during their simulation.
 pub struct Stage {
@@ -47,7 +47,8 @@ impl Stage {
     /// Several bodies under one schedule.
     pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
         let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
-        Self::new(setting, bodies, spells, stride)
+        let palettes = bodies.iter().map(|body| Arc::clone(body.palette())).collect();
+        Self::new(Simulator::default().flock(setting, bodies), palettes, spells, stride)
     }
 
     /// A swarm in its setting, with the stimuli that its robots sensed.
@@ -74,22 +75,18 @@ impl Stage {
     }
 
     fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
-        let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
+        let palettes = assembly.members.iter().map(|member| Arc::clone(member.robot.body.palette())).collect();
         let spells = trace
             .cycles
             .iter()
             .map(|cycle| (CYCLE_STEPS, cycle.sensed.iter().map(|sensed| Pattern::new(sensed)).collect()))
             .collect();
-        Self::new(&swarm::setting(assembly, cycles), &bodies, spells, stride)
+        Self::new(assembly.flock(&Simulator::default(), cycles), palettes, spells, stride)
     }
 
-    fn new(setting: &Setting, bodies: &[Body], spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
+    fn new(flock: Box<dyn Flock>, palettes: Vec<Arc<Palette>>, spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
         assert!(stride > 0, "frames are some steps apart");
         let left = spells.first().map_or(0, |spell| spell.0);
-        let (flock, palettes) = (
-            Simulator::default().flock(setting, bodies),
-            bodies.iter().map(|body| Arc::clone(body.palette())).collect(),
-        );
         Self { flock, palettes, spells, spell: 0, left, stride, step: 0, started: false }
     }
 

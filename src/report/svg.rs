@@ -1,49 +1,11 @@
-//! A small typed writer of SVG, used by all pictures. Lengths are pixels; y increases downwards.
+//! Drawings, and how they are written as SVG. Lengths are pixels; y increases downwards.
 
-use std::fmt::{self, Write};
+use std::fmt::{self, Display};
 
 use crate::report::Color;
+use crate::report::element::{Anchor, Element, Paint, Point, Type};
 
-/// A point in pixels.
-pub type Point = (f64, f64);
-
-/// How a shape is painted.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Paint {
-    fill: Option<Color>,
-    stroke: Option<(Color, f64)>,
-    dash: Option<f64>,
-    opacity: Option<f64>,
-}
-
-impl Paint {
-    /// Filled.
-    pub fn fill(color: Color) -> Self {
-        Self { fill: Some(color), ..Self::default() }
-    }
-
-    /// Outlined with a line of that width.
-    pub fn stroke(color: Color, width: f64) -> Self {
-        Self { stroke: Some((color, width)), ..Self::default() }
-    }
-
-    /// Outlined too.
-    pub fn with_stroke(self, color: Color, width: f64) -> Self {
-        Self { stroke: Some((color, width)), ..self }
-    }
-
-    /// With the line in dashes of that length.
-    pub fn dashed(self, length: f64) -> Self {
-        Self { dash: Some(length), ..self }
-    }
-
-    /// See-through: 0 is invisible, 1 opaque.
-    pub fn with_opacity(self, opacity: f64) -> Self {
-        Self { opacity: Some(opacity), ..self }
-    }
-}
-
-impl fmt::Display for Paint {
+impl Display for Paint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.fill {
             Some(color) => write!(f, " fill=\"{color}\"")?,
@@ -62,75 +24,26 @@ impl fmt::Display for Paint {
     }
 }
 
-/// The position of a text relative to its point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Anchor {
-    /// The text starts there.
-    #[default]
-    Start,
-    /// The middle of the text is there.
-    Middle,
-    /// The text ends there.
-    End,
-}
-
-/// How a text is set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Type {
-    size: f64,
-    color: Color,
-    anchor: Anchor,
-    bold: bool,
-    upwards: bool,
-}
-
-impl Type {
-    /// Plain black type of that size.
-    pub fn new(size: f64) -> Self {
-        Self { size, color: Color::BLACK, anchor: Anchor::Start, bold: false, upwards: false }
-    }
-
-    /// In that color.
-    pub fn colored(self, color: Color) -> Self {
-        Self { color, ..self }
-    }
-
-    /// Standing so relative to its point.
-    pub fn anchored(self, anchor: Anchor) -> Self {
-        Self { anchor, ..self }
-    }
-
-    /// Bold.
-    pub fn bold(self) -> Self {
-        Self { bold: true, ..self }
-    }
-
-    /// Reading upwards.
-    pub fn upwards(self) -> Self {
-        Self { upwards: true, ..self }
-    }
-}
-
 /// A drawing under construction.
 #[derive(Clone, Debug)]
 pub struct Svg {
     width: f64,
     height: f64,
     title: String,
-    body: String,
+    elements: Vec<Element>,
 }
 
 impl Svg {
     /// An empty drawing on white, with a title for screen readers.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
-        let mut svg = Self { width, height, title: title.to_owned(), body: String::new() };
+        let mut svg = Self { width, height, title: title.to_owned(), elements: Vec::new() };
         svg.rect((0.0, 0.0), width, height, Paint::fill(Color::WHITE));
         svg
     }
 
     /// An empty drawing on a transparent background, to be placed on other drawings.
     pub fn transparent(width: f64, height: f64, title: &str) -> Self {
-        Self { width, height, title: title.to_owned(), body: String::new() }
+        Self { width, height, title: title.to_owned(), elements: Vec::new() }
     }
 
     /// The drawing's width in pixels.
@@ -144,62 +57,52 @@ impl Svg {
     }
 
     /// A rectangle by its upper left corner.
-    pub fn rect(&mut self, (x, y): Point, width: f64, height: f64, paint: Paint) {
-        let (x, y, width, height) = (Number(x), Number(y), Number(width), Number(height));
-        self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{paint}/>"));
+    pub fn rect(&mut self, corner: Point, width: f64, height: f64, paint: Paint) {
+        self.elements.push(Element::Rect(corner, width, height, paint));
     }
 
     /// A straight line.
-    pub fn line(&mut self, (x1, y1): Point, (x2, y2): Point, paint: Paint) {
-        let (x1, y1, x2, y2) = (Number(x1), Number(y1), Number(x2), Number(y2));
-        self.push(format_args!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"{paint}/>"));
+    pub fn line(&mut self, from: Point, to: Point, paint: Paint) {
+        self.elements.push(Element::Line(from, to, paint));
     }
 
     /// A line through points.
     pub fn polyline(&mut self, points: &[Point], paint: Paint) {
-        self.push(format_args!("<polyline points=\"{}\"{paint}/>", Points(points)));
+        self.elements.push(Element::Polyline(points.to_vec(), paint));
     }
 
     /// A closed shape.
     pub fn polygon(&mut self, points: &[Point], paint: Paint) {
-        self.push(format_args!("<polygon points=\"{}\"{paint}/>", Points(points)));
+        self.elements.push(Element::Polygon(points.to_vec(), paint));
     }
 
     /// A disk or circle.
-    pub fn circle(&mut self, (x, y): Point, radius: f64, paint: Paint) {
-        let (x, y, radius) = (Number(x), Number(y), Number(radius));
-        self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{paint}/>"));
+    pub fn circle(&mut self, middle: Point, radius: f64, paint: Paint) {
+        self.elements.push(Element::Circle(middle, radius, paint));
     }
 
     /// A line of text on its base line.
-    pub fn text(&mut self, (x, y): Point, text: &str, set: Type) {
-        let (x, y) = (Number(x), Number(y));
-        let anchor = match set.anchor {
-            Anchor::Start => "",
-            Anchor::Middle => " text-anchor=\"middle\"",
-            Anchor::End => " text-anchor=\"end\"",
-        };
-        let bold = if set.bold { " font-weight=\"bold\"" } else { "" };
-        let turn = if set.upwards { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
-        let (size, color, text) = (Number(set.size), set.color, Escaped(text));
-        self.push(format_args!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{color}\"{anchor}{bold}{turn}>{text}</text>"
-        ));
+    pub fn text(&mut self, at: Point, text: &str, set: Type) {
+        self.elements.push(Element::Text(at, text.to_owned(), set));
     }
 
     /// A group of shapes with an identity and a title, for pages that let readers pick it.
     pub fn group(&mut self, id: &str, title: &str, draw: impl FnOnce(&mut Self)) {
-        self.push(format_args!("<g id=\"{}\"><title>{}</title>", Escaped(id), Escaped(title)));
+        let outer = std::mem::take(&mut self.elements);
         draw(self);
-        self.push(format_args!("</g>"));
+        let inner = std::mem::replace(&mut self.elements, outer);
+        self.elements.push(Element::Group(id.to_owned(), title.to_owned(), inner));
     }
 
     /// Another drawing with its upper left corner at this point, scaled.
-    pub fn place(&mut self, (x, y): Point, scale: f64, other: &Self) {
-        let (x, y, scale) = (Number(x), Number(y), Number(scale));
-        self.push(format_args!("<g transform=\"translate({x} {y}) scale({scale})\">"));
-        self.body.push_str(&other.body);
-        self.push(format_args!("</g>"));
+    pub fn place(&mut self, corner: Point, scale: f64, other: &Self) {
+        self.elements.push(Element::Placed(corner, scale, other.elements.clone()));
+    }
+
+    /// What is drawn, in the order in which they are drawn.
+    #[cfg(feature = "pictures")]
+    pub(super) fn elements(&self) -> &[Element] {
+        &self.elements
     }
 
     /// The whole drawing as a file.
@@ -209,13 +112,64 @@ impl Svg {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} \
              {height}\" \
              role=\"img\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n<title>{title}</title>\n{}</svg>\n",
-            self.body
+            Lines(&self.elements)
         )
     }
+}
 
-    fn push(&mut self, element: fmt::Arguments<'_>) {
-        writeln!(self.body, "{element}").expect("text can be written to a string");
+/// Each element on a line.
+struct Lines<'a>(&'a [Element]);
+
+impl Display for Lines<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|element| writeln!(f, "{element}"))
     }
+}
+
+impl Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rect(corner, width, height, paint) => {
+                let (x, y, width, height) = (Number(corner.0), Number(corner.1), Number(*width), Number(*height));
+                write!(f, "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{paint}/>")
+            }
+            Self::Line(from, to, paint) => {
+                let (x1, y1, x2, y2) = (Number(from.0), Number(from.1), Number(to.0), Number(to.1));
+                write!(f, "<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"{paint}/>")
+            }
+            Self::Polyline(points, paint) => write!(f, "<polyline points=\"{}\"{paint}/>", Points(points)),
+            Self::Polygon(points, paint) => write!(f, "<polygon points=\"{}\"{paint}/>", Points(points)),
+            Self::Circle(middle, radius, paint) => {
+                let (x, y, radius) = (Number(middle.0), Number(middle.1), Number(*radius));
+                write!(f, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{paint}/>")
+            }
+            Self::Text(at, text, set) => write_text(f, *at, text, set),
+            Self::Group(id, title, elements) => {
+                write!(f, "<g id=\"{}\"><title>{}</title>\n{}</g>", Escaped(id), Escaped(title), Lines(elements))
+            }
+            Self::Placed(at, scale, elements) => {
+                let (x, y, scale) = (Number(at.0), Number(at.1), Number(*scale));
+                write!(f, "<g transform=\"translate({x} {y}) scale({scale})\">\n{}</g>", Lines(elements))
+            }
+        }
+    }
+}
+
+fn write_text(f: &mut fmt::Formatter<'_>, (x, y): Point, text: &str, set: &Type) -> fmt::Result {
+    let (x, y, size, color) = (Number(x), Number(y), Number(set.size), set.color);
+    write!(f, "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{color}\"")?;
+    match set.anchor {
+        Anchor::Start => {}
+        Anchor::Middle => f.write_str(" text-anchor=\"middle\"")?,
+        Anchor::End => f.write_str(" text-anchor=\"end\"")?,
+    }
+    if set.bold {
+        f.write_str(" font-weight=\"bold\"")?;
+    }
+    if set.upwards {
+        write!(f, " transform=\"rotate(-90 {x} {y})\"")?;
+    }
+    write!(f, ">{}</text>", Escaped(text))
 }
 
 /// The first characters of a text that has more than `most`.
@@ -229,7 +183,7 @@ pub fn shorten(text: &str, most: usize) -> String {
 /// A length with at most two decimals, which is finer than any screen; a value that is not a number becomes 0.
 struct Number(f64);
 
-impl fmt::Display for Number {
+impl Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = format!("{:.2}", if self.0.is_finite() { self.0 } else { 0.0 });
         let short = text.trim_end_matches('0').trim_end_matches('.');
@@ -239,7 +193,7 @@ impl fmt::Display for Number {
 
 struct Points<'a>(&'a [Point]);
 
-impl fmt::Display for Points<'_> {
+impl Display for Points<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, &(x, y)) in self.0.iter().enumerate() {
             let gap = if i == 0 { "" } else { " " };
@@ -252,7 +206,7 @@ impl fmt::Display for Points<'_> {
 /// Text for an element or an attribute; invalid XML characters become question marks.
 struct Escaped<'a>(&'a str);
 
-impl fmt::Display for Escaped<'_> {
+impl Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for c in self.0.chars() {
             match c {
@@ -260,9 +214,9 @@ impl fmt::Display for Escaped<'_> {
                 '<' => f.write_str("&lt;")?,
                 '>' => f.write_str("&gt;")?,
                 '"' => f.write_str("&quot;")?,
-                '\u{fffe}' | '\u{ffff}' => f.write_char('?')?,
-                c if c.is_control() => f.write_char('?')?,
-                c => f.write_char(c)?,
+                '\u{fffe}' | '\u{ffff}' => f.write_str("?")?,
+                c if c.is_control() => f.write_str("?")?,
+                c => write!(f, "{c}")?,
             }
         }
         Ok(())
@@ -276,7 +230,7 @@ mod tests {
     fn check(draw: impl FnOnce(&mut Svg), expected: &str) {
         let mut svg = Svg::transparent(10.0, 10.0, "t");
         draw(&mut svg);
-        assert_eq!(svg.body.trim_end(), expected);
+        assert_eq!(Lines(&svg.elements).to_string().trim_end(), expected);
     }
 
     #[test]

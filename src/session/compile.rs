@@ -6,7 +6,7 @@ use crate::circuit::{
     CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, elaborate_net, map_with, prove,
 };
 use crate::diag::Diagnostic;
-use crate::model::{Instance, Program, RegisterStyle};
+use crate::model::{Instance, PhysicsWorld, Program, RegisterStyle};
 use crate::session::plan::Plan;
 use crate::session::wording::{ChoiceError, SwarmWarning, for_circuit};
 use crate::source::Span;
@@ -55,6 +55,19 @@ pub struct Compiled {
     pub weak_robots: Vec<WeakRobot>,
     /// Warnings.
     pub warnings: Vec<Diagnostic>,
+}
+
+impl Compiled {
+    /// The same swarm in another world.
+    pub(super) fn in_world(&self, world: PhysicsWorld) -> Self {
+        let mut moved = self.clone();
+        for member in &mut moved.assembly.members {
+            let own = self.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
+            member.robot.body.clone_from(&own.expect("a member is of the library").body);
+        }
+        moved.plan.world = world;
+        Self { assembly: moved.assembly.in_world(world), ..moved }
+    }
 }
 
 /// Maps a netlist onto a library's cells, and proves that the result is equal to it.
@@ -119,6 +132,7 @@ pub(super) fn compile(
     let mapping = map(program, &plan.circuit, &swarm::cells(&plan.library), options, plan.registers, place)?;
     let timing = Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock);
     let assembly = swarm::assemble(&mapping.netlist, &plan.library).expect("the netlist was mapped onto this library");
+    let assembly = assembly.in_world(plan.world);
     let weak_robots = swarm::weak_robots(&assembly);
     let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();
     Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })

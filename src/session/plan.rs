@@ -2,7 +2,7 @@
 
 use crate::check::DEFAULT_LIBRARY;
 use crate::diag::Diagnostic;
-use crate::model::{Hold, Instance, Library, Program, RegisterStyle, Swarm};
+use crate::model::{Hold, Instance, Library, PhysicsWorld, Program, RegisterStyle, Swarm};
 use crate::session::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
 use crate::session::options::CompileOptions;
 use crate::session::robots::Supply;
@@ -23,6 +23,8 @@ pub struct Plan {
     pub window: u32,
     /// What registers are made of.
     pub registers: RegisterStyle,
+    /// The world of the swarm.
+    pub world: PhysicsWorld,
 }
 
 /// The plans of a circuit: one for each swarm that is declared for it, or that of the default library if there is none;
@@ -80,6 +82,7 @@ pub(super) fn of_swarm(
         hold: declaration.map_or(Hold::Auto, |swarm| swarm.hold),
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
+        world: declaration.map_or(PhysicsWorld::default(), |swarm| swarm.world),
     })
 }
 

@@ -48,5 +48,6 @@ fn simulation(excerpt: &Excerpt) -> Simulation {
         line: 0,
         inputs: excerpt.compiled.assembly.inputs.clone(),
         spells: excerpt.inputs.chunk_by(|a, b| a == b).map(spell).collect(),
+        world: None,
     }
 }

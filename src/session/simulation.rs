@@ -37,7 +37,8 @@ pub(super) fn compiled(
     options: &CompileOptions,
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let swarm = program.swarm(&simulation.swarm).expect("a simulation names a swarm of its program");
-    let plan = plan::of_swarm(supply, program, &swarm.circuit, Some(swarm), options)?;
+    let mut plan = plan::of_swarm(supply, program, &swarm.circuit, Some(swarm), options)?;
+    plan.world = simulation.world.unwrap_or(plan.world);
     compile::compile(program, plan, &options.mapping(), simulation.span)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::circuit::{Logic, Netlist, Timing, elaborate, elaborate_reference};
 use crate::diag::Diagnostic;
-use crate::model::{Base, CircuitTest, Hold, Program, Stimulation, TestRow};
+use crate::model::{Base, CircuitTest, Hold, PhysicsWorld, Program, Stimulation, TestRow};
 use crate::session::compile::{Compiled, compile};
 use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
@@ -10,7 +10,9 @@ use crate::session::plan::plans;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
 use crate::session::wording::SwarmWarning;
-use crate::swarm::{self, Demand, Level, STEADY_CYCLES, Settling, TestVerdict};
+use crate::swarm::{
+    self, Demand, Level, STEADY_CYCLES, Settling, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial,
+};
 
 /// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
 /// [`STEADY_CYCLES`].
@@ -78,7 +80,8 @@ pub(super) fn cases<'a>(
         return Ok(vec![case(Subject::Gates(netlist))]);
     }
     let mut cases = Vec::new();
-    for plan in plans(supply, program, &test.circuit, &options.compile)? {
+    for mut plan in plans(supply, program, &test.circuit, &options.compile)? {
+        plan.world = test.world.unwrap_or(plan.world);
         let compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
@@ -87,6 +90,19 @@ pub(super) fn cases<'a>(
         cases.push(case(Subject::Robots(Box::new(compiled), demands)));
     }
     Ok(cases)
+}
+
+impl TestRun {
+    /// The run as the result in its world; `None` at the level of logic.
+    pub fn world_trial(&self) -> Option<WorldTrial> {
+        let SwarmRun { compiled, trace } = self.swarm.as_ref()?;
+        let window = compiled.plan.window as usize;
+        Some(WorldTrial::new(compiled.plan.world, &self.verdict, trace, &clocks(compiled), window))
+    }
+}
+
+fn clocks(compiled: &Compiled) -> Vec<u32> {
+    compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect()
 }
 
 impl TestCase<'_> {
@@ -126,9 +142,58 @@ impl TestCase<'_> {
         }
     }
 
+    /// The world of its swarm; the paper's at the level of logic, which has none.
+    pub fn world(&self) -> PhysicsWorld {
+        match &self.subject {
+            Subject::Gates(_) => PhysicsWorld::default(),
+            Subject::Robots(compiled, _) => compiled.plan.world,
+        }
+    }
+
+    /// The same test in another world.
+    pub fn in_world(&self, world: PhysicsWorld) -> Self {
+        let subject = match &self.subject {
+            Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
+            Subject::Robots(compiled, demands) => Subject::Robots(Box::new(compiled.in_world(world)), demands.clone()),
+        };
+        Self { test: self.test, rows: self.rows.clone(), subject }
+    }
+
+    /// The number of robots; 0 at the level of logic.
+    pub fn robots(&self) -> usize {
+        match &self.subject {
+            Subject::Gates(_) => 0,
+            Subject::Robots(compiled, _) => compiled.assembly.members.len(),
+        }
+    }
+
     /// The rows, in order.
     pub fn rows(&self) -> &[TestRow] {
         &self.rows
+    }
+
+    /// The simulation of its swarm, to be done elsewhere; `None` at the level of logic.
+    pub fn task(&self) -> Option<SwarmTask> {
+        match &self.subject {
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled, demands) => {
+                let inputs = inputs(&self.rows, demands);
+                Some(SwarmTask::of(&compiled.assembly, inputs, compiled.plan.window as usize))
+            }
+        }
+    }
+
+    /// The end of the test when its swarm was simulated elsewhere, with these bits. There is no trace.
+    ///
+    /// # Panics
+    /// When the bits belong to another swarm, or the test has none.
+    pub fn judge(self, bits: &SwarmBits) -> TestRun {
+        let Subject::Robots(compiled, demands) = self.subject else { panic!("a test in physics") };
+        let inputs = inputs(&self.rows, &demands);
+        let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
+        let trace = bits.trace(&compiled.assembly, &inputs);
+        let (verdict, warnings) = judged(self.test, &self.rows, &demands, &compiled, &trace, end);
+        TestRun { verdict, end, swarm: None, warnings }
     }
 
     /// Runs the test.
@@ -155,15 +220,32 @@ fn in_physics(
     physics: &Physics,
     observer: &mut dyn Observer,
 ) -> TestRun {
-    let mut warnings = compiled.warnings.clone();
-    warnings.extend(short_hold(test, rows, demands, &compiled));
-    let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
-    let (trace, end) = physics.run(&compiled, held.collect(), observer);
-    let clocks: Vec<u32> = compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect();
-    let judged = swarm::judge_swarm(test, rows, demands, &trace, &clocks);
-    let mut verdict = verdict(test, Level::Physics, Some(&compiled), judged);
-    verdict.passed &= end == RunEnd::Complete;
+    let (trace, end) = physics.run(&compiled, inputs(rows, demands), observer);
+    let (verdict, warnings) = judged(test, rows, demands, &compiled, &trace, end);
     TestRun { verdict, end, swarm: Some(SwarmRun { compiled, trace }), warnings }
+}
+
+/// The input bits of each cycle.
+fn inputs(rows: &[TestRow], demands: &[Demand]) -> Vec<Vec<bool>> {
+    let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+    held.collect()
+}
+
+/// The verdict on a trace, and the warnings.
+fn judged(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    demands: &[Demand],
+    compiled: &Compiled,
+    trace: &SwarmTrace,
+    end: RunEnd,
+) -> (TestVerdict, Vec<Diagnostic>) {
+    let mut warnings = compiled.warnings.clone();
+    warnings.extend(short_hold(test, rows, demands, compiled));
+    let judged = swarm::judge_swarm(test, rows, demands, trace, &clocks(compiled));
+    let mut verdict = verdict(test, Level::Physics, Some(compiled), judged);
+    verdict.passed &= end == RunEnd::Complete;
+    (verdict, warnings)
 }
 
 fn verdict(test: &CircuitTest, level: Level, compiled: Option<&Compiled>, rows: Vec<swarm::RowVerdict>) -> TestVerdict {

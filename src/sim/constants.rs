@@ -1,7 +1,9 @@
 //! Every number of the physics, in one place, with its unit and its section in docs/physics.md.
 
-/// The constants of the model. [`Constants::default`] is the physics; other values are for tests of the effect of a
-/// constant.
+use crate::model::WorldFactors;
+
+/// The constants of the model. [`Constants::default`] is the paper's world; [`Constants::in_world`] gives those of
+/// others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
     /// Edge of a voxel at rest, in meters (1).
@@ -110,6 +112,24 @@ impl Default for Constants {
 }
 
 impl Constants {
+    /// The constants of a world, which has them times its factors (docs/physics.md 15).
+    pub fn in_world(&self, factors: &WorldFactors) -> Self {
+        let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = *factors;
+        Self {
+            friction: self.friction * friction,
+            plane_friction: self.plane_friction * friction,
+            gravity: self.gravity * gravity,
+            rigid_stiffness: self.rigid_stiffness * stiffness,
+            active_stiffness: self.active_stiffness * stiffness,
+            soft_stiffness: self.soft_stiffness * stiffness,
+            drag: self.drag * drag,
+            point_damping: self.point_damping * damping,
+            edge_damping: self.edge_damping * damping,
+            approach: self.approach * swelling,
+            ..*self
+        }
+    }
+
     /// Newtons on a unit mass in meters per substep squared, the kernel's unit of force.
     pub fn per_substep_squared(&self) -> f64 {
         self.substep * self.substep

@@ -132,12 +132,12 @@ impl Lattice {
         })
     }
 
-    /// The start position of point `point`, in meters, for a body whose left column is on ground column `start`,
-    /// rounded as in docs/physics.md 2.
-    pub fn start(&self, point: usize, start: usize, constants: &Constants) -> [f64; 2] {
+    /// The start position of point `point`, in meters, for a body whose left side is `start` voxels from the start of
+    /// the ground, rounded as in docs/physics.md 2.
+    pub fn start(&self, point: usize, start: f64, constants: &Constants) -> [f64; 2] {
         let LatticePoint { column, row, .. } = self.points[point];
         let cell = constants.cell;
-        [start as f64 * cell + column as f64 * cell, (1.0 * cell + self.height as f64 * cell) - row as f64 * cell]
+        [start * cell + column as f64 * cell, (1.0 * cell + self.height as f64 * cell) - row as f64 * cell]
     }
 }
 

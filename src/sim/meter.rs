@@ -16,11 +16,16 @@ pub enum Part {
     Limits,
     /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
     Bookkeeping,
+    /// All of it on a device, and the wait for it.
+    Device,
 }
 
 impl Part {
     /// All parts, in the order of [`Times::nanoseconds`].
-    pub const ALL: [Self; 4] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping];
+    pub const ALL: [Self; 5] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping, Self::Device];
+
+    /// The parts of this processor's work.
+    pub const OF_LANES: [Self; 4] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping];
 
     /// Its name in tables and in JSON.
     pub fn name(self) -> &'static str {
@@ -29,6 +34,7 @@ impl Part {
             Self::Contact => "contact",
             Self::Limits => "limits",
             Self::Bookkeeping => "bookkeeping",
+            Self::Device => "device",
         }
     }
 }
@@ -95,9 +101,16 @@ impl Stopwatch {
         self.last = now;
         match part {
             Part::Limits => self.times.lane_substeps += lanes as u64,
-            Part::Bookkeeping => self.report(),
+            Part::Bookkeeping | Part::Device => self.report(),
             Part::Springs | Part::Contact => {}
         }
+    }
+
+    /// Counts the time since the last call as that of a device, which simulated so many substeps of robots.
+    #[cfg(feature = "gpu")]
+    pub fn lap_device(&mut self, lane_substeps: u64) {
+        self.times.lane_substeps += lane_substeps;
+        self.lap(Part::Device, 0);
     }
 
     /// Adds the counted times to the meter.

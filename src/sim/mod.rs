@@ -12,6 +12,8 @@ mod simulator;
 mod state;
 
 pub use backend::lanes::{InstructionSet, Kernel, LaneBackend};
+#[cfg(feature = "gpu")]
+pub use backend::opencl::{BoxComparison, DeviceError, DeviceKind, OpenClBackend, OpenClDevice, SelfTest};
 pub use backend::{Backend, Flock, Snapshot};
 pub use constants::Constants;
 pub use lattice::{DrivenEdge, Edge, Lattice, LatticePoint, Voxel};

@@ -58,6 +58,12 @@ impl Signals {
         }
     }
 
+    /// The number of codes, with code 0.
+    #[cfg(feature = "gpu")]
+    pub(in crate::sim) fn codes(&self) -> usize {
+        self.signals.len()
+    }
+
     /// The targets of all codes, code 0 first.
     pub fn targets(&self, env_step: u32, pattern: Pattern) -> impl Iterator<Item = f64> + '_ {
         (0..self.signals.len()).map(move |code| self.target(code as u8, env_step, pattern))

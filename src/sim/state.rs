@@ -15,8 +15,8 @@ pub struct State {
 }
 
 impl State {
-    /// At rest on the ground, the left column on ground column `start` (docs/physics.md 1 and 2).
-    pub fn start(lattice: &Lattice, start: usize, constants: &Constants) -> Self {
+    /// At rest on the ground, the left side `start` voxels from the start of the ground (docs/physics.md 1 and 2).
+    pub fn start(lattice: &Lattice, start: f64, constants: &Constants) -> Self {
         let position: Vec<_> = (0..lattice.points().len()).map(|p| lattice.start(p, start, constants)).collect();
         Self { previous: position.clone(), velocity: vec![[0.0; 2]; position.len()], position }
     }

@@ -25,6 +25,13 @@ pub enum VerilogError {
         /// The line, from 1; `None` in a file that it includes.
         line: Option<usize>,
     },
+    /// A word that could lead to other files, in a world that ends at a folder.
+    Outside {
+        /// The line, from 1.
+        line: usize,
+        /// The directive, system function or interface.
+        word: String,
+    },
     /// Yosys rejected the text.
     Rejected {
         /// The message of Yosys.

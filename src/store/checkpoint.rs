@@ -153,7 +153,8 @@ mod tests {
     use super::*;
     use crate::evolve::{CandidateOutcome, Scores};
     use crate::model::{
-        Axis, Behavior, Count, MutationWeights, Niche, Palette, Rules, Schedule, SearchObjective, Symmetry,
+        Axis, Behavior, Count, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule, SearchObjective,
+        Symmetry,
     };
 
     fn evolution() -> Evolution {
@@ -174,6 +175,7 @@ mod tests {
             objective: SearchObjective::Distance,
             symmetry: Symmetry::Npn,
             niche: Niche::Pareto(3),
+            world: PhysicsWorld::default(),
         }
     }
 

@@ -6,6 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::source::{FileError, SourceWorld, VerilogError, VerilogModules};
 use crate::store::disk::DiskWorld;
+use crate::store::enclosed;
 
 /// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
 /// not through links.
@@ -89,6 +90,9 @@ impl SourceWorld for FolderWorld {
     }
 
     fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        if let Some((line, word)) = enclosed::reach(text) {
+            return Err(VerilogError::Outside { line, word });
+        }
         DiskWorld.translate_verilog(&self.root.join(path).to_string_lossy(), text)
     }
 

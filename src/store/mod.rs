@@ -14,6 +14,8 @@ mod disk;
 #[cfg(feature = "disk")]
 mod draft;
 #[cfg(feature = "disk")]
+mod enclosed;
+#[cfg(feature = "disk")]
 mod first_checkpoint;
 #[cfg(feature = "disk")]
 mod folder;

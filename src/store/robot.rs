@@ -124,7 +124,7 @@ fn untagged(value: Value) -> Value {
 pub(crate) mod tests {
     use super::*;
     use crate::diag::Code;
-    use crate::model::{Drive, Material, MaterialKind, Pattern, Response, Transition};
+    use crate::model::{Drive, Material, MaterialKind, Pattern, Response, SafeRadius, Transition};
     use crate::source::Sources;
 
     /// A robot with every field filled.
@@ -143,6 +143,7 @@ pub(crate) mod tests {
                 margin: 0.25,
                 topples: false,
                 settle: vec![Transition { from: Pattern::PAIRS[1], to: Pattern::PAIRS[3], cycles: 2 }],
+                radius: Some(SafeRadius { vary: "all=10%".to_owned(), worlds: 20, seed: 1, radius: 1.5 }),
             },
             provenance: Provenance {
                 program: "nbc".to_owned(),

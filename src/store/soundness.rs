@@ -1,7 +1,7 @@
 //! Checks whether the values of a robot file are possible.
 
 use crate::diag::Diagnostic;
-use crate::model::{Behavior, Character, Robot};
+use crate::model::{Behavior, Character, Robot, SafeRadius, Variation};
 use crate::source::SourceFile;
 use crate::store::wording::{Flaw, RobotFileError};
 use crate::store::yaml;
@@ -58,7 +58,7 @@ fn motion(robot: &Robot) -> Option<Flaw> {
 }
 
 fn character(character: &Character) -> Option<Flaw> {
-    let Character { clock, error_rate, glitch_rate, margin, settle, .. } = character;
+    let Character { clock, error_rate, glitch_rate, margin, settle, radius, .. } = character;
     if !(1..=MAX_CYCLES).contains(clock) {
         return Some(Flaw::Clock { cycles: *clock, most: MAX_CYCLES });
     }
@@ -69,6 +69,10 @@ fn character(character: &Character) -> Option<Flaw> {
     }
     if !margin.is_finite() {
         return Some(Flaw::Margin);
+    }
+    let is_radius = |found: &SafeRadius| found.radius.is_finite() && found.vary.parse::<Variation>().is_ok();
+    if !radius.as_ref().is_none_or(is_radius) {
+        return Some(Flaw::Radius);
     }
     let slow = settle.iter().find(|transition| !(1..=MAX_CYCLES).contains(&transition.cycles))?;
     Some(Flaw::Settle { cycles: slow.cycles, most: MAX_CYCLES })

@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::circuit::{Logic, NetId, Netlist, Node};
-use crate::model::{Column, Library, Robot};
+use crate::model::{Body, Column, Library, PhysicsWorld, Robot, Setting};
+use crate::sim::{Flock, Simulator};
 use crate::swarm::AssembleError;
 use crate::swarm::cells::choose;
+use crate::swarm::noise::RobotNoise;
 
 /// The source of a stimulus or of an output port's bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -58,10 +60,15 @@ pub struct Assembly {
     pub outputs: Vec<Column>,
     /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
+    /// The world in which it is simulated; its members have the bodies that they have there.
+    pub world: PhysicsWorld,
 }
 
 /// The fewest cycles in which robots settle into their shape after their fresh start.
 const LEAST_START: usize = 2;
+
+/// The least ground of a swarm, in voxels.
+const LEAST_GROUND: usize = 1 << 15;
 
 impl Assembly {
     /// Cycles in which robots settle into their shape after their fresh start, and in which the slowest of them reacts
@@ -69,6 +76,35 @@ impl Assembly {
     /// then; otherwise a latch would lose its start value (docs/physics.md 14).
     pub fn start_cycles(&self) -> usize {
         start_cycles(self.members.iter().map(|member| member.robot.character.clock))
+    }
+
+    /// The same swarm in a world, in which its members may have weak or dead voxels.
+    pub fn in_world(mut self, world: PhysicsWorld) -> Self {
+        for (i, member) in self.members.iter_mut().enumerate() {
+            member.robot.body = RobotNoise::new(&world.noise, i).worn(&member.robot.body);
+        }
+        Self { world, ..self }
+    }
+
+    /// Its ground and physics for this many cycles.
+    ///
+    /// In the paper's 500 voxels, a robot that holds its output reaches the end of the ground within some hundred
+    /// cycles and falls off. No robot walks its own width in a cycle, so there is ground for that distance both ways,
+    /// rounded to powers of two so that most tests of a circuit have the same ground.
+    pub fn setting(&self, cycles: usize) -> Setting {
+        let widest = self.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
+        let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_GROUND);
+        Setting { world_width, factors: self.world.factors, ..Setting::default() }
+    }
+
+    /// Its robots at their starts, with ground for this many cycles.
+    pub fn flock(&self, simulator: &Simulator, cycles: usize) -> Box<dyn Flock> {
+        let bodies: Vec<Body> = self.members.iter().map(|member| member.robot.body.clone()).collect();
+        let mut flock = simulator.flock(&self.setting(cycles), &bodies);
+        if self.world.noise.start > 0.0 {
+            (0..flock.len()).for_each(|i| flock.shift(i, RobotNoise::new(&self.world.noise, i).shift()));
+        }
+        flock
     }
 }
 
@@ -110,6 +146,7 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
         members,
         outputs: ports(netlist, netlist.outputs()),
         shown: netlist.outputs().iter().map(|&id| signals[&netlist.pins(id)[0]]).collect(),
+        world: PhysicsWorld::default(),
     })
 }
 
@@ -159,6 +196,7 @@ mod tests {
                 margin: 0.0,
                 topples: false,
                 settle: Vec::new(),
+                radius: None,
             },
             provenance: Provenance {
                 program: "nbc".to_owned(),

@@ -3,9 +3,12 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::model::{Behavior, Body, Character, Direction, Fault, Pattern, Setting, Transition, Trial};
+use crate::model::{
+    Behavior, Body, Character, Direction, Fault, Pattern, PhysicsWorld, Robot, Setting, Transition, Trial,
+};
 use crate::sim::Simulator;
 use crate::swarm::holds::{HoldPlan, PatternHold, holds};
+use crate::swarm::noise::RobotNoise;
 
 /// Seed of the random sequences.
 const SEED: u64 = 0x6e62_6373;
@@ -70,12 +73,19 @@ pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32)
     Ok(None)
 }
 
+/// Whether a robot has a wrong output in a world, at its clock in the first, cheap sequences.
+pub(super) fn errs(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> bool {
+    let probe = Probe { world: *world, ..Probe::new(simulator, &robot.body, robot.behavior) };
+    probe.random(robot.character.clock, FIRST_SWITCHES).map_or(true, |tally| tally.wrong > 0)
+}
+
 /// A body under test.
 struct Probe<'a> {
     simulator: &'a Simulator,
     setting: Setting,
     body: &'a Body,
     behavior: Behavior,
+    world: PhysicsWorld,
 }
 
 /// The results of random sequences at one clock.
@@ -104,6 +114,7 @@ impl Tally {
             margin: self.margin,
             topples: self.toppled || toppled,
             settle,
+            radius: None,
         }
     }
 
@@ -129,16 +140,21 @@ impl Tally {
 impl<'a> Probe<'a> {
     fn new(simulator: &'a Simulator, body: &'a Body, behavior: Behavior) -> Self {
         let start_x = Some(WORLD / 2 - body.width() / 2);
-        Self { simulator, setting: Setting { world_width: WORLD, start_x }, body, behavior }
+        let setting = Setting { world_width: WORLD, start_x, ..Setting::default() };
+        Self { simulator, setting, body, behavior, world: PhysicsWorld::default() }
     }
 
     /// Runs plans from each start.
     fn run(&self, plans: &[HoldPlan]) -> Result<Vec<Vec<PatternHold>>, Fault> {
-        let trials: Vec<Trial> =
-            plans.iter().map(|plan| Trial { body: self.body.clone(), schedule: plan.schedule() }).collect();
+        let noise = |robot| RobotNoise::new(&self.world.noise, robot);
+        let body = noise(0).worn(self.body);
+        let trial =
+            |(i, plan): (usize, &HoldPlan)| Trial { body: body.clone(), schedule: noise(i).sensed(&plan.schedule()) };
+        let trials: Vec<Trial> = plans.iter().enumerate().map(trial).collect();
+        let own = Setting { shift: noise(0).shift(), factors: self.world.factors, ..self.setting };
         let mut found = Vec::with_capacity(plans.len() * STARTS.len());
         for shift in STARTS {
-            let setting = Setting { start_x: self.setting.start_x.map(|x| x + shift), ..self.setting };
+            let setting = Setting { start_x: own.start_x.map(|x| x + shift), ..own };
             for (plan, trajectory) in plans.iter().zip(self.simulator.run_trials(&setting, &trials)) {
                 match trajectory.fault {
                     Some(fault) => return Err(fault),

@@ -1,11 +1,11 @@
 //! Evaluation of candidates by the paper's protocol, and the loop of asking, evaluating and telling (paper, Methods;
 //! docs/physics.md 10).
 
-use crate::evolve::{Candidate, CandidateOrigin, CandidateOutcome, Scores, Search};
-use crate::model::{
-    Behavior, Body, Direction, Evolution, Genotype, Pattern, Schedule, SearchObjective, Setting, Trajectory, Trial,
-};
+use crate::evolve::{Candidate, CandidateOutcome, Rivals, Scores, Search};
+use crate::model::{Behavior, Body, Direction, Evolution, Pattern, Schedule, SearchObjective, Trajectory, Trial};
 use crate::sim::Simulator;
+use crate::swarm::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
+use crate::swarm::noise::RobotNoise;
 use crate::swarm::{Work, gate};
 
 /// Advances a search by one generation: asks, evaluates in parallel, tells.
@@ -18,21 +18,32 @@ pub fn evolve_generation(search: &mut Search) -> Work {
 
 /// The result of each candidate for the current archive.
 pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
-    match search.evolution().objective {
-        SearchObjective::Distance => distance(simulator, search, candidates),
-        SearchObjective::Gate => gate::evaluate(simulator, search, candidates),
+    let tasks: Vec<EvaluationTask> =
+        candidates.iter().map(|candidate| EvaluationTask::of(search, &candidate.body)).collect();
+    let done = evaluate_tasks(simulator, &EvaluationProtocol::of(search.evolution()), &tasks);
+    let work = done.iter().fold(Work::default(), |sum, evaluated| sum.plus(evaluated.work));
+    (done.into_iter().map(|evaluated| evaluated.outcome).collect(), work)
+}
+
+/// The result of each task. It depends on the protocol and the task alone, not on the other tasks.
+pub fn evaluate_tasks(
+    simulator: &Simulator,
+    protocol: &EvaluationProtocol,
+    tasks: &[EvaluationTask],
+) -> Vec<Evaluated> {
+    match protocol.objective {
+        SearchObjective::Distance => distance(simulator, protocol, tasks),
+        SearchObjective::Gate => gate::evaluate(simulator, protocol, tasks),
     }
 }
 
 /// The result of each body for an empty archive, so that nothing is left out. Bodies must be valid (see
 /// [`crate::evolve::validate`]).
 pub fn evaluate_bodies(simulator: &Simulator, evolution: &Evolution, bodies: Vec<Body>) -> Vec<CandidateOutcome> {
-    let candidate = |(index, body): (u32, Body)| {
-        let genotype = Genotype { nodes: Vec::new(), links: Vec::new() };
-        Candidate { index, origin: CandidateOrigin::Random, genotype, body, undeveloped: 0 }
-    };
-    let candidates: Vec<Candidate> = (0..).zip(bodies).map(candidate).collect();
-    evaluate(simulator, &Search::new(evolution, 0), &candidates).0
+    let tasks: Vec<EvaluationTask> =
+        bodies.into_iter().map(|body| EvaluationTask { body, rivals: Rivals::none() }).collect();
+    let done = evaluate_tasks(simulator, &EvaluationProtocol::of(evolution), &tasks);
+    done.into_iter().map(|evaluated| evaluated.outcome).collect()
 }
 
 /// Displacements under the four constant patterns, in voxels, or the fault of a simulation.
@@ -51,47 +62,41 @@ pub fn fixed_trials(body: &Body, steps: u32) -> [Trial; 4] {
     Pattern::PAIRS.map(|pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, steps) })
 }
 
-/// The paper's two fitnesses: four fixed simulations, then the variable one for candidates whose fixed fitness can
-/// still win a niche.
-fn distance(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
-    let evolution = search.evolution();
-    let setting = Setting::default();
-    let trials: Vec<Trial> =
-        candidates.iter().flat_map(|candidate| fixed_trials(&candidate.body, evolution.fixed_steps)).collect();
-    let mut work = Work { env_steps: steps(&trials), left_out: 0 };
+/// The paper's two fitnesses: four fixed simulations, then the variable one for bodies whose fixed fitness can still
+/// win a niche.
+fn distance(simulator: &Simulator, protocol: &EvaluationProtocol, tasks: &[EvaluationTask]) -> Vec<Evaluated> {
+    let (setting, noise) = (protocol.setting(), RobotNoise::new(&protocol.world.noise, 0));
+    let body = |task: &EvaluationTask| noise.worn(&task.body);
+    // Under a constant pattern there is nothing to miss.
+    let trials: Vec<Trial> = tasks.iter().flat_map(|task| fixed_trials(&body(task), protocol.fixed_steps)).collect();
     let trajectories = simulator.run_trials(&setting, &trials);
-    let first: Vec<Result<Scores, CandidateOutcome>> = candidates
-        .iter()
-        .zip(trajectories.chunks_exact(4))
-        .map(|(candidate, four)| fixed_scores(search, candidate, four))
-        .collect();
-    let variable = |candidate: &Candidate| Trial { body: candidate.body.clone(), schedule: evolution.variable.clone() };
-    let remaining: Vec<Trial> = candidates
-        .iter()
-        .zip(&first)
-        .filter(|(_, scores)| scores.is_ok())
-        .map(|(candidate, _)| variable(candidate))
-        .collect();
-    work.env_steps += steps(&remaining);
-    work.left_out += u64::from(evolution.variable.steps()) * (candidates.len() - remaining.len()) as u64;
+    let first: Vec<Result<Scores, CandidateOutcome>> =
+        tasks.iter().zip(trajectories.chunks_exact(4)).map(|(task, four)| fixed_scores(task, four)).collect();
+    let schedule = noise.sensed(&protocol.variable);
+    let variable = |task: &EvaluationTask| Trial { body: body(task), schedule: schedule.clone() };
+    let remaining: Vec<Trial> =
+        tasks.iter().zip(&first).filter(|(_, scores)| scores.is_ok()).map(|(task, _)| variable(task)).collect();
+    let steps = protocol.distance_steps();
     let mut long = simulator.run_trials(&setting, &remaining).into_iter();
-    let outcomes = first
-        .into_iter()
-        .map(|scores| match scores {
-            Ok(scores) => variable_outcome(&evolution.variable, scores, &long.next().expect("one for each remaining")),
+    let second = |scores: Result<Scores, CandidateOutcome>| {
+        let left_out = if scores.is_ok() { 0 } else { u64::from(protocol.variable.steps()) };
+        let outcome = match scores {
+            Ok(scores) => variable_outcome(&protocol.variable, scores, &long.next().expect("one for each remaining")),
             Err(outcome) => outcome,
-        })
-        .collect();
-    (outcomes, work)
+        };
+        Evaluated { outcome, work: Work { env_steps: steps - left_out, left_out } }
+    };
+    first.into_iter().map(second).collect()
 }
 
 /// The scores after the fixed simulations, with an upper bound for the first fitness.
-fn fixed_scores(search: &Search, candidate: &Candidate, four: &[Trajectory]) -> Result<Scores, CandidateOutcome> {
-    let four = four.first_chunk::<4>().expect("four trials for each candidate");
+fn fixed_scores(task: &EvaluationTask, four: &[Trajectory]) -> Result<Scores, CandidateOutcome> {
+    let four = four.first_chunk::<4>().expect("four trials for each task");
     let displacement = fixed_displacements(four).map_err(CandidateOutcome::Faulty)?;
     let least = displacement.iter().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
     let scores = Scores { fitness: [f64::INFINITY, least], behavior: Behavior::of(&displacement), displacement };
-    if search.could_take(&candidate.body, &scores) { Ok(scores) } else { Err(CandidateOutcome::Surpassed) }
+    let admitted = task.rivals.admit(scores.behavior, &scores.fitness);
+    if admitted { Ok(scores) } else { Err(CandidateOutcome::Surpassed) }
 }
 
 /// The result after the variable simulation: the sum of distances, if each spell's direction is that of the fixed
@@ -115,9 +120,4 @@ fn variable_outcome(schedule: &Schedule, scores: Scores, trajectory: &Trajectory
 
 fn displacement(com_x: &[f64], from: usize, to: usize) -> f64 {
     com_x[to] - com_x[from]
-}
-
-/// The number of env steps of trials.
-pub(crate) fn steps(trials: &[Trial]) -> u64 {
-    trials.iter().map(|trial| u64::from(trial.schedule.steps())).sum()
 }

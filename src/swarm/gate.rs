@@ -4,11 +4,13 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::evolve::{Candidate, CandidateOutcome, Scores, Search};
-use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern, Setting};
+use crate::evolve::{CandidateOutcome, Scores};
+use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern, PhysicsWorld};
 use crate::sim::Simulator;
 use crate::swarm::Work;
+use crate::swarm::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::swarm::holds::{HoldPlan, PatternHold};
+use crate::swarm::noise::RobotNoise;
 
 /// Cycles of each hold of the walks.
 const HOLD: usize = 4;
@@ -19,6 +21,9 @@ const WALKS: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1,
 /// Random sequences that follow the walks, and the cycles of each.
 const RANDOM_LANES: usize = 4;
 const RANDOM_CYCLES: usize = 36;
+/// Env steps of a full evaluation.
+pub(super) const STEPS: u64 =
+    ((WALKS.len() * WALKS[0].len() * HOLD + RANDOM_LANES * RANDOM_CYCLES) * CYCLE_STEPS as usize) as u64;
 /// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 /// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.
@@ -47,65 +52,79 @@ fn random_sequences() -> Vec<Lane> {
     (0..RANDOM_LANES).map(|_| lane()).collect()
 }
 
-/// The result of each candidate for the gate objective: the walks, then the random sequences. After each cycle,
-/// candidates that can no longer enter a niche are dropped; their scores can only decrease.
+/// The result of each task for the gate objective: the walks, then the random sequences. After each cycle, bodies that
+/// can no longer enter a niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
-    search: &Search,
-    candidates: &[Candidate],
-) -> (Vec<CandidateOutcome>, Work) {
-    let mut attempts: Vec<Attempt> = candidates.iter().map(Attempt::new).collect();
-    let mut work = Work::default();
+    protocol: &EvaluationProtocol,
+    tasks: &[EvaluationTask],
+) -> Vec<Evaluated> {
+    let mut attempts: Vec<Attempt> = tasks.iter().map(Attempt::new).collect();
     for (stage, lanes) in [walks(), random_sequences()].iter().enumerate() {
         for attempt in &mut attempts {
             attempt.holds.resize(attempt.holds.len() + lanes.len(), Vec::new());
         }
-        work = work.plus(try_lanes(simulator, search, &mut attempts, lanes, stage * WALKS.len()));
+        try_lanes(simulator, protocol, &mut attempts, lanes, stage * WALKS.len());
     }
-    (attempts.into_iter().map(Attempt::end).collect(), work)
+    attempts.into_iter().map(Attempt::end).collect()
 }
 
 /// Simulates the remaining attempts in some lanes, whose holds are stored from index `first` on.
-fn try_lanes(simulator: &Simulator, search: &Search, attempts: &mut [Attempt], lanes: &[Lane], first: usize) -> Work {
-    let all = (attempts.len() * lanes.len()) as u64;
+fn try_lanes(
+    simulator: &Simulator,
+    protocol: &EvaluationProtocol,
+    attempts: &mut [Attempt],
+    lanes: &[Lane],
+    first: usize,
+) {
+    let noise = RobotNoise::new(&protocol.world.noise, 0);
+    let sensed: Vec<Lane> = (first..).zip(lanes).map(|(lane, cycles)| sensed(&protocol.world, lane, cycles)).collect();
     let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
-    let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![attempt.candidate.body.clone(); lanes.len()]).collect();
-    let mut flock = simulator.flock(&Setting::default(), &bodies);
-    let cycles = lanes[0].len();
-    let mut work = Work::default();
-    for cycle in 0..cycles {
-        work.env_steps += flock.len() as u64 * u64::from(CYCLE_STEPS);
+    let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![noise.worn(&attempt.task.body); lanes.len()]).collect();
+    let mut flock = simulator.flock(&protocol.setting(), &bodies);
+    for cycle in 0..lanes[0].len() {
         let before: Vec<f64> = (0..flock.len()).map(|i| flock.center(i)[0]).collect();
-        let patterns: Vec<Pattern> = open.iter().flat_map(|_| lanes.iter().map(|lane| lane[cycle])).collect();
+        let patterns: Vec<Pattern> = open.iter().flat_map(|_| sensed.iter().map(|lane| lane[cycle])).collect();
         flock.advance(&patterns, CYCLE_STEPS);
         for (i, attempt) in open.iter_mut().enumerate() {
+            attempt.env_steps += lanes.len() as u64 * u64::from(CYCLE_STEPS);
             for (lane, place) in (i * lanes.len()..).take(lanes.len()).enumerate() {
-                attempt.push(first + lane, patterns[place], flock.center(place)[0] - before[place]);
+                attempt.push(first + lane, lanes[lane][cycle], flock.center(place)[0] - before[place]);
                 attempt.fail(flock.fault(place));
             }
-            attempt.look(search);
+            attempt.look();
         }
         let keep: Vec<bool> = open.iter().flat_map(|attempt| vec![attempt.outcome.is_none(); lanes.len()]).collect();
         flock.retain(&keep);
         open.retain(|attempt| attempt.outcome.is_none());
     }
-    work.left_out = all * cycles as u64 * u64::from(CYCLE_STEPS) - work.env_steps;
-    work
 }
 
-/// A candidate during its evaluation.
+/// The patterns of lane `lane` as a body senses them.
+fn sensed(world: &PhysicsWorld, lane: usize, cycles: &Lane) -> Lane {
+    let noise = RobotNoise::new(&world.noise, lane);
+    let mut sensed = cycles.clone();
+    for cycle in (1..sensed.len()).filter(|&cycle| noise.misses(cycle)) {
+        sensed[cycle] = sensed[cycle - 1];
+    }
+    sensed
+}
+
+/// A body during its evaluation.
 struct Attempt<'a> {
-    candidate: &'a Candidate,
+    task: &'a EvaluationTask,
     /// The holds of each lane so far.
     holds: Vec<Vec<PatternHold>>,
     scores: Scores,
+    /// Env steps simulated so far.
+    env_steps: u64,
     outcome: Option<CandidateOutcome>,
 }
 
 impl<'a> Attempt<'a> {
-    fn new(candidate: &'a Candidate) -> Self {
+    fn new(task: &'a EvaluationTask) -> Self {
         let scores = Scores { fitness: [1.0; 2], behavior: Behavior::of(&[0.0; 4]), displacement: [0.0; 4] };
-        Self { candidate, holds: Vec::new(), scores, outcome: None }
+        Self { task, holds: Vec::new(), scores, env_steps: 0, outcome: None }
     }
 
     /// Records one more cycle of a lane.
@@ -125,7 +144,7 @@ impl<'a> Attempt<'a> {
     }
 
     /// Computes the scores so far, and decides whether to continue.
-    fn look(&mut self, search: &Search) {
+    fn look(&mut self) {
         let cycles = self.holds[0][0].cycles.len();
         if self.outcome.is_some() || cycles < FIRST_LOOK {
             return;
@@ -137,13 +156,14 @@ impl<'a> Attempt<'a> {
         self.scores.fitness = fitness(self.scores.behavior, self.holds.iter().flatten());
         if self.scores.fitness[0] < HOPELESS {
             self.outcome = Some(CandidateOutcome::Inconsistent);
-        } else if cycles >= HOLD && !search.could_take(&self.candidate.body, &self.scores) {
+        } else if cycles >= HOLD && !self.task.rivals.admit(self.scores.behavior, &self.scores.fitness) {
             self.outcome = Some(CandidateOutcome::Surpassed);
         }
     }
 
-    fn end(self) -> CandidateOutcome {
-        self.outcome.unwrap_or(CandidateOutcome::Measured(self.scores))
+    fn end(self) -> Evaluated {
+        let outcome = self.outcome.unwrap_or(CandidateOutcome::Measured(self.scores));
+        Evaluated { outcome, work: Work { env_steps: self.env_steps, left_out: STEPS - self.env_steps } }
     }
 }
 
@@ -192,6 +212,8 @@ mod tests {
         assert_eq!(switches.len(), 12);
         assert!(switches.iter().all(|(from, to)| from != to));
         assert!(random_sequences().iter().all(|lane| lane.len() == RANDOM_CYCLES));
+        let cycles = walks().iter().chain(&random_sequences()).map(Vec::len).sum::<usize>();
+        assert_eq!(cycles as u64 * u64::from(CYCLE_STEPS), STEPS);
     }
 
     fn hold(before: Option<usize>, pattern: usize, cycles: &[f64]) -> PatternHold {

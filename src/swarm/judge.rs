@@ -114,6 +114,23 @@ fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse
     cycles.flat_map(of_cycle).collect()
 }
 
+/// The margins of robots whose stimuli have been the same for at least their clocks, over a window of cycles: the
+/// cycle, the robot, and voxels a cycle in the correct direction, in order of cycles.
+pub(super) fn settled_margins(trace: &SwarmTrace, clocks: &[u32], window: usize) -> Vec<(usize, usize, f64)> {
+    let start = start_cycles(clocks.iter().copied());
+    let first = start.saturating_sub(1);
+    let margin = |cycle: usize, k: usize| {
+        let (robot, [a, b]) = (&trace.robots[k], trace.cycles[cycle].sensed[k]);
+        let from = (cycle + 1).saturating_sub(window);
+        let moved: f64 = (from..=cycle).map(|cycle| trace.displacement(k, cycle)).sum();
+        let sign = if robot.function.output(a, b) { 1.0 } else { -1.0 };
+        (cycle, k, sign * moved / (cycle + 1 - from) as f64)
+    };
+    let settled = |cycle: usize, k: usize| is_settled(trace, cycle, k, clocks[k] as usize + window - 1);
+    let robots = |cycle| (0..clocks.len()).filter(move |&k| settled(cycle, k)).map(move |k| margin(cycle, k));
+    (first..trace.cycles.len()).flat_map(robots).collect()
+}
+
 /// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended.
 fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
     let sensed = trace.cycles[cycle].sensed[k];
@@ -171,6 +188,7 @@ mod tests {
             inputs: vec![port("a")],
             outputs: vec![port("y")],
             stimulation: Stimulation::Rows(Vec::new()),
+            world: None,
         }
     }
 
@@ -224,6 +242,14 @@ mod tests {
     #[test]
     fn a_robot_that_has_not_settled_is_not_to_blame() {
         check(&[(true, true), (true, true), (true, true)], Some(false), 3, false, &[2]);
+    }
+
+    #[test]
+    fn margins_are_those_of_settled_robots() {
+        let mut trace = inverter(&[(false, true), (false, true), (true, true), (true, false)]);
+        trace.robots[0].com_x = vec![0.0, 0.5, 0.75, 1.0, 0.5];
+        assert_eq!(settled_margins(&trace, &[2], 1), [(1, 0, 0.25), (3, 0, 0.5)]);
+        assert_eq!(settled_margins(&trace, &[1], 2)[0], (1, 0, 0.375));
     }
 
     #[test]

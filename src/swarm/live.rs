@@ -3,27 +3,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::model::{Body, CYCLE_STEPS, Column, Pattern, Setting};
+use crate::model::{CYCLE_STEPS, Pattern};
 use crate::sim::{Flock, Simulator, Snapshot};
-use crate::swarm::{Assembly, CycleTrace, Member, Recording, RobotTrace, Room, StimulusSource, SwarmTrace};
+use crate::swarm::sensing::Sensing;
+use crate::swarm::{Assembly, CycleTrace, Recording, RobotTrace, Room, SwarmTrace};
 
-/// Samples of a robot's path that a trace keeps of each cycle.
-const SAMPLES_PER_CYCLE: u32 = 12;
 /// Env steps from sample to sample.
-const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SAMPLES_PER_CYCLE;
-/// The smallest world of a swarm, in ground voxels.
-const LEAST_WORLD: usize = 1 << 15;
-
-/// The world of a swarm's robots for this many cycles: the paper's, with more ground.
-///
-/// In the paper's 500 voxels, a robot that holds its output reaches the end of the ground within some hundred cycles
-/// and falls off. No robot walks its own width in a cycle, so there is ground for that distance both ways, rounded to
-/// powers of two so that most tests of a circuit have the same world.
-pub fn setting(assembly: &Assembly, cycles: usize) -> Setting {
-    let widest = assembly.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
-    let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_WORLD);
-    Setting { world_width, ..Setting::default() }
-}
+const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SwarmTrace::SAMPLES_PER_CYCLE as u32;
 
 /// A swarm during its simulation.
 #[derive(Debug)]
@@ -31,10 +17,7 @@ pub struct LiveSwarm {
     flock: Box<dyn Flock>,
     /// Cycles over which a displacement is measured; its sign is the output.
     window: usize,
-    /// Cycles at the start in which robots sense the start values of the others.
-    start: usize,
-    /// Each robot's output as sensed by the others.
-    outputs: Vec<bool>,
+    sensing: Sensing,
     /// Env steps of a cycle at whose end something is read, in order.
     stops: BTreeSet<u32>,
     /// Env steps from frame to frame of the recording.
@@ -48,7 +31,7 @@ pub struct LiveSwarm {
 #[derive(Clone, Debug)]
 pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,
-    outputs: Vec<bool>,
+    sensing: Sensing,
     trace: SwarmTrace,
     forgotten: usize,
 }
@@ -68,23 +51,14 @@ impl LiveSwarm {
     /// When the window is empty.
     pub fn new(simulator: &Simulator, assembly: &Assembly, cycles: usize, window: usize, poses: Option<Room>) -> Self {
         assert!(window > 0, "an output is read over one cycle at least");
-        let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
-        let flock = simulator.flock(&setting(assembly, cycles), &bodies);
-        let mut trace = begin(assembly, &*flock);
+        let flock = assembly.flock(simulator, cycles);
+        let mut trace = SwarmTrace::begin(assembly);
+        trace.robots.iter_mut().enumerate().for_each(|(i, robot)| robot.com_x.push(flock.center(i)[0]));
         let stride = match poses {
             Some(room) => begin_recording(&mut trace, room, &*flock, cycles),
             None => CYCLE_STEPS,
         };
-        Self {
-            flock,
-            window,
-            start: assembly.start_cycles(),
-            outputs: assembly.members.iter().map(|member| member.start).collect(),
-            stops: stops(stride),
-            stride,
-            trace,
-            forgotten: 0,
-        }
+        Self { flock, window, sensing: Sensing::of(assembly), stops: stops(stride), stride, trace, forgotten: 0 }
     }
 
     /// The cycles simulated so far.
@@ -119,14 +93,11 @@ impl LiveSwarm {
     pub fn step(&mut self, inputs: &[bool]) -> &CycleTrace {
         let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
-        let senses = |robot: &RobotTrace| robot.senses.map(|signal| signal.bit(inputs, &self.outputs));
-        let sensed: Vec<[bool; 2]> = self.trace.robots.iter().map(senses).collect();
+        let sensed = self.sensing.sense(&self.trace, self.cycles(), inputs);
         self.advance(&sensed);
         let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
         let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
-        if self.cycles() + 1 >= self.start {
-            self.outputs.clone_from(&bits);
-        }
+        self.sensing.take(self.cycles(), &bits);
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {
             robot.fault = self.flock.fault(i);
         }
@@ -147,8 +118,8 @@ impl LiveSwarm {
     /// The swarm as it is now, to come back to.
     pub fn snapshot(&self) -> SwarmSnapshot {
         let robots = (0..self.flock.len()).map(|robot| self.flock.snapshot(robot)).collect();
-        let (outputs, trace, forgotten) = (self.outputs.clone(), self.trace.clone(), self.forgotten);
-        SwarmSnapshot { robots, outputs, trace, forgotten }
+        let (sensing, trace, forgotten) = (self.sensing.clone(), self.trace.clone(), self.forgotten);
+        SwarmSnapshot { robots, sensing, trace, forgotten }
     }
 
     /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
@@ -160,7 +131,7 @@ impl LiveSwarm {
         for (i, robot) in snapshot.robots.iter().enumerate() {
             self.flock.restore(i, robot);
         }
-        self.outputs.clone_from(&snapshot.outputs);
+        self.sensing.clone_from(&snapshot.sensing);
         self.trace.clone_from(&snapshot.trace);
         self.forgotten = snapshot.forgotten;
     }
@@ -190,35 +161,6 @@ fn stops(stride: u32) -> BTreeSet<u32> {
     steps(SAMPLE_STRIDE).chain(steps(stride)).collect()
 }
 
-/// The trace before the first cycle.
-fn begin(assembly: &Assembly, flock: &dyn Flock) -> SwarmTrace {
-    let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
-    let net_name = |signal| match signal {
-        StimulusSource::Input(i) => inputs[i].clone(),
-        StimulusSource::Robot(i) => assembly.members[i].net.clone(),
-        StimulusSource::Constant(value) => u8::from(value).to_string(),
-    };
-    let robot = |(i, member): (usize, &Member)| RobotTrace {
-        net: member.net.clone(),
-        function: member.robot.function(),
-        robot: member.robot.name.clone(),
-        senses: member.senses,
-        sensed_nets: member.senses.map(net_name),
-        com_x: vec![flock.center(i)[0]],
-        fault: None,
-    };
-    SwarmTrace {
-        circuit: assembly.circuit.clone(),
-        inputs: assembly.inputs.clone(),
-        outputs: assembly.outputs.clone(),
-        shown: assembly.shown.clone(),
-        samples_per_cycle: SAMPLES_PER_CYCLE as usize,
-        robots: assembly.members.iter().enumerate().map(robot).collect(),
-        cycles: Vec::new(),
-        recording: Recording::default(),
-    }
-}
-
 /// Starts a recording of the robots for which there is room, the most interesting first. Returns its stride.
 fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles: usize) -> u32 {
     let order = trace.by_interest();
@@ -233,6 +175,6 @@ fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles
 /// Whether a robot moved in +x over its last `window` cycles, or over all of them if there are fewer.
 fn moved_right(robot: &RobotTrace, window: usize) -> bool {
     let last = robot.com_x.len() - 1;
-    let before = last.saturating_sub(window * SAMPLES_PER_CYCLE as usize);
+    let before = last.saturating_sub(window * SwarmTrace::SAMPLES_PER_CYCLE);
     robot.com_x[last] > robot.com_x[before]
 }

@@ -1,6 +1,6 @@
 //! All measurements of a body for its robot file.
 
-use crate::model::{Behavior, Body, CYCLE_STEPS, Character, Fault, Setting};
+use crate::model::{Behavior, Body, CYCLE_STEPS, Character, Fault, Setting, Trial};
 use crate::sim::Simulator;
 use crate::swarm::characterize::characterize;
 use crate::swarm::evaluate::{fixed_displacements, fixed_trials};
@@ -19,14 +19,21 @@ pub struct Measurement {
     pub character: Character,
 }
 
+/// The displacement of each body in the paper's fixed simulations, in voxels, patterns 00, 01, 10, 11; or the fault of
+/// one of them.
+pub fn walk(simulator: &Simulator, bodies: &[Body]) -> Vec<Result<[f64; 4], Fault>> {
+    let trials: Vec<Trial> = bodies.iter().flat_map(|body| fixed_trials(body, FIXED_STEPS)).collect();
+    let trajectories = simulator.run_trials(&Setting::default(), &trials);
+    let (four, _) = trajectories.as_chunks();
+    four.iter().map(fixed_displacements).collect()
+}
+
 /// Measures a body by the paper's fixed simulations and as a gate.
 ///
 /// # Errors
 /// The fault of a simulation.
 pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault> {
-    let trajectories = simulator.run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
-    let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
-    let displacement = fixed_displacements(four)?;
+    let displacement = walk(simulator, std::slice::from_ref(body)).remove(0)?;
     let behavior = Behavior::of(&displacement);
     Ok(Measurement { displacement, behavior, character: characterize(simulator, body, behavior)? })
 }

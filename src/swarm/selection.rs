@@ -5,8 +5,7 @@ use std::cmp::Ordering;
 
 use crate::evolve::Elite;
 use crate::model::{Behavior, Fault, Provenance, Robot};
-use crate::sim::Simulator;
-use crate::swarm::{Measurement, measure, screen};
+use crate::swarm::{Laboratory, Measurement, Task, TaskResult};
 
 /// The longest clock of a gate that is measured in full, in cycles.
 const LONGEST_CLOCK: u32 = 4;
@@ -69,29 +68,30 @@ impl Selection {
     /// `observe`.
     pub fn select(
         &self,
-        simulator: &Simulator,
+        laboratory: &dyn Laboratory,
         behavior: Behavior,
         nominees: &[Nominee],
         observe: &dyn Fn(u64),
     ) -> Selected {
-        let rank = |nominee| {
-            let rank = Rank::of(simulator, behavior, nominee);
-            observe(1);
-            (rank, nominee)
+        let screening = |nominee: &Nominee| {
+            let body = nominee.elite.body.clone();
+            Task::Screening { body, behavior, most: LONGEST_CLOCK }
         };
-        let mut ranked: Vec<(Rank, &Nominee)> = nominees.iter().map(rank).collect();
+        let screenings: Vec<Task> = nominees.iter().map(screening).collect();
+        let screened = laboratory.perform(&screenings, &|| observe(1));
+        let ranks = screened.into_iter().zip(nominees).map(|(result, nominee)| (Rank::of(result, nominee), nominee));
+        let mut ranked: Vec<(Rank, &Nominee)> = ranks.collect();
         ranked.sort_by(|(a, _), (b, _)| a.compare(b));
-        let finalists = ranked.into_iter().take(self.finalists);
-        let measured = finalists.map(|(_, nominee)| {
-            let found = self.judge(simulator, behavior, nominee);
-            observe(MEASUREMENT_COST);
-            found
-        });
-        measured.min_by(Selected::compare).unwrap_or(Selected::Missing)
+        let finalists: Vec<&Nominee> = ranked.into_iter().take(self.finalists).map(|(_, nominee)| nominee).collect();
+        let measurements: Vec<Task> =
+            finalists.iter().map(|nominee| Task::Measurement(nominee.elite.body.clone())).collect();
+        let measured = laboratory.perform(&measurements, &|| observe(MEASUREMENT_COST));
+        let judged = measured.into_iter().zip(finalists).map(|(result, nominee)| self.judge(result, behavior, nominee));
+        judged.min_by(Selected::compare).unwrap_or(Selected::Missing)
     }
 
-    fn judge(&self, simulator: &Simulator, behavior: Behavior, nominee: &Nominee) -> Selected {
-        let measurement = match measure(simulator, &nominee.elite.body) {
+    fn judge(&self, result: TaskResult, behavior: Behavior, nominee: &Nominee) -> Selected {
+        let measurement = match result.measured() {
             Ok(measurement) => measurement,
             Err(fault) => return Selected::Faulty(fault),
         };
@@ -127,8 +127,8 @@ struct Rank {
 }
 
 impl Rank {
-    fn of(simulator: &Simulator, behavior: Behavior, nominee: &Nominee) -> Self {
-        match screen(simulator, &nominee.elite.body, behavior, LONGEST_CLOCK) {
+    fn of(result: TaskResult, nominee: &Nominee) -> Self {
+        match result.screened() {
             Ok(Some((clock, margin))) => Self { clock, margin },
             // A fault or errors at every clock: ranked last.
             Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&nominee.elite) },
@@ -165,6 +165,8 @@ mod tests {
 
     use super::*;
     use crate::model::{Body, Genotype, Palette};
+    use crate::sim::Simulator;
+    use crate::swarm::measure;
 
     const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };
 

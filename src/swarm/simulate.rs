@@ -14,8 +14,7 @@ pub struct Exposure {
     pub poses: Option<Room>,
 }
 
-/// Simulates a swarm in its [`setting`](crate::swarm::setting) through an exposure, calling `observe` with the number
-/// of finished cycles after each.
+/// Simulates a swarm in its world through an exposure, calling `observe` with the number of finished cycles after each.
 ///
 /// # Panics
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::model::{Column, Fault, Function, Value};
-use crate::swarm::{Recording, StimulusSource};
+use crate::swarm::{Assembly, Member, Recording, StimulusSource};
 
 /// A swarm's run from its start to the end of its stimulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -61,6 +61,38 @@ pub struct CycleTrace {
 }
 
 impl SwarmTrace {
+    /// Samples of a robot's path that a trace keeps of each cycle.
+    pub(super) const SAMPLES_PER_CYCLE: usize = 12;
+
+    /// The trace before the first cycle, without the places of the robots.
+    pub(super) fn begin(assembly: &Assembly) -> Self {
+        let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
+        let net_name = |signal| match signal {
+            StimulusSource::Input(i) => inputs[i].clone(),
+            StimulusSource::Robot(i) => assembly.members[i].net.clone(),
+            StimulusSource::Constant(value) => u8::from(value).to_string(),
+        };
+        let robot = |member: &Member| RobotTrace {
+            net: member.net.clone(),
+            function: member.robot.function(),
+            robot: member.robot.name.clone(),
+            senses: member.senses,
+            sensed_nets: member.senses.map(net_name),
+            com_x: Vec::new(),
+            fault: None,
+        };
+        Self {
+            circuit: assembly.circuit.clone(),
+            inputs: assembly.inputs.clone(),
+            outputs: assembly.outputs.clone(),
+            shown: assembly.shown.clone(),
+            samples_per_cycle: Self::SAMPLES_PER_CYCLE,
+            robots: assembly.members.iter().map(robot).collect(),
+            cycles: Vec::new(),
+            recording: Recording::default(),
+        }
+    }
+
     /// The values of the input ports during a cycle.
     pub fn input_values(&self, cycle: usize) -> Vec<Value> {
         Value::of_ports(&self.inputs, self.cycles[cycle].inputs.iter().copied().map(Some), &[])

@@ -37,6 +37,7 @@ impl Converter<'_> {
             Rule::evolution => self.record_declaration(RecordKeyword::Evolution, pair),
             Rule::library => self.record_declaration(RecordKeyword::Library, pair),
             Rule::swarm => self.record_declaration(RecordKeyword::Swarm, pair),
+            Rule::world => self.record_declaration(RecordKeyword::World, pair),
             Rule::schedule => DeclarationKind::Schedule(self.schedule(pair)),
             Rule::simulate => DeclarationKind::Simulate(self.simulate(pair)),
             Rule::circuit => DeclarationKind::Circuit(self.circuit(pair)),
@@ -142,6 +143,7 @@ fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
                 | Rule::evolution_word
                 | Rule::library_word
                 | Rule::swarm_word
+                | Rule::world_word
                 | Rule::with_word
                 | Rule::times_word
                 | Rule::in_word

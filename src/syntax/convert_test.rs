@@ -1,5 +1,7 @@
 //! Pest's pairs to the tree: schedules, simulations and tests.
 
+use std::iter::Peekable;
+
 use pest::iterators::Pair;
 
 use crate::syntax::arena::Arena;
@@ -18,14 +20,21 @@ impl Converter<'_> {
     }
 
     pub(crate) fn simulate(&mut self, pair: Pair<Rule>) -> Simulate {
-        let mut parts = parts(pair);
+        let mut parts = parts(pair).peekable();
         let swarm = self.name(&parts.next().expect("a name"));
+        let world = self.world(&mut parts);
         let what = parts.next().expect("a schedule");
         let with = match what.as_rule() {
             Rule::name => With::Named(self.name(&what)),
             _ => With::Spells { columns: self.names(what), spells: self.spells(parts.next().expect("spells")) },
         };
-        Simulate { swarm, with }
+        Simulate { swarm, world, with }
+    }
+
+    /// The world in which something runs, if the next part names one.
+    fn world<'p>(&self, parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>) -> Option<NameSyntax> {
+        let named = parts.next_if(|part| part.as_rule() == Rule::in_world)?;
+        super::convert::parts(named).next().map(|name| self.name(&name))
     }
 
     fn names(&self, pair: Pair<Rule>) -> Vec<NameSyntax> {
@@ -47,12 +56,13 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
         let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
+        let world = self.world(&mut parts);
         let what = parts.next().expect("a table or `for all inputs`");
         let kind = match what.as_rule() {
             Rule::test_table => TestKind::Table(self.test_table(what)),
             _ => self.for_all(what),
         };
-        Test { circuit, title, kind }
+        Test { circuit, title, world, kind }
     }
 
     fn for_all(&mut self, pair: Pair<Rule>) -> TestKind {

@@ -108,7 +108,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::size_infix => "an operator",
         Rule::with_word => "`with`",
         Rule::times_word => "`x`",
-        Rule::in_word => "`in`",
+        Rule::in_word | Rule::in_world => "`in`",
         Rule::bins_word => "`bins`",
         Rule::for_word | Rule::for_all => "`for`",
         Rule::all_word => "`all`",

@@ -6,8 +6,19 @@
 use std::ops::Range;
 
 /// The keywords that begin declarations.
-pub const KEYWORDS: [&str; 10] =
-    ["circuit", "evolution", "library", "material", "schedule", "simulate", "stimulus", "swarm", "test", "use"];
+pub const KEYWORDS: [&str; 11] = [
+    "circuit",
+    "evolution",
+    "library",
+    "material",
+    "schedule",
+    "simulate",
+    "stimulus",
+    "swarm",
+    "test",
+    "use",
+    "world",
+];
 
 /// A text split into declarations.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -29,7 +29,7 @@ pub enum DeclarationKind {
     Use(Text),
     /// `stimulus s1, s2`
     Stimulus(Vec<NameSyntax>),
-    /// `material`, `evolution`, `library`, `swarm`: a name and a record.
+    /// `material`, `evolution`, `library`, `swarm`, `world`: a name and a record.
     Record(RecordDeclaration),
     /// `schedule`
     Schedule(ScheduleSyntax),
@@ -70,6 +70,8 @@ pub enum RecordKeyword {
     Library,
     /// `swarm`
     Swarm,
+    /// `world`
+    World,
 }
 
 impl RecordKeyword {
@@ -80,6 +82,7 @@ impl RecordKeyword {
             Self::Evolution => "evolution",
             Self::Library => "library",
             Self::Swarm => "swarm",
+            Self::World => "world",
         }
     }
 }
@@ -198,6 +201,8 @@ pub struct SpellSyntax {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulate {
     pub swarm: NameSyntax,
+    /// `in slippery`
+    pub world: Option<NameSyntax>,
     /// Its inputs over time.
     pub with: With,
 }
@@ -222,6 +227,8 @@ pub struct Test {
     /// The tested circuit.
     pub circuit: InstanceSyntax,
     pub title: Option<Text>,
+    /// `in slippery`
+    pub world: Option<NameSyntax>,
     /// The method.
     pub kind: TestKind,
 }

@@ -44,6 +44,7 @@ fn libraries() -> [(&'static str, CellLibrary); 3] {
 }
 
 #[test]
+#[ignore = "maps all benchmarks; .ci/run runs it"]
 fn abc_proves_every_written_blif_of_the_benchmarks() {
     let folder = tempfile::tempdir().unwrap();
     let options = MapOptions { effort: Effort::Fast, ..MapOptions::default() };

@@ -437,3 +437,33 @@ fn timings_of_an_evolution_include_archive_and_development() {
         ran.err
     );
 }
+
+#[test]
+fn workers_and_a_device_cannot_both_simulate() {
+    let bench = Bench::new();
+    for command in [&["evolve"][..], &["library", "verify"], &["library", "add", "run", "--into", "robots"]] {
+        let both = [command, &["--nats", "nats://localhost:4222", "--device", "gpu"]].concat();
+        bench.run(&both).expect_fault(&["'--nats <URL>' cannot be used with '--device <DEVICE>'"]);
+    }
+}
+
+#[test]
+#[cfg(not(feature = "cluster"))]
+fn a_program_without_work_on_several_machines_says_how_to_get_it() {
+    let bench = Bench::new();
+    bench.file("own.nb", "evolution own { from: gates, generations: 1, seed: 1 }\n");
+    bench.file("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
+    let url = "nats://localhost:4222";
+    for arguments in [
+        &["worker", "--nats"][..],
+        &["workers", "--nats"],
+        &["evolve", "own.nb", "--nats"],
+        &["library", "verify", "--nats"],
+        &["test", "gate.nb", "--nats"],
+    ] {
+        bench.run(&[arguments, &[url]].concat()).expect_fault(&[
+            "this program was built without work on several machines",
+            "build it with `cargo build --release --features cluster`",
+        ]);
+    }
+}

@@ -21,7 +21,7 @@ fn simulate(kernel: Kernel, setting: &Setting, trials: &[Trial]) -> Vec<Trajecto
 }
 
 /// A trajectory as bits, so that not even zeros of different sign are alike.
-fn bits(trajectory: &Trajectory) -> Vec<u64> {
+pub fn bits(trajectory: &Trajectory) -> Vec<u64> {
     let fault = trajectory.fault.map_or(0, |fault| u64::from(fault.env_step));
     let numbers = trajectory.com_x.iter().chain(&trajectory.com_y);
     numbers.map(|number| number.to_bits()).chain([fault]).collect()
@@ -41,7 +41,7 @@ fn body(width: usize, height: usize) -> impl Strategy<Value = Body> {
 }
 
 /// Nine materials whose codes all differ from the paper's.
-fn own_palette() -> Arc<Palette> {
+pub fn own_palette() -> Arc<Palette> {
     let named = |(i, kind): (usize, MaterialKind)| Material { name: format!("own_{i}"), kind };
     let drive = |period, phase, low, high| MaterialKind::Actuator(Drive { period, phase, low, high });
     let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response { stimulus, absent, present });
@@ -91,7 +91,7 @@ proptest! {
 }
 
 /// The paper's materials and one with an extreme width, which makes a body unstable unless targets are clipped.
-fn broken_palette() -> Arc<Palette> {
+pub fn broken_palette() -> Arc<Palette> {
     let mut materials = Palette::paper().materials().to_vec();
     let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: 0.6, present: f64::MAX });
     materials.push(Material { name: "broken".to_owned(), kind });
@@ -197,7 +197,7 @@ fn bodies_of_different_palettes_run_side_by_side() {
 }
 
 /// Trials of different lengths in the paper's smaller boxes, so that lanes are refilled at different times.
-fn patchwork() -> Vec<Trial> {
+pub fn patchwork() -> Vec<Trial> {
     let trial = |i: usize| Trial {
         body: Body::patchwork(if i < 10 { 5 } else { 7 }, i / 2),
         schedule: Schedule::constant(Pattern::PAIRS[i % 4], 20 + 7 * (i as u32 % 5)),
@@ -206,13 +206,13 @@ fn patchwork() -> Vec<Trial> {
 }
 
 /// FNV-1a over all bits of some trajectories.
-fn hash(trajectories: &[Trajectory]) -> u64 {
+pub fn hash(trajectories: &[Trajectory]) -> u64 {
     let bytes = trajectories.iter().flat_map(bits).flat_map(u64::to_le_bytes);
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 /// The hash of the trajectories of `patchwork`, the same on every machine.
-const GOLDEN: u64 = 0xe925_c4e3_f4fa_23dd;
+pub const GOLDEN: u64 = 0xe925_c4e3_f4fa_23dd;
 
 #[test]
 fn golden_hash_on_every_kernel_and_number_of_threads() {
@@ -228,7 +228,7 @@ fn golden_hash_on_every_kernel_and_number_of_threads() {
 }
 
 /// Bodies of several boxes, some of them more than once.
-fn swarm_of_bodies() -> Vec<Body> {
+pub fn swarm_of_bodies() -> Vec<Body> {
     let flat = Body::parse(&["34343", "33333"], &Palette::paper()).unwrap();
     let body = |robot: usize| match robot % 7 {
         3 => Body::patchwork(7, robot / 14),
@@ -259,7 +259,7 @@ fn robots_of_a_swarm_advance_as_they_do_alone() {
 }
 
 /// The bits of all points of a robot.
-fn point_bits(flock: &dyn Flock, robot: usize) -> Vec<[u64; 2]> {
+pub fn point_bits(flock: &dyn Flock, robot: usize) -> Vec<[u64; 2]> {
     flock.points(robot).into_iter().map(|at| at.map(f64::to_bits)).collect()
 }
 

@@ -75,6 +75,13 @@ fn every_picture_of_a_run_is_drawn() {
     assert!(texts(&progress).iter().any(|text| text == "coverage") && ids(&progress, "course-") == 2);
     let comparison = svg(&bench, "out/tiny --as comparison");
     assert_eq!(ids(&comparison, "group-"), 4);
+    let discovery = svg(&bench, "out/tiny --as discovery");
+    assert_eq!(ids(&discovery, "discovery-"), 16);
+    assert!(
+        texts(&discovery).iter().any(|text| text.starts_with("in 2 of 2 seeds, median")),
+        "{:?}",
+        texts(&discovery)
+    );
     let champions = svg(&bench, "out/tiny --as spacetime --schedule 11*1");
     let behaviors = ids(&champions, "champions-");
     assert!(behaviors >= 2, "a panel for each behavior found");
@@ -176,6 +183,7 @@ fn options_that_cannot_apply_are_rejected() {
         draw(&bench, &format!("{line} -o a.svg")).expect_fault(&[&format!("`{option}` does not apply"), "help"]);
     };
     check("walker.yaml --as strip --at 1", "--at");
+    check("walker.yaml --as sprite --frames 1", "--frames");
     check("walker.yaml --as sprite --schedule 00*1", "--schedule");
     check("idle.nb --as spacetime --schedule 00*1", "--schedule");
     check("walker.yaml --as sprite --behavior RRRL", "--behavior");

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::rc::Rc;
 
 use nbc::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting, Spell};
-use nbc::report::{self, Color, Film, STRIDE, Scheme, Stage};
+use nbc::report::{self, Color, FRAMES_PER_CYCLE, Film, Scheme, Stage};
 
 use crate::pictures::latch;
 
@@ -16,7 +16,7 @@ fn schedule(cycles: u32) -> Schedule {
 }
 
 fn film(body: &Body, cycles: u32) -> (Film, Stage) {
-    let stage = Stage::of_trial(&Setting::default(), body, &schedule(cycles), STRIDE);
+    let stage = Stage::of_trial(&Setting::default(), body, &schedule(cycles), CYCLE_STEPS / FRAMES_PER_CYCLE);
     let largest = body.width().max(body.height());
     (Film { title: "walker".to_owned(), lanes: vec!["01".to_owned()], scheme: Scheme::Paper, largest }, stage)
 }
@@ -161,7 +161,7 @@ fn a_large_robot_has_a_film_too() {
 #[test]
 fn a_fault_stops_the_robot_and_not_the_film() {
     let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], &Palette::paper()).unwrap();
-    let setting = Setting { world_width: 60, start_x: Some(28) };
+    let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::default() };
     let schedule = Schedule {
         spells: vec![Spell { pattern: Pattern::PAIRS[3], steps: 60 }, Spell { pattern: Pattern::PAIRS[0], steps: 60 }],
     };
@@ -178,7 +178,7 @@ fn a_fault_stops_the_robot_and_not_the_film() {
 fn an_empty_schedule_gives_one_frame() {
     let body = Body::parse(&["33"], &Palette::paper()).unwrap();
     let (film, _) = film(&body, 1);
-    let stage = Stage::of_trial(&Setting::default(), &body, &Schedule::default(), STRIDE);
+    let stage = Stage::of_trial(&Setting::default(), &body, &Schedule::default(), CYCLE_STEPS / FRAMES_PER_CYCLE);
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
     assert_eq!(decode_gif(&bytes).0.len(), 1);

@@ -5,6 +5,8 @@ mod benchmarks;
 mod broken_circuits;
 mod circuit;
 mod cli;
+#[cfg(feature = "cluster")]
+mod cluster;
 mod declared;
 mod determinism;
 mod drawing;
@@ -20,6 +22,8 @@ mod flows;
 mod formatting;
 mod gallery;
 mod generated;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod hostile;
 mod language;
 mod library;
@@ -55,4 +59,5 @@ mod tidy;
 mod ui;
 mod using;
 mod waves;
+mod worlds;
 mod written;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use nbc::model::{Base, Body, Character, CircuitTest, Function, Provenance, Robot, Stimulation, TestRow};
+use nbc::model::{Base, Body, Character, CircuitTest, Function, PhysicsWorld, Provenance, Robot, Stimulation, TestRow};
 use nbc::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
 use nbc::source::{FileId, Span};
 use nbc::swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace, TestVerdict, judge_swarm};
@@ -27,6 +27,7 @@ pub fn robot(name: &str, function: Function) -> Robot {
             margin: 0.1,
             topples: false,
             settle: Vec::new(),
+            radius: None,
         },
         provenance: Provenance {
             program: "nbc".to_owned(),
@@ -51,6 +52,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         inputs: trace.inputs.clone(),
         outputs: trace.outputs.clone(),
         stimulation: Stimulation::Rows(Vec::new()),
+        world: None,
     };
     let row = |(at, q): (usize, bool)| TestRow {
         inputs: trace.cycles[8 * at].inputs.clone(),
@@ -91,6 +93,7 @@ pub fn assembly(trace: &SwarmTrace) -> Assembly {
         members: (0..5).map(member).collect(),
         outputs: trace.outputs.clone(),
         shown: trace.shown.clone(),
+        world: PhysicsWorld::default(),
     }
 }
 

@@ -58,7 +58,7 @@ fn pattern(digits: &str) -> Pattern {
 }
 
 fn setting(start_x: usize, world_width: usize) -> Setting {
-    Setting { world_width, start_x: Some(start_x) }
+    Setting { world_width, start_x: Some(start_x), ..Setting::default() }
 }
 
 impl Case {

@@ -2,7 +2,7 @@
 
 use nbc::evolve::{Archive, Champion, Elite, NicheKey};
 use nbc::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
-use nbc::report::{self, Champions, Course, Terrain};
+use nbc::report::{self, Champions, Course, SideComparison, Terrain};
 use roxmltree::{Document, Node};
 
 fn group<'a>(document: &'a Document<'a>, id: &str) -> Node<'a, 'a> {
@@ -65,7 +65,9 @@ fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
 }
 
 fn evolution() -> nbc::model::Evolution {
-    use nbc::model::{Evolution, MutationWeights, Niche, Palette, Rules, Schedule, SearchObjective, Symmetry};
+    use nbc::model::{
+        Evolution, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule, SearchObjective, Symmetry,
+    };
     Evolution {
         name: "gates".to_owned(),
         width: 3,
@@ -83,6 +85,7 @@ fn evolution() -> nbc::model::Evolution {
         objective: SearchObjective::Distance,
         symmetry: Symmetry::None,
         niche: Niche::Dominance,
+        world: PhysicsWorld::default(),
     }
 }
 
@@ -121,9 +124,12 @@ fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
             champion("RRRL", 5.0 + if i.is_multiple_of(2) { -0.5 } else { 0.5 }),
         ]
     };
-    let groups = report::behavior_groups(&(1..).zip((0..10).map(run)).collect());
+    let runs = (1..).zip((0..10).map(run)).collect();
+    let groups = report::behavior_groups(&runs);
     let comparisons = report::compare_groups(&groups);
-    let svg = report::draw_comparison("groups", "distance (voxels)", &groups, &comparisons).finish();
+    assert_eq!(report::compare_sides(&runs), None, "XYXY was never found");
+    let sides = SideComparison { p: 0.25, a12: 0.75 };
+    let svg = report::draw_comparison("groups", "distance (voxels)", &groups, &comparisons, Some(sides)).finish();
     let document = Document::parse(&svg).unwrap();
     let middle = |name: &str| {
         let label = group(&document, &format!("group-{name}"))
@@ -137,6 +143,7 @@ fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
     let (first, second) = (middle("XXYY") - middle("XXXX"), middle("XXXY") - middle("XXYY"));
     assert!((first - 1.5 * second).abs() < 0.1, "{first} is wider than {second}");
     assert!(has_text(&svg, "XXXX against XXYY") && has_text(&svg, "p = 3.2e-5") && has_text(&svg, "A12 = 1.00"));
+    assert!(has_text(&svg, "XXYY against XYXY") && has_text(&svg, "p = 0.250"));
 }
 
 #[test]

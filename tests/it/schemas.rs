@@ -76,6 +76,8 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     assert_eq!(check(&bench, "diagnostics", 0, &["check", "flip.nb"])["diagnostics"], Value::Array(Vec::new()));
     check(&bench, "diagnostics", 2, &["check", "flip.nb", "wrong.nb"]);
     check(&bench, "build", 0, &["build", "flip.nb"]);
+    let found = check(&bench, "robustness", 0, &["test", "flip.nb", "--vary", "all=5%", "--worlds", "3"]);
+    assert_eq!(found["tests"][0]["yield"]["worlds"], 3);
     check(&bench, "build", 0, &["build", latch.to_str().unwrap()]);
     let counter = root().join("circuits/counter.nb");
     let ports = &check(&bench, "build", 0, &["build", counter.to_str().unwrap()])["ports"];

@@ -4,7 +4,7 @@ use std::fs;
 
 use nbc::circuit::formats::{Design, nb};
 use nbc::circuit::{Delays, MappingObjective, Netlist, Timing};
-use nbc::model::{Function, Robot};
+use nbc::model::{Function, PhysicsWorld, Robot};
 use nbc::report::{Stage, describe_test};
 use nbc::session::SwarmRun;
 use nbc::sim::Simulator;
@@ -93,13 +93,14 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
     let member = Member { net: "y".to_owned(), robot, senses: [StimulusSource::Constant(false); 2], start: true };
     let (outputs, shown) = (vec![crate::pictures::port("y")], vec![StimulusSource::Robot(0)]);
-    let assembly = Assembly { circuit: "one".to_owned(), inputs: Vec::new(), members: vec![member], outputs, shown };
+    let (inputs, world) = (Vec::new(), PhysicsWorld::default());
+    let assembly = Assembly { circuit: "one".to_owned(), inputs, members: vec![member], outputs, shown, world };
     let exposure = Exposure { inputs: vec![Vec::new(); 80], window: 1, poses: None };
     let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
     let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
     assert!(walked > 250.0, "{walked}: not as far as the paper's ground reaches");
     assert!(trace.cycles.iter().all(|cycle| cycle.bits[0]));
-    let room = |cycles| nbc::swarm::setting(&assembly, cycles).world_width / 2;
+    let room = |cycles| assembly.setting(cycles).world_width / 2;
     assert_eq!(room(80), room(1000), "tests of a circuit have the same world");
     assert!(room(20_000) as f64 > 20_000.0 * 2.0 * walked / 80.0);
 }
@@ -118,6 +119,7 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
         members: shipped_library().robots[..3].iter().map(member).collect(),
         outputs: vec![crate::pictures::port("y")],
         shown: vec![StimulusSource::Robot(1)],
+        world: PhysicsWorld::default(),
     };
     let run = |poses| {
         let exposure = Exposure { inputs: vec![Vec::new(); 3], window: 1, poses };

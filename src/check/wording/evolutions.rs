@@ -6,8 +6,6 @@ use crate::source::Span;
 /// An invalid evolution run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum EvolutionError {
-    /// A run that takes its fields from itself, perhaps through others.
-    Circular { evolution: String },
     /// A box without room for a body.
     SmallBox { columns: usize, rows: usize, least: usize },
     /// A palette without materials, or with too many.
@@ -24,11 +22,6 @@ impl EvolutionError {
     /// The error at the name or value.
     pub(crate) fn at(self, span: Span) -> Diagnostic {
         match self {
-            Self::Circular { evolution } => {
-                let message = format!("the evolution `{evolution}` takes its fields from itself");
-                Diagnostic::new(Code::Recursion, message, span, "this closes the circle")
-                    .with_help("remove one `from`, or take the fields of another evolution")
-            }
             Self::SmallBox { columns, rows, least } => {
                 let message = format!("a box of {columns} x {rows} voxels is too small for a body");
                 let label = format!("expected room for at least {}", counted(least, "actuator"));

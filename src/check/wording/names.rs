@@ -28,6 +28,8 @@ pub(crate) enum NameError {
     UnknownBehavior { name: String, meant: Suggestion },
     /// A second declaration of a name.
     Duplicate { kind: &'static str, name: String, first: Span },
+    /// A record that takes its fields from itself, perhaps through others.
+    Circular { kind: &'static str, name: String },
     /// A material that is listed twice.
     RepeatedMaterial { name: String },
     /// A seed that is listed twice.
@@ -91,6 +93,11 @@ impl NameError {
                 }
             }
             Self::Duplicate { kind, name, first } => duplicate(kind, &name, span, first),
+            Self::Circular { kind, name } => {
+                let message = format!("the {kind} `{name}` takes its fields from itself");
+                Diagnostic::new(Code::Recursion, message, span, "this closes the circle")
+                    .with_help(format!("remove one `from`, or take the fields of another {kind}"))
+            }
             Self::RepeatedMaterial { name } => {
                 let message = format!("the material `{name}` is listed twice");
                 Diagnostic::new(Code::Duplicate, message, span, "listed again here")

@@ -78,6 +78,8 @@ pub(crate) enum Expected {
     Quantity,
     /// A number without a unit.
     Number,
+    /// A number without a unit, or in percent.
+    Ratio,
     /// The weight of a mutation.
     Weight,
     /// The weights of mutations.
@@ -99,6 +101,7 @@ impl fmt::Display for Expected {
             Self::Range => "a range such as `0.6..1.6`",
             Self::Quantity => "a number with its unit",
             Self::Number => "a number",
+            Self::Ratio => "a number such as `0.9` or `90%`",
             Self::Weight => "a weight",
             Self::Weights => "weights such as `{ add_node: 1, change_weight: 2 }`",
         })

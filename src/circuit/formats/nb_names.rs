@@ -36,6 +36,7 @@ const RESERVED: &[&str] = &[
     "test",
     "then",
     "use",
+    "world",
     "xnor",
     "xor",
 ];

@@ -8,10 +8,12 @@ use std::collections::BTreeMap;
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::device::DeviceArguments;
+use crate::cli::gpu::{DeviceFigures, OpenDevice};
 use crate::cli::timings::{meter, part_seconds};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use crate::report::{Align, Schema, TextTable};
-use crate::sim::{Kernel, Part};
+use crate::sim::{Kernel, LaneBackend, Part};
 
 use speed::{cycle_substeps, race};
 use swarm::SwarmFigures;
@@ -21,7 +23,7 @@ const SIDES: [usize; 3] = [5, 7, 10];
 /// Cycles of the paper's evaluation of one robot.
 const EVALUATION: f64 = 80.0;
 
-/// Measure how fast this machine simulates, on one core
+/// Measure how fast this machine simulates, on one core and on a device
 #[derive(Args)]
 #[command(after_help = "Example:\n  nbc bench --format json")]
 pub struct BenchArguments {
@@ -31,6 +33,8 @@ pub struct BenchArguments {
     /// Also measure a swarm of 29 robots, on one core and on all threads
     #[arg(long)]
     swarm: bool,
+    #[command(flatten)]
+    device: DeviceArguments,
 }
 
 /// The figures of one box.
@@ -59,6 +63,9 @@ struct Figures {
     /// With `--swarm`.
     #[serde(skip_serializing_if = "Option::is_none")]
     swarm: Option<SwarmFigures>,
+    /// With `--device gpu`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    device: Option<DeviceFigures>,
 }
 
 impl BenchArguments {
@@ -68,6 +75,7 @@ impl BenchArguments {
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let kernel = Kernel::default();
+        let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;
         let bar = Progress::new("measuring", SIDES.len() as u64);
         let case = |&side: &usize| {
             let case = measure(side, kernel, self.timings);
@@ -77,7 +85,9 @@ impl BenchArguments {
         let cases = SIDES.iter().map(case).collect();
         drop(bar);
         let swarm = self.swarm.then(|| SwarmFigures::measure(kernel)).transpose()?;
-        let figures = Figures { machine: machine(kernel), width: kernel.lanes(), cases, swarm };
+        let (machine, width) = (machine(kernel), kernel.lanes());
+        let figures = Figures { machine, width, cases, swarm, device: device.figures() };
+        device.end(context)?;
         match context.format {
             OutputFormat::Json => context.print_json(Schema::Bench, &figures)?,
             OutputFormat::Text => context.print(describe(&figures))?,
@@ -104,7 +114,7 @@ fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     race(side, kernel, 0, Some(&meter));
     let spent = part_seconds(&meter.times());
     let all: f64 = spent.iter().sum();
-    Part::ALL.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
+    Part::OF_LANES.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
 }
 
 /// The name of the processor, if the system tells it, and its instruction set.
@@ -126,18 +136,20 @@ fn describe(figures: &Figures) -> String {
         table.push(vec![case.bounds.clone(), scalar, lanes, different, format!("{:.2}", case.evaluations)]);
     }
     let Figures { machine, width, .. } = figures;
-    let parts = describe_timings(figures) + &figures.swarm.as_ref().map_or(String::new(), SwarmFigures::describe);
+    let parts = describe_timings(figures)
+        + &figures.swarm.as_ref().map_or(String::new(), SwarmFigures::describe)
+        + &figures.device.as_ref().map_or(String::new(), DeviceFigures::describe);
     format!("{machine}, {width} lanes, one core; substeps and the paper's evaluations per second\n{table}{parts}")
 }
 
 /// The shares of time as a table; empty if they were not measured.
 fn describe_timings(figures: &Figures) -> String {
-    let columns = Part::ALL.map(|part| (part.name(), Align::Right));
+    let columns = Part::OF_LANES.map(|part| (part.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();
     let mut table = TextTable::new(&columns);
     for case in &figures.cases {
         let Some(timings) = &case.timings else { return String::new() };
-        let shares = Part::ALL.iter().map(|part| format!("{:.0} %", 100.0 * timings[part.name()]));
+        let shares = Part::OF_LANES.iter().map(|part| format!("{:.0} %", 100.0 * timings[part.name()]));
         table.push([case.bounds.clone()].into_iter().chain(shares).collect());
     }
     format!("\nshare of the time with one body in all lanes\n{table}")

@@ -18,6 +18,7 @@ pub(super) fn check_options(order: &Order, kind: &dyn PictureKind, subject: Subj
         ("--axes", !order.axes.is_empty(), takes("--axes"), "a heat map"),
         ("--behavior", order.behavior.is_some(), has_robots, "a library or a run"),
         ("--circuit", choice.circuit.is_some(), is_program, "a source file (.nb)"),
+        ("--frames", order.frames.is_some(), takes("--frames"), "a film"),
         ("--robots", !order.robots.is_empty(), takes("--robots") && is_program, "a swarm in space and time"),
         ("--safe-colors", order.safe_colors, takes("--safe-colors"), "a picture of bodies"),
         ("--schedule", order.schedule.is_some(), takes("--schedule") && !is_program, "robots that move"),

@@ -1,12 +1,13 @@
 //! What is to be drawn, and how.
 
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 
 use crate::cli::Failure;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::DrawError;
 use crate::model::{Behavior, CYCLE_STEPS, Schedule};
-use crate::report::Scheme;
+use crate::report::{FRAMES_PER_CYCLE, Scheme};
 use crate::session::read_schedule;
 
 /// The default schedule of robots: every pattern as long as in the paper.
@@ -41,6 +42,9 @@ pub struct Order {
     pub(super) test: Option<String>,
     #[command(flatten)]
     pub(super) runs: RunsArguments,
+    /// Frames of a film for each cycle; fewer show a long run in a short time [default: 12]
+    #[arg(long, value_name = "N", value_parser = PossibleValuesParser::new(["1", "2", "3", "4", "6", "12"]))]
+    pub(super) frames: Option<String>,
     /// Colors that people with any color vision can tell apart
     #[arg(long)]
     pub(super) safe_colors: bool,
@@ -49,6 +53,12 @@ pub struct Order {
 impl Order {
     pub(super) fn scheme(&self) -> Scheme {
         if self.safe_colors { Scheme::Safe } else { Scheme::Paper }
+    }
+
+    /// Env steps from frame to frame.
+    pub(super) fn stride(&self) -> u32 {
+        let frames = self.frames.as_deref().and_then(|frames| frames.parse().ok()).unwrap_or(FRAMES_PER_CYCLE);
+        CYCLE_STEPS / frames
     }
 
     pub(super) fn schedule(&self) -> Result<Schedule, Failure> {

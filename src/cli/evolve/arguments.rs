@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::device::DeviceArguments;
+use crate::cli::nats_access::QueueArguments;
 use crate::cli::timings::Timings;
 
 /// Evolve robots by the evolution declarations of a file
@@ -42,6 +44,10 @@ pub struct EvolveArguments {
     /// Write a page with plots, on which the archive's elites walk
     #[arg(long)]
     pub(super) report: bool,
+    #[command(flatten)]
+    pub(super) queue: QueueArguments,
+    #[command(flatten)]
+    pub(super) device: DeviceArguments,
     #[command(flatten)]
     pub(super) timings: Timings,
 }

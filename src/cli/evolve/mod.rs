@@ -1,6 +1,7 @@
 //! `nbc evolve`: evolution runs, resumable.
 
 mod arguments;
+mod campaign;
 mod run;
 
 use std::collections::BTreeMap;
@@ -10,10 +11,13 @@ use std::time::Instant;
 use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
-use crate::cli::evolve::run::{Ended, EvolutionRun};
-use crate::cli::timings::Timer;
+use crate::cli::evolve::campaign::{Campaign, MadeRun};
+use crate::cli::evolve::run::Ended;
+use crate::cli::gpu::OpenDevice;
+use crate::cli::place::{LocalPlace, TaskPlace};
 use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status, cluster};
+use crate::diag::counted;
 use crate::evolve::{Champion, Search};
 use crate::model::{Evolution, SearchObjective};
 use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
@@ -48,48 +52,63 @@ struct Comparison {
 }
 
 impl EvolveArguments {
-    /// Runs the evolutions one after another.
+    /// Runs the evolutions.
     ///
     /// # Errors
     /// When the file has errors, a checkpoint is rejected, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let declared = self.declared()?;
-        self.tell_duration(&declared, context);
+        let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
+        let mut place = self.place(&device, &declared, context)?;
         let mut results = Results::default();
-        for evolution in declared {
-            let finished = self.run_seeds(&evolution, (&interrupt, &timer), &mut results, context)?;
-            if !finished {
-                timer.report(context);
-                return results.end(context, Status::Interrupted);
-            }
-        }
+        let mut champions = BTreeMap::new();
+        let mut campaign = Campaign { arguments: &self, timer: &timer, interrupt: &interrupt, place: place.as_mut() };
+        let finished = campaign
+            .make(&declared, context, &mut |made, context| self.end_run(made, &mut champions, &mut results, context))?;
+        drop(place);
         timer.report(context);
-        results.end(context, Status::Done)
+        if finished {
+            device.end(context)?;
+        }
+        results.end(context, if finished { Status::Done } else { Status::Interrupted })
     }
 
-    /// Runs the seeds of one declaration and compares them; returns whether they were finished.
-    fn run_seeds(
+    /// Where the evaluations are made. Says how long that will take, or how much can be made at once.
+    fn place<'d>(
         &self,
-        evolution: &Evolution,
-        (interrupt, timer): (&Interrupt, &Timer),
+        device: &'d OpenDevice,
+        declared: &[Evolution],
+        context: &Context,
+    ) -> Result<Box<dyn TaskPlace + 'd>, Failure> {
+        if let Some(server) = &self.queue.nats {
+            let place = cluster::open_place(server, &self.queue)?;
+            context.log(&format!("keeps about {} busy\n", counted(cores(declared, place.most_runs()), "core")));
+            return Ok(place);
+        }
+        self.tell_duration(declared, context);
+        Ok(Box::new(LocalPlace::new(device)))
+    }
+
+    /// Reports a run, and after the last run of a declaration compares them.
+    fn end_run(
+        &self,
+        made: MadeRun,
+        champions: &mut BTreeMap<u64, Vec<Champion>>,
         results: &mut Results,
         context: &mut Context,
-    ) -> Result<bool, Failure> {
-        let mut champions = BTreeMap::new();
-        for &seed in &evolution.seeds {
-            let mut run = EvolutionRun::open(self, evolution, seed, timer, context)?;
-            let finished = run.make(interrupt)?;
-            champions.insert(seed, run.archive_stats().champions);
-            results.runs.push(run.ended(finished));
-            if context.format == OutputFormat::Text {
-                context.print(run.summary(finished))?;
-                context.flush()?;
-            }
-            if !finished {
-                return Ok(false);
-            }
+    ) -> Result<(), Failure> {
+        let MadeRun { evolution, seed, finished, ended, summary, champions: found } = made;
+        champions.insert(seed, found);
+        results.runs.push(ended);
+        if context.format == OutputFormat::Text {
+            context.print(summary)?;
+            context.flush()?;
         }
+        if !finished || evolution.seeds.last() != Some(&seed) {
+            return Ok(());
+        }
+        let champions = std::mem::take(champions);
         if is_comparable(evolution) {
             let comparison = Comparison::of(evolution, &champions);
             if context.format == OutputFormat::Text {
@@ -100,7 +119,7 @@ impl EvolveArguments {
         if self.report {
             self.write_report(evolution, context)?;
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Writes the page of a declaration's runs beside their folders.
@@ -195,6 +214,13 @@ impl EvolveArguments {
         }
         Ok(found)
     }
+}
+
+/// The number of bodies that are evaluated at once in the first generations after the first.
+fn cores(declared: &[Evolution], most_runs: usize) -> usize {
+    let bodies = |evolution: &Evolution| evolution.batch + evolution.newcomers;
+    let runs = declared.iter().flat_map(|evolution| evolution.seeds.iter().map(move |_| bodies(evolution)));
+    runs.take(most_runs).sum()
 }
 
 /// Seconds of one full evaluation on this machine.

@@ -3,22 +3,23 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
 use crate::cli::evolve::arguments::EvolveArguments;
+use crate::cli::place::TaskBatch;
 use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::timings::{Chore, Timer};
 use crate::cli::wording::{RunWarning, SubjectError};
-use crate::cli::{Context, Failure, Interrupt, Progress};
-use crate::evolve::{ArchiveStats, Search};
+use crate::cli::{Context, Failure};
+use crate::evolve::{ArchiveStats, Candidate, CandidateOutcome, Search};
 use crate::model::Evolution;
 use crate::report::{EvolutionLine, History, evolution_table};
-use crate::sim::Simulator;
 use crate::source::Sources;
 use crate::store::{self, Checkpoint, FolderLock, LockFault};
-use crate::swarm::{self, Work};
+use crate::swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Task, TaskResult, Work};
 
 /// How one run ended.
 #[derive(Serialize)]
@@ -35,17 +36,19 @@ pub(super) struct Ended {
 /// One declaration with one seed, in its folder.
 pub(super) struct EvolutionRun<'a> {
     search: Search,
-    simulator: Simulator,
+    /// The candidates that are being evaluated.
+    candidates: Vec<Candidate>,
     timer: &'a Timer,
     work: Work,
     folder: PathBuf,
     checkpoint_every: Duration,
     started: Instant,
+    saved: Instant,
     /// Evaluations and work made before this program took over.
     evaluations_before: u64,
     work_before: Work,
-    /// The result of [`searching`] at that time.
-    searching_before: f64,
+    /// Seconds spent on asking and telling: parents, mutation, development, the archive.
+    searching: f64,
     _lock: FolderLock,
 }
 
@@ -77,46 +80,67 @@ impl<'a> EvolutionRun<'a> {
         let evaluations_before = search.counts().evaluations;
         let run = Self {
             search,
-            simulator: timer.simulator(),
+            candidates: Vec::new(),
             timer,
             work,
             folder,
             checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
             started: Instant::now(),
+            saved: Instant::now(),
             evaluations_before,
             work_before: work,
-            searching_before: searching(timer),
+            searching: 0.0,
             _lock,
         };
         run.trim_progress(context)?;
         Ok(run)
     }
 
-    /// Makes the remaining generations; returns whether the run was finished.
-    pub(super) fn make(&mut self, interrupt: &Interrupt) -> Result<bool, Failure> {
-        let generations = u64::from(self.search.evolution().generations);
-        let bar = Progress::resumed("generations", u64::from(self.search.generation()), generations);
-        let mut saved = Instant::now();
-        while !self.search.is_done() && !interrupt.is_raised() {
-            self.advance();
-            let line = EvolutionLine::of(&self.search, self.work);
-            self.timer.time(Chore::Output, || self.append(&line))?;
-            bar.set_with_note(u64::from(line.generation), self.message(&line));
-            if saved.elapsed() >= self.checkpoint_every {
-                self.timer.time(Chore::Output, || self.save())?;
-                saved = Instant::now();
-            }
-        }
-        self.timer.time(Chore::Output, || self.save())?;
-        Ok(self.search.is_done())
+    /// Generations done.
+    pub(super) fn generation(&self) -> u32 {
+        self.search.generation()
     }
 
-    /// Makes one generation; the time of everything except simulation is counted.
-    fn advance(&mut self) {
-        let candidates = self.timer.time(Chore::Development, || self.search.ask());
-        let (outcomes, work) = swarm::evaluate(&self.simulator, &self.search, &candidates);
+    /// Whether all generations are done.
+    pub(super) fn is_done(&self) -> bool {
+        self.search.is_done()
+    }
+
+    /// The tasks of the next generation, for the run at `at` in the list of all runs. The time of everything
+    /// except simulation is counted.
+    pub(super) fn ask(&mut self, at: usize) -> TaskBatch {
+        let before = searching(self.timer);
+        self.candidates = self.timer.time(Chore::Development, || self.search.ask());
+        let protocol = Arc::new(EvaluationProtocol::of(self.search.evolution()));
+        let task = |candidate: &Candidate| {
+            Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&self.search, &candidate.body))
+        };
+        let tasks = self.timer.time(Chore::Archive, || self.candidates.iter().map(task).collect());
+        self.searching += searching(self.timer) - before;
+        TaskBatch { run: at, tasks }
+    }
+
+    /// Takes the results of a generation, in order of its candidates, and writes a checkpoint if one is due. Returns a
+    /// note for the progress display.
+    pub(super) fn tell(&mut self, results: Vec<TaskResult>) -> Result<String, Failure> {
+        let results: Vec<Evaluated> = results.into_iter().map(TaskResult::evaluated).collect();
+        let outcomes: Vec<CandidateOutcome> = results.iter().map(|evaluated| evaluated.outcome).collect();
+        let (candidates, before) = (std::mem::take(&mut self.candidates), searching(self.timer));
         self.timer.time(Chore::Archive, || self.search.tell(&candidates, &outcomes));
-        self.work = self.work.plus(work);
+        self.searching += searching(self.timer) - before;
+        self.work = results.iter().fold(self.work, |sum, evaluated| sum.plus(evaluated.work));
+        let line = EvolutionLine::of(&self.search, self.work);
+        self.timer.time(Chore::Output, || self.append(&line))?;
+        if self.saved.elapsed() >= self.checkpoint_every {
+            self.save_timed()?;
+            self.saved = Instant::now();
+        }
+        Ok(self.message(&line))
+    }
+
+    /// Writes a checkpoint.
+    pub(super) fn save_timed(&self) -> Result<(), Failure> {
+        self.timer.time(Chore::Output, || self.save())
     }
 
     fn save(&self) -> Result<(), Failure> {
@@ -193,7 +217,7 @@ impl<'a> EvolutionRun<'a> {
             return String::new();
         }
         let in_full = rate * simulated / (simulated + left_out);
-        let search = 100.0 * (searching(self.timer) - self.searching_before) / seconds;
+        let search = 100.0 * self.searching / seconds;
         format!(
             "{seconds:.1} s, {rate:.1} evaluations/s, {in_full:.1} full evaluations/s; {search:.2} \
              % of the time for archive, development and mutation\n"
@@ -201,7 +225,7 @@ impl<'a> EvolutionRun<'a> {
     }
 }
 
-/// Seconds spent so far on asking and telling: parents, mutation, development, the archive.
+/// Seconds that all runs have spent so far on asking and telling.
 fn searching(timer: &Timer) -> f64 {
     timer.seconds(Chore::Development) + timer.seconds(Chore::Archive)
 }

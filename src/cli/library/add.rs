@@ -2,17 +2,20 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::device::DeviceArguments;
+use crate::cli::laboratory::OpenLaboratory;
+use crate::cli::nats_access::QueueArguments;
 use crate::cli::run_folder::{CHECKPOINT, read_checkpoint};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::evolve::Elite;
-use crate::model::{Behavior, Provenance, Robot};
+use crate::model::{Behavior, Fault, FaultKind, Provenance, Robot};
 use crate::report::{Answer, Schema};
-use crate::sim::Simulator;
 use crate::store::{self, Checkpoint};
 use crate::swarm::{Nominee, Selected, Selection};
 
@@ -43,6 +46,10 @@ pub struct AddArguments {
     /// Highest accepted error rate over the measured switches, from 0 to 1
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     max_error: f64,
+    #[command(flatten)]
+    device: DeviceArguments,
+    #[command(flatten)]
+    queue: QueueArguments,
 }
 
 /// The output for programs.
@@ -56,17 +63,22 @@ impl AddArguments {
     /// Selects, measures and writes robots.
     ///
     /// # Errors
-    /// When a run has no checkpoint, or a file cannot be written.
+    /// When a run has no checkpoint, the server cannot be used, or a file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         store::create_folder(&self.into).map_err(|error| Failure::unwritable(&self.into, &error))?;
         let selection = self.selection();
         let asked = self.asked(&selection)?;
-        let bar = Progress::new("measuring", asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum());
+        let work = asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum();
+        let bar = Arc::new(Progress::new("measuring", work));
+        let laboratory = OpenLaboratory::open(self.device, &self.queue, &bar, context)?;
         let select = |(behavior, nominees): &(Behavior, Vec<Nominee>)| {
-            (*behavior, selection.select(&Simulator::default(), *behavior, nominees, &|more| bar.add(more)))
+            (*behavior, selection.select(laboratory.place(), *behavior, nominees, &|more| bar.add(more)))
         };
         let mut answers = Vec::new();
         let mut tell = |(behavior, selected): (Behavior, Selected)| {
+            if matches!(selected, Selected::Faulty(Fault { kind: FaultKind::Stopped, .. })) {
+                return Ok(());
+            }
             if let Selected::Robot(robot) = &selected {
                 write(&self.into, robot)?;
             }
@@ -78,9 +90,11 @@ impl AddArguments {
             answers.push(answer);
             Ok::<(), Failure>(())
         };
-        workers::in_order(&asked, select, |selected| bar.suspend(|| tell(selected)))?;
+        workers::in_order(laboratory.threads(), &asked, select, |selected| bar.suspend(|| tell(selected)))?;
         drop(bar);
-        self.end(answers, context)
+        let stopped = laboratory.is_stopped();
+        laboratory.end(context)?;
+        if stopped { Ok(Status::Interrupted) } else { self.end(answers, context) }
     }
 
     /// Prints the summary and returns the exit status.

@@ -1,6 +1,7 @@
 //! `nbc library`: the robots that circuits are made of.
 
 mod add;
+mod radius;
 mod rewrite;
 mod verify;
 
@@ -8,6 +9,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use crate::cli::device::DeviceArguments;
+use crate::cli::nats_access::QueueArguments;
 use crate::cli::robots::{find, robots};
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::model::{Library, Robot};
@@ -37,6 +40,12 @@ enum Action {
     Verify {
         /// A robot file, or a folder of them, instead of the built-in library
         path: Option<PathBuf>,
+        #[command(flatten)]
+        radius: radius::RadiusArguments,
+        #[command(flatten)]
+        device: DeviceArguments,
+        #[command(flatten)]
+        queue: QueueArguments,
     },
 }
 
@@ -52,8 +61,13 @@ impl LibraryArguments {
             Action::List => list(&library, context),
             Action::Rewrite(arguments) => arguments.run(context),
             Action::Show { name } => show(find(&library, &name)?, context),
-            Action::Verify { path: None } => verify::verify(&library, context),
-            Action::Verify { path: Some(path) } => verify::verify(&robots(&path)?, context),
+            Action::Verify { path, radius, device, queue } => {
+                let library = path.as_ref().map_or(Ok(library), |path| robots(path))?;
+                match radius.sample() {
+                    Some(sample) => radius.run(&library, path.as_deref(), sample, context),
+                    None => verify::verify(&library, device, &queue, context),
+                }
+            }
         }
     }
 }

@@ -1,14 +1,17 @@
 //! `nbc library verify`: every robot simulated again and compared with its file.
 
-use rayon::prelude::*;
+use std::sync::Arc;
+
 use serde::Serialize;
 
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::cli::device::DeviceArguments;
+use crate::cli::laboratory::OpenLaboratory;
+use crate::cli::nats_access::QueueArguments;
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::diag::counted;
-use crate::model::{Library, Robot};
+use crate::model::{Character, Library, Robot};
 use crate::report::Schema;
-use crate::sim::Simulator;
-use crate::swarm::{self, Measurement};
+use crate::swarm::{Laboratory, Measurement, Task};
 
 /// The result for one robot.
 #[derive(Serialize)]
@@ -21,8 +24,8 @@ struct Finding<'a> {
 
 impl<'a> Finding<'a> {
     /// Measures a robot again.
-    fn of(robot: &'a Robot) -> Self {
-        let differs = differences(robot);
+    fn of(laboratory: &dyn Laboratory, robot: &'a Robot) -> Self {
+        let differs = differences(laboratory, robot);
         Self { name: &robot.name, verified: differs.is_empty(), differs }
     }
 }
@@ -30,16 +33,29 @@ impl<'a> Finding<'a> {
 /// Measures every robot again; a robot fails if its file has another value.
 ///
 /// # Errors
-/// When the output cannot be written.
-pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failure> {
-    let bar = Progress::new("verifying", library.robots.len() as u64);
-    let find = |robot| {
-        let finding = Finding::of(robot);
+/// When the device or the server cannot be used, or the output cannot be written.
+pub fn verify(
+    library: &Library,
+    device: DeviceArguments,
+    queue: &QueueArguments,
+    context: &mut Context,
+) -> Result<Status, Failure> {
+    let bar = Arc::new(Progress::new("verifying", library.robots.len() as u64));
+    let laboratory = OpenLaboratory::open(device, queue, &bar, context)?;
+    let robots: Vec<&Robot> = library.robots.iter().collect();
+    let mut findings = Vec::new();
+    let keep = |finding| {
         bar.add(1);
-        finding
+        findings.push(finding);
+        Ok::<(), Failure>(())
     };
-    let findings: Vec<_> = library.robots.par_iter().map(find).collect();
+    workers::in_order(laboratory.threads(), &robots, |robot| Finding::of(laboratory.place(), robot), keep)?;
     drop(bar);
+    let stopped = laboratory.is_stopped();
+    laboratory.end(context)?;
+    if stopped {
+        return Ok(Status::Interrupted);
+    }
     let failed = findings.iter().filter(|finding| !finding.verified).count();
     match context.format {
         OutputFormat::Json => context.print_json(Schema::Verify, &serde_json::json!({ "robots": findings }))?,
@@ -57,15 +73,16 @@ pub fn verify(library: &Library, context: &mut Context) -> Result<Status, Failur
 }
 
 /// The differences between a new measurement and the file.
-fn differences(robot: &Robot) -> Vec<&'static str> {
-    let Ok(Measurement { displacement, behavior, character }) = swarm::measure(&Simulator::default(), &robot.body)
-    else {
+fn differences(laboratory: &dyn Laboratory, robot: &Robot) -> Vec<&'static str> {
+    let task = Task::Measurement(robot.body.clone());
+    let measured = laboratory.perform(&[task], &|| ()).remove(0).measured();
+    let Ok(Measurement { displacement, behavior, character }) = measured else {
         return vec!["the simulation has a fault"];
     };
     let same = [
         ("displacement", displacement == robot.displacement),
         ("behavior", behavior == robot.behavior),
-        ("character", character == robot.character),
+        ("character", character == Character { radius: None, ..robot.character.clone() }),
     ];
     same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name).collect()
 }

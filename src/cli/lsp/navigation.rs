@@ -49,6 +49,7 @@ pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbo
             NameKind::Evolution => SymbolKind::Class,
             NameKind::Library => SymbolKind::Package,
             NameKind::Swarm => SymbolKind::Object,
+            NameKind::World => SymbolKind::Namespace,
         };
         let name = files.checked.sources.text(found.place).to_owned();
         let is_wanted = found.place == found.declared && name.to_lowercase().contains(&query);

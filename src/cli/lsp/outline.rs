@@ -25,6 +25,7 @@ fn symbols_of(declaration: &Declaration, lines: &Lines<'_>) -> Vec<DocumentSymbo
                 RecordKeyword::Evolution => SymbolKind::Class,
                 RecordKeyword::Library => SymbolKind::Package,
                 RecordKeyword::Swarm => SymbolKind::Object,
+                RecordKeyword::World => SymbolKind::Namespace,
             };
             one(&record.name, kind, record.keyword.word())
         }

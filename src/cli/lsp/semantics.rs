@@ -105,7 +105,7 @@ fn of_name(files: &Files<'_>, found: NameUse) -> (&'static str, u32) {
         NameKind::Number => "typeParameter",
         NameKind::Stimulus => "event",
         NameKind::Material => "enumMember",
-        NameKind::Schedule | NameKind::Evolution | NameKind::Library | NameKind::Swarm => "class",
+        NameKind::Schedule | NameKind::Evolution | NameKind::Library | NameKind::Swarm | NameKind::World => "class",
     };
     let declaration = u32::from(found.place == found.declared);
     let library = u32::from(files.prelude(found.declared.file).is_some());

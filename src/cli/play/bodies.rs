@@ -14,7 +14,7 @@ use crate::report::{self, Looks, Scheme, Stage, describe_material};
 use crate::session::{Checked, CompileOptions, Session};
 use crate::sim::Simulator;
 use crate::store;
-use crate::swarm::{FIXED_STEPS, Recorded, fixed_displacements, fixed_trials, measure, sketch};
+use crate::swarm::{Recorded, measure, sketch, walk};
 
 /// The largest side of a body that is simulated for a page.
 const MOST_SIDE: usize = 20;
@@ -123,9 +123,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
 fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Character>), Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let simulator = job.simulator();
-    let trajectories = simulator.run_trials(&Setting::default(), &fixed_trials(body, FIXED_STEPS));
-    let four = trajectories.first_chunk::<4>().expect("four trials, four trajectories");
-    let displacement = fixed_displacements(four).map_err(stopped)?;
+    let displacement = walk(&simulator, std::slice::from_ref(body)).remove(0).map_err(stopped)?;
     let behavior = Behavior::of(&displacement);
     let character = is_whole.then(|| sketch(&simulator, body, behavior)).transpose().map_err(stopped)?;
     Ok((displacement, behavior, character))

@@ -8,13 +8,13 @@ use crate::cli::play::bodies;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::EvolveRequest;
-use crate::evolve::{Archive, CandidateOutcome, Elite, NicheKey, Search, neighbor, stream};
-use crate::model::{Axis, Body, Evolution, Genotype};
+use crate::evolve::{Archive, CandidateOutcome, Elite, NicheKey, Scores, Search, neighbor, stream};
+use crate::model::{Axis, Behavior, Body, Evolution, Fault, Genotype};
 use crate::report::axis_word;
 use crate::session::{Observer, Session};
 use crate::sim::Simulator;
 use crate::source::MemoryWorld;
-use crate::swarm::evaluate_bodies;
+use crate::swarm::{evaluate_bodies, walk};
 
 /// The largest and the smallest side of a box, and the most generations.
 const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
@@ -60,6 +60,18 @@ fn declared(width: usize, height: usize, generations: u32) -> Evolution {
     checked.program.evolution("play").expect("it is declared above").clone()
 }
 
+/// Those bodies that walk for long as they do in the short holds of the search: in the designer the others would be of
+/// another kind than the square that was clicked.
+fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Scores)> {
+    let bodies: Vec<Body> = measured.iter().map(|(body, _)| body.clone()).collect();
+    let walked = walk(simulator, &bodies);
+    let is_steady = |scores: &Scores, walked: Result<[f64; 4], Fault>| {
+        walked.is_ok_and(|displacement| Behavior::of(&displacement) == scores.behavior)
+    };
+    let both = measured.into_iter().zip(walked);
+    both.filter(|((_, scores), walked)| is_steady(scores, *walked)).map(|(measured, _)| measured).collect()
+}
+
 /// An archive that is being filled.
 struct Tending {
     evolution: Evolution,
@@ -74,9 +86,12 @@ impl Tending {
         let bodies = self.candidates(generation, start);
         let outcomes = evaluate_bodies(simulator, &self.evolution, bodies.clone());
         let before: Vec<(NicheKey, [f64; 2])> = self.best().map(|(key, elite)| (key.clone(), elite.fitness)).collect();
-        for (body, outcome) in bodies.into_iter().zip(outcomes) {
-            self.evaluations += 1;
-            let CandidateOutcome::Measured(scores) = outcome else { continue };
+        self.evaluations += bodies.len() as u64;
+        let measured = bodies.into_iter().zip(outcomes).filter_map(|(body, outcome)| match outcome {
+            CandidateOutcome::Measured(scores) => Some((body, scores)),
+            _ => None,
+        });
+        for (body, scores) in steady(simulator, measured.collect()) {
             self.archive.add(Elite {
                 fitness: scores.fitness,
                 behavior: scores.behavior,

@@ -13,7 +13,7 @@ use crate::cli::play::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::{Refusal, Refused};
 use crate::session::{Compiled, Excerpt, Session};
-use crate::swarm::{LiveSwarm, RobotTrace, SwarmSnapshot, setting};
+use crate::swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
 const FRAME_TIME: Duration = Duration::from_millis(15);
@@ -190,7 +190,7 @@ impl Shown {
             sent: 0,
             is_new: true,
             last_frame: None,
-            world: setting(&compiled.assembly, Session::LIVE_CYCLES).world_width as f64,
+            world: compiled.assembly.setting(Session::LIVE_CYCLES).world_width as f64,
             compiled,
             swarm,
         }

@@ -5,7 +5,8 @@ use std::io;
 use crate::cli::play::jobs::Job;
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::TakeKind;
-use crate::report::{self, Film, STRIDE, Scheme, Stage, SwarmOutcome};
+use crate::model::CYCLE_STEPS;
+use crate::report::{self, FRAMES_PER_CYCLE, Film, Scheme, Stage, SwarmOutcome};
 use crate::session::{Excerpt, RunEnd, Session, SimulationRun, run_page};
 
 /// The most cycles that a file covers.
@@ -58,7 +59,7 @@ pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &m
 fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {
     let assembly = &excerpt.compiled.assembly;
     let start = (excerpt.start.robots(), Session::LIVE_CYCLES);
-    let stage = Stage::of_running_swarm(assembly, &run.swarm.trace, start, STRIDE);
+    let stage = Stage::of_running_swarm(assembly, &run.swarm.trace, start, CYCLE_STEPS / FRAMES_PER_CYCLE);
     let sides = assembly.members.iter().map(|member| member.robot.body.width().max(member.robot.body.height()));
     let film = Film {
         title: assembly.circuit.clone(),

@@ -1,21 +1,28 @@
 //! `nbc test`: files' tests, at the level of logic or in full physics.
 
+mod worlds;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
 
+use crate::cli::distant::DistantLaboratory;
+use crate::cli::laboratory::{open_distant, threads};
 use crate::cli::mapping::GoalArguments;
+use crate::cli::nats_access::QueueArguments;
 use crate::cli::program::RunsArguments;
 use crate::cli::run::unknown_run;
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
 use crate::diag::{Diagnostic, counted};
 use crate::report::{self, Schema};
-use crate::session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
+use crate::session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions, TestRun};
 use crate::store::DiskWorld;
-use crate::swarm::{Level, TestVerdict};
+use crate::swarm::{Level, Task, TaskResult, TestVerdict};
+
+use worlds::WorldsArguments;
 
 /// Test the circuits of a file
 #[derive(Args)]
@@ -23,11 +30,18 @@ use crate::swarm::{Level, TestVerdict};
   nbc test circuits/counter.nb
   nbc test circuits/latch.nb --logic
   nbc test circuits/latch.nb --physics
+  nbc test circuits/latch.nb --worlds 200 --vary friction=10%,gravity=5%,stiffness=5%
 
 At the level of logic, every cell takes one time step, and a row is held until nothing changes. In physics, every \
 robot is simulated voxel by voxel, and a test runs once for each swarm that is declared for its circuit. By default, \
 circuits of fewer than 40 robots are tested in physics and larger ones at the level of logic.
-Exit status: 0 every test passed, 1 a test failed, 2 the file has errors, 4 interrupted.")]
+
+With --vary, each test runs in physics in a sample of worlds. Each factor (friction, gravity, stiffness, drag, \
+damping, swelling) is uniform within its change to either side, and each noise (start, missed, weak, dead) from \
+nothing to its change. The output has the share of worlds in which the test passes, with its 95 % interval, the \
+robots that fail first, and the smallest margin of the others. A test that fails in some worlds does not change \
+the exit status, unless --least-yield asks for more.
+Exit status: 0 every test passed, 1 a test failed or its yield is too low, 2 the file has errors, 4 interrupted.")]
 pub struct TestArguments {
     /// The source files
     #[arg(required = true)]
@@ -42,9 +56,13 @@ pub struct TestArguments {
     #[arg(long)]
     physics: bool,
     #[command(flatten)]
+    worlds: WorldsArguments,
+    #[command(flatten)]
     runs: RunsArguments,
     #[command(flatten)]
     goal: GoalArguments,
+    #[command(flatten)]
+    queue: QueueArguments,
 }
 
 /// A case with the index of its file on the command line.
@@ -81,7 +99,11 @@ impl TestArguments {
         for file in files {
             context.warn(file, &file.diagnostics);
         }
-        let verdicts = run_cases(session, &cases, files, interrupt, context)?;
+        if self.worlds.is_used() {
+            let cases: Vec<TestCase<'_>> = cases.into_iter().map(|(_, case)| case).collect();
+            return self.worlds.test(session, &cases, interrupt, context);
+        }
+        let verdicts = run_cases(session, &cases, files, &self.queue, interrupt, context)?;
         let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
         let left = interrupt.is_raised().then_some(cases.len() - verdicts.len());
         match context.format {
@@ -109,6 +131,7 @@ impl TestArguments {
         match (self.logic, self.physics) {
             (true, _) => Some(Level::Logic),
             (_, true) => Some(Level::Physics),
+            _ if self.worlds.is_used() => Some(Level::Physics),
             _ => None,
         }
     }
@@ -152,14 +175,19 @@ fn run_cases(
     session: &Session,
     cases: &[Numbered<'_>],
     files: &[Arc<Checked>],
+    queue: &QueueArguments,
     interrupt: &Interrupt,
     context: &mut Context,
 ) -> Result<Vec<TestVerdict>, Failure> {
-    let bar = Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum());
+    let bar = Arc::new(Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum()));
+    let distant = open_distant(queue, interrupt, &bar)?;
     // The trace is dropped, because it is large and not needed.
     let run = |(file, case): &Numbered<'_>| {
         // After an interruption circuits are compiled with little effort, so their tests are not begun.
-        let run = (!interrupt.is_raised()).then(|| session.run_case(case.clone(), &mut interrupt.observe(bar.part())));
+        let run = (!interrupt.is_raised()).then(|| match distant.as_deref() {
+            Some(distant) => run_elsewhere(session, case.clone(), distant, interrupt, &bar),
+            None => session.run_case(case.clone(), &mut interrupt.observe(bar.part())),
+        });
         run.filter(|run| run.end == RunEnd::Complete).map(|run| (*file, run.verdict, run.warnings))
     };
     let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
@@ -174,8 +202,23 @@ fn run_cases(
         verdicts.push(verdict);
         Ok(())
     };
-    workers::in_order(cases, run, |judged| bar.suspend(|| tell(judged)))?;
+    workers::in_order(threads(distant.as_deref()), cases, run, |judged| bar.suspend(|| tell(judged)))?;
+    distant.map_or(Ok(()), DistantLaboratory::end)?;
     Ok(verdicts)
+}
+
+/// Runs a case with its swarm simulated by workers; one without a swarm is run here.
+fn run_elsewhere(
+    session: &Session,
+    case: TestCase<'_>,
+    distant: &dyn DistantLaboratory,
+    interrupt: &Interrupt,
+    bar: &Progress,
+) -> TestRun {
+    let Some(task) = case.task() else { return session.run_case(case, &mut interrupt.observe(bar.part())) };
+    let work = case.work();
+    let bits = distant.perform(&[Task::Swarm(task)], &|| bar.add(work)).pop().map(TaskResult::bits);
+    case.judge(&bits.expect("a result for each task"))
 }
 
 /// A line for a test that passed; a failed test has its rows below the line.

@@ -1,16 +1,21 @@
-//! Back ends: implementations of the physics. All give the same bits; `lanes` runs on this processor.
+//! Back ends: implementations of the physics. All give the same bits; `lanes` runs on this processor, `opencl` on a
+//! graphics card.
 
 pub mod lanes;
+#[cfg(feature = "gpu")]
+pub mod opencl;
+mod run;
 
 use std::fmt::Debug;
 
 use crate::model::{Body, Fault, Pattern, Setting, Trajectory, Trial};
+use crate::sim::constants::Constants;
 use crate::sim::lattice::Lattice;
 use crate::sim::state::State;
 
 /// An implementation of the physics.
 pub trait Backend: Debug + Send + Sync {
-    /// Opens a world with a robot for each body, at rest at the setting's start column, its clock at zero.
+    /// Opens a world with a robot for each body, at rest at the setting's start, its clock at zero.
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock>;
 
     /// Simulates each trial from a fresh start; result `i` is that of trial `i`. The results do not depend on threads
@@ -61,6 +66,15 @@ pub trait Flock: Debug + Send {
 
     /// Sets robot `i` to an earlier snapshot of a robot with the same body.
     fn restore(&mut self, i: usize, snapshot: &Snapshot);
+
+    /// Moves robot `i` to the right by that many voxels.
+    fn shift(&mut self, i: usize, voxels: f64) {
+        let (constants, mut snapshot) = (Constants::default(), self.snapshot(i));
+        let State { position, previous, .. } = &mut snapshot.state;
+        position.iter_mut().chain(previous).for_each(|point| point[0] += voxels * constants.cell);
+        snapshot.center = snapshot.state.center(&constants);
+        self.restore(i, &snapshot);
+    }
 }
 
 /// A robot's simulation at the end of an env step.

@@ -81,6 +81,8 @@ pub(in crate::store) enum Flaw {
     Rate { field: &'static str, rate: f64 },
     /// A margin that is not finite.
     Margin,
+    /// A radius that is not finite, or of changes that cannot be read.
+    Radius,
     /// A settle time of zero or too many cycles.
     Settle { cycles: u32, most: u32 },
     /// A weight of the genotype that is not finite.
@@ -97,6 +99,7 @@ impl Flaw {
             Self::Behavior { .. } => "behavior",
             Self::Clock { .. } => "clock",
             Self::Margin => "margin",
+            Self::Radius => "radius",
             Self::Settle { .. } => "settle",
             Self::Weight => "genotype",
         }
@@ -119,6 +122,7 @@ impl fmt::Display for Flaw {
             Self::Clock { cycles, most } => write!(f, "a clock of {cycles} cycles, expected 1 to {most}"),
             Self::Rate { field, rate } => write!(f, "`{field}` of {rate}, expected a share from 0 to 1"),
             Self::Margin => f.write_str("the margin is not a finite number"),
+            Self::Radius => f.write_str("the radius is not a finite number of changes such as `friction=10%`"),
             Self::Settle { cycles, most } => write!(f, "a settle time of {cycles} cycles, expected 1 to {most}"),
             Self::Weight => f.write_str("a weight of the network is not a finite number"),
         }

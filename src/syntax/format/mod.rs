@@ -147,6 +147,11 @@ mod tests {
         check(table, table);
         let apart = "swarm a { circuit: c }\n\nswarm longer { circuit: c }\n";
         check(apart, apart);
+        check(
+            "world w{friction:90 %,gravity:1.1}\ntest f  in w{a|q\n0|1}\nsimulate s in  w with sweep",
+            "world w { friction: 90%, gravity: 1.1 }\n\ntest f in w {\n    a | q\n    0 | 1\n}\n\nsimulate s in w with \
+             sweep\n",
+        );
         let long = "evolution gates {\n    box:         5 x 5\n    materials:   [bone, flesh, muscle, \
             antimuscle]\n    descriptors: \
                     [voxels in 4 bins, active in 4 bins, sensory in 4 bins, behavior]\n}\n";

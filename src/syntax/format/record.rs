@@ -144,9 +144,10 @@ fn value(value_: &ValueSyntax) -> String {
     }
 }
 
-/// `10 cycles`
+/// `10 cycles` or `90%`
 pub(super) fn quantity(quantity: &Quantity) -> String {
     match &quantity.unit {
+        Some(unit) if unit.text == "%" => format!("{}%", quantity.number.text),
         Some(unit) => format!("{} {}", quantity.number.text, unit.text),
         None => quantity.number.text.clone(),
     }

@@ -12,7 +12,7 @@ impl Printer<'_> {
     }
 
     pub(super) fn simulate(&mut self, simulate: &Simulate, span: Span) {
-        self.write(&format!("simulate {} with ", simulate.swarm.text));
+        self.write(&format!("simulate {} {}with ", simulate.swarm.text, in_world(simulate.world.as_ref())));
         match &simulate.with {
             With::Named(name) => self.write(&name.text),
             With::Spells { columns, spells } => {
@@ -38,6 +38,7 @@ impl Printer<'_> {
         if let Some(title) = &test.title {
             self.write(&format!("\"{}\" ", title.text));
         }
+        self.write(&in_world(test.world.as_ref()));
         match &test.kind {
             TestKind::Table(table) => self.test_table(table, span),
             TestKind::Against(other) => self.write(&format!("for all inputs against {}", instance(other))),
@@ -72,6 +73,11 @@ impl Printer<'_> {
             }
         });
     }
+}
+
+/// `in slippery `
+fn in_world(world: Option<&NameSyntax>) -> String {
+    world.map_or(String::new(), |world| format!("in {} ", world.text))
 }
 
 /// `a, b`

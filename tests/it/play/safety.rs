@@ -60,6 +60,9 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
     let text = "use \"../secret.nb\"";
     let program = page.done(json!({ "do": "program", "path": "a.nb", "text": text }));
     assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("outside"), "{program}");
+    fs::write(folder.path().join("inner/a.v"), "module a(input b, output c);\n`include \"../secret.nb\"\n").unwrap();
+    let program = page.done(json!({ "do": "program", "path": "a.nb", "text": "use \"a.v\"" }));
+    assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("`include`"), "{program}");
 }
 
 #[test]

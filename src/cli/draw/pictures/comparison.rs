@@ -30,5 +30,6 @@ pub(super) fn comparison(results: &EvolutionResults) -> Svg {
     let champions = results.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
     let groups = report::behavior_groups(&champions);
     let title = format!("{}: champions by group of behaviors", results.name);
-    report::draw_comparison(&title, results.unit(), &groups, &report::compare_groups(&groups))
+    let sides = report::compare_sides(&champions);
+    report::draw_comparison(&title, results.unit(), &groups, &report::compare_groups(&groups), sides)
 }

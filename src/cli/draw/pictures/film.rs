@@ -6,7 +6,7 @@ use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind, SubjectKind};
 use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::Several;
 use crate::model::{Body, Setting};
-use crate::report::{Film, STRIDE, Stage};
+use crate::report::{Film, Stage};
 use crate::session::SwarmRun;
 
 /// A film in a format.
@@ -35,7 +35,7 @@ impl PictureKind for FilmPicture {
     }
 
     fn options(&self) -> &'static [&'static str] {
-        &["--safe-colors", "--schedule"]
+        &["--frames", "--safe-colors", "--schedule"]
     }
 
     fn subject(&self) -> SubjectKind {
@@ -45,14 +45,14 @@ impl PictureKind for FilmPicture {
     fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
         let TitledBody { title, body } = robot;
         let lanes = vec![format!("{} x {}", body.width(), body.height())];
-        let stage = Stage::of_trial(&Setting::default(), body, &order.schedule()?, STRIDE);
+        let stage = Stage::of_trial(&Setting::default(), body, &order.schedule()?, order.stride());
         Ok(self.film(title, lanes, std::slice::from_ref(body), order, stage))
     }
 
     fn of_library(&self, robots: &Several, order: &Order) -> Result<Drawing, Failure> {
         let bodies: Vec<Body> = robots.robots.iter().map(|one| one.body.clone()).collect();
         let lanes = robots.robots.iter().map(|one| one.name.clone()).collect();
-        let stage = Stage::of_trials(&Setting::default(), &bodies, &order.schedule()?, STRIDE);
+        let stage = Stage::of_trials(&Setting::default(), &bodies, &order.schedule()?, order.stride());
         Ok(self.film(&robots.title, lanes, &bodies, order, stage))
     }
 
@@ -62,7 +62,7 @@ impl PictureKind for FilmPicture {
         let assembly = &compiled.assembly;
         let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
         let lanes = assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
-        let stage = Stage::of_swarm(assembly, trace, STRIDE);
+        let stage = Stage::of_swarm(assembly, trace, order.stride());
         Ok(self.film(&assembly.circuit, lanes.collect(), &bodies, order, stage))
     }
 }

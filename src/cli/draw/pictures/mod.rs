@@ -1,6 +1,7 @@
 //! The kinds of pictures, one file each.
 
 mod comparison;
+mod discovery;
 mod dot;
 mod film;
 mod heatmap;
@@ -18,9 +19,10 @@ use crate::cli::draw::picture::{FilmFormat, PictureKind};
 pub(in crate::cli) use page::run_page;
 
 /// Every kind, in the order of the help.
-pub(super) const PICTURES: [&dyn PictureKind; 13] = [
+pub(super) const PICTURES: [&dyn PictureKind; 14] = [
     &film::FilmPicture(FilmFormat::Apng),
     &comparison::ComparisonPicture,
+    &discovery::DiscoveryPicture,
     &dot::DotPicture,
     &film::FilmPicture(FilmFormat::Gif),
     &heatmap::HeatmapPicture,

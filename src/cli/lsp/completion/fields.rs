@@ -20,6 +20,7 @@ pub(super) fn of(keyword: &str) -> &'static [(&'static str, Holds)] {
         "evolution" => &EVOLUTION,
         "library" => &LIBRARY,
         "swarm" => &SWARM,
+        "world" => &WORLD,
         _ => &[],
     }
 }
@@ -39,7 +40,7 @@ const MATERIAL: [(&str, Holds); 8] = [
     ("present", Holds::Words(&[])),
 ];
 
-const EVOLUTION: [(&str, Holds); 16] = [
+const EVOLUTION: [(&str, Holds); 17] = [
     ("from", Holds::Name(NameKind::Evolution, &[])),
     ("box", Holds::Words(&[])),
     ("materials", Holds::Name(NameKind::Material, &[])),
@@ -56,17 +57,34 @@ const EVOLUTION: [(&str, Holds); 16] = [
     ("objective", Holds::Words(&["distance", "gate"])),
     ("symmetry", Holds::Words(&["none", "npn"])),
     ("niche", Holds::Words(&["dominance", "pareto"])),
+    ("world", Holds::Name(NameKind::World, &[])),
 ];
 
 const LIBRARY: [(&str, Holds); 2] =
     [("from", Holds::Name(NameKind::Evolution, &["shipped"])), ("behaviors", Holds::Function)];
 
-const SWARM: [(&str, Holds); 5] = [
+const SWARM: [(&str, Holds); 6] = [
     ("circuit", Holds::Name(NameKind::Circuit, &[])),
     ("library", Holds::Name(NameKind::Library, &[])),
     ("hold", Holds::Words(&["auto"])),
     ("window", Holds::Words(&[])),
     ("registers", Holds::Words(&["master_slave", "pulsed"])),
+    ("world", Holds::Name(NameKind::World, &[])),
+];
+
+const WORLD: [(&str, Holds); 12] = [
+    ("from", Holds::Name(NameKind::World, &[])),
+    ("friction", Holds::Words(&[])),
+    ("gravity", Holds::Words(&[])),
+    ("stiffness", Holds::Words(&[])),
+    ("drag", Holds::Words(&[])),
+    ("damping", Holds::Words(&[])),
+    ("swelling", Holds::Words(&[])),
+    ("start", Holds::Words(&[])),
+    ("missed", Holds::Words(&[])),
+    ("weak", Holds::Words(&[])),
+    ("dead", Holds::Words(&[])),
+    ("seed", Holds::Words(&[])),
 ];
 
 #[cfg(test)]
@@ -85,9 +103,9 @@ mod tests {
     #[test]
     fn the_fields_are_those_of_the_checker() {
         let kinds = ["actuator", "sensor"].map(|kind| format!("material x {{ kind: {kind}, qqqqq: 1 }}"));
-        let others = ["evolution", "library", "swarm"].map(|keyword| format!("{keyword} x {{ qqqqq: 1 }}"));
+        let others = ["evolution", "library", "swarm", "world"].map(|keyword| format!("{keyword} x {{ qqqqq: 1 }}"));
         let known: String = kinds.iter().chain(&others).map(|text| messages(text)).collect();
-        for keyword in ["material", "evolution", "library", "swarm"] {
+        for keyword in ["material", "evolution", "library", "swarm", "world"] {
             let own = known.lines().filter(|line| line.starts_with(&format!("the {keyword} ")));
             let own: Vec<&str> =
                 own.filter_map(|line| line.split_once("its fields are ")).map(|(_, list)| list).collect();
@@ -104,7 +122,7 @@ mod tests {
 
     #[test]
     fn the_words_are_those_of_the_checker() {
-        for (keyword, start) in [("material", ""), ("evolution", ""), ("library", ""), ("swarm", "")] {
+        for (keyword, start) in [("material", ""), ("evolution", ""), ("library", ""), ("swarm", ""), ("world", "")] {
             for (field, holds) in of(keyword) {
                 let (Holds::Words(words) | Holds::Name(_, words)) = holds else { continue };
                 for word in words.iter().filter(|word| !word.ends_with(" in") && **word != "pareto") {

@@ -63,6 +63,7 @@ pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem>
         Place::Circuit => names(files, NameKind::Circuit),
         Place::Columns(name) => columns(files, name),
         Place::Swarm => names(files, NameKind::Swarm),
+        Place::World => names(files, NameKind::World),
         Place::Schedule => [names(files, NameKind::Schedule), words(&["schedule"])].concat(),
         Place::Stimulus => names(files, NameKind::Stimulus),
     }

@@ -35,6 +35,8 @@ pub(super) enum Place<'t> {
     Columns(&'t str),
     /// In a row of a test, a spell of a schedule.
     Row,
+    /// Where a test or a simulation names its world.
+    World,
     /// Where a simulation names its swarm, and its schedule.
     Swarm,
     Schedule,
@@ -103,7 +105,7 @@ impl<'t> Before<'t> {
                 "{" => Place::Row,
                 _ => Place::NewName,
             },
-            "material" | "evolution" | "library" | "swarm" => self.in_record(is_number),
+            "material" | "evolution" | "library" | "swarm" | "world" => self.in_record(is_number),
             _ => Place::NewName,
         }
     }
@@ -166,6 +168,7 @@ impl<'t> Before<'t> {
         let has = |word: &str| (1..self.tokens.len()).any(|at| self.word(at) == word);
         match self.open.first().map(|&at| self.word(at)) {
             _ if self.tokens.len() == 1 || self.last() == "against" => Place::Circuit,
+            None if self.last() == "in" => Place::World,
             Some("{") if has("all") && has("inputs") => self.in_body(offset),
             Some("{") if has("|") && self.is_row(offset) => match self.tokens.last().map(|token| token.kind) {
                 Some(TokenKind::Number) if self.last_word_before() == "for" => Place::Unit,
@@ -186,6 +189,7 @@ impl<'t> Before<'t> {
     fn in_simulation(&self) -> Place<'t> {
         match (self.tokens.len(), self.last(), self.bracket()) {
             (1, ..) => Place::Swarm,
+            (_, "in", _) => Place::World,
             (_, "with", _) => Place::Schedule,
             (.., "(") => Place::Columns(self.word(1)),
             (.., "{") => Place::Row,
@@ -267,6 +271,8 @@ mod tests {
         assert_eq!(place("material m { period: 3 $"), "Unit");
         assert_eq!([place("simulate $"), place("simulate s with $")], ["Swarm", "Schedule"]);
         assert_eq!(place("simulate s with schedule ($"), "Columns(\"s\")");
+        assert_eq!([place("simulate s in $"), place("test f \"t\" in $")], ["World"; 2]);
+        assert_eq!(place("world w { from: $"), "Value(\"world\", \"from\")");
         assert_eq!([place("schedule s($"), place("schedule s(a) {\n    $")], ["Stimulus", "Row"]);
         assert_eq!(place("schedule s(a) {\n    0 for 3 $"), "Unit");
     }

@@ -5,7 +5,7 @@ use crate::syntax::tree::RecordKeyword;
 const MANUAL: &str = include_str!("../../../../docs/language.md");
 
 /// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 36] = [
+const KEYWORDS: [(&str, &str); 37] = [
     ("against", "Tests"),
     ("all", "Tests"),
     ("and", "Expressions"),
@@ -40,6 +40,7 @@ const KEYWORDS: [(&str, &str); 36] = [
     ("then", "Expressions"),
     ("use", "Files"),
     ("with", "Libraries, swarms and simulations"),
+    ("world", "Worlds"),
     ("xnor", "Expressions"),
     ("xor", "Expressions"),
 ];
@@ -55,6 +56,7 @@ pub(super) fn field(of: RecordKeyword, word: &str) -> Option<String> {
     let heading = match of {
         RecordKeyword::Material => "Stimuli and materials",
         RecordKeyword::Evolution => "Evolutions",
+        RecordKeyword::World => "Worlds",
         RecordKeyword::Library | RecordKeyword::Swarm => "Libraries, swarms and simulations",
     };
     let is_there = section(heading)?.contains(&format!("`{word}`"));

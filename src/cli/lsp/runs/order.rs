@@ -14,12 +14,12 @@ use crate::swarm::Level;
 pub(in crate::cli::lsp) struct RunOrder {
     /// The source.
     pub(in crate::cli::lsp) uri: Uri,
-    pub(super) task: Task,
+    pub(super) task: RunTask,
 }
 
 /// The kinds of work.
 #[derive(Clone, Debug)]
-pub(super) enum Task {
+pub(super) enum RunTask {
     /// Tests and simulations of these numbers; all tests, and in physics all simulations, if there are none.
     Run { level: Level, test: Option<usize>, simulation: Option<usize> },
     /// The picture of a circuit made of robots.
@@ -56,12 +56,12 @@ impl RunOrder {
         let number = |name: &str| argument.get(name).and_then(Value::as_u64).map(|number| number as usize);
         let uri = Uri(text("uri").ok_or(OrderError::Arguments)?);
         let choice = Choice { circuit: text("circuit"), swarm: text("swarm") };
-        let run = |level| Task::Run { level, test: number("test"), simulation: number("simulation") };
+        let run = |level| RunTask::Run { level, test: number("test"), simulation: number("simulation") };
         let task = match asked.command.as_str() {
             RUN => run(Level::Physics),
             TEST => run(Level::Logic),
-            SCHEMATIC => Task::Schematic(choice),
-            TIMING => Task::Timing(choice),
+            SCHEMATIC => RunTask::Schematic(choice),
+            TIMING => RunTask::Timing(choice),
             other => return Err(OrderError::Command(other.to_owned())),
         };
         Ok(Self { uri, task })
@@ -71,9 +71,9 @@ impl RunOrder {
     pub(in crate::cli::lsp) fn title(&self, checked: &Checked) -> String {
         let file = checked.path.rsplit('/').next().unwrap_or_default();
         match &self.task {
-            Task::Run { level: Level::Physics, .. } => format!("simulating {file}"),
-            Task::Run { .. } => format!("testing {file}"),
-            Task::Schematic(_) | Task::Timing(_) => format!("compiling {file}"),
+            RunTask::Run { level: Level::Physics, .. } => format!("simulating {file}"),
+            RunTask::Run { .. } => format!("testing {file}"),
+            RunTask::Schematic(_) | RunTask::Timing(_) => format!("compiling {file}"),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::cancellable::{complete_simulation, complete_test};
-use crate::cli::lsp::runs::order::{RunOrder, Task};
+use crate::cli::lsp::runs::order::{RunOrder, RunTask};
 use crate::cli::lsp::runs::outcome::RunOutcome;
 use crate::cli::lsp::runs::watcher::Watcher;
 use crate::diag::Diagnostics;
@@ -29,16 +29,16 @@ pub(super) fn perform(
     }
     let session = Session::new(world).with_poses(Room::SWARM);
     match &order.task {
-        Task::Run { level, test, simulation } => {
+        RunTask::Run { level, test, simulation } => {
             let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
             finish(checked, *level, &report, results)
         }
-        Task::Schematic(choice) => {
+        RunTask::Schematic(choice) => {
             let picture = compile(&session, checked, choice, watcher)?.schematic(Scheme::default());
             let path = written(checked, results, "schematic.svg", &picture.finish())?;
             Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path)))
         }
-        Task::Timing(choice) => {
+        RunTask::Timing(choice) => {
             let timing = compile(&session, checked, choice, watcher)?.swarm_timing();
             Ok(RunOutcome::new(None, timing.describe(), None))
         }

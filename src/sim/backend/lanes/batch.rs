@@ -156,8 +156,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub inside: Vec<Inside>,
     /// Scratch: voxels of one lane.
     pub voxels: Vec<usize>,
-    /// Positions at the end of the last env step that went well.
-    saved: Vec<Vector<R>>,
+    /// Position, position one substep ago and velocity of each mass at the end of the last env step that went well.
+    saved: Vec<[Vector<R>; 3]>,
 }
 
 /// One row of the lattice.
@@ -359,17 +359,18 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Reads the positions of a lane's points at the last call of [`Batch::save`].
+    /// Reads a lane's state at the last call of [`Batch::save`].
     pub fn unload_saved(&self, lane: usize, state: &mut State) {
         for (point, &mass) in self.occupants[lane].masses.iter().enumerate() {
-            state.position[point] = self.saved[mass].map(|axis| axis.lane(lane));
+            let [at, before, velocity] = self.saved[mass].map(|vector| vector.map(|axis| axis.lane(lane)));
+            (state.position[point], state.previous[point], state.velocity[point]) = (at, before, velocity);
         }
     }
 
-    /// Saves all positions, in case the next env step has to be undone.
+    /// Saves all states, in case the next env step has to be undone.
     pub fn save(&mut self) {
         self.saved.clear();
-        self.saved.extend(self.masses.iter().map(|mass| mass.at));
+        self.saved.extend(self.masses.iter().zip(&self.before).map(|(mass, &before)| [mass.at, before, mass.velocity]));
     }
 
     /// The center of mass of a lane's robot, in voxels: the plain mean over its points in order of creation.

@@ -2,10 +2,10 @@
 
 use crate::model::{Body, Fault, Pattern, Schedule, Setting};
 use crate::sim::backend::lanes::formation::{Formation, LaneRequest};
-use crate::sim::backend::lanes::run::{Run, runs};
 use crate::sim::backend::lanes::squad::Squad;
 use crate::sim::backend::lanes::threads;
 use crate::sim::backend::lanes::world::World;
+use crate::sim::backend::run::{Run, runs};
 use crate::sim::backend::{Flock, Snapshot};
 use crate::sim::lattice::Lattice;
 

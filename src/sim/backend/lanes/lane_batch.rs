@@ -22,13 +22,13 @@ pub trait LaneBatch: Debug + Send {
     /// Lanes that became unstable, as bits.
     fn unstable(&self) -> u32;
 
-    /// Saves all positions, in case the next env step has to be undone.
+    /// Saves all states, in case the next env step has to be undone.
     fn save(&mut self);
 
     /// Reads a lane's points.
     fn unload(&self, lane: usize, state: &mut State);
 
-    /// Reads the positions of a lane's points at the last [`LaneBatch::save`].
+    /// Reads a lane's points as they were at the last [`LaneBatch::save`].
     fn unload_saved(&self, lane: usize, state: &mut State);
 
     /// Ignores the time since the last call, if time is measured.

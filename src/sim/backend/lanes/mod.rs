@@ -12,7 +12,6 @@ mod mass;
 mod proximity;
 mod real;
 mod response;
-mod run;
 mod squad;
 mod step;
 mod stiffness;
@@ -30,6 +29,8 @@ use crate::sim::meter::Meter;
 use crate::sim::monitor::Monitor;
 
 pub use kernel::{InstructionSet, Kernel};
+#[cfg(feature = "gpu")]
+pub(super) use proximity::{MARGIN, SLACK};
 
 use flock::LaneFlock;
 use world::World;
@@ -50,6 +51,7 @@ pub struct LaneBackend {
 impl LaneBackend {
     fn world(&self, setting: &Setting) -> World {
         let Self { constants, kernel, meter, monitor } = self.clone();
+        let constants = constants.in_world(&setting.factors);
         World { constants, kernel, width: setting.world_width, meter, monitor }
     }
 }

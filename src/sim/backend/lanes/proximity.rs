@@ -11,10 +11,10 @@ use crate::sim::backend::lanes::real::{Mask, Real};
 use crate::sim::lattice::CORNERS;
 
 /// Boxes closer than this, in meters, are checked in every substep.
-const MARGIN: f64 = 0.03;
+pub const MARGIN: f64 = 0.03;
 
 /// Slack for rounding, in meters.
-const SLACK: f64 = 1e-9;
+pub const SLACK: f64 = 1e-9;
 
 /// A voxel of any lane.
 #[derive(Clone, Debug)]

@@ -4,8 +4,8 @@
 use crate::model::{Fault, FaultKind};
 use crate::sim::backend::lanes::kernel::Ground;
 use crate::sim::backend::lanes::lane_batch::LaneBatch;
-use crate::sim::backend::lanes::run::Run;
 use crate::sim::backend::lanes::world::World;
+use crate::sim::backend::run::Run;
 use crate::sim::meter::Part;
 use crate::sim::state::State;
 

@@ -3,10 +3,10 @@
 use std::sync::{Mutex, PoisonError};
 
 use crate::model::{Setting, Trajectory, Trial};
-use crate::sim::backend::lanes::run::{Run, runs};
 use crate::sim::backend::lanes::squad::Squad;
 use crate::sim::backend::lanes::threads;
 use crate::sim::backend::lanes::world::World;
+use crate::sim::backend::run::{Run, runs};
 
 /// A trial that waits for a lane, or has one.
 struct Waiting<'a> {
@@ -21,7 +21,7 @@ pub fn run_trials(world: &World, setting: &Setting, trials: &[Trial]) -> Vec<Tra
     let mut waiting: Vec<Waiting<'_>> = Vec::with_capacity(trials.len());
     for ((mut run, trial), trajectory) in runs.into_iter().zip(trials).zip(&mut trajectories) {
         run.assign(&trial.schedule);
-        push(trajectory, run.center);
+        trajectory.push(run.center);
         if !run.is_done() {
             waiting.push(Waiting { run, trajectory });
         }
@@ -56,7 +56,7 @@ fn run_box(waiting: Vec<Waiting<'_>>, world: &World) {
                 break;
             }
             let mut squad = Squad::new(runs);
-            squad.advance(world, |run, at| push(trajectories[run], at.center));
+            squad.advance(world, |run, at| trajectories[run].push(at.center));
             (runs, trajectories) = keep_going(squad.take(), trajectories);
         }
     });
@@ -74,9 +74,4 @@ fn keep_going(runs: Vec<Run>, trajectories: Vec<&mut Trajectory>) -> (Vec<Run>, 
         }
     }
     going
-}
-
-fn push(trajectory: &mut Trajectory, [x, y]: [f64; 2]) {
-    trajectory.com_x.push(x);
-    trajectory.com_y.push(y);
 }

@@ -41,7 +41,7 @@ struct Build {
 
 impl Run {
     /// A body at its start, without a schedule.
-    fn new(build: &Build, start: usize, constants: &Constants) -> Self {
+    fn new(build: &Build, start: f64, constants: &Constants) -> Self {
         let Build { body, lattice, signals } = build.clone();
         let state = State::start(&lattice, start, constants);
         let center = state.center(constants);
@@ -88,6 +88,24 @@ impl Run {
         }
     }
 
+    /// Env steps ahead.
+    #[cfg(feature = "gpu")]
+    pub fn remaining(&self) -> u32 {
+        if self.fault.is_some() { 0 } else { self.spells.iter().map(|&(_, steps)| steps).sum() }
+    }
+
+    /// The spells of at most `env_steps` env steps ahead, in order of time.
+    #[cfg(feature = "gpu")]
+    pub fn spells_ahead(&self, env_steps: u32) -> Vec<(Pattern, u32)> {
+        let mut left = env_steps;
+        let cut = |&(pattern, steps): &(Pattern, u32)| {
+            let steps = steps.min(left);
+            left -= steps;
+            (pattern, steps)
+        };
+        self.spells.iter().rev().map(cut).take_while(|&(_, steps)| steps > 0).collect()
+    }
+
     fn count_down(&mut self) {
         self.clock += 1;
         let spell = self.spells.last_mut().expect("a run that is not done has a spell");
@@ -119,7 +137,7 @@ pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoItera
             let lattice = Arc::new(Lattice::with_constants(body, constants));
             Build { body: number, lattice, signals: Arc::clone(signals) }
         });
-        Run::new(build, setting.start_column(body.width()), constants)
+        Run::new(build, setting.start_column(body.width()) as f64 + setting.shift, constants)
     };
     bodies.into_iter().map(run).collect()
 }

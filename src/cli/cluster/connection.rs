@@ -1,0 +1,217 @@
+//! A connection to a NATS server, for code that is not asynchronous.
+
+use std::time::Duration;
+
+use async_nats::jetstream::consumer::{AckPolicy, PullConsumer, pull};
+use async_nats::jetstream::stream::{RetentionPolicy, StorageType, Stream};
+use async_nats::jetstream::{self, stream};
+use async_nats::{ConnectOptions, ServerAddr};
+use clap::Args;
+use percent_encoding::percent_decode_str;
+use tokio::runtime::{Builder, EnterGuard, Runtime};
+
+use crate::cli::Failure;
+use crate::cli::cluster::message::{MOST_BYTES, TaskKey, VERSION};
+use crate::cli::nats_access::NatsAccess;
+use crate::cli::wording::ClusterError;
+
+/// The stream of tasks.
+const STREAM: &str = "nbc-tasks";
+/// A task is given to another worker when its worker has been silent for this time.
+pub const SILENCE: Duration = Duration::from_secs(6);
+/// Tasks of a search that has ended without cleaning up are dropped after this time.
+const MOST_AGE: Duration = Duration::from_secs(60 * 60);
+/// The most time for a reply of the server.
+pub const PATIENCE: Duration = Duration::from_secs(5);
+/// The most tasks in the hands of workers.
+const MOST_TAKEN: i64 = 1_000_000;
+
+/// The server.
+#[derive(Args, Clone, Debug)]
+pub struct NatsArguments {
+    /// The NATS server with JetStream, such as `nats://localhost:4222` or `tls://nats.example.org`
+    #[arg(long, value_name = "URL")]
+    pub nats: String,
+    #[command(flatten)]
+    pub access: NatsAccess,
+}
+
+/// A connection, with the threads that serve it.
+pub struct Connection {
+    /// It lives as long as the program.
+    pub runtime: &'static Runtime,
+    pub client: async_nats::Client,
+    pub jetstream: jetstream::Context,
+    /// The server without a password, for messages.
+    pub server: String,
+}
+
+impl Connection {
+    /// Connects. Later interruptions are bridged by the client.
+    ///
+    /// # Errors
+    /// When the server cannot be reached or refuses the client.
+    pub fn open(arguments: &NatsArguments, name: &str) -> Result<Self, Failure> {
+        let server = without_password(&arguments.nats);
+        let runtime = Builder::new_multi_thread()
+            .worker_threads(1)
+            .enable_all()
+            .build()
+            .map_err(|error| ClusterError::Start { reason: error.to_string() })?;
+        let runtime: &'static Runtime = Box::leak(Box::new(runtime));
+        let _entered = runtime.enter();
+        let mut options = ConnectOptions::new().name(name).connection_timeout(PATIENCE).event_callback(|_| async {});
+        // The client ignores the user in the address.
+        if let Some((user, password)) = user_and_password(&arguments.nats) {
+            options = options.user_and_password(user, password);
+        }
+        if let Some(path) = &arguments.access.tls_ca {
+            options = options.add_root_certificates(path.clone()).require_tls(true);
+        }
+        if let Some(path) = &arguments.access.creds {
+            let fault = |error: std::io::Error| ClusterError::Credentials {
+                path: path.display().to_string(),
+                reason: error.to_string(),
+            };
+            options = runtime.block_on(options.credentials_file(path)).map_err(fault)?;
+        }
+        let connecting = async { options.connect(arguments.nats.as_str()).await };
+        let client = runtime
+            .block_on(connecting)
+            .map_err(|error| ClusterError::Connect { server: server.clone(), reason: error.to_string() })?;
+        let jetstream = jetstream::ContextBuilder::new().timeout(PATIENCE).ack_timeout(PATIENCE).build(client.clone());
+        Ok(Self { runtime, client, jetstream, server })
+    }
+
+    /// Lets this thread use the connection as long as the guard lives: the client starts tasks where it is used and
+    /// dropped.
+    pub fn enter(&self) -> EnterGuard<'static> {
+        self.runtime.enter()
+    }
+
+    /// The stream of tasks, which is made if there is none.
+    ///
+    /// # Errors
+    /// The words of the server.
+    pub async fn stream(jetstream: &jetstream::Context) -> Result<Stream, String> {
+        let config = stream::Config {
+            name: STREAM.to_owned(),
+            subjects: vec![format!("nbc.v{VERSION}.task.>")],
+            retention: RetentionPolicy::WorkQueue,
+            storage: StorageType::File,
+            max_age: MOST_AGE,
+            max_message_size: MOST_BYTES as i32,
+            ..stream::Config::default()
+        };
+        jetstream.get_or_create_stream(config).await.map_err(|error| error.to_string())
+    }
+
+    /// The queue of the tasks for one kind of physics, which is made if there is none.
+    ///
+    /// # Errors
+    /// The words of the server.
+    pub async fn queue(jetstream: &jetstream::Context, token: &str) -> Result<PullConsumer, String> {
+        let stream = Self::stream(jetstream).await?;
+        let name = format!("workers-{token}");
+        let config = pull::Config {
+            durable_name: Some(name.clone()),
+            ack_policy: AckPolicy::Explicit,
+            ack_wait: SILENCE,
+            filter_subject: format!("nbc.v{VERSION}.task.{token}.>"),
+            max_ack_pending: MOST_TAKEN,
+            max_waiting: MOST_TAKEN,
+            inactive_threshold: MOST_AGE,
+            ..pull::Config::default()
+        };
+        stream.get_or_create_consumer(&name, config).await.map_err(|error| error.to_string())
+    }
+
+    /// The failure of a server that cannot keep the queue.
+    pub fn no_queue(&self, reason: String) -> Failure {
+        ClusterError::JetStream { server: self.server.clone(), reason }.into()
+    }
+}
+
+/// The subject of a task of a search, for workers of some physics.
+pub fn task_subject(token: &str, search: &str, key: TaskKey) -> String {
+    let TaskKey { run, generation, index } = key;
+    format!("nbc.v{VERSION}.task.{token}.{search}.{run}.{generation}.{index}")
+}
+
+/// The subjects of all tasks of a search.
+pub fn task_subjects(token: &str, search: &str) -> String {
+    format!("nbc.v{VERSION}.task.{token}.{search}.>")
+}
+
+/// The search that a task belongs to.
+pub fn search_of(subject: &str) -> Option<&str> {
+    subject.split('.').nth(4)
+}
+
+/// The subject of answers of a worker to a search.
+pub fn answer_subject(search: &str, worker: &str) -> String {
+    format!("nbc.v{VERSION}.answer.{search}.{worker}")
+}
+
+/// The subject of what workers say about themselves.
+pub fn worker_note_subject() -> String {
+    format!("nbc.v{VERSION}.worker")
+}
+
+/// The subject of what searches say about themselves.
+pub fn search_note_subject() -> String {
+    format!("nbc.v{VERSION}.search")
+}
+
+/// The subject on which a worker is told what a search thinks of it.
+pub fn reply_subject(worker: &str) -> String {
+    format!("nbc.v{VERSION}.reply.{worker}")
+}
+
+/// Random letters and digits.
+pub fn random_name() -> String {
+    format!("{:08x}", getrandom::u32().unwrap_or_else(|_| std::process::id()))
+}
+
+/// The user and the password in the first of the addresses.
+fn user_and_password(urls: &str) -> Option<(String, String)> {
+    let url: ServerAddr = urls.split(',').next()?.parse().ok()?;
+    let decoded = |text: &str| percent_decode_str(text).decode_utf8_lossy().into_owned();
+    Some((decoded(url.username()?), decoded(url.password()?)))
+}
+
+/// The address without user and password.
+fn without_password(url: &str) -> String {
+    let hide = |url: &str| match (url.split_once("://"), url.rsplit_once('@')) {
+        (Some((scheme, _)), Some((_, host))) => format!("{scheme}://{host}"),
+        (None, Some((_, host))) => host.to_owned(),
+        (_, None) => url.to_owned(),
+    };
+    url.split(',').map(hide).collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_subject_of_a_task_names_its_search() {
+        let subject = task_subject("0_2_0-00ff", "abcd", TaskKey { run: 1, generation: 2, index: 3 });
+        assert_eq!(subject, "nbc.v1.task.0_2_0-00ff.abcd.1.2.3");
+        assert_eq!(search_of(&subject), Some("abcd"));
+    }
+
+    #[test]
+    fn users_and_passwords_are_read_from_addresses() {
+        let expected = Some(("me".to_owned(), "a b".to_owned()));
+        assert_eq!(user_and_password("nats://me:a%20b@host:4222,nats://other"), expected);
+        assert_eq!(user_and_password("nats://host:4222"), None);
+    }
+
+    #[test]
+    fn passwords_are_not_shown() {
+        let shown = ["nats://me:secret@host:4222", "me:secret@host", "tls://host", "nats://a:b@h,nats://c:d@i"];
+        let expected = ["nats://host:4222", "host", "tls://host", "nats://h,nats://i"];
+        assert_eq!(shown.map(without_password), expected);
+    }
+}

@@ -1,0 +1,98 @@
+//! The results of a worker on their way to searches: each is sent until it is received, and then its task is done.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use async_nats::jetstream::AckKind;
+use async_nats::jetstream::message::Acker;
+use tokio::runtime::Handle;
+use tokio::task::JoinSet;
+use tokio::time;
+
+use crate::cli::cluster::connection::{Connection, answer_subject};
+use crate::cli::cluster::message::AnswerReply;
+
+/// The time for a reply to one attempt, and between attempts.
+const ATTEMPT: Duration = Duration::from_secs(2);
+/// The number of attempts. A search that does not reply for so long has ended.
+const ATTEMPTS: usize = 30;
+
+/// Deliveries in progress.
+pub struct Delivery {
+    handle: Handle,
+    client: async_nats::Client,
+    worker: String,
+    open: JoinSet<Delivered>,
+}
+
+/// How a delivery ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Delivered {
+    /// The search has the result.
+    Received,
+    /// The search has ended, or cannot be reached.
+    Unwanted { search: String },
+    /// The search does not want results of this worker.
+    Rejected(AnswerReply),
+}
+
+impl Delivery {
+    /// No deliveries yet.
+    pub fn new(connection: &Connection, worker: &str) -> Self {
+        let handle = connection.runtime.handle().clone();
+        Self { handle, client: connection.client.clone(), worker: worker.to_owned(), open: JoinSet::new() }
+    }
+
+    /// Starts to deliver a result.
+    pub fn start(&mut self, search: String, bytes: Vec<u8>, acker: Arc<Acker>) {
+        let (client, subject) = (self.client.clone(), answer_subject(&search, &self.worker));
+        let deliver = async move {
+            match deliver(client, subject, bytes, acker).await {
+                None => Delivered::Unwanted { search },
+                Some(AnswerReply::Received) => Delivered::Received,
+                Some(reply) => Delivered::Rejected(reply),
+            }
+        };
+        self.open.spawn_on(deliver, &self.handle);
+    }
+
+    /// The deliveries that have ended since the last call.
+    pub fn finished(&mut self) -> Vec<Delivered> {
+        std::iter::from_fn(|| self.open.try_join_next()).flatten().collect()
+    }
+
+    /// Waits for the others, at most for some time.
+    pub async fn finish(&mut self, most: Duration) -> Vec<Delivered> {
+        let mut ended = Vec::new();
+        let end = time::Instant::now() + most;
+        while let Ok(Some(one)) = time::timeout_at(end, self.open.join_next()).await {
+            ended.extend(one.ok());
+        }
+        ended
+    }
+}
+
+/// The reply of the search; `None` if there was none to any attempt.
+async fn deliver(
+    client: async_nats::Client,
+    subject: String,
+    bytes: Vec<u8>,
+    acker: Arc<Acker>,
+) -> Option<AnswerReply> {
+    for _ in 0..ATTEMPTS {
+        let request = client.request(subject.clone(), bytes.clone().into());
+        if let Ok(Ok(message)) = time::timeout(ATTEMPT, request).await
+            && let Ok(reply) = AnswerReply::decode(&message.payload)
+        {
+            if reply == AnswerReply::Received {
+                // A task that is not acknowledged is made once more, which does no harm.
+                let _ = acker.ack().await;
+            }
+            return Some(reply);
+        }
+        let _ = acker.ack_with(AckKind::Progress).await;
+        time::sleep(ATTEMPT / 4).await;
+    }
+    let _ = acker.ack_with(AckKind::Term).await;
+    None
+}

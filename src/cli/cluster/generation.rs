@@ -1,0 +1,235 @@
+//! The tasks of one generation, and their results as they arrive.
+
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+use crate::cli::cluster::answer_message::AnswerMessage;
+use crate::cli::cluster::message::TaskKey;
+use crate::cli::place::TaskBatch;
+use crate::swarm::{Task, TaskResult, is_plausible};
+
+/// Tasks that workers do.
+pub struct Generation {
+    /// Its number in the work for its run.
+    number: u32,
+    batch: TaskBatch,
+    results: Vec<Option<TakenResult>>,
+    submitted: Instant,
+}
+
+/// The result of a task.
+#[derive(Clone, Debug)]
+struct TakenResult {
+    result: TaskResult,
+    worker: String,
+    trust: Trust,
+}
+
+/// Whether a result can be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Trust {
+    /// As far as its worker can be trusted.
+    Claimed,
+    /// It is being checked here.
+    Doubted,
+    /// It was checked here.
+    Verified,
+}
+
+/// What an answer was good for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// It is the first result of its task.
+    Taken,
+    /// It equals the first result.
+    Again,
+    /// It belongs to another generation.
+    Late,
+    /// The task cannot have this result.
+    Implausible,
+    /// It differs from the result that was checked here.
+    Wrong,
+    /// It differs from the first result, which came from this worker. Only doing the task here can decide.
+    Differs { worker: String, result: TaskResult },
+}
+
+impl Generation {
+    /// A generation without results.
+    pub fn new(number: u32, batch: TaskBatch) -> Self {
+        Self { number, results: vec![None; batch.tasks.len()], batch, submitted: Instant::now() }
+    }
+
+    /// The key of one of its tasks.
+    pub fn key(&self, index: usize) -> TaskKey {
+        TaskKey { run: self.batch.run as u32, generation: self.number, index: index as u32 }
+    }
+
+    /// A task, if it has no result.
+    pub fn missing_task(&self, key: TaskKey) -> Option<&Task> {
+        self.task(key).filter(|_| self.results[key.index as usize].is_none())
+    }
+
+    /// A task, if it belongs to this generation.
+    pub fn task(&self, key: TaskKey) -> Option<&Task> {
+        let task = self.batch.tasks.get(key.index as usize)?;
+        (self.key(key.index as usize) == key).then_some(task)
+    }
+
+    /// Takes an answer for this run. The first result counts.
+    pub fn take(&mut self, worker: &str, answer: &AnswerMessage) -> Verdict {
+        let Some(task) = self.task(answer.key) else { return Verdict::Late };
+        if !is_plausible(&answer.result, task) {
+            return Verdict::Implausible;
+        }
+        let place = &mut self.results[answer.key.index as usize];
+        let Some(first) = place else {
+            let (result, worker) = (answer.result.clone(), worker.to_owned());
+            *place = Some(TakenResult { result, worker, trust: Trust::Claimed });
+            return Verdict::Taken;
+        };
+        match (first.result == answer.result, first.trust) {
+            (true, _) => Verdict::Again,
+            (false, Trust::Verified) => Verdict::Wrong,
+            (false, _) => Verdict::Differs { worker: first.worker.clone(), result: first.result.clone() },
+        }
+    }
+
+    /// The result of a task is not used until it is verified.
+    pub fn doubt(&mut self, key: TaskKey) {
+        if let Some(Some(taken)) = self.results.get_mut(key.index as usize) {
+            taken.trust = Trust::Doubted;
+        }
+    }
+
+    /// Replaces the result of a task by that of this machine.
+    pub fn verify(&mut self, key: TaskKey, result: TaskResult) {
+        if self.task(key).is_some() {
+            let taken = TakenResult { result, worker: String::new(), trust: Trust::Verified };
+            self.results[key.index as usize] = Some(taken);
+        }
+    }
+
+    /// Forgets the results of a worker that nobody has verified, and returns their tasks.
+    pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
+        let is_its = |result: &Option<TakenResult>| {
+            result.as_ref().is_some_and(|taken| taken.worker == worker && taken.trust == Trust::Claimed)
+        };
+        let lost: Vec<usize> = (0..self.results.len()).filter(|&index| is_its(&self.results[index])).collect();
+        lost.iter().for_each(|&index| self.results[index] = None);
+        lost.into_iter().map(|index| self.key(index)).collect()
+    }
+
+    /// The number of tasks without a result.
+    pub fn missing(&self) -> usize {
+        self.results.iter().filter(|result| result.is_none()).count()
+    }
+
+    /// The results and the workers that are trusted for them, if all can be used.
+    pub fn results(&self, is_trusted: impl Fn(&str) -> bool) -> Option<(Vec<TaskResult>, BTreeSet<&str>)> {
+        let is_usable = |taken: &&TakenResult| match taken.trust {
+            Trust::Claimed => is_trusted(&taken.worker),
+            Trust::Doubted => false,
+            Trust::Verified => true,
+        };
+        let taken: Option<Vec<&TakenResult>> =
+            self.results.iter().map(|result| result.as_ref().filter(is_usable)).collect();
+        let claimed = |taken: &&&TakenResult| taken.trust == Trust::Claimed;
+        taken.map(|all| {
+            let workers = all.iter().filter(claimed).map(|taken| taken.worker.as_str()).collect();
+            (all.iter().map(|taken| taken.result.clone()).collect(), workers)
+        })
+    }
+
+    /// The tasks without a result, if the generation was submitted so long ago.
+    pub fn overdue(&self, age: Duration) -> Vec<TaskKey> {
+        let is_late = self.submitted.elapsed() >= age;
+        let missing = (0..self.results.len()).filter(|&index| is_late && self.results[index].is_none());
+        missing.map(|index| self.key(index)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::evolve::tests::evolution;
+    use crate::evolve::{CandidateOutcome, Search};
+    use crate::model::{Fault, FaultKind};
+    use crate::sim::Simulator;
+    use crate::swarm::{Evaluated, EvaluationProtocol, EvaluationTask, perform};
+
+    /// A generation of two tasks and its true answers.
+    fn generation() -> (Generation, Vec<AnswerMessage>) {
+        let search = Search::new(&evolution(), 1);
+        let protocol = Arc::new(EvaluationProtocol::of(&evolution()));
+        let task = |body| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, body));
+        let tasks: Vec<Task> = search.ask().iter().take(2).map(|candidate| task(&candidate.body)).collect();
+        let done = perform(&Simulator::default(), &tasks);
+        let key = |index| TaskKey { run: 0, generation: 0, index };
+        let answers = (0..).zip(done).map(|(index, result)| AnswerMessage { key: key(index), result }).collect();
+        (Generation::new(0, TaskBatch { run: 0, tasks }), answers)
+    }
+
+    /// A result that could be right.
+    fn wrong(answer: &AnswerMessage) -> AnswerMessage {
+        let evaluated = answer.result.clone().evaluated();
+        let outcome = match evaluated.outcome {
+            CandidateOutcome::Inconsistent => {
+                CandidateOutcome::Faulty(Fault { env_step: 1, kind: FaultKind::Unstable })
+            }
+            _ => CandidateOutcome::Inconsistent,
+        };
+        AnswerMessage { result: TaskResult::Evaluation(Evaluated { outcome, ..evaluated }), ..answer.clone() }
+    }
+
+    fn results(generation: &Generation) -> Option<Vec<TaskResult>> {
+        generation.results(|worker| worker != "unknown").map(|(results, _)| results)
+    }
+
+    #[test]
+    fn the_first_result_counts_and_late_ones_do_not() {
+        let (mut generation, answers) = generation();
+        let late = AnswerMessage { key: TaskKey { generation: 7, ..answers[0].key }, ..answers[0].clone() };
+        assert_eq!(generation.take("a", &late), Verdict::Late);
+        let beyond = AnswerMessage { key: TaskKey { index: 9, ..answers[0].key }, ..answers[0].clone() };
+        assert_eq!(generation.take("a", &beyond), Verdict::Late);
+        assert_eq!(generation.take("a", &answers[1]), Verdict::Taken);
+        assert_eq!(generation.take("b", &answers[1]), Verdict::Again);
+        assert_eq!((generation.missing(), results(&generation)), (1, None));
+        assert!(generation.missing_task(answers[0].key).is_some());
+        assert!(generation.missing_task(answers[1].key).is_none());
+        assert_eq!(generation.take("b", &answers[0]), Verdict::Taken);
+        assert_eq!(results(&generation), Some(answers.iter().map(|answer| answer.result.clone()).collect()));
+    }
+
+    #[test]
+    fn results_of_unknown_workers_and_doubted_ones_are_not_used() {
+        let (mut generation, answers) = generation();
+        answers.iter().for_each(|answer| _ = generation.take("unknown", answer));
+        assert_eq!(results(&generation), None);
+        assert_eq!(generation.forget("unknown"), [answers[0].key, answers[1].key]);
+        answers.iter().for_each(|answer| _ = generation.take("known", answer));
+        generation.doubt(answers[1].key);
+        assert_eq!(results(&generation), None);
+        generation.verify(answers[1].key, answers[1].result.clone());
+        assert_eq!(results(&generation), Some(answers.iter().map(|answer| answer.result.clone()).collect()));
+        assert_eq!(generation.forget("known"), [answers[0].key], "what was verified stays");
+    }
+
+    #[test]
+    fn a_result_that_differs_is_decided_here() {
+        let (mut generation, answers) = generation();
+        let wrong = wrong(&answers[0]);
+        assert_eq!(generation.take("liar", &wrong), Verdict::Taken, "it could be right");
+        let differs = Verdict::Differs { worker: "liar".to_owned(), result: wrong.result.clone() };
+        assert_eq!(generation.take("good", &answers[0]), differs);
+        generation.verify(answers[0].key, answers[0].result.clone());
+        assert_eq!(generation.take("liar", &wrong), Verdict::Wrong);
+        assert_eq!(generation.take("good", &answers[0]), Verdict::Again);
+        let mut longer = answers[0].result.clone().evaluated();
+        longer.work.env_steps += 1;
+        let impossible = AnswerMessage { result: TaskResult::Evaluation(longer), ..answers[0].clone() };
+        assert_eq!(generation.take("liar", &impossible), Verdict::Implausible);
+    }
+}

@@ -1,0 +1,72 @@
+//! The identity of a program's physics: machines that work for one search must have the same.
+
+use crate::evolve::Rivals;
+use crate::model::{Body, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
+use crate::sim::Simulator;
+use crate::swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
+
+/// The version of this program.
+pub const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+/// Env steps of each pattern.
+const STEPS: u32 = 8;
+/// The bodies.
+const BODIES: usize = 2;
+
+/// The physics of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PhysicsId(pub u64);
+
+impl PhysicsId {
+    /// The hash of the bits of two short trajectories, and of the evaluations of their bodies.
+    pub fn compute(simulator: &Simulator) -> Self {
+        let bodies: Vec<Body> = (0..BODIES).map(|shift| Body::patchwork(5, shift)).collect();
+        let schedule = Schedule { spells: Pattern::PAIRS.map(|pattern| Spell { pattern, steps: STEPS }).to_vec() };
+        let trial = |body: &Body| Trial { body: body.clone(), schedule: schedule.clone() };
+        let trials: Vec<Trial> = bodies.iter().map(trial).collect();
+        let mut hash = Hash::default();
+        for trajectory in simulator.run_trials(&Setting::default(), &trials) {
+            let numbers = trajectory.com_x.iter().chain(&trajectory.com_y);
+            numbers.for_each(|number| hash.add(&number.to_bits().to_le_bytes()));
+        }
+        let tasks: Vec<EvaluationTask> =
+            bodies.into_iter().map(|body| EvaluationTask { body, rivals: Rivals::none() }).collect();
+        let (objective, world) = (SearchObjective::Distance, PhysicsWorld::default());
+        let protocol = EvaluationProtocol { objective, variable: schedule, fixed_steps: STEPS, world };
+        hash.add(format!("{:?}", evaluate_tasks(simulator, &protocol, &tasks)).as_bytes());
+        Self(hash.0)
+    }
+
+    /// The part of a subject that separates programs with different physics or versions.
+    pub fn token(self) -> String {
+        format!("{}-{:016x}", PROGRAM.replace('.', "_"), self.0)
+    }
+}
+
+/// FNV-1a, 64 bits.
+struct Hash(u64);
+
+impl Default for Hash {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hash {
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::{Kernel, LaneBackend};
+
+    #[test]
+    fn every_kernel_has_the_same_physics() {
+        let scalar = Simulator::new(LaneBackend { kernel: Kernel::SCALAR, ..LaneBackend::default() });
+        assert_eq!(PhysicsId::compute(&scalar), PhysicsId::compute(&Simulator::default()));
+    }
+}

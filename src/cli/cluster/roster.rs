@@ -1,0 +1,86 @@
+//! The workers of a search, as far as they have reported lately, and what they did.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::time::{Duration, Instant};
+
+use crate::cli::cluster::message::WorkerNote;
+use crate::diag::counted;
+
+/// A worker that has not reported for this time is gone.
+const GONE: Duration = Duration::from_secs(10);
+/// The time over which speed is measured.
+const WINDOW: Duration = Duration::from_secs(10);
+/// The time for which a summary is good.
+const FRESH: Duration = Duration::from_millis(200);
+
+/// The workers, by name.
+#[derive(Default)]
+pub struct Roster {
+    workers: BTreeMap<String, (WorkerNote, Instant)>,
+    /// The number of results taken.
+    taken: u64,
+    /// That number at some times of the last seconds.
+    history: VecDeque<(Instant, u64)>,
+    summary: Option<(Instant, Summary)>,
+}
+
+/// The workers in numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Workers that have reported lately, and their threads.
+    pub workers: usize,
+    pub threads: usize,
+    /// Results taken, and results per second in the last seconds.
+    pub evaluations: u64,
+    pub rate: f64,
+    /// Tasks that were delivered again, as far as workers have reported.
+    pub redelivered: u64,
+}
+
+impl Roster {
+    /// Takes the report of a worker.
+    pub fn take(&mut self, note: WorkerNote) {
+        self.workers.insert(note.name.clone(), (note, Instant::now()));
+    }
+
+    /// Counts a result.
+    pub fn count(&mut self) {
+        self.taken += 1;
+    }
+
+    /// The numbers, at most a moment old.
+    pub fn summary(&mut self) -> Summary {
+        let now = Instant::now();
+        if let Some((_, summary)) = self.summary.filter(|(made, _)| now - *made < FRESH) {
+            return summary;
+        }
+        let rate = self.rate(now);
+        let present = || self.workers.values().filter(|(_, seen)| now - *seen < GONE).map(|(note, _)| note);
+        let summary = Summary {
+            workers: present().count(),
+            threads: present().map(|note| note.threads as usize).sum(),
+            evaluations: self.taken,
+            redelivered: self.workers.values().map(|(note, _)| note.redelivered).sum(),
+            rate,
+        };
+        self.summary = Some((now, summary));
+        summary
+    }
+
+    fn rate(&mut self, now: Instant) -> f64 {
+        self.history.push_back((now, self.taken));
+        while self.history.len() > 1 && now - self.history[0].0 > WINDOW {
+            self.history.pop_front();
+        }
+        let (since, before) = self.history[0];
+        (self.taken - before) as f64 / (now - since).max(FRESH).as_secs_f64()
+    }
+}
+
+impl Summary {
+    /// The numbers for people.
+    pub fn describe(&self) -> String {
+        let workers = counted(self.workers, "worker");
+        format!("{workers}, {:.1} evaluations/s, {} redelivered", self.rate, self.redelivered)
+    }
+}

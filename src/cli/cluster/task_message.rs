@@ -1,0 +1,375 @@
+//! Tasks on the way to workers.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::cli::cluster::bits::{pack, unpack};
+use crate::cli::cluster::message::{MessageFault, TaskKey, decode, encode};
+use crate::evolve::{Rivals, validate};
+use crate::model::{
+    Behavior, Body, CYCLE_STEPS, Niche, Palette, Pattern, PhysicsWorld, Schedule, SearchObjective, Spell,
+};
+use crate::swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
+
+/// The most env steps of one simulation.
+const MOST_STEPS: u64 = 100_000_000;
+/// The most cycles of a swarm.
+const MOST_CYCLES: usize = 100_000;
+/// The longest clock of a gate, in cycles.
+const MOST_CLOCK: u32 = 8;
+/// The most tasks that a thread takes together: as many robots as are simulated at once.
+pub const TOGETHER: u8 = 8;
+
+/// A task to be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TaskMessage {
+    pub key: TaskKey,
+    /// The number of tasks that a thread should take together: more keep its lanes full, fewer leave work for others.
+    pub together: u8,
+    pub task: Task,
+}
+
+/// [`TaskMessage`] on the way.
+#[derive(Serialize, Deserialize)]
+struct TaskRecord {
+    key: TaskKey,
+    together: u8,
+    work: WorkRecord,
+}
+
+/// A [`Task`].
+#[derive(Serialize, Deserialize)]
+enum WorkRecord {
+    Evaluation(EvaluationRecord),
+    Screening { body: BodyRecord, function: u8, most: u32 },
+    Measurement(BodyRecord),
+    Swarm(SwarmRecord),
+}
+
+#[derive(Serialize, Deserialize)]
+struct EvaluationRecord {
+    gate: bool,
+    /// Stimuli as bits, and env steps.
+    variable: Vec<(u32, u32)>,
+    fixed_steps: u32,
+    world: PhysicsWorld,
+    body: BodyRecord,
+    pareto: Option<u32>,
+    rivals: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct BodyRecord {
+    /// The materials as in checkpoints.
+    palette: String,
+    width: u8,
+    height: u8,
+    codes: Vec<u8>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SwarmRecord {
+    /// Each body once.
+    bodies: Vec<BodyRecord>,
+    members: Vec<MemberRecord>,
+    world: PhysicsWorld,
+    window: u32,
+    cycles: u32,
+    /// The bits of the input ports, and those of each cycle.
+    width: u32,
+    inputs: Vec<u8>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct MemberRecord {
+    /// Its place among the bodies.
+    body: u32,
+    clock: u32,
+    senses: [SourceRecord; 2],
+    start: bool,
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+enum SourceRecord {
+    Input(u32),
+    Robot(u32),
+    Constant(bool),
+}
+
+impl TaskMessage {
+    /// Its bytes.
+    pub fn encode(&self) -> Vec<u8> {
+        encode(&TaskRecord { key: self.key, together: self.together, work: WorkRecord::of(&self.task) })
+    }
+
+    /// Reads and checks.
+    ///
+    /// # Errors
+    /// [`MessageFault`] for anything but what [`TaskMessage::encode`] makes of a task that can be simulated.
+    pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
+        decode::<TaskRecord>(bytes)?.check().ok_or(MessageFault::Values)
+    }
+}
+
+/// The bytes of a task without its envelope.
+pub fn task_bytes(task: &Task) -> usize {
+    encode(&WorkRecord::of(task)).len()
+}
+
+impl WorkRecord {
+    fn of(task: &Task) -> Self {
+        match task {
+            Task::Evaluation(protocol, task) => Self::Evaluation(EvaluationRecord::of(protocol, task)),
+            Task::Screening { body, behavior, most } => {
+                let (body, function) = (BodyRecord::of(body), behavior.function().bits());
+                Self::Screening { body, function, most: *most }
+            }
+            Task::Measurement(body) => Self::Measurement(BodyRecord::of(body)),
+            Task::Swarm(swarm) => Self::Swarm(SwarmRecord::of(swarm)),
+        }
+    }
+}
+
+impl TaskRecord {
+    fn check(self) -> Option<TaskMessage> {
+        let task = match self.work {
+            WorkRecord::Evaluation(record) => record.check()?,
+            WorkRecord::Screening { body, function, most } => {
+                let behavior = Behavior::all().nth(function.into())?;
+                (1..=MOST_CLOCK).contains(&most).then_some(())?;
+                Task::Screening { body: body.check()?, behavior, most }
+            }
+            WorkRecord::Measurement(body) => Task::Measurement(body.check()?),
+            WorkRecord::Swarm(record) => Task::Swarm(record.check()?),
+        };
+        let is_bounded = (1..=TOGETHER).contains(&self.together);
+        is_bounded.then_some(TaskMessage { key: self.key, together: self.together, task })
+    }
+}
+
+impl EvaluationRecord {
+    fn of(protocol: &EvaluationProtocol, task: &EvaluationTask) -> Self {
+        let spell = |spell: &Spell| {
+            let bits = (0..Pattern::MAX_STIMULI).map(|i| u32::from(spell.pattern.has(i)) << i).sum();
+            (bits, spell.steps)
+        };
+        Self {
+            gate: protocol.objective == SearchObjective::Gate,
+            variable: protocol.variable.spells.iter().map(spell).collect(),
+            fixed_steps: protocol.fixed_steps,
+            world: protocol.world,
+            body: BodyRecord::of(&task.body),
+            pareto: match task.rivals.niche() {
+                Niche::Dominance => None,
+                Niche::Pareto(most) => Some(most as u32),
+            },
+            rivals: task.rivals.behaviors().to_vec(),
+        }
+    }
+
+    fn check(self) -> Option<Task> {
+        let steps = self.variable.iter().map(|&(_, steps)| u64::from(steps)).sum::<u64>();
+        let body = self.body.check()?;
+        validate(&body).ok()?;
+        let is_bounded = steps.max(self.fixed_steps.into()) <= MOST_STEPS && self.world.is_possible();
+        if !is_bounded || self.rivals.len() != Behavior::all().count() {
+            return None;
+        }
+        let spell = |(bits, steps): (u32, u32)| {
+            let present: Vec<bool> = (0..Pattern::MAX_STIMULI).map(|i| bits >> i & 1 == 1).collect();
+            Spell { pattern: Pattern::new(&present), steps }
+        };
+        let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
+        let objective = if self.gate { SearchObjective::Gate } else { SearchObjective::Distance };
+        let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
+        let protocol = EvaluationProtocol { objective, variable, fixed_steps: self.fixed_steps, world: self.world };
+        let task = EvaluationTask { body, rivals: Rivals::new(niche, self.rivals) };
+        Some(Task::Evaluation(Arc::new(protocol), task))
+    }
+}
+
+impl BodyRecord {
+    fn of(body: &Body) -> Self {
+        Self {
+            palette: serde_json::to_string(body.palette().as_ref()).expect("materials can be written as JSON"),
+            width: body.width() as u8,
+            height: body.height() as u8,
+            codes: body.codes().to_vec(),
+        }
+    }
+
+    fn check(self) -> Option<Body> {
+        let (width, height) = (usize::from(self.width), usize::from(self.height));
+        if width * height != self.codes.len() || self.codes.is_empty() {
+            return None;
+        }
+        let palette: Arc<Palette> = Arc::new(serde_json::from_str(&self.palette).ok()?);
+        Body::from_codes(width, height, &self.codes, &palette).ok()
+    }
+}
+
+impl SwarmRecord {
+    fn of(task: &SwarmTask) -> Self {
+        let mut bodies: Vec<&Body> = Vec::new();
+        let mut members = Vec::new();
+        for member in &task.assembly.members {
+            let body = &member.robot.body;
+            let known = bodies.iter().position(|other| *other == body);
+            let place = known.unwrap_or_else(|| {
+                bodies.push(body);
+                bodies.len() - 1
+            });
+            members.push(MemberRecord {
+                body: place as u32,
+                clock: member.robot.character.clock,
+                senses: member.senses.map(SourceRecord::of),
+                start: member.start,
+            });
+        }
+        let inputs = &task.exposure.inputs;
+        Self {
+            bodies: bodies.into_iter().map(BodyRecord::of).collect(),
+            members,
+            world: task.assembly.world,
+            window: task.exposure.window as u32,
+            cycles: inputs.len() as u32,
+            width: inputs.first().map_or(0, Vec::len) as u32,
+            inputs: pack(inputs.iter().flatten().copied()),
+        }
+    }
+
+    fn check(self) -> Option<SwarmTask> {
+        let (cycles, width, robots) = (self.cycles as usize, self.width as usize, self.members.len());
+        let steps = cycles as u64 * u64::from(CYCLE_STEPS);
+        if !(1..=MOST_CYCLES).contains(&cycles) || steps > MOST_STEPS || self.window == 0 || !self.world.is_possible() {
+            return None;
+        }
+        let bodies = self.bodies.into_iter().map(BodyRecord::check).collect::<Option<Vec<Body>>>()?;
+        let inputs = unpack(&self.inputs, cycles, width)?;
+        let member = |record: MemberRecord| {
+            let [first, second] = record.senses.map(|source| source.check(width, robots));
+            let (body, senses) = (bodies.get(record.body as usize)?.clone(), [first?, second?]);
+            Some(PlainMember { body, clock: record.clock, senses, start: record.start })
+        };
+        let members = self.members.into_iter().map(member).collect::<Option<Vec<_>>>()?;
+        Some(SwarmTask::new(members, self.world, inputs, self.window as usize))
+    }
+}
+
+impl SourceRecord {
+    fn of(source: StimulusSource) -> Self {
+        match source {
+            StimulusSource::Input(place) => Self::Input(place as u32),
+            StimulusSource::Robot(place) => Self::Robot(place as u32),
+            StimulusSource::Constant(bit) => Self::Constant(bit),
+        }
+    }
+
+    fn check(self, width: usize, robots: usize) -> Option<StimulusSource> {
+        match self {
+            Self::Input(place) => ((place as usize) < width).then_some(StimulusSource::Input(place as usize)),
+            Self::Robot(place) => ((place as usize) < robots).then_some(StimulusSource::Robot(place as usize)),
+            Self::Constant(bit) => Some(StimulusSource::Constant(bit)),
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use std::sync::OnceLock;
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::cli::cluster::message::{MOST_BYTES, VERSION};
+    use crate::evolve::tests::evolution;
+    use crate::evolve::{Candidate, Search};
+    use crate::model::{Evolution, Symmetry, WorldFactors};
+    use crate::swarm::evolve_generation;
+
+    fn world() -> PhysicsWorld {
+        let factors = WorldFactors { friction: 0.9, ..WorldFactors::default() };
+        PhysicsWorld { factors, ..PhysicsWorld::default() }
+    }
+
+    /// A swarm of two robots that sense each other and two inputs.
+    fn swarm() -> Task {
+        let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
+        let member = |senses, start| PlainMember { body: body.clone(), clock: 2, senses, start };
+        let members = vec![
+            member([StimulusSource::Input(0), StimulusSource::Robot(1)], true),
+            member([StimulusSource::Robot(0), StimulusSource::Input(1)], false),
+        ];
+        let inputs = vec![vec![true, false], vec![false, true], vec![true, true]];
+        Task::Swarm(SwarmTask::new(members, world(), inputs, 1))
+    }
+
+    /// A task of each kind; the evaluations are those of a generation with a filled archive.
+    pub fn tasks() -> &'static [TaskMessage] {
+        static TASKS: OnceLock<Vec<TaskMessage>> = OnceLock::new();
+        TASKS.get_or_init(make_tasks)
+    }
+
+    fn make_tasks() -> Vec<TaskMessage> {
+        let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 1);
+        evolve_generation(&mut search);
+        let protocol = EvaluationProtocol { world: world(), ..EvaluationProtocol::of(search.evolution()) };
+        let protocol = Arc::new(protocol);
+        let evaluation = |candidate: Candidate| {
+            Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, &candidate.body))
+        };
+        let mut all: Vec<Task> = search.ask().into_iter().map(evaluation).collect();
+        let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
+        all.push(Task::Screening { body: body.clone(), behavior: "RRRL".parse().unwrap(), most: 1 });
+        all.push(Task::Measurement(body));
+        all.push(swarm());
+        let key = |index| TaskKey { run: 2, generation: 1, index };
+        (0..).zip(all).map(|(index, task)| TaskMessage { key: key(index), together: 8, task }).collect()
+    }
+
+    #[test]
+    fn a_task_is_read_as_it_was_written() {
+        for task in tasks() {
+            let bytes = task.encode();
+            assert!(bytes.len() < MOST_BYTES / 16, "{} bytes", bytes.len());
+            assert_eq!(&TaskMessage::decode(&bytes).unwrap(), task);
+        }
+    }
+
+    #[test]
+    fn a_swarm_whose_robots_sense_what_is_not_there_is_a_fault() {
+        for senses in [[SourceRecord::Input(2); 2], [SourceRecord::Robot(2); 2]] {
+            let Task::Swarm(task) = swarm() else { unreachable!() };
+            let mut record = SwarmRecord::of(&task);
+            record.members[0].senses = senses;
+            assert_eq!(record.check(), None);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_are_a_task_or_a_fault(rest in prop::collection::vec(any::<u8>(), 0..300)) {
+            let _ = TaskMessage::decode(&[vec![VERSION], rest].concat());
+        }
+
+        #[test]
+        fn a_changed_task_can_be_simulated_or_is_a_fault(
+            place in any::<prop::sample::Index>(),
+            changes in prop::collection::vec((any::<usize>(), any::<u8>()), 1..4),
+        ) {
+            let mut bytes = place.get(tasks()).encode();
+            for (at, byte) in changes {
+                let length = bytes.len();
+                bytes[at % length] = byte;
+            }
+            if let Ok(message) = TaskMessage::decode(&bytes) {
+                if let Task::Evaluation(protocol, task) = &message.task {
+                    prop_assert!(protocol.world.is_possible());
+                    prop_assert_eq!(validate(&task.body), Ok(()));
+                }
+                prop_assert_eq!(TaskMessage::decode(&message.encode()).map(|again| again.key), Ok(message.key));
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Tasks on their way to the queue. A task that the server does not take is kept.
+
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+use async_nats::jetstream;
+use futures_util::TryStreamExt;
+use tokio::task::JoinSet;
+
+use crate::cli::cluster::connection::{Connection, task_subject, task_subjects};
+use crate::cli::cluster::message::TaskKey;
+use crate::cli::cluster::task_message::TaskMessage;
+
+/// The time before another attempt.
+const AGAIN: Duration = Duration::from_secs(1);
+
+/// The tasks that are being sent, and those that must be sent again.
+pub struct TaskSender {
+    jetstream: jetstream::Context,
+    handle: tokio::runtime::Handle,
+    /// The part of the subject that names the physics, and the name of the search.
+    token: String,
+    search: String,
+    sending: JoinSet<(TaskKey, Result<(), String>)>,
+    kept: BTreeSet<TaskKey>,
+    failed: Instant,
+    /// The last fault, told once.
+    trouble: Option<String>,
+    log: fn(&str),
+}
+
+impl TaskSender {
+    /// Without tasks.
+    pub fn new(connection: &Connection, token: String, search: &str, log: fn(&str)) -> Self {
+        let (jetstream, handle) = (connection.jetstream.clone(), connection.runtime.handle().clone());
+        let (sending, kept, failed) = (JoinSet::new(), BTreeSet::new(), Instant::now());
+        Self { jetstream, handle, token, search: search.to_owned(), sending, kept, failed, trouble: None, log }
+    }
+
+    /// Starts to send a task.
+    pub fn send(&mut self, task: &TaskMessage) {
+        let (jetstream, key, bytes) = (self.jetstream.clone(), task.key, task.encode());
+        let subject = task_subject(&self.token, &self.search, key);
+        let publish = async move {
+            let acknowledgment = jetstream.publish(subject, bytes.into()).await.map_err(|error| error.to_string())?;
+            acknowledgment.await.map(|_| ()).map_err(|error| error.to_string())
+        };
+        self.sending.spawn_on(async move { (key, publish.await) }, &self.handle);
+    }
+
+    /// Waits until a task is sent or not; `None` if there is none on its way.
+    pub async fn next(&mut self) -> Option<()> {
+        let (key, sent) = self.sending.join_next().await?.expect("sending does not panic");
+        match sent {
+            Ok(()) => self.trouble = None,
+            Err(reason) => {
+                self.kept.insert(key);
+                self.failed = Instant::now();
+                if self.trouble.as_ref() != Some(&reason) {
+                    (self.log)(&format!("the NATS server does not take tasks ({reason}); trying again\n"));
+                }
+                self.trouble = Some(reason);
+            }
+        }
+        Some(())
+    }
+
+    /// The tasks that must be sent again now.
+    pub async fn retry(&mut self) -> BTreeSet<TaskKey> {
+        if self.kept.is_empty() || self.failed.elapsed() < AGAIN {
+            return BTreeSet::new();
+        }
+        // The stream may be gone, for example with the disk of the server.
+        let _ = Connection::queue(&self.jetstream, &self.token).await;
+        std::mem::take(&mut self.kept)
+    }
+
+    /// Those of the tasks that the server no longer has.
+    pub async fn lost(&self, mut tasks: Vec<TaskKey>) -> Vec<TaskKey> {
+        if tasks.is_empty() || !self.sending.is_empty() {
+            return Vec::new();
+        }
+        let Ok(there) = self.subjects().await else { return Vec::new() };
+        tasks
+            .retain(|&key| !self.kept.contains(&key) && !there.contains(&task_subject(&self.token, &self.search, key)));
+        tasks
+    }
+
+    /// The subjects of this search's tasks that the server has.
+    async fn subjects(&self) -> Result<BTreeSet<String>, String> {
+        let text = |error: &dyn ToString| error.to_string();
+        // The queue may be gone, too.
+        Connection::queue(&self.jetstream, &self.token).await?;
+        let stream = Connection::stream(&self.jetstream).await?;
+        let found = stream.info_with_subjects(task_subjects(&self.token, &self.search)).await;
+        let pairs = found.map_err(|error| text(&error))?.try_collect::<Vec<_>>().await;
+        Ok(pairs.map_err(|error| text(&error))?.into_iter().map(|(subject, _)| subject).collect())
+    }
+
+    /// Removes this search's tasks from the server. If the server is away, it drops them when they are too old.
+    pub async fn clear(&self) {
+        if let Ok(stream) = Connection::stream(&self.jetstream).await {
+            let _ = stream.purge().filter(task_subjects(&self.token, &self.search)).await;
+        }
+    }
+}

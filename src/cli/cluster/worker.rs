@@ -1,0 +1,131 @@
+//! What the threads of a worker share: its connection, its name, what it has done.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use futures_util::StreamExt;
+use tokio::time;
+
+use crate::cli::cluster::connection::{Connection, reply_subject, worker_note_subject};
+use crate::cli::cluster::delivery::{Delivered, Delivery};
+use crate::cli::cluster::message::{AnswerReply, WorkerNote, encode};
+use crate::cli::cluster::physics::{PROGRAM, PhysicsId};
+use crate::cli::wording::ClusterError;
+use crate::cli::{Failure, Interrupt};
+
+/// The time between reports.
+pub const REPORT: Duration = Duration::from_secs(2);
+/// Tasks of a search that did not receive an answer are dropped for this time.
+const SHUNNED: Duration = Duration::from_secs(10);
+
+/// What the threads of a worker share.
+pub struct Worker {
+    pub name: String,
+    pub connection: Connection,
+    pub physics: PhysicsId,
+    pub tally: Arc<Tally>,
+    interrupt: Interrupt,
+    /// Set when a search has rejected the worker.
+    rejected: AtomicBool,
+    /// Searches that did not receive an answer, and when that was.
+    silent: Mutex<BTreeMap<String, Instant>>,
+}
+
+/// What a worker has done so far.
+#[derive(Default)]
+pub struct Tally {
+    pub evaluations: AtomicU64,
+    pub redelivered: AtomicU64,
+}
+
+impl Worker {
+    /// A worker that has done nothing yet.
+    pub fn new(name: String, connection: Connection, physics: PhysicsId, interrupt: Interrupt) -> Self {
+        let (tally, rejected, silent) = (Arc::default(), AtomicBool::new(false), Mutex::default());
+        Self { name, connection, physics, tally, interrupt, rejected, silent }
+    }
+
+    /// Whether no more tasks should be taken.
+    pub fn is_ending(&self) -> bool {
+        self.interrupt.is_raised() || self.rejected.load(Ordering::Relaxed)
+    }
+
+    /// Whether tasks of the search are dropped, because it seems to have ended.
+    pub fn shuns(&self, search: &str) -> bool {
+        let silent = self.silent.lock().unwrap_or_else(PoisonError::into_inner);
+        silent.get(search).is_some_and(|since| since.elapsed() < SHUNNED)
+    }
+
+    /// Counts deliveries that have ended.
+    ///
+    /// # Errors
+    /// When a search has rejected a result.
+    pub fn count(&self, ended: Vec<Delivered>) -> Result<(), Failure> {
+        for one in ended {
+            match one {
+                Delivered::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
+                Delivered::Unwanted { search } => {
+                    let mut silent = self.silent.lock().unwrap_or_else(PoisonError::into_inner);
+                    silent.retain(|_, since| since.elapsed() < SHUNNED);
+                    silent.insert(search, Instant::now());
+                }
+                Delivered::Rejected(reply) => {
+                    self.rejected.store(true, Ordering::Relaxed);
+                    let reason = match reply {
+                        AnswerReply::OtherPhysics => "its physics is different",
+                        AnswerReply::Invalid => "its messages cannot be read",
+                        AnswerReply::Wrong | AnswerReply::Received => "its results are wrong",
+                    };
+                    return Err(ClusterError::Rejected { name: self.name.clone(), reason }.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Deliveries of a thread.
+    pub fn delivery(&self) -> Delivery {
+        Delivery::new(&self.connection, &self.name)
+    }
+
+    /// Reports now and then to those who watch.
+    pub fn report(&self, threads: u32) {
+        let (client, tally, name) = (self.connection.client.clone(), Arc::clone(&self.tally), self.name.clone());
+        let physics = self.physics.0;
+        self.connection.runtime.spawn(async move {
+            let mut before = 0;
+            loop {
+                let evaluations = tally.evaluations.load(Ordering::Relaxed);
+                let note = WorkerNote {
+                    name: name.clone(),
+                    program: PROGRAM.to_owned(),
+                    physics,
+                    threads,
+                    evaluations,
+                    redelivered: tally.redelivered.load(Ordering::Relaxed),
+                    per_kilosecond: (evaluations - before) * 1000 / REPORT.as_secs(),
+                };
+                before = evaluations;
+                let _ = client.publish(worker_note_subject(), encode(&note).into()).await;
+                time::sleep(REPORT).await;
+            }
+        });
+    }
+
+    /// Logs if a search cannot use this worker.
+    pub fn listen(&self) {
+        let (client, name) = (self.connection.client.clone(), self.name.clone());
+        self.connection.runtime.spawn(async move {
+            let Ok(mut replies) = client.subscribe(reply_subject(&name)).await else { return };
+            let is_refusal = |bytes: &[u8]| AnswerReply::decode(bytes) == Ok(AnswerReply::OtherPhysics);
+            while let Some(message) = replies.next().await {
+                if is_refusal(&message.payload) {
+                    eprintln!("worker `{name}`: a search refused this worker, because its physics is different");
+                    return;
+                }
+            }
+        });
+    }
+}

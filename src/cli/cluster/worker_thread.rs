@@ -1,0 +1,164 @@
+//! One thread of a worker: takes tasks, does them together, delivers the results.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use async_nats::jetstream::consumer::PullConsumer;
+use async_nats::jetstream::consumer::pull::Batch;
+use async_nats::jetstream::message::Acker;
+use async_nats::jetstream::{AckKind, Message};
+use futures_util::StreamExt;
+use tokio::time;
+
+use crate::cli::Failure;
+use crate::cli::cluster::answer_message::AnswerMessage;
+use crate::cli::cluster::connection::{Connection, PATIENCE, SILENCE, search_of};
+use crate::cli::cluster::delivery::Delivery;
+use crate::cli::cluster::task_message::{TOGETHER, TaskMessage};
+use crate::cli::cluster::worker::Worker;
+use crate::sim::Simulator;
+use crate::swarm::{Task, perform};
+
+/// The most time for which a thread asks for a task at once.
+const REQUEST: Duration = Duration::from_secs(5);
+/// The time between looks for a signal.
+const GLANCE: Duration = Duration::from_millis(100);
+/// The time before another attempt after a fault.
+const AGAIN: Duration = Duration::from_secs(1);
+/// The most time for the deliveries in progress at the end.
+const FAREWELL: Duration = Duration::from_secs(10);
+
+/// A thread.
+pub struct WorkerThread<'a> {
+    worker: &'a Worker,
+    queue: PullConsumer,
+    delivery: Delivery,
+    /// The number of tasks to take together, as the last search wished.
+    together: usize,
+    /// The last fault, told once.
+    trouble: Option<String>,
+}
+
+/// A task in the hands of a worker.
+struct Taken {
+    message: TaskMessage,
+    /// The name of the search.
+    search: String,
+    acker: Arc<Acker>,
+}
+
+impl<'a> WorkerThread<'a> {
+    /// A thread without tasks.
+    pub fn new(worker: &'a Worker, queue: PullConsumer) -> Self {
+        Self { worker, queue, delivery: worker.delivery(), together: 1, trouble: None }
+    }
+
+    /// Works until a signal arrives.
+    ///
+    /// # Errors
+    /// When a search rejects the results.
+    pub fn work(&mut self) -> Result<(), Failure> {
+        let handle = self.worker.connection.runtime.handle().clone();
+        while !self.worker.is_ending() {
+            match handle.block_on(self.fetch()) {
+                Ok(tasks) => {
+                    self.trouble = None;
+                    self.perform(tasks);
+                }
+                Err(reason) => handle.block_on(self.recover(reason)),
+            }
+            let ended = self.delivery.finished();
+            self.worker.count(ended)?;
+        }
+        let ended = handle.block_on(self.delivery.finish(FAREWELL));
+        self.worker.count(ended)
+    }
+
+    /// Tells a fault, waits and connects to the queue again.
+    async fn recover(&mut self, reason: String) {
+        if self.trouble.as_ref() != Some(&reason) {
+            eprintln!("worker `{}`: {reason}; trying again", self.worker.name);
+        }
+        self.trouble = Some(reason);
+        time::sleep(AGAIN).await;
+        if let Ok(queue) = Connection::queue(&self.worker.connection.jetstream, &self.worker.physics.token()).await {
+            self.queue = queue;
+        }
+    }
+
+    /// Takes what waits, at most as many tasks as should be taken together; waits for one if there is none.
+    async fn fetch(&mut self) -> Result<Vec<Taken>, String> {
+        let mut taken = Vec::new();
+        let most = self.together;
+        let waiting = self.queue.fetch().max_messages(most).messages().await.map_err(text)?;
+        self.take(waiting, &mut taken).await?;
+        if taken.is_empty() {
+            let one = self.queue.batch().max_messages(1).expires(REQUEST).messages().await.map_err(text)?;
+            self.take(one, &mut taken).await?;
+            if !taken.is_empty() && self.together > 1 {
+                let most = self.together - 1;
+                let others = self.queue.fetch().max_messages(most).messages().await.map_err(text)?;
+                self.take(others, &mut taken).await?;
+            }
+        }
+        Ok(taken)
+    }
+
+    /// Takes the tasks of a request, until it or this worker ends.
+    async fn take(&mut self, mut batch: Batch, taken: &mut Vec<Taken>) -> Result<(), String> {
+        // A server that dies does not end the request.
+        let end = time::Instant::now() + REQUEST + PATIENCE;
+        while time::Instant::now() < end && !(self.worker.is_ending() && taken.is_empty()) {
+            match time::timeout(GLANCE, batch.next()).await {
+                Ok(Some(message)) => self.accept(message.map_err(text)?, taken).await,
+                Ok(None) => break,
+                Err(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    async fn accept(&mut self, message: Message, taken: &mut Vec<Taken>) {
+        let again = message.info().is_ok_and(|info| info.delivered > 1);
+        self.worker.tally.redelivered.fetch_add(u64::from(again), Ordering::Relaxed);
+        let (message, acker) = message.split();
+        let search = search_of(&message.subject).filter(|search| !self.worker.shuns(search));
+        match (TaskMessage::decode(&message.payload), search) {
+            (Ok(task), Some(search)) => {
+                self.together = task.together.clamp(1, TOGETHER).into();
+                taken.push(Taken { message: task, search: search.to_owned(), acker: Arc::new(acker) });
+            }
+            // Nobody can do this task, or nobody wants it.
+            _ => _ = acker.ack_with(AckKind::Term).await,
+        }
+    }
+
+    /// Does the tasks and starts to deliver the results.
+    fn perform(&mut self, taken: Vec<Taken>) {
+        let ackers: Vec<Arc<Acker>> = taken.iter().map(|taken| Arc::clone(&taken.acker)).collect();
+        let holding = self.worker.connection.runtime.spawn(hold(ackers));
+        let tasks: Vec<Task> = taken.iter().map(|taken| taken.message.task.clone()).collect();
+        let results = perform(&Simulator::default(), &tasks);
+        for (taken, result) in taken.into_iter().zip(results) {
+            if let Some(bytes) = (AnswerMessage { key: taken.message.key, result }).encode() {
+                self.delivery.start(taken.search, bytes, taken.acker);
+            }
+        }
+        holding.abort();
+    }
+}
+
+/// Tells the server now and then that the tasks are being worked on.
+async fn hold(ackers: Vec<Arc<Acker>>) {
+    loop {
+        time::sleep(SILENCE / 3).await;
+        for acker in &ackers {
+            let _ = acker.ack_with(AckKind::Progress).await;
+        }
+    }
+}
+
+fn text(error: impl ToString) -> String {
+    error.to_string()
+}

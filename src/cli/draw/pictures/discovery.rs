@@ -1,0 +1,33 @@
+//! How soon a run found each behavior.
+
+use crate::cli::Failure;
+use crate::cli::draw::order::Order;
+use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::report::{self, EvolutionResults, Svg};
+
+pub(super) struct DiscoveryPicture;
+
+impl PictureKind for DiscoveryPicture {
+    fn word(&self) -> &'static str {
+        "discovery"
+    }
+
+    fn about(&self) -> &'static str {
+        "The generation in which each seed of a run first found each behavior"
+    }
+
+    fn subject(&self) -> SubjectKind {
+        SubjectKind::Run
+    }
+
+    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+        Ok(Drawing::Picture(discovery(results)))
+    }
+}
+
+fn discovery(results: &EvolutionResults) -> Svg {
+    let last = results.runs.values().filter_map(|run| run.progress.last());
+    let until = last.map(|line| line.generation).max().unwrap_or(1);
+    let title = format!("{}: how soon each behavior was found", results.name);
+    report::draw_discovery(&title, &results.discoveries(), results.runs.len(), until)
+}

@@ -1,0 +1,112 @@
+//! `nbc library verify --vary`: how far worlds may differ before robots make errors.
+
+use std::path::Path;
+
+use clap::Args;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::cli::robots::{robot_paths, robots};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::diag::counted;
+use crate::model::{Character, Library, Robot, SafeRadius, Variation};
+use crate::report::Schema;
+use crate::sim::Simulator;
+use crate::store;
+use crate::swarm::{self, WorldSample};
+
+/// The worlds in which robots are tried.
+#[derive(Args)]
+pub(super) struct RadiusArguments {
+    /// Measure instead how far worlds may differ: the changes at radius 1, such as `friction=10%` or `all=10%`
+    #[arg(long, value_name = "CHANGES", conflicts_with = "nats")]
+    vary: Option<Variation>,
+    /// The number of worlds for each radius
+    #[arg(long, value_name = "N", requires = "vary", default_value_t = 20)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    worlds: u32,
+    /// The seed of the worlds
+    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 1)]
+    seed: u64,
+    /// Write the radius into the robot files
+    #[arg(long, requires_all = ["vary", "path"])]
+    write: bool,
+}
+
+/// The result for one robot.
+#[derive(Serialize)]
+struct Reach<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    found: SafeRadius,
+    /// Whether its file has no such radius, or the same one.
+    verified: bool,
+}
+
+impl<'a> Reach<'a> {
+    fn of(robot: &'a Robot, found: SafeRadius) -> Self {
+        let is_same = |known: &SafeRadius| {
+            let is_comparable = SafeRadius { radius: found.radius, ..known.clone() } == found;
+            !is_comparable || known.radius == found.radius
+        };
+        let verified = robot.character.radius.as_ref().is_none_or(is_same);
+        Self { name: &robot.name, found, verified }
+    }
+}
+
+impl RadiusArguments {
+    /// The changes of the worlds, if robots are to be tried in other worlds.
+    pub(super) fn sample(&self) -> Option<WorldSample> {
+        self.vary.map(|variation| WorldSample { variation, seed: self.seed })
+    }
+
+    /// Measures the radius of every robot; a robot fails if its file has another radius for the same worlds.
+    ///
+    /// # Errors
+    /// When a robot file cannot be read or written, or the output cannot be written.
+    pub(super) fn run(
+        &self,
+        library: &Library,
+        path: Option<&Path>,
+        sample: WorldSample,
+        context: &mut Context,
+    ) -> Result<Status, Failure> {
+        let (simulator, bar) = (Simulator::default(), Progress::new("trying", library.robots.len() as u64));
+        let reach = |robot| {
+            let found = swarm::safe_radius(&simulator, robot, &sample, self.worlds);
+            bar.add(1);
+            Reach::of(robot, found)
+        };
+        let found: Vec<Reach<'_>> = library.robots.par_iter().map(reach).collect();
+        drop(bar);
+        if let Some(path) = path.filter(|_| self.write) {
+            write(path, &found)?;
+        }
+        let failed = found.iter().filter(|reach| !reach.verified && !self.write).count();
+        match context.format {
+            OutputFormat::Json => context.print_json(Schema::Radii, &serde_json::json!({ "robots": found }))?,
+            OutputFormat::Text => {
+                for Reach { name, found, verified } in &found {
+                    let differs = if *verified { "" } else { ", unlike its file" };
+                    context.print(format_args!("{name:<24} radius {}{differs}\n", found.radius))?;
+                }
+                let (robots, worlds) = (counted(found.len(), "robot"), counted(self.worlds as usize, "world"));
+                context.print(format_args!("{robots}, radius 1 is {} in {worlds}\n", sample.variation))?;
+            }
+        }
+        Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
+    }
+}
+
+/// Writes the radii into the files of a folder.
+fn write(path: &Path, found: &[Reach<'_>]) -> Result<(), Failure> {
+    for path in robot_paths(path)? {
+        for mut robot in robots(&path)?.robots {
+            let Some(reach) = found.iter().find(|reach| reach.name == robot.name) else { continue };
+            robot.character = Character { radius: Some(reach.found.clone()), ..robot.character };
+            let text = store::print_robot(&robot);
+            store::write(&path, text.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,220 @@
+//! `nbc test --worlds`: tests in samples of worlds.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::wording::DrawError;
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
+use crate::model::Variation;
+use crate::report::{self, Schema, YieldCurve};
+use crate::session::{RunEnd, Session, TestCase};
+use crate::store;
+use crate::swarm::{Proportion, Robustness, TestVerdict, WorldSample, WorldTrial};
+
+/// The number of worlds of a sample.
+const WORLDS: u32 = 100;
+
+/// The worlds in which tests run.
+#[derive(Args)]
+pub(super) struct WorldsArguments {
+    /// Run each test in physics in so many worlds [default: 100]
+    #[arg(long, value_name = "N", requires = "vary", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    worlds: Option<u32>,
+    /// The largest changes of the worlds, such as `friction=10%,gravity=5%`, or `all=10%`; may be given several times
+    #[arg(long, value_name = "CHANGES", conflicts_with_all = ["logic", "nats"])]
+    vary: Vec<Variation>,
+    /// Repeat with the changes times each of these numbers
+    #[arg(long, value_name = "NUMBERS", requires = "vary", value_delimiter = ',', value_parser = scale)]
+    times: Vec<f64>,
+    /// The seed of the worlds
+    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 1)]
+    seed: u64,
+    /// Fail if a test passes in a smaller share of the worlds, such as `95%`
+    #[arg(long, value_name = "SHARE", requires = "vary", value_parser = share)]
+    least_yield: Option<f64>,
+    /// Draw the yields into this file, `.svg` or `.png`
+    #[arg(long, value_name = "FILE", requires = "vary")]
+    picture: Option<PathBuf>,
+}
+
+/// A test under one variation.
+struct Experiment<'c, 'a> {
+    case: &'c TestCase<'a>,
+    variation: Variation,
+    scale: f64,
+}
+
+/// A test in one world, to be run.
+struct Visit<'e, 'c, 'a> {
+    experiment: &'e Experiment<'c, 'a>,
+    world: usize,
+}
+
+impl WorldsArguments {
+    /// Whether tests run in other worlds than their own.
+    pub(super) fn is_used(&self) -> bool {
+        !self.vary.is_empty()
+    }
+
+    /// Runs the cases in all worlds, and prints each result as soon as those before it are done.
+    ///
+    /// # Errors
+    /// When the output or the picture cannot be written.
+    pub(super) fn test(
+        &self,
+        session: &Session,
+        cases: &[TestCase<'_>],
+        interrupt: &Interrupt,
+        context: &mut Context,
+    ) -> Result<Status, Failure> {
+        self.check_picture()?;
+        let experiments = self.experiments(cases);
+        let found = self.run(session, &experiments, interrupt, context)?;
+        let left = experiments.len() - found.len();
+        if context.format == OutputFormat::Json {
+            let mut value = serde_json::json!({ "worlds": self.count(), "seed": self.seed, "tests": found });
+            if left > 0 {
+                value["interrupted"] = serde_json::json!({ "left": left });
+            }
+            context.print_json(Schema::Robustness, &value)?;
+        }
+        if let Some(path) = self.picture.as_ref().filter(|_| left == 0) {
+            let svg = self.draw(&found);
+            let is_png = path.extension().is_some_and(|extension| extension == "png");
+            let bytes = if is_png { report::png(&svg) } else { svg.finish().into_bytes() };
+            store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
+        }
+        let is_low = |one: &Robustness| self.least_yield.is_some_and(|least| one.passed.share() < least);
+        Ok(match (left, found.iter().any(is_low)) {
+            (1.., _) => Status::Interrupted,
+            (0, true) => Status::TestFailed,
+            (0, false) => Status::Done,
+        })
+    }
+
+    fn count(&self) -> usize {
+        self.worlds.unwrap_or(WORLDS) as usize
+    }
+
+    fn check_picture(&self) -> Result<(), Failure> {
+        let Some(path) = &self.picture else { return Ok(()) };
+        if path.extension().is_some_and(|extension| extension == "svg" || extension == "png") {
+            return Ok(());
+        }
+        let expected = vec!["`.svg`".to_owned(), "`.png`".to_owned()];
+        Err(DrawError::Extension { path: path.display().to_string(), expected, kind: "yields" }.into())
+    }
+
+    /// Each case under each variation times each number.
+    fn experiments<'c, 'a>(&self, cases: &'c [TestCase<'a>]) -> Vec<Experiment<'c, 'a>> {
+        let scales = if self.times.is_empty() { &[1.0][..] } else { &self.times };
+        let mut experiments = Vec::new();
+        for case in cases {
+            for variation in &self.vary {
+                let scaled = |&scale| Experiment { case, variation: variation.times(scale), scale };
+                experiments.extend(scales.iter().map(scaled));
+            }
+        }
+        experiments
+    }
+
+    /// The results of the experiments that are complete.
+    fn run(
+        &self,
+        session: &Session,
+        experiments: &[Experiment<'_, '_>],
+        interrupt: &Interrupt,
+        context: &mut Context,
+    ) -> Result<Vec<Robustness>, Failure> {
+        let visits: Vec<Visit<'_, '_, '_>> = experiments
+            .iter()
+            .flat_map(|experiment| (0..self.count()).map(move |world| Visit { experiment, world }))
+            .collect();
+        let work: u64 = visits.iter().map(|visit| visit.experiment.case.work()).sum();
+        let bar = Progress::new("testing", work);
+        let visit = |visit: &Visit<'_, '_, '_>| {
+            let run = (!interrupt.is_raised()).then(|| visit.run(session, self.seed, interrupt, &bar));
+            run.flatten()
+        };
+        let (mut found, mut trials, mut stopped) = (Vec::new(), Vec::new(), false);
+        let mut tell = |done: Option<(TestVerdict, WorldTrial)>| {
+            // After an interruption, worlds that were begun may still be completed.
+            stopped |= done.is_none();
+            let Some((verdict, trial)) = done.filter(|_| !stopped) else { return Ok(()) };
+            trials.push(trial);
+            if trials.len() == self.count() {
+                let Experiment { case, variation, scale } = &experiments[found.len()];
+                let trials = std::mem::take(&mut trials);
+                let robustness = Robustness::of(&verdict, case.robots(), (*variation, *scale), &trials);
+                if context.format == OutputFormat::Text {
+                    context.print(report::describe_robustness(&robustness))?;
+                    context.flush()?;
+                }
+                found.push(robustness);
+            }
+            Ok::<(), Failure>(())
+        };
+        workers::in_order(rayon::current_num_threads(), &visits, visit, |done| bar.suspend(|| tell(done)))?;
+        Ok(found)
+    }
+
+    /// The yields against the size of the change: a curve for each test and variation.
+    fn draw(&self, found: &[Robustness]) -> report::Svg {
+        let common = self.vary.iter().map(Variation::common).collect::<Option<Vec<f64>>>();
+        let scales = self.times.len().max(1);
+        let curve = |(i, group): (usize, &[Robustness])| {
+            let unit = common.as_ref().map_or(1.0, |sizes| sizes[i % self.vary.len()] * 100.0);
+            let point = |one: &Robustness| (one.scale * unit, one.passed);
+            let mut points: Vec<(f64, Proportion)> = group.iter().map(point).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            YieldCurve { label: self.label(&group[0], i), points }
+        };
+        let curves: Vec<YieldCurve> = found.chunks(scales).enumerate().map(curve).collect();
+        let change = if common.is_some() { "largest change in %" } else { "times the given changes" };
+        let title = format!("Yield in {} worlds", self.count());
+        report::draw_yields(&title, change, &curves)
+    }
+
+    /// The test, and the quantities that vary if there are several choices.
+    fn label(&self, one: &Robustness, curve: usize) -> String {
+        let swarm = one.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
+        let robots = crate::diag::counted(one.robots, "robot");
+        match self.vary.len() {
+            1 => format!("{}{swarm}, {robots}", one.circuit),
+            several => format!("{}{swarm}, {robots}: {}", one.circuit, self.vary[curve % several].quantities()),
+        }
+    }
+}
+
+impl Visit<'_, '_, '_> {
+    /// The verdict in the world; `None` if it was interrupted.
+    fn run(
+        &self,
+        session: &Session,
+        seed: u64,
+        interrupt: &Interrupt,
+        bar: &Progress,
+    ) -> Option<(TestVerdict, WorldTrial)> {
+        let Experiment { case, variation, .. } = self.experiment;
+        let world = WorldSample { variation: *variation, seed }.world(&case.world(), self.world);
+        let run = session.run_case(case.in_world(world), &mut interrupt.observe(bar.part()));
+        let trial = (run.end == RunEnd::Complete).then(|| run.world_trial()).flatten()?;
+        Some((run.verdict, trial))
+    }
+}
+
+/// A factor of changes.
+fn scale(text: &str) -> Result<f64, String> {
+    let scale = text.parse().ok().filter(|scale| (0.0..=1000.0).contains(scale));
+    scale.ok_or_else(|| "expected numbers from 0 to 1000, such as `0.5,1,2`".to_owned())
+}
+
+/// A share, also in percent.
+fn share(text: &str) -> Result<f64, String> {
+    let share = match text.strip_suffix('%') {
+        Some(percent) => percent.parse::<f64>().map(|percent| percent / 100.0),
+        None => text.parse(),
+    };
+    share.ok().filter(|share| (0.0..=1.0).contains(share)).ok_or_else(|| "expected a share such as `95%`".to_owned())
+}

@@ -1,0 +1,210 @@
+//! How much the worlds of a sample vary.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::Serialize;
+
+use super::{PhysicsWorld, VariationError, WorldFactors, WorldNoise};
+
+/// The largest changes of a sample of worlds. A factor varies to either side by a share of itself; noise is added.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Variation {
+    pub friction: f64,
+    pub gravity: f64,
+    pub stiffness: f64,
+    pub drag: f64,
+    pub damping: f64,
+    pub swelling: f64,
+    pub start: f64,
+    pub missed: f64,
+    pub weak: f64,
+    pub dead: f64,
+}
+
+/// The number of quantities that vary.
+const COUNT: usize = 10;
+
+/// The number of these that are factors; the others are noise.
+const FACTORS: usize = 6;
+
+/// The word for all factors.
+const ALL: &str = "all";
+
+impl Variation {
+    /// The names of the quantities.
+    pub const NAMES: [&str; COUNT] =
+        ["friction", "gravity", "stiffness", "drag", "damping", "swelling", "start", "missed", "weak", "dead"];
+
+    /// The numbers that [`Variation::world`] needs for one world.
+    pub const DRAWS: usize = COUNT;
+
+    /// The largest change of a quantity.
+    pub fn most(name: &str) -> f64 {
+        match name {
+            "start" => WorldNoise::MOST_START,
+            "missed" | "weak" | "dead" => 1.0,
+            _ => 0.9,
+        }
+    }
+
+    /// The amount of all factors that vary, if it is the same and there is no noise.
+    pub fn common(&self) -> Option<f64> {
+        let (factors, noise) = (&self.amounts()[..FACTORS], &self.amounts()[FACTORS..]);
+        let mut varied = factors.iter().filter(|amount| **amount > 0.0);
+        let first = *varied.next()?;
+        (varied.all(|amount| *amount == first) && noise.iter().all(|amount| *amount == 0.0)).then_some(first)
+    }
+
+    /// The names of the quantities that vary.
+    pub fn quantities(&self) -> String {
+        let varied: Vec<&str> = Self::NAMES
+            .into_iter()
+            .zip(self.amounts())
+            .filter(|(_, amount)| *amount > 0.0)
+            .map(|(name, _)| name)
+            .collect();
+        if varied == Self::NAMES[..FACTORS] { "all factors".to_owned() } else { varied.join(", ") }
+    }
+
+    /// The text that [`Variation::from_str`] reads.
+    pub fn changes(&self) -> String {
+        let changes = Self::NAMES.iter().zip(self.amounts()).filter(|(_, amount)| *amount > 0.0);
+        let word = |(name, amount): (&&str, f64)| match *name {
+            "start" => format!("{name}={}", rounded(amount)),
+            _ => format!("{name}={}%", rounded(amount * 100.0)),
+        };
+        changes.map(word).collect::<Vec<_>>().join(",")
+    }
+
+    fn amounts(&self) -> [f64; COUNT] {
+        let Self { friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead } = *self;
+        [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead]
+    }
+
+    fn of(amounts: [f64; COUNT]) -> Self {
+        let [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead] = amounts;
+        Self { friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead }
+    }
+
+    /// All changes times a number, but none above its largest.
+    pub fn times(&self, scale: f64) -> Self {
+        let mut amounts = self.amounts();
+        for (amount, name) in amounts.iter_mut().zip(Self::NAMES) {
+            *amount = (*amount * scale).min(Self::most(name));
+        }
+        Self::of(amounts)
+    }
+
+    /// A world that differs from another by these numbers, which are from -1 to 1: a factor changes by its number times
+    /// its largest change; noise grows by the size of its number.
+    pub fn world(&self, around: &PhysicsWorld, draws: [f64; COUNT], seed: u64) -> PhysicsWorld {
+        let mut changes = self.amounts();
+        for (i, (change, draw)) in changes.iter_mut().zip(draws).enumerate() {
+            *change *= if i < FACTORS { draw } else { draw.abs() };
+        }
+        let [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead] = changes;
+        let [least, most] = [*WorldFactors::RANGE.start(), *WorldFactors::RANGE.end()];
+        let factor = |own: f64, change: f64| (own * (1.0 + change)).clamp(least, most);
+        let (own, noise) = (around.factors, around.noise);
+        PhysicsWorld {
+            factors: WorldFactors {
+                friction: factor(own.friction, friction),
+                gravity: factor(own.gravity, gravity),
+                stiffness: factor(own.stiffness, stiffness),
+                drag: factor(own.drag, drag),
+                damping: factor(own.damping, damping),
+                swelling: factor(own.swelling, swelling),
+            },
+            noise: WorldNoise {
+                start: (noise.start + start).min(WorldNoise::MOST_START),
+                missed: (noise.missed + missed).min(1.0),
+                weak: (noise.weak + weak).min(1.0),
+                dead: (noise.dead + dead).min(1.0),
+                seed,
+            },
+        }
+    }
+}
+
+impl FromStr for Variation {
+    type Err = VariationError;
+
+    /// Reads `friction=10%,start=0.2`, or `all=10%`, which is all factors.
+    fn from_str(text: &str) -> Result<Self, VariationError> {
+        let mut amounts = [0.0; COUNT];
+        for part in text.split(',') {
+            let (name, amount) = part.split_once('=').ok_or_else(|| VariationError::NoAmount(part.to_owned()))?;
+            if name.trim() == ALL {
+                amounts[..FACTORS].fill(read_amount(ALL, amount.trim())?);
+                continue;
+            }
+            let place = Self::NAMES.iter().position(|known| *known == name.trim());
+            let place = place.ok_or_else(|| VariationError::Unknown(name.to_owned(), &Self::NAMES))?;
+            amounts[place] = read_amount(name.trim(), amount.trim())?;
+        }
+        Ok(Self::of(amounts))
+    }
+}
+
+fn read_amount(name: &str, text: &str) -> Result<f64, VariationError> {
+    let number = match text.strip_suffix('%') {
+        Some(percent) => percent.parse::<f64>().map(|percent| percent / 100.0),
+        None => text.parse(),
+    };
+    let most = Variation::most(name);
+    let error = VariationError::Amount { name: name.to_owned(), found: text.to_owned(), most };
+    number.ok().filter(|amount| (0.0..=most).contains(amount)).ok_or(error)
+}
+
+impl fmt::Display for Variation {
+    /// The quantities that vary: `friction 10 %, start 0.2`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let changes = Self::NAMES.iter().zip(self.amounts()).filter(|(_, amount)| *amount > 0.0);
+        let words: Vec<String> = changes
+            .map(|(name, amount)| match *name {
+                "start" => format!("{name} {}", rounded(amount)),
+                _ => format!("{name} {} %", rounded(amount * 100.0)),
+            })
+            .collect();
+        f.write_str(if words.is_empty() { "nothing" } else { "" })?;
+        f.write_str(&words.join(", "))
+    }
+}
+
+/// A number without the digits that only rounding brings.
+fn rounded(number: f64) -> f64 {
+    (number * 1e6).round() / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variations_are_read_and_shown() {
+        let found: Variation = "friction=10%,start=0.2".parse().unwrap();
+        assert_eq!(found, Variation { friction: 0.1, start: 0.2, ..Variation::default() });
+        assert_eq!(found.to_string(), "friction 10 %, start 0.2");
+        assert_eq!(found.changes(), "friction=10%,start=0.2");
+        assert_eq!(found.times(3.0).to_string(), "friction 30 %, start 0.6");
+        assert_eq!(found.times(20.0).friction, 0.9, "a factor stays positive");
+        let all: Variation = "all=20%".parse().unwrap();
+        assert_eq!((all.common(), found.common()), (Some(0.2), None));
+        assert_eq!([all.quantities(), found.quantities()], ["all factors", "friction, start"]);
+        for wrong in ["friction", "fiction=1%", "friction=95%", "friction=-1%", "missed=x", ""] {
+            assert!(wrong.parse::<Variation>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn factors_vary_to_both_sides_and_noise_grows() {
+        let all = Variation { friction: 0.5, missed: 0.1, ..Variation::default() };
+        let paper = PhysicsWorld::default();
+        let low = all.world(&paper, [-1.0; COUNT], 7);
+        assert_eq!((low.factors.friction, low.factors.gravity), (0.5, 1.0));
+        assert_eq!((low.noise.missed, low.noise.seed), (0.1, 7));
+        assert_eq!(all.world(&low, [-1.0; COUNT], 7).factors.friction, 0.25, "around another world");
+        assert!(all.times(99.0).world(&low, [1.0; COUNT], 7).is_possible());
+    }
+}

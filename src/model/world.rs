@@ -1,0 +1,80 @@
+//! The world that robots live in: how much it differs from the paper's, and what goes wrong in it.
+
+use serde::{Deserialize, Serialize};
+
+/// A world. The default is the paper's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PhysicsWorld {
+    /// Its physics.
+    pub factors: WorldFactors,
+    /// What goes wrong.
+    pub noise: WorldNoise,
+}
+
+/// The numbers of the physics as factors of the paper's (docs/physics.md 15).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorldFactors {
+    /// Friction on the ground, on the plane below it and between voxels.
+    pub friction: f64,
+    /// Gravity.
+    pub gravity: f64,
+    /// Stiffness of all springs.
+    pub stiffness: f64,
+    /// Viscous drag.
+    pub drag: f64,
+    /// Damping of contacts.
+    pub damping: f64,
+    /// Speed at which voxels swell and shrink.
+    pub swelling: f64,
+}
+
+/// What goes wrong for each robot by itself (docs/physics.md 15).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorldNoise {
+    /// The most voxels by which a robot starts to the left or the right of its place.
+    pub start: f64,
+    /// The probability that a robot does not notice its stimuli in a cycle and keeps those of the cycle before.
+    pub missed: f64,
+    /// The share by which actuators and sensors move less.
+    pub weak: f64,
+    /// The probability that an actuator or sensor never moves.
+    pub dead: f64,
+    /// The seed of all that is drawn.
+    pub seed: u64,
+}
+
+impl Default for WorldFactors {
+    fn default() -> Self {
+        Self { friction: 1.0, gravity: 1.0, stiffness: 1.0, drag: 1.0, damping: 1.0, swelling: 1.0 }
+    }
+}
+
+impl WorldFactors {
+    /// The smallest and the largest factor.
+    pub const RANGE: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+}
+
+impl WorldNoise {
+    /// The most that `start` may be, in voxels.
+    pub const MOST_START: f64 = 10.0;
+}
+
+impl PhysicsWorld {
+    /// Whether it is the paper's world.
+    pub fn is_paper(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether all its numbers are in their ranges.
+    pub fn is_possible(&self) -> bool {
+        let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = self.factors;
+        let factors = [friction, gravity, stiffness, drag, damping, swelling];
+        let WorldNoise { start, missed, weak, dead, .. } = self.noise;
+        factors.iter().all(|factor| WorldFactors::RANGE.contains(factor))
+            && [missed, weak, dead].iter().all(|share| (0.0..=1.0).contains(share))
+            && (0.0..=WorldNoise::MOST_START).contains(&start)
+    }
+}

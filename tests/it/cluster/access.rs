@@ -1,0 +1,117 @@
+//! Passwords, credentials and TLS.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use base64::Engine;
+use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+use nkeys::KeyPair;
+use serde_json::{Map, Value, json};
+
+use crate::cluster::server::Server;
+use crate::cluster::{Running, assert_same, bench};
+use crate::schemas::validate;
+
+#[test]
+fn servers_that_cannot_be_used_are_named_without_the_password() {
+    let Some(server) = Server::start(&["--user", "me", "--pass", "right"]) else { return };
+    let bench = bench();
+    let wrong = server.url().replace("nats://", "nats://me:secret@");
+    for arguments in [&["worker", "--nats"][..], &["workers", "--nats"], &["evolve", "small.nb", "--nats"]] {
+        let ran = bench.run(&[arguments, &[&wrong]].concat());
+        ran.expect_fault(&["cannot use the NATS server `nats://127.0.0.1:"]);
+        assert!(!ran.err.contains("secret"), "{}", ran.err);
+    }
+    let right = server.url().replace("nats://", "nats://me:right@");
+    let workers = bench.run(&["workers", "--nats", &right, "--format", "json"]);
+    assert_eq!(validate("workers", &workers.out)["workers"].as_array().unwrap().len(), 0);
+    let missing = bench.run(&["worker", "--nats", &right, "--creds", "none.creds"]);
+    missing.expect_fault(&["cannot use the credentials in `none.creds`"]);
+    bench.run(&["worker", "--nats", &right, "--name", "a.b"]).expect_fault(&["`a.b` cannot be the name of a worker"]);
+}
+
+/// A signed token of NATS.
+fn token(issuer: &KeyPair, subject: &str, name: &str, nats: Value) -> String {
+    let encode = |value: &Value| URL_SAFE_NO_PAD.encode(value.to_string());
+    let head = json!({ "typ": "JWT", "alg": "ed25519-nkey" });
+    let issued = issuer.public_key();
+    let claims = json!({ "jti": name, "iat": 1, "iss": issued, "sub": subject, "name": name, "nats": nats });
+    let signed = format!("{}.{}", encode(&head), encode(&claims));
+    let signature = URL_SAFE_NO_PAD.encode(issuer.sign(signed.as_bytes()).unwrap());
+    format!("{signed}.{signature}")
+}
+
+/// The rights of an account to these without limit.
+fn unlimited(names: &[&str]) -> Value {
+    let everywhere = ["subs", "data", "payload", "imports", "exports", "conn", "leaf"];
+    let mut limits: Map<String, Value> =
+        everywhere.iter().chain(names).map(|name| ((*name).to_owned(), json!(-1))).collect();
+    limits.insert("wildcards".to_owned(), json!(true));
+    json!({ "type": "account", "version": 2, "limits": limits })
+}
+
+/// Writes `server.conf` for a server of one account, and `worker.creds` for a user with the rights of docs/cluster.md.
+fn issue_credentials(folder: &Path) {
+    let (operator, system) = (KeyPair::new_operator(), KeyPair::new_account());
+    let (account, user) = (KeyPair::new_account(), KeyPair::new_user());
+    let rights = json!({ "type": "operator", "version": 2, "system_account": system.public_key() });
+    let issued = token(&operator, &operator.public_key(), "operator", rights);
+    let watching = token(&operator, &system.public_key(), "system", unlimited(&[]));
+    let jetstream = unlimited(&["mem_storage", "disk_storage", "streams", "consumer"]);
+    let granted = token(&operator, &account.public_key(), "account", jetstream);
+    let rights = json!({
+        "type": "user", "version": 2, "subs": -1, "data": -1, "payload": -1,
+        "pub": { "allow": ["nbc.v1.>", "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
+        "sub": { "allow": ["nbc.v1.>", "_INBOX.>"] },
+    });
+    let user_token = token(&account, &user.public_key(), "user", rights);
+    let accounts = format!("{}: {granted}\n{}: {watching}", account.public_key(), system.public_key());
+    let config = format!("operator: {issued}\nresolver: MEMORY\nresolver_preload: {{ {accounts} }}\n");
+    fs::write(folder.join("server.conf"), config).unwrap();
+    let creds = format!(
+        "-----BEGIN NATS USER JWT-----\n{user_token}\n------END NATS USER JWT------\n\n\
+         -----BEGIN USER NKEY SEED-----\n{}\n------END USER NKEY SEED------\n",
+        user.seed().unwrap()
+    );
+    fs::write(folder.join("worker.creds"), creds).unwrap();
+}
+
+#[test]
+fn credentials_with_few_rights_suffice_and_are_needed() {
+    let bench = bench();
+    issue_credentials(bench.path());
+    let config = bench.path().join("server.conf").display().to_string();
+    let Some(server) = Server::start(&["--config", &config]) else { return };
+    let url = server.url();
+    let access = ["--nats", &url, "--creds", "worker.creds"];
+    bench.run(&["evolve", "small.nb", "--nats", &url]).expect_fault(&["cannot use the NATS server"]);
+    let _worker = Running::start(&bench, &[&["worker", "--threads", "1"], &access[..]].concat());
+    assert_same(&bench, &Running::start(&bench, &[&["evolve", "small.nb"], &access[..]].concat()).end());
+}
+
+/// Makes a root certificate and one for this machine, as docs/cluster.md says.
+fn issue_certificates(folder: &Path) {
+    let page = fs::read_to_string(crate::language::root().join("docs/cluster.md")).unwrap();
+    let indented = page.lines().filter_map(|line| line.strip_prefix("    "));
+    let commands: Vec<&str> =
+        indented.filter(|line| line.starts_with("openssl ") || line.starts_with("echo ")).collect();
+    assert_eq!(commands.len(), 4, "{commands:?}");
+    let script = commands.join("\n").replace("nats.example.org", "localhost");
+    let made = Command::new("sh").args(["-ec", &script]).current_dir(folder).output().unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+}
+
+#[test]
+fn a_server_with_tls_is_used_only_if_its_certificate_is_trusted() {
+    let bench = bench();
+    issue_certificates(bench.path());
+    let path = |name: &str| bench.path().join(name).display().to_string();
+    let options = ["--tls", "--tlscert", &path("server.pem"), "--tlskey", &path("server-key.pem")];
+    let Some(server) = Server::start(&options) else { return };
+    let url = server.url().replace("nats://127.0.0.1", "tls://localhost");
+    bench.run(&["evolve", "small.nb", "--nats", &url]).expect_fault(&["cannot use the NATS server `tls://localhost:"]);
+    let access = ["--nats", &url, "--tls-ca", "ca.pem"];
+    let _worker = Running::start(&bench, &[&["worker", "--threads", "1"], &access[..]].concat());
+    assert_same(&bench, &Running::start(&bench, &[&["evolve", "small.nb"], &access[..]].concat()).end());
+}

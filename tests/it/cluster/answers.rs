@@ -1,0 +1,116 @@
+//! Answers that are wrong, late, repeated, garbage or too long.
+
+use std::collections::BTreeMap;
+
+use crate::cluster::server::Server;
+use crate::cluster::wire::{Seen, Wire, varint};
+use crate::cluster::{SMALL_STEPS, assert_same, bench, evolve, worker};
+
+/// The subject for an answer of a worker to the search that a task belongs to.
+fn answer_subject(task: &Seen, worker: &str) -> String {
+    let search = task.subject.split('.').nth(4).unwrap();
+    format!("nbc.v1.answer.{search}.{worker}")
+}
+
+/// An answer to a task that could be right, but is not: the simulation of the body becomes unstable in env step 1.
+fn unstable(task: &Seen) -> Vec<u8> {
+    let key: Vec<u8> = task.subject.split('.').skip(5).flat_map(|number| varint(number.parse().unwrap())).collect();
+    [vec![1], key, vec![0, 3, 0, 1], varint(SMALL_STEPS), vec![0]].concat()
+}
+
+fn is_task(message: &Seen, run: u32, generation: u32) -> bool {
+    message.subject.starts_with("nbc.v1.task.") && message.subject.contains(&format!(".{run}.{generation}."))
+}
+
+#[test]
+fn garbage_repeated_late_and_oversized_answers_change_nothing() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    let task = wire.wait_for(|message| is_task(message, 0, 0));
+    let answer = |worker: &str| answer_subject(&task, worker);
+    wire.publish(&answer("garbage"), &[1, 255, 255, 255]);
+    wire.publish(&answer("empty"), &[]);
+    wire.publish(&answer("oversized"), &vec![1; 300_000]);
+    // A screening that found nothing, for a task that is an evaluation.
+    wire.publish(&answer("confused"), &[1, 0, 0, 0, 1, 0, 0]);
+    // An answer to the first task that has too few env steps: Surpassed, 3 and 0.
+    wire.publish(&answer("impossible"), &[1, 0, 0, 0, 0, 1, 3, 0]);
+    let note = |name: &str| [&[1, name.len() as u8], name.as_bytes(), &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
+    wire.publish("nbc.v1.worker", &note("foreign"));
+    let good = worker(&bench, &server, "good");
+    // Every answer is sent again at once, and the first is sent again much later.
+    let first = wire.wait_for(|message| message.is_answer_of("good"));
+    for _ in 0..60 {
+        let again = wire.wait_for(|message| message.is_answer_of("good"));
+        wire.publish(&answer("echo"), &again.payload);
+        wire.publish(&answer("late"), &first.payload);
+    }
+    let ran = search.end();
+    assert_same(&bench, &ran);
+    for (worker, reason) in [
+        ("garbage", "its message cannot be read"),
+        ("empty", "its message cannot be read"),
+        ("oversized", "its message cannot be read"),
+        ("impossible", "its result cannot be right"),
+        ("confused", "its result cannot be right"),
+        ("foreign", "its physics is 0000000000000007 (version 9.9.9), expected "),
+    ] {
+        let line = format!("refused worker `{worker}`: {reason}");
+        assert!(ran.err.contains(&line), "{line}\n{}", ran.err);
+    }
+    assert!(!ran.err.contains("`good`") && !ran.err.contains("`echo`") && !ran.err.contains("`late`"), "{}", ran.err);
+    good.kill();
+}
+
+#[test]
+fn a_worker_whose_first_answer_is_wrong_is_refused_and_its_answers_are_not_used() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    for _ in 0..9 {
+        let task = wire.wait_for(|message| is_task(message, 1, 0));
+        wire.publish(&answer_subject(&task, "liar"), &unstable(&task));
+    }
+    let _good = worker(&bench, &server, "good");
+    let ran = search.end();
+    assert_same(&bench, &ran);
+    let line = "refused worker `liar`: its result differs from that of this machine";
+    assert!(ran.err.contains(line) && !ran.err.contains("`good`"), "{}", ran.err);
+}
+
+#[test]
+fn a_worker_that_is_wrong_after_its_results_were_used_ends_the_search_with_a_checkpoint() {
+    let Some(server) = Server::start(&[]) else { return };
+    let mut wire = Wire::open(&server);
+    // The right answers of the first two generations of the first run.
+    let first = bench();
+    let (search, good) = (evolve(&first, &server, &["--seed", "1"]), worker(&first, &server, "good"));
+    let mut right = BTreeMap::new();
+    loop {
+        let answer = wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[1, 0]));
+        let (generation, index) = (answer.payload[2], answer.payload[3]);
+        if generation == 2 {
+            break;
+        }
+        right.insert((generation, index), answer.payload);
+    }
+    drop((search, good));
+    // A worker gives those of the first generation, and is wrong in the second, where another contradicts.
+    let second = bench();
+    let search = evolve(&second, &server, &["--seed", "1"]);
+    let task = wire.wait_for(|message| is_task(message, 0, 0));
+    for answer in right.range((0, 0)..(1, 0)).map(|(_, answer)| answer) {
+        wire.publish(&answer_subject(&task, "turncoat"), answer);
+    }
+    let answer = |task: &Seen| &right[&(1, task.subject.rsplit('.').next().unwrap().parse().unwrap())];
+    let task = wire.wait_for(|message| is_task(message, 0, 1));
+    wire.publish(&answer_subject(&task, "turncoat"), &unstable(&task));
+    wire.publish(&answer_subject(&task, "honest"), answer(&task));
+    let ran = search.end();
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert!(ran.err.contains("worker `turncoat` sent a wrong result, and earlier ones of it were used"), "{}", ran.err);
+    assert!(second.path().join("out/small/seed-1/checkpoint.nbc").exists());
+}

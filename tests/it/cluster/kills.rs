@@ -1,0 +1,136 @@
+//! Workers, searches and servers that are killed.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::cli::Bench;
+use crate::cluster::server::Server;
+use crate::cluster::wire::Wire;
+use crate::cluster::{Running, assert_equal, assert_same, bench, evolve, files, worker};
+use crate::language::root;
+
+#[test]
+fn two_workers_that_are_both_killed_once_give_the_bytes_of_a_run_alone() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let (first, second) = (worker(&bench, &server, "first"), worker(&bench, &server, "second"));
+    let search = evolve(&bench, &server, &[]);
+    wire.wait_for(|message| message.is_answer_of("first"));
+    first.kill();
+    let third = worker(&bench, &server, "third");
+    wire.wait_for(|message| message.is_answer_of("third"));
+    second.kill();
+    let fourth = worker(&bench, &server, "fourth");
+    wire.wait_for(|message| message.is_answer_of("fourth"));
+    let ran = search.end();
+    assert!(ran.err.contains("keeps about 30 cores busy\n"), "{}", ran.err);
+    assert_same(&bench, &ran);
+    for left in [third, fourth] {
+        left.signal("-TERM");
+        let ran = left.end();
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        assert!(ran.err.contains(" evaluations\n"), "{}", ran.err);
+    }
+}
+
+#[test]
+fn workers_that_are_killed_twenty_times_at_random_lose_nothing() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let mut random = ChaCha8Rng::seed_from_u64(20);
+    let search = evolve(&bench, &server, &[]);
+    for number in 0..20 {
+        let name = format!("worker-{number}");
+        let victim = worker(&bench, &server, &name);
+        wire.wait_for(|message| {
+            message.subject == "nbc.v1.worker" && message.payload[2..].starts_with(name.as_bytes())
+        });
+        let answers = random.random_range(0..3);
+        (0..answers).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of(&name)));
+        victim.kill();
+    }
+    let _last = worker(&bench, &server, "last");
+    assert_same(&bench, &search.end());
+}
+
+#[test]
+fn a_server_that_is_killed_and_restarted_on_its_disk_loses_nothing() {
+    the_server_fails(Server::restart);
+}
+
+#[test]
+fn a_server_that_loses_its_disk_is_given_the_tasks_again() {
+    the_server_fails(Server::restart_empty);
+}
+
+/// The server fails in the middle of a search.
+#[track_caller]
+fn the_server_fails(fail: fn(&mut Server)) {
+    let Some(mut server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let _worker = worker(&bench, &server, "steady");
+    let search = evolve(&bench, &server, &[]);
+    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("steady")));
+    fail(&mut server);
+    assert_same(&bench, &search.end());
+}
+
+#[test]
+fn a_search_that_is_killed_continues_while_workers_answer_the_dead_one() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let _worker = worker(&bench, &server, "steady");
+    let search = evolve(&bench, &server, &[]);
+    (0..100).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("steady")));
+    search.kill();
+    assert_same(&bench, &evolve(&bench, &server, &["--resume"]).end());
+}
+
+#[test]
+fn an_interrupted_search_can_be_resumed_alone() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let _worker = worker(&bench, &server, "steady");
+    let search = evolve(&bench, &server, &[]);
+    (0..60).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("steady")));
+    search.signal("-TERM");
+    let ran = search.end();
+    assert_eq!(ran.status, 4, "{}", ran.err);
+    assert!(ran.out.contains("interrupted; `--resume` continues the run"), "{}", ran.out);
+    let resumed = Running::start(&bench, &["evolve", "small.nb", "--resume"]).end();
+    assert_same(&bench, &resumed);
+}
+
+/// `cargo test --release --features cluster --test it the_papers_quick_run -- --ignored --nocapture`: minutes.
+#[test]
+#[ignore = "evaluates 9,600 bodies twice"]
+fn the_papers_quick_run_on_two_workers_gives_the_bytes_of_the_run_alone() {
+    let Some(server) = Server::start(&[]) else { return };
+    let (alone, together) = (Bench::new(), Bench::new());
+    let paper = root().join("library/paper.nb").display().to_string();
+    let quick = ["evolve", &paper, "--quick"];
+    let mut wire = Wire::open(&server);
+    let search = Running::start(&together, &[&quick[..], &["--nats", &server.url()]].concat());
+    let mut workers: BTreeMap<&str, Running> =
+        ["first", "second"].into_iter().map(|name| (name, worker(&together, &server, name))).collect();
+    for (old, new) in [("first", "third"), ("second", "fourth")] {
+        (0..1000).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of(old)));
+        workers.remove(old).unwrap().kill();
+        workers.insert(new, worker(&together, &server, new));
+    }
+    let ran = search.end_within(Duration::from_secs(3600));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    eprintln!("{}{}", ran.err, ran.out);
+    let expected = alone.run(&quick);
+    assert_eq!(expected.status, 0, "{}", expected.err);
+    eprintln!("{}{}", expected.err, expected.out);
+    assert_equal(&files(&together.path().join("out")), &files(&alone.path().join("out")));
+}

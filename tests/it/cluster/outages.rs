@@ -1,0 +1,146 @@
+//! Networks that are cut and disks that are full.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::cli::Bench;
+use crate::cluster::server::Server;
+use crate::cluster::wire::Wire;
+use crate::cluster::{Running, assert_same, bench, evolve, worker};
+
+/// Runs a command of the system; whether it succeeded.
+fn succeeds(line: &str) -> bool {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let output = Command::new(words[0]).args(&words[1..]).output();
+    output.is_ok_and(|output| output.status.success())
+}
+
+/// A network of its own, joined to this one by a cable; removed when it is dropped.
+struct Namespace {
+    name: String,
+    /// The last number but one of the addresses of both ends.
+    net: u32,
+}
+
+impl Namespace {
+    /// `None`, with a message, where this user cannot make it.
+    fn make() -> Option<Self> {
+        let process = std::process::id();
+        let this = Self { name: format!("nbc{process}"), net: process % 250 };
+        let Self { name, net } = &this;
+        let steps = [
+            format!("ip netns add {name}"),
+            format!("ip link add {name}a type veth peer name {name}b"),
+            format!("ip link set {name}b netns {name}"),
+            format!("ip addr add 10.199.{net}.1/24 dev {name}a"),
+            format!("ip link set {name}a up"),
+            format!("ip netns exec {name} ip addr add 10.199.{net}.2/24 dev {name}b"),
+            format!("ip netns exec {name} ip link set {name}b up"),
+        ];
+        for step in steps {
+            if !succeeds(&step) {
+                eprintln!("skipped: `{step}` fails; this test needs root and `ip netns`");
+                return None;
+            }
+        }
+        Some(this)
+    }
+
+    fn cut(&self) {
+        assert!(succeeds(&format!("ip link set {}a down", self.name)));
+    }
+
+    fn join(&self) {
+        assert!(succeeds(&format!("ip link set {}a up", self.name)));
+    }
+
+    /// Starts the program inside; it knows the server by the address of this side.
+    fn start(&self, bench: &Bench, server: &Server, arguments: &[&str]) -> Running {
+        let url = format!("nats://10.199.{}.1:{}", self.net, server.port());
+        let mut command = Command::new("ip");
+        command.args(["netns", "exec", &self.name, env!("CARGO_BIN_EXE_nbc")]).args(arguments).args(["--nats", &url]);
+        Running::spawn(command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "1"))
+    }
+}
+
+impl Drop for Namespace {
+    fn drop(&mut self) {
+        succeeds(&format!("ip link delete {}a", self.name));
+        succeeds(&format!("ip netns delete {}", self.name));
+    }
+}
+
+/// Keeps the network cut for half a minute.
+fn cut_for_half_a_minute(namespace: &Namespace) {
+    namespace.cut();
+    let cut = Instant::now();
+    while cut.elapsed() < Duration::from_secs(30) {
+        thread::sleep(Duration::from_millis(100));
+    }
+    namespace.join();
+}
+
+/// `cargo test --features cluster --test it outages -- --ignored`: two minutes, as root.
+#[test]
+#[ignore = "cuts the network for half a minute, twice"]
+fn a_network_that_is_cut_for_half_a_minute_loses_nothing() {
+    let Some(namespace) = Namespace::make() else { return };
+    let Some(server) = Server::start(&[]) else { return };
+    // Between the server and a worker.
+    let first = bench();
+    let mut wire = Wire::open(&server);
+    let far = namespace.start(&first, &server, &["worker", "--threads", "1", "--name", "far"]);
+    let search = evolve(&first, &server, &[]);
+    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("far")));
+    cut_for_half_a_minute(&namespace);
+    assert_same(&first, &search.end());
+    drop(far);
+    // Between the server and the search.
+    let second = bench();
+    let _near = worker(&second, &server, "near");
+    let search = namespace.start(&second, &server, &["evolve", "small.nb"]);
+    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("near")));
+    cut_for_half_a_minute(&namespace);
+    assert_same(&second, &search.end());
+}
+
+/// A small disk; unmounted when it is dropped.
+struct SmallDisk<'a>(&'a Path);
+
+impl<'a> SmallDisk<'a> {
+    fn mount(folder: &'a Path) -> Option<Self> {
+        if succeeds(&format!("mount -t tmpfs -o size=8m tmpfs {}", folder.display())) {
+            return Some(Self(folder));
+        }
+        eprintln!("skipped: `mount -t tmpfs` fails; this test needs root");
+        None
+    }
+}
+
+impl Drop for SmallDisk<'_> {
+    fn drop(&mut self) {
+        succeeds(&format!("umount {}", self.0.display()));
+    }
+}
+
+#[test]
+fn a_server_whose_disk_is_full_is_named_and_the_search_continues_when_there_is_room() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(disk) = SmallDisk::mount(folder.path()) else { return };
+    let Some(mut server) = Server::start_in(tempfile::tempdir().unwrap(), disk.0.join("store"), &[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    let good = worker(&bench, &server, "good");
+    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("good")));
+    let filler = disk.0.join("filler");
+    fs::write(&filler, vec![1; 16 << 20]).unwrap_err();
+    search.wait_for("the NATS server does not take tasks (");
+    fs::remove_file(&filler).unwrap();
+    server.restart();
+    assert_same(&bench, &search.end());
+    good.kill();
+}

@@ -1,0 +1,81 @@
+//! A client of NATS that sees and says whatever it wants.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+use crate::cluster::server::Server;
+
+/// A connection that receives every message of the program.
+pub struct Wire {
+    reader: BufReader<TcpStream>,
+}
+
+/// A message.
+pub struct Seen {
+    pub subject: String,
+    pub payload: Vec<u8>,
+}
+
+impl Seen {
+    pub fn is_answer_of(&self, worker: &str) -> bool {
+        self.subject.starts_with("nbc.v1.answer.") && self.subject.ends_with(&format!(".{worker}"))
+    }
+}
+
+impl Wire {
+    /// Connects, and returns when the server has the subscription.
+    pub fn open(server: &Server) -> Self {
+        let stream = TcpStream::connect(("127.0.0.1", server.port())).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
+        let mut wire = Self { reader: BufReader::new(stream) };
+        wire.say(b"CONNECT {\"verbose\":false,\"pedantic\":false}\r\nSUB nbc.v1.> 1\r\nPING\r\n");
+        while wire.line() != "PONG" {}
+        wire
+    }
+
+    fn say(&mut self, bytes: &[u8]) {
+        self.reader.get_mut().write_all(bytes).unwrap();
+    }
+
+    fn line(&mut self) -> String {
+        let mut line = String::new();
+        assert!(self.reader.read_line(&mut line).expect("the server says something") > 0, "the server is there");
+        line.trim_end().to_owned()
+    }
+
+    pub fn publish(&mut self, subject: &str, payload: &[u8]) {
+        let head = format!("PUB {subject} {}\r\n", payload.len());
+        self.say(&[head.as_bytes(), payload, b"\r\n"].concat());
+    }
+
+    /// The next message that is wanted.
+    pub fn wait_for(&mut self, wanted: impl Fn(&Seen) -> bool) -> Seen {
+        loop {
+            let line = self.line();
+            if line == "PING" {
+                self.say(b"PONG\r\n");
+            }
+            let words: Vec<&str> = line.split(' ').collect();
+            let [kind @ ("MSG" | "HMSG"), subject, .., size] = words[..] else { continue };
+            let mut payload = vec![0; size.parse::<usize>().unwrap() + 2];
+            self.reader.read_exact(&mut payload).unwrap();
+            payload.truncate(payload.len() - 2);
+            let seen = Seen { subject: subject.to_owned(), payload };
+            if kind == "MSG" && wanted(&seen) {
+                return seen;
+            }
+        }
+    }
+}
+
+/// A number as in messages: seven bits a byte, the lowest first.
+pub fn varint(mut number: u64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    while number >= 128 {
+        bytes.push(number as u8 | 128);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+    bytes
+}

@@ -1,0 +1,230 @@
+//! Worlds other than the paper's: their physics, their noise, and where programs name them.
+
+use nbc::model::{PhysicsWorld, WorldFactors, WorldNoise};
+use nbc::report::Stage;
+use nbc::swarm::{Assembly, Exposure, Recording, Room, SwarmTrace, simulate};
+use nbc::{
+    Body, CompileOptions, Level, MemoryWorld, Palette, Pattern, Schedule, Session, Setting, Simulator, TestOptions,
+    TestRun, Trajectory, Trial,
+};
+
+use crate::cli::Bench;
+use crate::schemas::validate;
+
+const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.2, weak: 0.05, dead: 0.02, seed: 3 };
+
+const CIRCUIT: &str = "\
+circuit gate(a, b) -> (q) {
+    q = a nand b
+}
+
+test gate WORLD {
+    a b | q
+    0 0 | 1
+    1 1 | 0
+}
+";
+
+/// The test of a program in physics.
+fn tested(program: &str) -> TestRun {
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("a.nb", 1, program);
+    let checked = session.open("a.nb").unwrap_or_else(|error| panic!("{error}"));
+    let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+    session.test(&checked, &checked.program.tests[0], &options, &mut ()).unwrap().remove(0)
+}
+
+/// The paths of the robots of the program's test, with these declarations and the test in this world.
+fn paths(declarations: &str, world: &str) -> Vec<Vec<f64>> {
+    let run = tested(&format!("{}{declarations}", CIRCUIT.replace("WORLD", world)));
+    run.swarm.unwrap().trace.robots.into_iter().map(|robot| robot.com_x).collect()
+}
+
+#[test]
+fn a_world_changes_the_physics_and_the_papers_does_not() {
+    let paper = paths("", "");
+    assert_eq!(paths("world same { friction: 100%, seed: 9 }", "in same"), paper);
+    assert_eq!(paths("", "in paper"), paper);
+    let fields = ["friction", "gravity", "stiffness", "drag", "damping", "swelling"].map(|field| (field, "1.05"));
+    for (field, value) in fields.into_iter().chain([("start", "0.3"), ("weak", "5%"), ("dead", "20%")]) {
+        assert_ne!(paths(&format!("world other {{ {field}: {value} }}"), "in other"), paper, "{field}");
+    }
+}
+
+#[test]
+fn worlds_derive_from_each_other_and_a_test_overrides_its_swarm() {
+    let worlds = "world heavy { gravity: 1.1 }\nworld both { from: heavy, friction: 0.8 }\n";
+    let direct = paths("world own { gravity: 1.1, friction: 0.8 }\n", "in own");
+    assert_eq!(paths(worlds, "in both"), direct);
+    let swarm = format!("{worlds}swarm sliders {{ circuit: gate, world: both }}\n");
+    assert_eq!(paths(&swarm, ""), direct);
+    assert_eq!(paths(&swarm, "in heavy"), paths(worlds, "in heavy"));
+}
+
+#[test]
+fn a_simulation_names_a_world_and_so_does_an_evolution() {
+    let program = format!(
+        "{}world heavy {{ gravity: 1.1 }}\nswarm s {{ circuit: gate }}\nevolution e {{ world: heavy }}\n\
+         simulate s in heavy with schedule (a, b) {{\n    0 1 for 3 cycles\n}}\n",
+        CIRCUIT.replace("WORLD", "")
+    );
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("a.nb", 1, program);
+    let checked = session.open("a.nb").unwrap_or_else(|error| panic!("{error}"));
+    let run = session.simulate(&checked, &checked.program.simulations[0], &CompileOptions::default(), &mut ());
+    assert_eq!(run.unwrap().swarm.compiled.assembly.world.factors.gravity, 1.1);
+    let evolution = checked.program.evolution("e").unwrap();
+    assert_eq!(evolution.world.factors.gravity, 1.1);
+    let bodies = || vec![Body::parse(&["343", "563"], &Palette::paper()).unwrap()];
+    let paper = nbc::Evolution { world: PhysicsWorld::default(), ..evolution.clone() };
+    let simulator = Simulator::default();
+    let [there, here] = [evolution, &paper].map(|run| nbc::evaluate_bodies(&simulator, run, bodies()));
+    assert_ne!(there, here);
+}
+
+fn walk(setting: &Setting) -> Trajectory {
+    let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
+    let trial = Trial { body, schedule: Schedule::constant(Pattern::PAIRS[1], 84) };
+    Simulator::default().run_trials(setting, &[trial]).remove(0)
+}
+
+#[test]
+fn factors_multiply_what_they_name() {
+    // A body falls from the end of the ground with the acceleration of gravity.
+    let fall = |gravity: f64| {
+        let factors = WorldFactors { gravity, ..WorldFactors::default() };
+        let edge = Setting { world_width: 50, start_x: Some(0), shift: -20.0, factors };
+        let heights = walk(&edge).com_y;
+        heights[0] - heights[4]
+    };
+    let ratio = fall(1.5) / fall(1.0);
+    assert!((ratio - 1.5).abs() < 0.05, "{ratio}");
+    let shifted = walk(&Setting { shift: 0.25, ..Setting::default() }).com_x[0] - walk(&Setting::default()).com_x[0];
+    assert!((shifted - 0.25).abs() < 1e-9);
+}
+
+/// The swarm of the program's test in a world with noise.
+fn noisy() -> Assembly {
+    let run = tested(&CIRCUIT.replace("WORLD", ""));
+    run.swarm.unwrap().compiled.assembly.in_world(PhysicsWorld { noise: NOISE, ..PhysicsWorld::default() })
+}
+
+fn trace(assembly: &Assembly, poses: Option<Room>) -> SwarmTrace {
+    let inputs = (0..12).map(|cycle| vec![cycle / 4 % 2 == 1, cycle % 2 == 1]).collect();
+    simulate(&Simulator::default(), assembly, &Exposure { inputs, window: 1, poses }, &mut |_| {})
+}
+
+#[test]
+fn noise_is_drawn_once_and_films_show_the_same() {
+    let assembly = noisy();
+    let (first, again) = (trace(&assembly, Some(Room::SWARM)), trace(&assembly, None));
+    assert_eq!(SwarmTrace { recording: Recording::default(), ..first.clone() }, again);
+    assert_eq!(first.recording, Stage::of_swarm(&assembly, &again, 7).record(assembly.members.len()));
+    let inputs: Vec<_> = again.cycles.iter().map(|cycle| cycle.inputs.clone()).collect();
+    let sensed: Vec<_> = again.cycles.iter().map(|cycle| cycle.sensed[0].to_vec()).collect();
+    assert_ne!(inputs, sensed, "some stimuli are missed");
+}
+
+#[test]
+fn a_swarm_whose_voxels_are_dead_stands_still() {
+    let dead = WorldNoise { dead: 1.0, ..WorldNoise::default() };
+    let world = PhysicsWorld { noise: dead, ..PhysicsWorld::default() };
+    let trace = trace(&noisy().in_world(world), None);
+    let path = &trace.robots[0].com_x;
+    assert!((path[path.len() - 1] - path[12]).abs() < 0.05);
+}
+
+const HOSTILE: &str = "\
+circuit inverter(a) -> (q) {
+    q = not a
+}
+
+test inverter \"inverts\" {
+    a | q
+    0 | 1
+    1 | 0
+    0 | 1
+}
+";
+
+#[test]
+fn yields_are_the_same_for_any_number_of_threads_and_worlds_can_be_declared() {
+    let bench = Bench::new();
+    bench.file("a.nb", HOSTILE);
+    let run = |more: &[&str]| {
+        let ran = bench.run(&[&["test", "a.nb", "--worlds", "6", "--format", "json"], more].concat());
+        (ran.status, validate("robustness", &ran.out))
+    };
+    let (status, wild) = run(&["--vary", "all=90%,dead=50%"]);
+    assert_eq!(status, 0, "a failed world is a result");
+    let one = |found: &serde_json::Value| found["tests"][0].clone();
+    let failures = one(&wild)["failures"].as_array().unwrap().clone();
+    assert!(!failures.is_empty(), "{wild}");
+    let alone = ["test", "a.nb", "--worlds", "6", "--format", "json", "--vary", "all=90%,dead=50%"];
+    let output = bench.command(&alone).env("RAYON_NUM_THREADS", "1").output().unwrap();
+    assert_eq!(validate("robustness", std::str::from_utf8(&output.stdout).unwrap()), wild);
+    assert_eq!(run(&["--vary", "all=90%,dead=50%", "--least-yield", "100%"]).0, 1);
+    assert_eq!(run(&["--vary", "all=45%,dead=25%", "--times", "2"]).1["tests"][0]["failures"], one(&wild)["failures"]);
+    let calm = one(&run(&["--vary", "all=0.1%", "--least-yield", "100%"]).1);
+    assert_eq!(calm["yield"]["passed"], 6);
+    assert!(calm["least"]["margin"].as_f64().unwrap() > 0.0);
+    // The world of a failure, declared, makes the test fail too.
+    let ran = bench.run(&["test", "a.nb", "--worlds", "6", "--vary", "all=90%,dead=50%"]);
+    let world = ran.out.lines().find_map(|line| line.trim().strip_prefix("world w")).expect("an example");
+    let (number, fields) = world.split_once(' ').unwrap();
+    assert_eq!(failures[0]["world"].to_string(), number);
+    bench.file("b.nb", format!("world bad {fields}\n{}", HOSTILE.replace("\" {", "\" in bad {")));
+    assert_eq!(bench.run(&["test", "b.nb", "--physics"]).status, 1);
+}
+
+#[test]
+fn yields_are_drawn() {
+    let bench = Bench::new();
+    bench.file("a.nb", HOSTILE);
+    let arguments = ["test", "a.nb", "--worlds", "2", "--vary", "friction=1%", "--vary", "all=1%", "--times", "1,30"];
+    let ran = bench.run(&[&arguments[..], &["--picture", "yields.svg"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let picture = std::fs::read_to_string(bench.path().join("yields.svg")).unwrap();
+    assert!(picture.contains("all factors") && picture.contains("largest change in %"), "{picture}");
+    assert_eq!(bench.run(&[&arguments[..], &["--picture", "yields.pdf"]].concat()).status, 2);
+}
+
+#[test]
+fn wrong_changes_are_explained() {
+    let bench = Bench::new();
+    bench.file("a.nb", HOSTILE);
+    for (changes, word) in
+        [("fiction=1%", "`fiction` does not vary"), ("friction=95%", "from 0 to 0.9"), ("all", "no amount")]
+    {
+        let ran = bench.run(&["test", "a.nb", "--vary", changes]);
+        assert_eq!(ran.status, 2);
+        assert!(ran.err.contains(word), "{}", ran.err);
+    }
+    assert_eq!(bench.run(&["test", "a.nb", "--worlds", "3"]).status, 2, "worlds of nothing");
+    assert_eq!(bench.run(&["test", "a.nb", "--logic", "--vary", "all=1%"]).status, 2);
+}
+
+#[test]
+fn a_robot_has_a_radius_and_its_file_keeps_it() {
+    let bench = Bench::new();
+    let text = std::fs::read_to_string(crate::language::root().join("library/robots/nand_5x5.yaml")).unwrap();
+    bench.file("nand.yaml", &text);
+    let radius = |changes: &str, more: &[&str]| {
+        let command = ["library", "verify", "nand.yaml", "--worlds", "1", "--vary", changes];
+        let ran = bench.run(&[&command, more, &["--format", "json"]].concat());
+        (ran.status, validate("radii", &ran.out)["robots"][0]["radius"].as_f64().unwrap())
+    };
+    assert_eq!(radius("gravity=0.001%", &[]), (0, 4.0));
+    let (status, least) = radius("dead=100%", &["--write"]);
+    assert!(status == 0 && least < 4.0);
+    let file = bench.path().join("nand.yaml");
+    let written = std::fs::read_to_string(&file).unwrap();
+    assert!(written.contains("vary: 'dead=100%'"), "{written}");
+    assert_eq!(radius("dead=100%", &[]), (0, least));
+    let show = bench.run(&["library", "rewrite", "nand.yaml"]);
+    assert_eq!((show.status, std::fs::read_to_string(&file).unwrap()), (0, written.clone()));
+    bench.file("nand.yaml", written.replace(&format!("radius: {least:?}"), "radius: 77.0"));
+    assert_eq!(radius("dead=100%", &[]), (1, least), "the file says something else");
+    bench.file("nand.yaml", written.replace("vary: 'dead=100%'", "vary: 'daed=100%'"));
+    assert_eq!(bench.run(&["library", "rewrite", "nand.yaml"]).status, 2);
+}
