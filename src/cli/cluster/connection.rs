@@ -23,6 +23,8 @@ pub const SILENCE: Duration = Duration::from_secs(6);
 const MOST_AGE: Duration = Duration::from_secs(60 * 60);
 /// The most time for a reply of the server.
 pub const PATIENCE: Duration = Duration::from_secs(5);
+/// That time when a program opens the queue: there is no second attempt, and a busy disk takes long to make a stream.
+const OPENING: Duration = Duration::from_secs(30);
 /// The most tasks in the hands of workers.
 const MOST_TAKEN: i64 = 1_000_000;
 
@@ -124,6 +126,16 @@ impl Connection {
             ..pull::Config::default()
         };
         stream.get_or_create_consumer(&name, config).await.map_err(|error| error.to_string())
+    }
+
+    /// As [`Connection::queue`], for a program that begins.
+    ///
+    /// # Errors
+    /// When the server cannot keep the queue.
+    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, Failure> {
+        let jetstream = jetstream::ContextBuilder::new().timeout(OPENING).build(self.client.clone());
+        let queue = self.runtime.block_on(Self::queue(&jetstream, token));
+        queue.map_err(|reason| self.no_queue(reason))
     }
 
     /// The failure of a server that cannot keep the queue.

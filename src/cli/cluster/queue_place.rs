@@ -74,13 +74,13 @@ impl QueuePlace {
         let connection = Connection::open(arguments, &format!("nbc evolve {search}"))?;
         let entered = connection.enter();
         let physics = PhysicsId::compute(&Simulator::default());
+        connection.open_queue(&physics.token())?;
         let subscribing = async {
-            Connection::queue(&connection.jetstream, &physics.token()).await?;
             let subscribe = async |subject: String| connection.client.subscribe(subject).await;
             let answers = subscribe(answer_subject(&search, "*")).await.map_err(|error| error.to_string())?;
             let notes = subscribe(worker_note_subject()).await.map_err(|error| error.to_string())?;
             connection.client.flush().await.map_err(|error| error.to_string())?;
-            Ok((answers, notes))
+            Ok::<_, String>((answers, notes))
         };
         let (answers, notes) =
             connection.runtime.block_on(subscribing).map_err(|reason| connection.no_queue(reason))?;

@@ -18,8 +18,9 @@ const MOST_STEPS: u64 = 100_000_000;
 const MOST_CYCLES: usize = 100_000;
 /// The longest clock of a gate, in cycles.
 const MOST_CLOCK: u32 = 8;
-/// The most tasks that a thread takes together: as many robots as are simulated at once.
-pub const TOGETHER: u8 = 8;
+/// The most tasks that a thread takes together. Evaluations end at different times, so it takes twice as many as there
+/// are lanes to keep the lanes full.
+pub const TOGETHER: u8 = 16;
 
 /// A task to be done.
 #[derive(Clone, Debug, PartialEq)]

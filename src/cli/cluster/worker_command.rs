@@ -52,8 +52,7 @@ impl WorkerArguments {
         let _entered = connection.enter();
         let threads = self.threads.map_or_else(|| thread::available_parallelism().map_or(1, usize::from), usize::from);
         let physics = PhysicsId::compute(&Simulator::default());
-        let queue = connection.runtime.block_on(Connection::queue(&connection.jetstream, &physics.token()));
-        let queue = queue.map_err(|reason| connection.no_queue(reason))?;
+        let queue = connection.open_queue(&physics.token())?;
         let shown = counted(threads, "thread");
         context.log(&format!("worker `{name}`: {shown}, version {PROGRAM}, physics {:016x}\n", physics.0));
         let worker = Worker::new(name, connection, physics, interrupt);

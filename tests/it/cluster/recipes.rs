@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_yaml::Value;
@@ -12,6 +12,8 @@ use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench};
 use crate::language::root;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_nbc");
 
 /// The indented lines of a section, without their indent.
 fn recipe(section: &str) -> String {
@@ -36,8 +38,7 @@ impl Site {
         fs::create_dir(&programs).unwrap();
         let site = Self { bench, programs };
         let log = site.bench.path().join("started");
-        let program = env!("CARGO_BIN_EXE_nbc");
-        site.program("nbc", &format!("echo $$ >> {}\nexec {program} \"$@\"", log.display()));
+        site.program("nbc", &format!("echo $$ >> {}\nexec {PROGRAM} \"$@\"", log.display()));
         site
     }
 
@@ -59,7 +60,10 @@ impl Site {
 impl Drop for Site {
     fn drop(&mut self) {
         for process in fs::read_to_string(self.bench.path().join("started")).unwrap_or_default().lines() {
-            let _ = Command::new("kill").args(["-9", process]).status();
+            // Its number may belong to another process by now.
+            if fs::read_link(format!("/proc/{process}/exe")).is_ok_and(|path| path == Path::new(PROGRAM)) {
+                let _ = Command::new("kill").args(["-9", process]).status();
+            }
         }
     }
 }

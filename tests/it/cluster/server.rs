@@ -1,10 +1,14 @@
 //! A NATS server of a test's own.
 
-use std::net::{TcpListener, TcpStream};
+use std::fs;
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
+
+use serde_json::Value;
+use tempfile::TempDir;
 
 /// The server, which is killed when it is dropped.
 pub struct Server {
@@ -13,7 +17,7 @@ pub struct Server {
     store: PathBuf,
     child: Child,
     // Removed last.
-    _folder: tempfile::TempDir,
+    folder: TempDir,
 }
 
 impl Server {
@@ -25,28 +29,34 @@ impl Server {
     }
 
     /// As [`Server::start`], with its data in a folder.
-    pub fn start_in(folder: tempfile::TempDir, store: PathBuf, options: &[&str]) -> Option<Self> {
+    pub fn start_in(folder: TempDir, store: PathBuf, options: &[&str]) -> Option<Self> {
         if Command::new("nats-server").arg("--version").stdout(Stdio::null()).status().is_err() {
             eprintln!("skipped: `nats-server` is not installed (apt-get install nats-server)");
             return None;
         }
-        let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let options: Vec<String> = options.iter().map(|&option| option.to_owned()).collect();
-        let child = spawn(port, &store, &options);
-        Some(Self { port, options, store, child, _folder: folder })
+        // The server chooses its port: one that was free a moment ago may be taken.
+        let child = spawn("-1", &folder, &store, &options);
+        let port = chosen_port(&folder, &child);
+        Some(Self { port, options, store, child, folder })
     }
 
     /// Kills it and starts it again on the same disk.
     pub fn restart(&mut self) {
         self.stop();
-        self.child = spawn(self.port, &self.store, &self.options);
+        self.start_again();
     }
 
     /// Kills it and starts it again on an empty disk.
     pub fn restart_empty(&mut self) {
         self.stop();
-        std::fs::remove_dir_all(&self.store).unwrap();
-        self.child = spawn(self.port, &self.store, &self.options);
+        fs::remove_dir_all(&self.store).unwrap();
+        self.start_again();
+    }
+
+    fn start_again(&mut self) {
+        self.child = spawn(&self.port.to_string(), &self.folder, &self.store, &self.options);
+        assert_eq!(chosen_port(&self.folder, &self.child), self.port);
     }
 
     fn stop(&mut self) {
@@ -73,14 +83,27 @@ impl Drop for Server {
     }
 }
 
-fn spawn(port: u16, store: &Path, options: &[String]) -> Child {
+fn spawn(port: &str, folder: &TempDir, store: &Path, options: &[String]) -> Child {
     let mut command = Command::new("nats-server");
-    command.args(["--port", &port.to_string(), "--jetstream", "--store_dir"]).arg(store).args(options);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    command.args(["--port", port, "--ports_file_dir"]).arg(folder.path()).args(["--jetstream", "--store_dir"]);
+    command.arg(store).args(options).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+/// Waits until the server listens and has written where.
+fn chosen_port(folder: &TempDir, server: &Child) -> u16 {
+    let path = folder.path().join(format!("nats-server_{}.ports", server.id()));
     let started = Instant::now();
-    while TcpStream::connect(("127.0.0.1", port)).is_err() {
+    loop {
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        let address =
+            serde_json::from_str(&text).ok().and_then(|ports: Value| ports["nats"][0].as_str().map(str::to_owned));
+        if let Some(address) = address {
+            let port = address.rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port");
+            if TcpStream::connect(("127.0.0.1", port)).is_ok() {
+                return port;
+            }
+        }
         assert!(started.elapsed() < Duration::from_secs(60), "the server listens");
-        thread::yield_now();
+        thread::sleep(Duration::from_millis(5));
     }
-    child
 }
