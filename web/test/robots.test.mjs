@@ -118,7 +118,8 @@ test("it is kept as a robot file, and the program uses it", async () => {
 
 test("a robot of the library walks on its card and opens in the designer", async () => {
   const card = here.page.locator('[data-robot="xor_5x5"]');
-  await card.scrollIntoViewIfNeeded();
+  // The cards are drawn anew when the list is read again, which this waits for.
+  await card.hover();
   await card.getByText("walks").waitFor();
   await card.locator("[data-do=design]").click();
   await letters("LRRL");
