@@ -21,6 +21,8 @@ const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
 const MOST_GENERATIONS: u32 = 1000;
 /// Bodies of a generation.
 const BATCH: u32 = 16;
+/// Generations of neighbors of a start none of which is a gate. After them random bodies are tried.
+const NEARBY: u32 = 3;
 
 /// Searches for gates.
 ///
@@ -109,7 +111,7 @@ impl Tending {
     /// The bodies of a generation: neighbors of elites; at first those of the start, or random ones.
     fn candidates(&self, generation: u32, start: Option<&Body>) -> Vec<Body> {
         let elites: Vec<&Body> = self.archive.elites().map(|elite| &elite.body).collect();
-        if elites.is_empty() && start.is_none() {
+        if elites.is_empty() && (start.is_none() || generation >= NEARBY) {
             let seed = self.seed.wrapping_add(u64::from(generation));
             return Search::new(&self.evolution, seed).ask().into_iter().map(|candidate| candidate.body).collect();
         }
@@ -155,5 +157,22 @@ impl Tending {
             "niches": niches,
             "evaluations": self.evaluations,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Palette;
+
+    #[test]
+    fn a_start_without_gates_around_it_is_given_up() {
+        let evolution = declared(3, 3, 10);
+        let tending = Tending { archive: Archive::new(&evolution), evolution, seed: 1, evaluations: 0 };
+        let start = Body::parse(&["333", "343", "333"], &Palette::paper()).unwrap();
+        let differing = |body: &Body| body.codes().iter().zip(start.codes()).filter(|(a, b)| a != b).count();
+        let around = tending.candidates(NEARBY - 1, Some(&start));
+        assert!(around.iter().all(|body| (1..=3).contains(&differing(body))), "{around:?}");
+        assert_eq!(tending.candidates(NEARBY, Some(&start)), tending.candidates(NEARBY, None));
     }
 }
