@@ -65,6 +65,8 @@ struct Run<'a> {
     genotype: &'a Genotype,
     rules: Rules,
     inputs: Vec<Vec<f64>>,
+    /// The links to each node in their order: the index of the source, and the weight.
+    sources: Vec<Vec<(usize, f64)>>,
     /// The value that a node gives to its later targets.
     remembered: Vec<Option<Vec<f64>>>,
     /// The nodes being computed. A node that needs one of them is on a cycle, which only a damaged file can contain.
@@ -74,48 +76,55 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(genotype: &'a Genotype, rules: Rules, width: usize, height: usize) -> Self {
         let nodes = genotype.nodes.len();
+        let at = |wanted: NodeId| genotype.nodes.iter().position(|&(id, _)| id == wanted);
+        let mut sources = vec![Vec::new(); nodes];
+        for link in &genotype.links {
+            if let (Some(source), Some(target)) = (at(link.source), at(link.target)) {
+                sources[target].push((source, link.weight));
+            }
+        }
         let inputs = inputs(rules, width, height);
-        Self { genotype, rules, inputs, remembered: vec![None; nodes], open: vec![false; nodes] }
+        Self { genotype, rules, inputs, sources, remembered: vec![None; nodes], open: vec![false; nodes] }
     }
 
     /// The map of the output at index `at`. In the authors' code, an output that an earlier one reads is 0 everywhere.
     fn output(&mut self, at: usize) -> Vec<f64> {
         let taken = self.rules == Rules::Code && self.remembered[at].is_some();
-        let map = if taken { self.zeros() } else { self.request(at) };
+        let mut map = self.zeros();
+        if !taken {
+            self.give(at, |value, map| *map = value, &mut map);
+        }
         self.remembered[at] = Some(map.clone());
         map
     }
 
-    /// The values that the node at index `at` gives to its targets.
-    fn request(&mut self, at: usize) -> Vec<f64> {
-        let (id, kind) = self.genotype.nodes[at];
-        let activation = match kind {
-            NodeKind::Input(input) => {
-                return self.inputs.get(usize::from(input)).cloned().unwrap_or_else(|| self.zeros());
-            }
+    /// Passes the values that the node at index `at` gives to its targets to `take`, each with its place in `to`.
+    fn give(&mut self, at: usize, take: impl Fn(f64, &mut f64), to: &mut [f64]) {
+        let pass = |values: &[f64], to: &mut [f64]| values.iter().zip(to).for_each(|(&value, to)| take(value, to));
+        let activation = match self.genotype.nodes[at].1 {
+            NodeKind::Input(input) => match self.inputs.get(usize::from(input)) {
+                Some(values) => return pass(values, to),
+                None => return pass(&self.zeros(), to),
+            },
             NodeKind::Output(_, activation) | NodeKind::Hidden(activation) => activation,
         };
         if let Some(values) = &self.remembered[at] {
-            return values.clone();
+            return pass(values, to);
         }
         if std::mem::replace(&mut self.open[at], true) {
-            return self.zeros();
+            return pass(&self.zeros(), to);
         }
-        let sum = self.sum(id);
+        let sum = self.sum(at);
         let activated: Vec<f64> = sum.iter().map(|&u| activate(activation, u)).collect();
+        pass(&activated, to);
         // The authors' code remembers the sum: later consumers see the node without its activation.
-        self.remembered[at] = Some(if self.rules == Rules::Code { sum } else { activated.clone() });
-        activated
+        self.remembered[at] = Some(if self.rules == Rules::Code { sum } else { activated });
     }
 
-    fn sum(&mut self, target: NodeId) -> Vec<f64> {
-        let genotype = self.genotype;
+    fn sum(&mut self, at: usize) -> Vec<f64> {
         let mut sum = self.zeros();
-        for link in genotype.links.iter().filter(|link| link.target == target) {
-            let Some(source) = genotype.nodes.iter().position(|&(id, _)| id == link.source) else { continue };
-            for (sum, value) in sum.iter_mut().zip(self.request(source)) {
-                *sum += link.weight * value;
-            }
+        for (source, weight) in std::mem::take(&mut self.sources[at]) {
+            self.give(source, |value, sum| *sum += weight * value, &mut sum);
         }
         sum
     }
