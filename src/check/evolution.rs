@@ -8,12 +8,12 @@ use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::{EvolutionError, Expected, NameError};
-use crate::check::world::Worlds;
+use crate::check::world::{self, Worlds};
 use crate::diag::Diagnostic;
 use crate::evolve::LEAST_ACTUATORS;
 use crate::model::{
     Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Palette, Pattern, PhysicsWorld, Program,
-    Rules, Schedule, SearchObjective, Symmetry,
+    Rules, SampledWorlds, Schedule, SearchObjective, Symmetry, Variation,
 };
 use crate::source::Span;
 use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
@@ -55,6 +55,7 @@ pub(crate) fn evolution(
     let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
     fields.read("genome", (), |value| fields::choice(value, &[("cppn", ())]));
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
+    let objective = fields.read("objective", base.objective, objective);
     let evolution = Evolution {
         name: source.name.text.clone(),
         width,
@@ -71,12 +72,13 @@ pub(crate) fn evolution(
         seeds: seeds(&mut fields).unwrap_or(base.seeds),
         rules: fields
             .read("as", base.rules, |value| fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])),
-        objective: fields.read("objective", base.objective, objective),
+        objective,
         symmetry: fields.read("symmetry", base.symmetry, |value| {
             fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
         }),
         niche: fields.read("niche", base.niche, niche),
         world: fields.read("world", base.world, |value| known.worlds.of(value, home)),
+        sample: sample(&mut fields, base.sample, objective),
     };
     let found = fields.finish();
     let sound = found.is_empty() && whole;
@@ -104,7 +106,24 @@ fn paper() -> Evolution {
         symmetry: Symmetry::default(),
         niche: Niche::default(),
         world: PhysicsWorld::default(),
+        sample: None,
     }
+}
+
+/// The other worlds of the gate objective; none if nothing varies.
+fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: SearchObjective) -> Option<SampledWorlds> {
+    let usual = base.map_or(Variation::default(), |base| base.vary);
+    let vary = fields.read("vary", usual, |value| match world::variation(value)? {
+        vary if vary == Variation::default() || objective == SearchObjective::Gate => Ok(vary),
+        _ => Err(EvolutionError::WorldsWithoutGate.at(value.span)),
+    });
+    let usual = base.map_or(SampledWorlds::USUAL, |base| base.worlds);
+    let worlds = fields.read("worlds", usual, |value| match quantity::count(value, 1..=SampledWorlds::MOST)? {
+        _ if vary == Variation::default() => Err(EvolutionError::WorldsWithoutChange.at(value.span)),
+        worlds => Ok(worlds),
+    });
+    let is_used = vary != Variation::default() && objective == SearchObjective::Gate;
+    is_used.then_some(SampledWorlds { worlds, vary })
 }
 
 fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {

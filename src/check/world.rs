@@ -1,4 +1,5 @@
-//! Worlds: factors of the paper's physics, and noise. A missing field is that of the world named by `from`.
+//! Worlds: factors of the paper's physics, and noise. A missing field is that of the world named by `from`. Also the
+//! changes of sampled worlds.
 
 use crate::check::derived::{self, CheckState};
 use crate::check::fields::{self, Fields};
@@ -6,7 +7,7 @@ use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::Expected;
 use crate::diag::Diagnostic;
-use crate::model::{NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
+use crate::model::{NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 
 /// The worlds that other declarations may name.
@@ -67,6 +68,28 @@ pub(crate) fn world(
     let world = PhysicsWorld { factors, noise };
     let named = || NamedWorld { name: source.name.text.clone(), world };
     if sound { CheckState::Sound(Box::new(named())) } else { CheckState::Faulty }
+}
+
+/// How much the worlds of a sample vary: a record of quantities and their largest changes.
+pub(crate) fn variation(value: &ValueSyntax) -> Result<Variation, Diagnostic> {
+    let ValueKind::Record(record) = &value.kind else {
+        return Err(quantity::wrong_kind(Expected::Changes, value.span));
+    };
+    let mut fields = Fields::inner("vary", value.span, record);
+    let all = fields.read(Variation::ALL, 0.0, |value| change(Variation::ALL, value));
+    let variation = Variation::of(|name| {
+        let usual = if Variation::is_factor(name) { all } else { 0.0 };
+        fields.read(name, usual, |value| change(name, value))
+    });
+    match fields.finish().into_iter().next() {
+        Some(fault) => Err(fault),
+        None => Ok(variation),
+    }
+}
+
+/// The largest change of a quantity.
+fn change(name: &str, value: &ValueSyntax) -> Result<f64, Diagnostic> {
+    if name == "start" { voxels(value) } else { ratio(value, 0.0..=Variation::most(name)) }
 }
 
 /// A factor of the paper's physics.

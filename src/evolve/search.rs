@@ -356,6 +356,7 @@ pub(crate) mod tests {
             symmetry: Symmetry::None,
             niche: Niche::Dominance,
             world: PhysicsWorld::default(),
+            sample: None,
         }
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Palette, PhysicsWorld, Schedule};
+use super::{Palette, PhysicsWorld, Schedule, Variation};
 
 /// A declared evolution run (paper, Methods).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +45,26 @@ pub struct Evolution {
     /// The world in which bodies are evaluated.
     #[serde(default, skip_serializing_if = "PhysicsWorld::is_paper")]
     pub world: PhysicsWorld,
+    /// Other worlds in which bodies must work too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sample: Option<SampledWorlds>,
+}
+
+/// Worlds around that of an evolution, in which the gate objective tries every body too.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SampledWorlds {
+    /// The number of worlds.
+    pub worlds: u32,
+    /// How much they vary.
+    pub vary: Variation,
+}
+
+impl SampledWorlds {
+    /// The most worlds.
+    pub const MOST: u32 = 1000;
+    /// The number of worlds if it is not declared.
+    pub const USUAL: u32 = 4;
 }
 
 /// The reading of the paper where its text and its code differ (docs/physics.md 11).

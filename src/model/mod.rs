@@ -29,7 +29,7 @@ pub use circuit::{
 };
 pub use column::Column;
 pub(crate) use column::bit_parts;
-pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SearchObjective, Symmetry};
+pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialKind, Response};

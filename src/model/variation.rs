@@ -1,25 +1,19 @@
 //! How much the worlds of a sample vary.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{PhysicsWorld, VariationError, WorldFactors, WorldNoise};
 
 /// The largest changes of a sample of worlds. A factor varies to either side by a share of itself; noise is added.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(into = "BTreeMap<String, f64>", try_from = "BTreeMap<String, f64>")]
 pub struct Variation {
-    pub friction: f64,
-    pub gravity: f64,
-    pub stiffness: f64,
-    pub drag: f64,
-    pub damping: f64,
-    pub swelling: f64,
-    pub start: f64,
-    pub missed: f64,
-    pub weak: f64,
-    pub dead: f64,
+    /// The changes of the quantities, in the order of [`Variation::NAMES`].
+    amounts: [f64; COUNT],
 }
 
 /// The number of quantities that vary.
@@ -28,13 +22,13 @@ const COUNT: usize = 10;
 /// The number of these that are factors; the others are noise.
 const FACTORS: usize = 6;
 
-/// The word for all factors.
-const ALL: &str = "all";
-
 impl Variation {
     /// The names of the quantities.
     pub const NAMES: [&str; COUNT] =
         ["friction", "gravity", "stiffness", "drag", "damping", "swelling", "start", "missed", "weak", "dead"];
+
+    /// The word for all factors.
+    pub const ALL: &str = "all";
 
     /// The numbers that [`Variation::world`] needs for one world.
     pub const DRAWS: usize = COUNT;
@@ -48,9 +42,19 @@ impl Variation {
         }
     }
 
+    /// The changes of the quantities, by their names.
+    pub fn of(amount: impl FnMut(&'static str) -> f64) -> Self {
+        Self { amounts: Self::NAMES.map(amount) }
+    }
+
+    /// Whether a quantity is a factor and not noise.
+    pub fn is_factor(name: &str) -> bool {
+        Self::NAMES[..FACTORS].contains(&name)
+    }
+
     /// The amount of all factors that vary, if it is the same and there is no noise.
     pub fn common(&self) -> Option<f64> {
-        let (factors, noise) = (&self.amounts()[..FACTORS], &self.amounts()[FACTORS..]);
+        let (factors, noise) = (&self.amounts[..FACTORS], &self.amounts[FACTORS..]);
         let mut varied = factors.iter().filter(|amount| **amount > 0.0);
         let first = *varied.next()?;
         (varied.all(|amount| *amount == first) && noise.iter().all(|amount| *amount == 0.0)).then_some(first)
@@ -60,7 +64,7 @@ impl Variation {
     pub fn quantities(&self) -> String {
         let varied: Vec<&str> = Self::NAMES
             .into_iter()
-            .zip(self.amounts())
+            .zip(self.amounts)
             .filter(|(_, amount)| *amount > 0.0)
             .map(|(name, _)| name)
             .collect();
@@ -69,7 +73,7 @@ impl Variation {
 
     /// The text that [`Variation::from_str`] reads.
     pub fn changes(&self) -> String {
-        let changes = Self::NAMES.iter().zip(self.amounts()).filter(|(_, amount)| *amount > 0.0);
+        let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
         let word = |(name, amount): (&&str, f64)| match *name {
             "start" => format!("{name}={}", rounded(amount)),
             _ => format!("{name}={}%", rounded(amount * 100.0)),
@@ -77,29 +81,24 @@ impl Variation {
         changes.map(word).collect::<Vec<_>>().join(",")
     }
 
-    fn amounts(&self) -> [f64; COUNT] {
-        let Self { friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead } = *self;
-        [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead]
-    }
-
-    fn of(amounts: [f64; COUNT]) -> Self {
-        let [friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead] = amounts;
-        Self { friction, gravity, stiffness, drag, damping, swelling, start, missed, weak, dead }
+    fn place(name: &str) -> Result<usize, VariationError> {
+        let place = Self::NAMES.iter().position(|known| *known == name);
+        place.ok_or_else(|| VariationError::Unknown(name.to_owned(), &Self::NAMES))
     }
 
     /// All changes times a number, but none above its largest.
     pub fn times(&self, scale: f64) -> Self {
-        let mut amounts = self.amounts();
+        let mut amounts = self.amounts;
         for (amount, name) in amounts.iter_mut().zip(Self::NAMES) {
             *amount = (*amount * scale).min(Self::most(name));
         }
-        Self::of(amounts)
+        Self { amounts }
     }
 
     /// A world that differs from another by these numbers, which are from -1 to 1: a factor changes by its number times
     /// its largest change; noise grows by the size of its number.
     pub fn world(&self, around: &PhysicsWorld, draws: [f64; COUNT], seed: u64) -> PhysicsWorld {
-        let mut changes = self.amounts();
+        let mut changes = self.amounts;
         for (i, (change, draw)) in changes.iter_mut().zip(draws).enumerate() {
             *change *= if i < FACTORS { draw } else { draw.abs() };
         }
@@ -127,6 +126,28 @@ impl Variation {
     }
 }
 
+impl From<Variation> for BTreeMap<String, f64> {
+    fn from(variation: Variation) -> Self {
+        Variation::NAMES.iter().map(|name| (*name).to_owned()).zip(variation.amounts).collect()
+    }
+}
+
+impl TryFrom<BTreeMap<String, f64>> for Variation {
+    type Error = VariationError;
+
+    fn try_from(changes: BTreeMap<String, f64>) -> Result<Self, VariationError> {
+        let mut variation = Self::default();
+        for (name, amount) in changes {
+            let place = Self::place(&name)?;
+            if !(0.0..=Self::most(&name)).contains(&amount) {
+                return Err(out_of_range(&name, &amount.to_string()));
+            }
+            variation.amounts[place] = amount;
+        }
+        Ok(variation)
+    }
+}
+
 impl FromStr for Variation {
     type Err = VariationError;
 
@@ -135,15 +156,13 @@ impl FromStr for Variation {
         let mut amounts = [0.0; COUNT];
         for part in text.split(',') {
             let (name, amount) = part.split_once('=').ok_or_else(|| VariationError::NoAmount(part.to_owned()))?;
-            if name.trim() == ALL {
-                amounts[..FACTORS].fill(read_amount(ALL, amount.trim())?);
+            if name.trim() == Self::ALL {
+                amounts[..FACTORS].fill(read_amount(Self::ALL, amount.trim())?);
                 continue;
             }
-            let place = Self::NAMES.iter().position(|known| *known == name.trim());
-            let place = place.ok_or_else(|| VariationError::Unknown(name.to_owned(), &Self::NAMES))?;
-            amounts[place] = read_amount(name.trim(), amount.trim())?;
+            amounts[Self::place(name.trim())?] = read_amount(name.trim(), amount.trim())?;
         }
-        Ok(Self::of(amounts))
+        Ok(Self { amounts })
     }
 }
 
@@ -152,15 +171,18 @@ fn read_amount(name: &str, text: &str) -> Result<f64, VariationError> {
         Some(percent) => percent.parse::<f64>().map(|percent| percent / 100.0),
         None => text.parse(),
     };
-    let most = Variation::most(name);
-    let error = VariationError::Amount { name: name.to_owned(), found: text.to_owned(), most };
-    number.ok().filter(|amount| (0.0..=most).contains(amount)).ok_or(error)
+    let is_possible = |amount: &f64| (0.0..=Variation::most(name)).contains(amount);
+    number.ok().filter(is_possible).ok_or_else(|| out_of_range(name, text))
+}
+
+fn out_of_range(name: &str, text: &str) -> VariationError {
+    VariationError::Amount { name: name.to_owned(), found: text.to_owned(), most: Variation::most(name) }
 }
 
 impl fmt::Display for Variation {
     /// The quantities that vary: `friction 10 %, start 0.2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let changes = Self::NAMES.iter().zip(self.amounts()).filter(|(_, amount)| *amount > 0.0);
+        let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
         let words: Vec<String> = changes
             .map(|(name, amount)| match *name {
                 "start" => format!("{name} {}", rounded(amount)),
@@ -184,11 +206,16 @@ mod tests {
     #[test]
     fn variations_are_read_and_shown() {
         let found: Variation = "friction=10%,start=0.2".parse().unwrap();
-        assert_eq!(found, Variation { friction: 0.1, start: 0.2, ..Variation::default() });
+        assert_eq!(found.amounts, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0]);
         assert_eq!(found.to_string(), "friction 10 %, start 0.2");
         assert_eq!(found.changes(), "friction=10%,start=0.2");
         assert_eq!(found.times(3.0).to_string(), "friction 30 %, start 0.6");
-        assert_eq!(found.times(20.0).friction, 0.9, "a factor stays positive");
+        assert_eq!(found.times(20.0).amounts[0], 0.9, "a factor stays positive");
+        let text = serde_json::to_string(&found).unwrap();
+        assert_eq!(serde_json::from_str::<Variation>(&text).unwrap(), found);
+        for wrong in [r#"{"friction": 0.95}"#, r#"{"speed": 0.1}"#] {
+            assert!(serde_json::from_str::<Variation>(wrong).is_err(), "{wrong}");
+        }
         let all: Variation = "all=20%".parse().unwrap();
         assert_eq!((all.common(), found.common()), (Some(0.2), None));
         assert_eq!([all.quantities(), found.quantities()], ["all factors", "friction, start"]);
@@ -199,7 +226,7 @@ mod tests {
 
     #[test]
     fn factors_vary_to_both_sides_and_noise_grows() {
-        let all = Variation { friction: 0.5, missed: 0.1, ..Variation::default() };
+        let all: Variation = "friction=50%,missed=10%".parse().unwrap();
         let paper = PhysicsWorld::default();
         let low = all.world(&paper, [-1.0; COUNT], 7);
         assert_eq!((low.factors.friction, low.factors.gravity), (0.5, 1.0));

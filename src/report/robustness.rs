@@ -121,7 +121,6 @@ fn draw_curve(svg: &mut Svg, panel: &Panel, curve: &YieldCurve, color: Color, as
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Variation;
     use crate::swarm::{Culprit, WorldFailure, WorldMargin};
 
     fn found() -> Robustness {
@@ -135,7 +134,7 @@ mod tests {
             title: "remembers".to_owned(),
             swarm: None,
             robots: 5,
-            variation: Variation { friction: 0.1, ..Variation::default() },
+            variation: "friction=10%".parse().unwrap(),
             scale: 1.0,
             passed: Proportion { successes: 19, attempts: 20 },
             fails_first: vec![Culprit { net: "q".to_owned(), robot: "nand_5x5".to_owned(), worlds: 1 }],

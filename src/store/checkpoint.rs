@@ -176,6 +176,7 @@ mod tests {
             symmetry: Symmetry::Npn,
             niche: Niche::Pareto(3),
             world: PhysicsWorld::default(),
+            sample: None,
         }
     }
 

@@ -180,34 +180,13 @@ fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, StimulusSource> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Body, Character, Function, Provenance};
+    use crate::model::{Body, Function};
+    use crate::swarm::PlainMember;
 
     fn robot(function: Function) -> Robot {
-        Robot {
-            name: function.name().to_owned(),
-            behavior: function.into(),
-            body: Body::parse(&["33"], &crate::model::Palette::paper()).unwrap(),
-            displacement: [0.0; 4],
-            character: Character {
-                clock: 1,
-                switches: 0,
-                error_rate: 0.0,
-                glitch_rate: 0.0,
-                margin: 0.0,
-                topples: false,
-                settle: Vec::new(),
-                radius: None,
-            },
-            provenance: Provenance {
-                program: "nbc".to_owned(),
-                version: "0".to_owned(),
-                evolution: "none".to_owned(),
-                seed: 0,
-                generation: 0,
-                evaluations: 0,
-            },
-            genotype: None,
-        }
+        let body = Body::parse(&["33"], &crate::model::Palette::paper()).unwrap();
+        let plain = PlainMember { body, clock: 1, senses: [StimulusSource::Constant(false); 2], start: false };
+        Robot { name: function.name().to_owned(), behavior: function.into(), ..plain.nameless().robot }
     }
 
     fn check(function: Function, robots: &[Function], expected: Result<(&str, [StimulusSource; 2]), AssembleError>) {

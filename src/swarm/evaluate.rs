@@ -4,7 +4,7 @@
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Scores, Search};
 use crate::model::{Behavior, Body, Direction, Evolution, Pattern, Schedule, SearchObjective, Trajectory, Trial};
 use crate::sim::Simulator;
-use crate::swarm::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
+use crate::swarm::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::swarm::noise::RobotNoise;
 use crate::swarm::{Work, gate};
 
@@ -65,7 +65,7 @@ pub fn fixed_trials(body: &Body, steps: u32) -> [Trial; 4] {
 /// The paper's two fitnesses: four fixed simulations, then the variable one for bodies whose fixed fitness can still
 /// win a niche.
 fn distance(simulator: &Simulator, protocol: &EvaluationProtocol, tasks: &[EvaluationTask]) -> Vec<Evaluated> {
-    let (setting, noise) = (protocol.setting(), RobotNoise::new(&protocol.world.noise, 0));
+    let (setting, noise) = (setting(&protocol.world), RobotNoise::new(&protocol.world.noise, 0));
     let body = |task: &EvaluationTask| noise.worn(&task.body);
     // Under a constant pattern there is nothing to miss.
     let trials: Vec<Trial> = tasks.iter().flat_map(|task| fixed_trials(&body(task), protocol.fixed_steps)).collect();

@@ -2,8 +2,8 @@
 
 use crate::evolve::{CandidateOutcome, Rivals, Search};
 use crate::model::{Body, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
-use crate::swarm::Work;
 use crate::swarm::noise::RobotNoise;
+use crate::swarm::{Work, WorldSample};
 
 /// The simulations of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +14,20 @@ pub struct EvaluationProtocol {
     pub variable: Schedule,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
-    /// The world of all simulations.
+    /// The world of all simulations but those in others.
     pub world: PhysicsWorld,
+    /// Worlds in which the gate objective tries bodies again.
+    pub others: Vec<PhysicsWorld>,
+}
+
+/// The seed of the other worlds of evolutions. `nbc test` and `nbc library verify` use 1, so that they try robots in
+/// worlds that the search has not seen.
+const SAMPLE_SEED: u64 = 0;
+
+/// The setting of each simulation in a world. Every candidate starts at the same place.
+pub(super) fn setting(world: &PhysicsWorld) -> Setting {
+    let shift = RobotNoise::new(&world.noise, 0).shift();
+    Setting { shift, factors: world.factors, ..Setting::default() }
 }
 
 /// A body to be evaluated.
@@ -39,14 +51,12 @@ pub struct Evaluated {
 impl EvaluationProtocol {
     /// The protocol of a declared run.
     pub fn of(evolution: &Evolution) -> Self {
-        let Evolution { objective, variable, fixed_steps, world, .. } = evolution;
-        Self { objective: *objective, variable: variable.clone(), fixed_steps: *fixed_steps, world: *world }
-    }
-
-    /// The setting of each simulation. Every candidate starts at the same place.
-    pub(super) fn setting(&self) -> Setting {
-        let shift = RobotNoise::new(&self.world.noise, 0).shift();
-        Setting { shift, factors: self.world.factors, ..Setting::default() }
+        let Evolution { objective, variable, fixed_steps, world, sample, .. } = evolution;
+        let others = sample.map_or(Vec::new(), |sample| {
+            let worlds = WorldSample { variation: sample.vary, seed: SAMPLE_SEED };
+            (0..sample.worlds).map(|number| worlds.world(world, number as usize)).collect()
+        });
+        Self { objective: *objective, variable: variable.clone(), fixed_steps: *fixed_steps, world: *world, others }
     }
 
     /// Env steps of a full evaluation of the distance objective.

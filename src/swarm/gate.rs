@@ -8,7 +8,7 @@ use crate::evolve::{CandidateOutcome, Scores};
 use crate::model::{Behavior, Body, CYCLE_STEPS, Pattern, PhysicsWorld};
 use crate::sim::Simulator;
 use crate::swarm::Work;
-use crate::swarm::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
+use crate::swarm::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::swarm::holds::{HoldPlan, PatternHold};
 use crate::swarm::noise::RobotNoise;
 
@@ -21,9 +21,8 @@ const WALKS: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1,
 /// Random sequences that follow the walks, and the cycles of each.
 const RANDOM_LANES: usize = 4;
 const RANDOM_CYCLES: usize = 36;
-/// Env steps of a full evaluation.
-pub(super) const STEPS: u64 =
-    ((WALKS.len() * WALKS[0].len() * HOLD + RANDOM_LANES * RANDOM_CYCLES) * CYCLE_STEPS as usize) as u64;
+/// Env steps of a full evaluation in one world.
+const STEPS: u64 = ((WALKS.len() * WALKS[0].len() * HOLD + RANDOM_LANES * RANDOM_CYCLES) * CYCLE_STEPS as usize) as u64;
 /// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 /// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.
@@ -52,36 +51,39 @@ fn random_sequences() -> Vec<Lane> {
     (0..RANDOM_LANES).map(|_| lane()).collect()
 }
 
-/// The result of each task for the gate objective: the walks, then the random sequences. After each cycle, bodies that
-/// can no longer enter a niche are dropped; their scores can only decrease.
+/// Env steps of a full evaluation.
+pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
+    STEPS * (1 + protocol.others.len() as u64)
+}
+
+/// The result of each task for the gate objective: the walks, then the random sequences, then both in each of the other
+/// worlds. After each cycle, bodies that can no longer enter a niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     protocol: &EvaluationProtocol,
     tasks: &[EvaluationTask],
 ) -> Vec<Evaluated> {
     let mut attempts: Vec<Attempt> = tasks.iter().map(Attempt::new).collect();
-    for (stage, lanes) in [walks(), random_sequences()].iter().enumerate() {
-        for attempt in &mut attempts {
-            attempt.holds.resize(attempt.holds.len() + lanes.len(), Vec::new());
+    for world in std::iter::once(&protocol.world).chain(&protocol.others) {
+        for (stage, lanes) in [walks(), random_sequences()].iter().enumerate() {
+            for attempt in &mut attempts {
+                attempt.holds.resize(attempt.holds.len() + lanes.len(), Vec::new());
+            }
+            try_lanes(simulator, world, &mut attempts, lanes, stage * WALKS.len());
         }
-        try_lanes(simulator, protocol, &mut attempts, lanes, stage * WALKS.len());
     }
-    attempts.into_iter().map(Attempt::end).collect()
+    let all = steps(protocol);
+    attempts.into_iter().map(|attempt| attempt.end(all)).collect()
 }
 
-/// Simulates the remaining attempts in some lanes, whose holds are stored from index `first` on.
-fn try_lanes(
-    simulator: &Simulator,
-    protocol: &EvaluationProtocol,
-    attempts: &mut [Attempt],
-    lanes: &[Lane],
-    first: usize,
-) {
-    let noise = RobotNoise::new(&protocol.world.noise, 0);
-    let sensed: Vec<Lane> = (first..).zip(lanes).map(|(lane, cycles)| sensed(&protocol.world, lane, cycles)).collect();
+/// Simulates the remaining attempts in some lanes, the first of which is lane `first` of its world. Their holds are the
+/// last ones of each attempt.
+fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attempt], lanes: &[Lane], first: usize) {
+    let noise = RobotNoise::new(&world.noise, 0);
+    let sensed: Vec<Lane> = (first..).zip(lanes).map(|(lane, cycles)| sensed(world, lane, cycles)).collect();
     let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
     let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![noise.worn(&attempt.task.body); lanes.len()]).collect();
-    let mut flock = simulator.flock(&protocol.setting(), &bodies);
+    let mut flock = simulator.flock(&setting(world), &bodies);
     for cycle in 0..lanes[0].len() {
         let before: Vec<f64> = (0..flock.len()).map(|i| flock.center(i)[0]).collect();
         let patterns: Vec<Pattern> = open.iter().flat_map(|_| sensed.iter().map(|lane| lane[cycle])).collect();
@@ -89,7 +91,9 @@ fn try_lanes(
         for (i, attempt) in open.iter_mut().enumerate() {
             attempt.env_steps += lanes.len() as u64 * u64::from(CYCLE_STEPS);
             for (lane, place) in (i * lanes.len()..).take(lanes.len()).enumerate() {
-                attempt.push(first + lane, lanes[lane][cycle], flock.center(place)[0] - before[place]);
+                let moved = flock.center(place)[0] - before[place];
+                let holds = attempt.holds.len() - lanes.len() + lane;
+                attempt.push(holds, lanes[lane][cycle], moved);
                 attempt.fail(flock.fault(place));
             }
             attempt.look();
@@ -161,9 +165,10 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    fn end(self) -> Evaluated {
+    /// Its result; a full evaluation has `all` env steps.
+    fn end(self, all: u64) -> Evaluated {
         let outcome = self.outcome.unwrap_or(CandidateOutcome::Measured(self.scores));
-        Evaluated { outcome, work: Work { env_steps: self.env_steps, left_out: STEPS - self.env_steps } }
+        Evaluated { outcome, work: Work { env_steps: self.env_steps, left_out: all - self.env_steps } }
     }
 }
 
@@ -202,6 +207,8 @@ fn worth(margin: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evolve::{Candidate, Rivals, Search};
+    use crate::model::{Evolution, SearchObjective, WorldFactors};
 
     #[test]
     fn the_walks_make_every_switch_once() {
@@ -214,6 +221,37 @@ mod tests {
         assert!(random_sequences().iter().all(|lane| lane.len() == RANDOM_CYCLES));
         let cycles = walks().iter().chain(&random_sequences()).map(Vec::len).sum::<usize>();
         assert_eq!(cycles as u64 * u64::from(CYCLE_STEPS), STEPS);
+    }
+
+    #[test]
+    fn the_score_is_the_least_of_all_worlds() {
+        let factors = WorldFactors { friction: 0.5, gravity: 1.4, ..WorldFactors::default() };
+        let world = PhysicsWorld { factors, ..PhysicsWorld::default() };
+        let evolution = Evolution { objective: SearchObjective::Gate, ..crate::evolve::tests::evolution() };
+        let search = Search::new(&evolution, 5);
+        let task = |candidate: &Candidate| EvaluationTask { body: candidate.body.clone(), rivals: Rivals::none() };
+        let tasks: Vec<EvaluationTask> = search.ask().iter().map(task).collect();
+        let scores = |others| {
+            let protocol = EvaluationProtocol { others, ..EvaluationProtocol::of(&evolution) };
+            let done = evaluate(&Simulator::default(), &protocol, &tasks);
+            assert!(done.iter().all(|one| one.work.env_steps + one.work.left_out == steps(&protocol)));
+            done.into_iter().map(|one| one.outcome).collect::<Vec<_>>()
+        };
+        let [alone, again, both] = [vec![], vec![PhysicsWorld::default()], vec![world]].map(scores);
+        assert_eq!(alone, again, "the same world again");
+        let mut lower = 0;
+        for pair in alone.iter().zip(&both) {
+            match pair {
+                (CandidateOutcome::Measured(one), CandidateOutcome::Measured(two)) => {
+                    assert!(two.fitness[0] <= one.fitness[0] && two.fitness[1] <= one.fitness[1]);
+                    assert_eq!(two.behavior, one.behavior, "the behavior is that of the first world");
+                    lower += usize::from(two.fitness != one.fitness);
+                }
+                (CandidateOutcome::Measured(_), two) => assert_eq!(two, &CandidateOutcome::Inconsistent),
+                (one, two) => assert_eq!(one, two),
+            }
+        }
+        assert!(lower > 0, "{alone:?}");
     }
 
     fn hold(before: Option<usize>, pattern: usize, cycles: &[f64]) -> PatternHold {

@@ -35,7 +35,7 @@ fn is_possible(Measurement { displacement, behavior, character }: &Measurement) 
 fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &EvaluationTask) -> bool {
     let steps = match protocol.objective {
         SearchObjective::Distance => protocol.distance_steps(),
-        SearchObjective::Gate => gate::STEPS,
+        SearchObjective::Gate => gate::steps(protocol),
     };
     let is_complete = evaluated.work.env_steps.checked_add(evaluated.work.left_out) == Some(steps);
     let CandidateOutcome::Measured(scores) = &evaluated.outcome else { return is_complete };

@@ -32,7 +32,7 @@ mod tests {
 
     #[test]
     fn worlds_of_a_number_differ_in_the_same_direction() {
-        let wide = Variation { friction: 0.5, gravity: 0.5, ..Variation::default() };
+        let wide = "friction=50%,gravity=50%".parse::<Variation>().unwrap();
         let worlds = |variation| {
             let sample = WorldSample { variation, seed: 3 };
             (0..200).map(move |number| sample.world(&PhysicsWorld::default(), number).factors)
@@ -40,7 +40,7 @@ mod tests {
         for (far, near) in worlds(wide).zip(worlds(wide.times(0.1))) {
             assert!((far.friction - 1.0 - 10.0 * (near.friction - 1.0)).abs() < 1e-12);
         }
-        let alone = Variation { gravity: 0.5, ..Variation::default() };
+        let alone = "gravity=50%".parse().unwrap();
         assert!(worlds(wide).zip(worlds(alone)).all(|(both, one)| both.gravity == one.gravity && one.friction == 1.0));
         let (below, above) =
             (worlds(wide).filter(|w| w.friction < 0.8).count(), worlds(wide).filter(|w| w.friction > 1.2));

@@ -72,7 +72,8 @@ impl SwarmTask {
 }
 
 impl PlainMember {
-    fn nameless(self) -> Member {
+    /// The robot with nothing but what its simulation needs.
+    pub(super) fn nameless(self) -> Member {
         let none = String::new;
         let character = Character {
             clock: self.clock,

@@ -7,13 +7,6 @@ use crate::schemas::validate;
 
 /// A small archive of small bodies with few behaviors, all of robots that err.
 const RUN: &str = "
-schedule short(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
 evolution walks {
     box:         3 x 1
     variable:    short
@@ -26,7 +19,7 @@ evolution walks {
 
 fn bench() -> Bench {
     let bench = Bench::new();
-    bench.file("runs.nb", RUN);
+    bench.runs("runs.nb", RUN);
     assert_eq!(bench.run(&["evolve", "runs.nb"]).status, 0);
     bench
 }

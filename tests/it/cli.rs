@@ -8,6 +8,17 @@ use nbc::model::CYCLE_STEPS;
 use nbc::sim::Constants;
 use serde_json::Value;
 
+/// A schedule with every pattern for one cycle.
+pub const SHORT: &str = "\
+schedule short(s1, s2) {
+    0 0 for 1 cycles
+    0 1 for 1 cycles
+    1 0 for 1 cycles
+    1 1 for 1 cycles
+}
+
+";
+
 /// A folder of its own for one test, with the program run inside it.
 pub struct Bench {
     folder: tempfile::TempDir,
@@ -27,6 +38,11 @@ impl Bench {
 
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// Writes a program into the folder, with the schedule `short` in front: every pattern for one cycle.
+    pub fn runs(&self, name: &str, text: impl std::fmt::Display) -> PathBuf {
+        self.file(name, format!("{SHORT}{text}"))
     }
 
     /// Writes a file into the folder.
@@ -422,12 +438,8 @@ fn timings_do_not_change_results() {
 #[test]
 fn timings_of_an_evolution_include_archive_and_development() {
     let bench = Bench::new();
-    bench.file(
-        "small.nb",
-        "schedule once(s1, s2) {\n 0 0 for 1 cycles\n 0 1 for 1 cycles\n 1 0 for 1 cycles\n 1 1 \
-        for 1 cycles\n}\nevolution small {\n    box: 3 x 2\n    variable: once\n    fixed: 1 cycles\n    batch: \
-        4\n    generations: 2\n    seed: 1\n}\n",
-    );
+    let small = "evolution small { box: 3 x 2, variable: short, fixed: 1 cycles, batch: 4, generations: 2, seed: 1 }";
+    bench.runs("small.nb", small);
     let ran = bench.run(&["evolve", "small.nb", "--timings"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let seconds = timings(&ran.err);

@@ -5,22 +5,18 @@ use std::sync::Arc;
 use nbc::Session;
 use nbc::evolve::Search;
 use nbc::model::{
-    Axis, Count, Evolution, MutationWeights, Niche, Palette, Rules, Schedule, SearchObjective, Spell, Symmetry,
+    Axis, Count, Evolution, MutationWeights, Niche, Palette, Rules, SampledWorlds, Schedule, SearchObjective, Spell,
+    Symmetry, Variation,
 };
 use nbc::source::MemoryWorld;
 use nbc::swarm::evolve_generation;
+
+use crate::cli::SHORT;
 
 /// Generations after which two runs are compared.
 const GENERATIONS: u32 = 4;
 
 const DECLARATIONS: &str = "
-schedule short(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
 schedule other(s1, s2) {
     0 1 for 60 steps
     1 0 for 70 steps
@@ -43,7 +39,7 @@ evolution base {
 #[track_caller]
 fn declared(fields: &str) -> Evolution {
     let mut world = MemoryWorld::default();
-    world.insert("run.nb", format!("{DECLARATIONS}\nevolution run {{ from: base, {fields} }}\n"));
+    world.insert("run.nb", format!("{SHORT}{DECLARATIONS}\nevolution run {{ from: base, {fields} }}\n"));
     let checked = Session::new(world).checked("run.nb");
     assert_eq!(checked.diagnostics, [], "{fields}");
     checked.program.evolution("run").unwrap().clone()
@@ -98,6 +94,11 @@ fn changes() -> Vec<Change> {
         ("seed: 8", |run| run.seeds = vec![8]),
         ("as: code", |run| run.rules = Rules::Code),
         ("objective: gate", |run| run.objective = SearchObjective::Gate),
+        ("objective: gate, vary: { all: 20%, drag: 0.5, start: 2 }, worlds: 3", |run| {
+            let all: Variation = "all=20%,drag=50%,start=2".parse().unwrap();
+            run.objective = SearchObjective::Gate;
+            run.sample = Some(SampledWorlds { worlds: 3, vary: all });
+        }),
         ("symmetry: npn", |run| run.symmetry = Symmetry::Npn),
         ("niche: pareto(4)", |run| run.niche = Niche::Pareto(4)),
     ]

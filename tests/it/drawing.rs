@@ -11,13 +11,6 @@ const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
 
 /// Two seeds of a small run.
 const RUN: &str = "
-schedule short(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
 evolution tiny {
     box:         3 x 3
     variable:    short
@@ -31,7 +24,7 @@ evolution tiny {
 /// A folder with the run in `out/tiny` and its page.
 pub fn evolved() -> Bench {
     let bench = Bench::new();
-    bench.file("tiny.nb", RUN);
+    bench.runs("tiny.nb", RUN);
     let ran = bench.run(&["evolve", "tiny.nb", "--report"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert!(ran.out.contains("report  out/tiny/report.html"), "{}", ran.out);

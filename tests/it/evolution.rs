@@ -14,17 +14,10 @@ use nbc::store::lock_folder;
 use nbc::swarm::{evaluate, evaluate_bodies};
 use proptest::prelude::*;
 
-use crate::cli::Bench;
+use crate::cli::{Bench, SHORT};
 
 /// Two small runs, one for each objective.
 const RUNS: &str = "
-schedule short(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
 evolution walks {
     box:         3 x 2
     variable:    short
@@ -49,7 +42,7 @@ const CHECKPOINTS: [&str; 2] = ["walks/seed-3/checkpoint.nbc", "turns/seed-3/che
 
 fn bench() -> Bench {
     let bench = Bench::new();
-    bench.file("runs.nb", RUNS);
+    bench.runs("runs.nb", RUNS);
     bench
 }
 
@@ -157,9 +150,9 @@ fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
         let other = String::from_utf8(whole.clone()).unwrap().replacen("nbc-checkpoint 2 ", &header, 1);
         check(other.as_bytes(), &resume, &format!("is a checkpoint of format {format}, expected format 2"));
     }
-    bench.file("runs.nb", RUNS.replace("batch:       6", "batch:       7"));
+    bench.runs("runs.nb", RUNS.replace("batch:       6", "batch:       7"));
     check(&whole, &resume, "was made by a different declaration of `walks`");
-    bench.file("runs.nb", RUNS);
+    bench.runs("runs.nb", RUNS);
     let other = bench.path().join("out/walks/seed-4");
     fs::create_dir_all(&other).unwrap();
     fs::copy(&path, other.join("checkpoint.nbc")).unwrap();
@@ -284,7 +277,7 @@ fn each_generation_writes_a_line_and_the_run_prints_a_table() {
 
 fn declared(name: &str) -> Evolution {
     let mut world = MemoryWorld::default();
-    world.insert("runs.nb", RUNS);
+    world.insert("runs.nb", format!("{SHORT}{RUNS}"));
     Session::new(world).checked("runs.nb").program.evolution(name).unwrap().clone()
 }
 
@@ -336,7 +329,7 @@ fn a_run_is_reported_as_text_and_as_json() {
 #[test]
 fn several_runs_are_compared_as_text_and_as_json() {
     let bench = bench();
-    bench.file("three.nb", RUNS.replace("seed:        3", "seed:        1..3"));
+    bench.runs("three.nb", RUNS.replace("seed:        3", "seed:        1..3"));
     let arguments = ["evolve", "three.nb", "--run", "walks", "--generations", "8"];
     let text = bench.run(&[&arguments[..], &["--out", "a"]].concat()).out;
     assert!(text.contains("walks, 3 runs: ") && text.contains("Holm") && text.contains("XXYY, XYXY"), "{text}");

@@ -1,8 +1,10 @@
 //! Plots of evolution: heat maps, progress, champions, comparisons.
 
+use nbc::Session;
 use nbc::evolve::{Archive, Champion, Elite, NicheKey};
 use nbc::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
 use nbc::report::{self, Champions, Course, SideComparison, Terrain};
+use nbc::source::MemoryWorld;
 use roxmltree::{Document, Node};
 
 fn group<'a>(document: &'a Document<'a>, id: &str) -> Node<'a, 'a> {
@@ -65,28 +67,10 @@ fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
 }
 
 fn evolution() -> nbc::model::Evolution {
-    use nbc::model::{
-        Evolution, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule, SearchObjective, Symmetry,
-    };
-    Evolution {
-        name: "gates".to_owned(),
-        width: 3,
-        height: 3,
-        palette: Palette::paper(),
-        mutation: MutationWeights::default(),
-        variable: Schedule::default(),
-        fixed_steps: 840,
-        descriptors: axes(),
-        batch: 16,
-        newcomers: 0,
-        generations: 1,
-        seeds: vec![1],
-        rules: Rules::Paper,
-        objective: SearchObjective::Distance,
-        symmetry: Symmetry::None,
-        niche: Niche::Dominance,
-        world: PhysicsWorld::default(),
-    }
+    let mut world = MemoryWorld::default();
+    world.insert("empty.nb", "");
+    let paper = Session::new(world).checked("empty.nb").program.evolution("gates").unwrap().clone();
+    nbc::model::Evolution { width: 3, height: 3, descriptors: axes(), generations: 1, ..paper }
 }
 
 #[test]

@@ -47,6 +47,8 @@ class Evolution:
         fixed: Optional[str] = None,
         descriptors: Optional[Sequence[str]] = None,
         rules: Optional[str] = None,
+        vary: Optional[Mapping[str, float]] = None,
+        worlds: Optional[int] = None,
     ) -> None:
         """Declares an evolution.
 
@@ -63,6 +65,9 @@ class Evolution:
             fixed: the length of a fixed simulation, for example ``10 cycles``.
             descriptors: the axes of the archive, for example ``["voxels in 4 bins", "behavior"]``.
             rules: ``paper`` or ``code``, where the paper's text and code differ.
+            vary: the largest changes of other worlds in which the gate objective tries bodies too, for example
+                ``{"friction": 0.1}``, or ``{"all": 0.1}`` for all factors.
+            worlds: the number of these worlds.
 
         Raises:
             NbcError: for values that the language does not have.
@@ -79,6 +84,8 @@ class Evolution:
             "fixed": fixed,
             "descriptors": None if descriptors is None else f"[{', '.join(descriptors)}]",
             "as": rules,
+            "vary": None if vary is None else "{ " + ", ".join(f"{key}: {share}" for key, share in vary.items()) + " }",
+            "worlds": worlds,
         }
         lines = [f"    {key}: {value}," for key, value in fields.items() if value is not None]
         self._declare(f"evolution {name} {{\n" + "\n".join(lines) + "\n}\n", "evolution in Python")

@@ -16,6 +16,10 @@ pub(crate) enum EvolutionError {
     SeedRange { most: u32 },
     /// Too many stimuli.
     TooManyStimuli { most: usize },
+    /// Other worlds for an objective that has none.
+    WorldsWithoutGate,
+    /// A number of worlds that do not vary.
+    WorldsWithoutChange,
 }
 
 impl EvolutionError {
@@ -45,6 +49,15 @@ impl EvolutionError {
             }
             Self::TooManyStimuli { most } => {
                 Diagnostic::new(Code::OutOfRange, "too many stimuli", span, format!("expected at most {most} stimuli"))
+            }
+            Self::WorldsWithoutGate => {
+                let message = "only the gate objective tries bodies in several worlds";
+                Diagnostic::new(Code::Value, message, span, "this evolution's objective is `distance`")
+                    .with_help("write `objective: gate`, or name one world with `world`")
+            }
+            Self::WorldsWithoutChange => {
+                let label = "expected `vary` too, for example `vary: { all: 10% }`";
+                Diagnostic::new(Code::MissingField, "the worlds do not vary", span, label)
             }
         }
     }

@@ -84,6 +84,8 @@ pub(crate) enum Expected {
     Weight,
     /// The weights of mutations.
     Weights,
+    /// The largest changes of worlds.
+    Changes,
 }
 
 impl fmt::Display for Expected {
@@ -103,6 +105,7 @@ impl fmt::Display for Expected {
             Self::Number => "a number",
             Self::Ratio => "a number such as `0.9` or `90%`",
             Self::Weight => "a weight",
+            Self::Changes => "changes such as `{ friction: 10%, gravity: 5% }`",
             Self::Weights => "weights such as `{ add_node: 1, change_weight: 2 }`",
         })
     }

@@ -8,7 +8,7 @@ use crate::cli::cluster::bits::{pack, unpack};
 use crate::cli::cluster::message::{MessageFault, TaskKey, decode, encode};
 use crate::evolve::{Rivals, validate};
 use crate::model::{
-    Behavior, Body, CYCLE_STEPS, Niche, Palette, Pattern, PhysicsWorld, Schedule, SearchObjective, Spell,
+    Behavior, Body, CYCLE_STEPS, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds, Schedule, SearchObjective, Spell,
 };
 use crate::swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
 
@@ -55,6 +55,7 @@ struct EvaluationRecord {
     variable: Vec<(u32, u32)>,
     fixed_steps: u32,
     world: PhysicsWorld,
+    others: Vec<PhysicsWorld>,
     body: BodyRecord,
     pareto: Option<u32>,
     rivals: Vec<Vec<Vec<[f64; 2]>>>,
@@ -160,6 +161,7 @@ impl EvaluationRecord {
             variable: protocol.variable.spells.iter().map(spell).collect(),
             fixed_steps: protocol.fixed_steps,
             world: protocol.world,
+            others: protocol.others.clone(),
             body: BodyRecord::of(&task.body),
             pareto: match task.rivals.niche() {
                 Niche::Dominance => None,
@@ -173,8 +175,10 @@ impl EvaluationRecord {
         let steps = self.variable.iter().map(|&(_, steps)| u64::from(steps)).sum::<u64>();
         let body = self.body.check()?;
         validate(&body).ok()?;
-        let is_bounded = steps.max(self.fixed_steps.into()) <= MOST_STEPS && self.world.is_possible();
-        if !is_bounded || self.rivals.len() != Behavior::all().count() {
+        let is_bounded =
+            steps.max(self.fixed_steps.into()) <= MOST_STEPS && self.others.len() <= SampledWorlds::MOST as usize;
+        let are_possible = self.world.is_possible() && self.others.iter().all(PhysicsWorld::is_possible);
+        if !is_bounded || !are_possible || self.rivals.len() != Behavior::all().count() {
             return None;
         }
         let spell = |(bits, steps): (u32, u32)| {
@@ -184,7 +188,8 @@ impl EvaluationRecord {
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
         let objective = if self.gate { SearchObjective::Gate } else { SearchObjective::Distance };
         let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
-        let protocol = EvaluationProtocol { objective, variable, fixed_steps: self.fixed_steps, world: self.world };
+        let Self { fixed_steps, world, others, .. } = self;
+        let protocol = EvaluationProtocol { objective, variable, fixed_steps, world, others };
         let task = EvaluationTask { body, rivals: Rivals::new(niche, self.rivals) };
         Some(Task::Evaluation(Arc::new(protocol), task))
     }
@@ -315,7 +320,8 @@ pub(super) mod tests {
     fn make_tasks() -> Vec<TaskMessage> {
         let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 1);
         evolve_generation(&mut search);
-        let protocol = EvaluationProtocol { world: world(), ..EvaluationProtocol::of(search.evolution()) };
+        let of = EvaluationProtocol::of(search.evolution());
+        let protocol = EvaluationProtocol { world: world(), others: vec![PhysicsWorld::default(), world()], ..of };
         let protocol = Arc::new(protocol);
         let evaluation = |candidate: Candidate| {
             Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, &candidate.body))

@@ -19,7 +19,7 @@ use crate::swarm::{self, WorldSample};
 #[derive(Args)]
 pub(super) struct RadiusArguments {
     /// Measure instead how far worlds may differ: the changes at radius 1, such as `friction=10%` or `all=10%`
-    #[arg(long, value_name = "CHANGES", conflicts_with = "nats")]
+    #[arg(long, value_name = "CHANGES", conflicts_with_all = ["nats", "device"])]
     vary: Option<Variation>,
     /// The number of worlds for each radius
     #[arg(long, value_name = "N", requires = "vary", default_value_t = 20)]

@@ -33,14 +33,7 @@ test sr_latch \"is told what is wrong\" in rough {
 
 /// A small archive of small bodies with few behaviors.
 const WALKS: &str = "\
-schedule brief(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
-evolution walks { box: 3 x 1, variable: brief, fixed: 1 cycles, batch: 6, generations: 4, seed: 3 }
+evolution walks { box: 3 x 1, variable: short, fixed: 1 cycles, batch: 6, generations: 4, seed: 3 }
 ";
 
 /// Runs a command alone and with workers of which one is killed; both must do and print the same.
@@ -67,7 +60,7 @@ fn compare(bench: &Bench, command: &[&str], status: i32) -> Ran {
 #[test]
 fn robots_are_selected_measured_and_verified_by_workers() {
     let bench = Bench::new();
-    bench.file("walks.nb", WALKS);
+    bench.runs("walks.nb", WALKS);
     assert_eq!(bench.run(&["evolve", "walks.nb"]).status, 0);
     let add = ["library", "add", "out/walks/seed-3", "--tries", "1", "--finalists", "1", "--max-error", "1", "--into"];
     let behaviors = ["--behavior", "LLLL", "--behavior", "LRRL"];

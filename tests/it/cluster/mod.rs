@@ -26,14 +26,7 @@ use crate::cli::{Bench, Ran};
 use crate::cluster::server::Server;
 
 const SMALL: &str = "\
-schedule brief(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
-evolution small { box: 3 x 3, variable: brief, fixed: 1 cycles, batch: 8, generations: 12, seed: 1..3 }
+evolution small { box: 3 x 3, variable: short, fixed: 1 cycles, batch: 8, generations: 12, seed: 1..3 }
 evolution gated { from: small, objective: gate, batch: 2, generations: 2, seed: 5 }
 ";
 /// Env steps of an evaluation of `small`.
@@ -131,7 +124,7 @@ fn evolve(bench: &Bench, server: &Server, more: &[&str]) -> Running {
 /// A folder with the declarations.
 fn bench() -> Bench {
     let bench = Bench::new();
-    bench.file("small.nb", SMALL);
+    bench.runs("small.nb", SMALL);
     bench
 }
 

@@ -7,12 +7,6 @@ use crate::gpu::device;
 use crate::schemas::validate;
 
 const RUNS: &str = "\
-schedule short(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
 evolution walks { from: gates, box: 3 x 2, variable: short, fixed: 1 cycles, batch: 6, generations: 6, seed: 3 }
 evolution turns { from: walks, objective: gate, batch: 2, generations: 2 }
 ";
@@ -63,7 +57,7 @@ fn evolutions_write_the_same_bytes_on_a_device() {
         return;
     }
     let bench = Bench::new();
-    bench.file("runs.nb", RUNS);
+    bench.runs("runs.nb", RUNS);
     let evolve = |device: &str| {
         let ran = bench.run(&["evolve", "runs.nb", "--out", device, "--device", device]);
         assert_eq!(ran.status, 0, "{}", ran.err);

@@ -25,9 +25,26 @@ pub(super) fn of(keyword: &str) -> &'static [(&'static str, Holds)] {
     }
 }
 
-/// The weights of `mutation`.
-pub(super) const MUTATION: [&str; 6] =
-    ["add_node", "remove_node", "add_link", "remove_link", "change_activation", "change_weight"];
+/// The fields of the record that is the value of a field.
+pub(super) fn inside(field: &str) -> &'static [&'static str] {
+    match field {
+        "mutation" => &["add_node", "remove_node", "add_link", "remove_link", "change_activation", "change_weight"],
+        "vary" => &[
+            "all",
+            "friction",
+            "gravity",
+            "stiffness",
+            "drag",
+            "damping",
+            "swelling",
+            "start",
+            "missed",
+            "weak",
+            "dead",
+        ],
+        _ => &[],
+    }
+}
 
 const MATERIAL: [(&str, Holds); 8] = [
     ("kind", Holds::Words(&["actuator", "rigid", "sensor", "soft"])),
@@ -40,7 +57,7 @@ const MATERIAL: [(&str, Holds); 8] = [
     ("present", Holds::Words(&[])),
 ];
 
-const EVOLUTION: [(&str, Holds); 17] = [
+const EVOLUTION: [(&str, Holds); 19] = [
     ("from", Holds::Name(NameKind::Evolution, &[])),
     ("box", Holds::Words(&[])),
     ("materials", Holds::Name(NameKind::Material, &[])),
@@ -58,6 +75,8 @@ const EVOLUTION: [(&str, Holds); 17] = [
     ("symmetry", Holds::Words(&["none", "npn"])),
     ("niche", Holds::Words(&["dominance", "pareto"])),
     ("world", Holds::Name(NameKind::World, &[])),
+    ("vary", Holds::Words(&[])),
+    ("worlds", Holds::Words(&[])),
 ];
 
 const LIBRARY: [(&str, Holds); 2] =
@@ -116,8 +135,9 @@ mod tests {
             mine.sort_unstable();
             assert_eq!(mine, listed, "{keyword}: {known}");
         }
-        let weights = MUTATION.map(|weight| format!("{weight}: 1")).join(", ");
-        assert_eq!(messages(&format!("evolution x {{ mutation: {{ {weights} }} }}")), "");
+        let values = |field: &str| inside(field).iter().map(|name| format!("{name}: 0")).collect::<Vec<_>>().join(", ");
+        let (mutation, vary) = (values("mutation"), values("vary"));
+        assert_eq!(messages(&format!("evolution x {{ mutation: {{ {mutation} }}, vary: {{ {vary} }} }}")), "");
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem>
         Place::Unit => words(&UNITS),
         Place::Row => words(&["for"]),
         Place::Field(keyword) => fields::of(keyword).iter().map(|(name, _)| field(name)).collect(),
-        Place::Weights => fields::MUTATION.iter().map(|name| field(name)).collect(),
+        Place::Inside(of) => fields::inside(of).iter().map(|name| field(name)).collect(),
         Place::Value(keyword, field) => values(files, keyword, field),
         Place::Statement => [words(&["for", "net"]), nets(&before, files, NameKind::Net)].concat(),
         Place::Operand => [nets(&before, files, NameKind::Net), circuits(files), words(&PREFIXES)].concat(),

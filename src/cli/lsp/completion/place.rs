@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use crate::cli::lsp::completion::fields;
 use crate::cli::lsp::tokens::{Token, TokenKind};
 use crate::syntax::KEYWORDS;
 
@@ -19,8 +20,8 @@ pub(super) enum Place<'t> {
     Field(&'t str),
     /// In the value of a field of a record.
     Value(&'t str, &'t str),
-    /// Among the weights of `mutation`.
-    Weights,
+    /// Where a field of the record is expected that is the value of this field.
+    Inside(&'t str),
     /// At the start of a statement.
     Statement,
     /// Where a value is expected in an expression.
@@ -215,7 +216,7 @@ impl<'t> Before<'t> {
             }
         }
         match field {
-            Some("mutation") if depth > 0 => Place::Weights,
+            Some(field) if depth > 0 && !fields::inside(field).is_empty() => Place::Inside(field),
             Some(_) if depth == 0 && self.last() != ":" => Place::Field(self.word(0)),
             Some(field) => Place::Value(self.word(0), field),
             None => Place::Field(self.word(0)),
@@ -267,7 +268,8 @@ mod tests {
         assert_eq!(place("swarm s { circuit: $"), "Value(\"swarm\", \"circuit\")");
         assert_eq!(place("swarm s {\n    circuit: f\n    $"), "Field(\"swarm\")");
         assert_eq!(place("library l { from: shipped, behaviors: [nand, $"), "Value(\"library\", \"behaviors\")");
-        assert_eq!(place("evolution e { mutation: { $"), "Weights");
+        assert_eq!(place("evolution e { mutation: { $"), "Inside(\"mutation\")");
+        assert_eq!(place("evolution e { vary: { all: 5%, $"), "Inside(\"vary\")");
         assert_eq!(place("material m { period: 3 $"), "Unit");
         assert_eq!([place("simulate $"), place("simulate s with $")], ["Swarm", "Schedule"]);
         assert_eq!(place("simulate s with schedule ($"), "Columns(\"s\")");
