@@ -94,10 +94,10 @@ fn changes() -> Vec<Change> {
         ("seed: 8", |run| run.seeds = vec![8]),
         ("as: code", |run| run.rules = Rules::Code),
         ("objective: gate", |run| run.objective = SearchObjective::Gate),
-        ("objective: gate, vary: { all: 20%, drag: 0.5, start: 2 }, worlds: 3", |run| {
+        ("objective: gate, vary: { all: 20%, drag: 0.5, start: 2 }, worlds: 1", |run| {
             let all: Variation = "all=20%,drag=50%,start=2".parse().unwrap();
             run.objective = SearchObjective::Gate;
-            run.sample = Some(SampledWorlds { worlds: 3, vary: all });
+            run.sample = Some(SampledWorlds { worlds: 1, vary: all });
         }),
         ("symmetry: npn", |run| run.symmetry = Symmetry::Npn),
         ("niche: pareto(4)", |run| run.niche = Niche::Pareto(4)),
