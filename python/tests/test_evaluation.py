@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import nbc
 
@@ -28,6 +29,15 @@ def test_the_library_is_made_of_gates():
     assert result.measured.all()
     assert result.behavior.tolist() == [robot.behavior for robot in robots]
     assert (result.fitness[:, 0] > 0.5).all(), "every output is right from some cycle on"
+
+
+def test_gates_are_tried_in_other_worlds_too():
+    run = nbc.Evolution(objective="gate", vary={"all": 0.2, "missed": 0.01}, worlds=2)
+    sample = run.fields["sample"]
+    assert sample["worlds"] == 2
+    assert (sample["vary"]["drag"], sample["vary"]["missed"], sample["vary"]["dead"]) == (0.2, 0.01, 0)
+    with pytest.raises(nbc.NbcError, match="only the gate objective"):
+        nbc.Evolution(vary={"friction": 0.1})
 
 
 def test_niches_count_voxels():
