@@ -52,10 +52,25 @@ impl Physics {
 }
 
 /// Runs a swarm on with these input bits in each cycle.
-pub(super) fn run(mut swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
+pub(super) fn run(swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
+    run_until(swarm, inputs, &mut |_| false, observer)
+}
+
+/// Runs a swarm on with these input bits in each cycle, to the end of the first after which `is_enough` says that its
+/// trace is.
+pub(super) fn run_until(
+    mut swarm: LiveSwarm,
+    inputs: &[Vec<bool>],
+    is_enough: &mut dyn FnMut(&SwarmTrace) -> bool,
+    observer: &mut dyn Observer,
+) -> (SwarmTrace, RunEnd) {
     let all = inputs.len() as u64;
     for (cycle, inputs) in (1..).zip(inputs) {
         swarm.step(inputs);
+        if is_enough(swarm.trace()) {
+            observer.progress(all, all);
+            break;
+        }
         observer.progress(cycle, all);
         if observer.is_cancelled() && cycle < all {
             return (swarm.into_trace(), RunEnd::Cancelled);

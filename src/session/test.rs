@@ -8,7 +8,7 @@ use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
 use crate::session::plan::plans;
 use crate::session::robots::Supply;
-use crate::session::swarm_run::{Physics, RunEnd, SwarmRun};
+use crate::session::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::session::wording::SwarmWarning;
 use crate::swarm::{
     self, Demand, Level, STEADY_CYCLES, Settling, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial,
@@ -53,6 +53,8 @@ pub struct TestCase<'a> {
     test: &'a CircuitTest,
     rows: Vec<TestRow>,
     subject: Subject,
+    /// Whether it ends in physics with the first row that fails.
+    ends_at_failure: bool,
 }
 
 /// The tested circuit.
@@ -73,7 +75,7 @@ pub(super) fn cases<'a>(
     options: &TestOptions,
 ) -> Result<Vec<TestCase<'a>>, Vec<Diagnostic>> {
     let rows = rows(program, test)?;
-    let case = |subject| TestCase { test, rows: rows.clone(), subject };
+    let case = |subject| TestCase { test, rows: rows.clone(), subject, ends_at_failure: false };
     let netlist = elaborate(program, &test.circuit)?;
     let level = options.level;
     if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
@@ -150,13 +152,13 @@ impl TestCase<'_> {
         }
     }
 
-    /// The same test in another world.
-    pub fn in_world(&self, world: PhysicsWorld) -> Self {
+    /// The same test in another world, where it ends with the first row that fails.
+    pub fn trial_in(&self, world: PhysicsWorld) -> Self {
         let subject = match &self.subject {
             Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
             Subject::Robots(compiled, demands) => Subject::Robots(Box::new(compiled.in_world(world)), demands.clone()),
         };
-        Self { test: self.test, rows: self.rows.clone(), subject }
+        Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true }
     }
 
     /// The number of robots; 0 at the level of logic.
@@ -206,23 +208,34 @@ impl TestCase<'_> {
                 TestRun { verdict, end: RunEnd::Complete, swarm: None, warnings: Vec::new() }
             }
             Subject::Robots(compiled, ref demands) => {
-                in_physics(self.test, &self.rows, demands, *compiled, physics, observer)
+                let Self { test, ref rows, ends_at_failure, .. } = self;
+                let inputs = inputs(rows, demands);
+                let swarm = physics.swarm(&compiled, inputs.len());
+                let mut has_failed = has_failed(test, rows, demands);
+                let mut is_enough = |trace: &SwarmTrace| ends_at_failure && has_failed(trace);
+                let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
+                let (verdict, warnings) = judged(test, rows, demands, &compiled, &trace, end);
+                TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), warnings }
             }
         }
     }
 }
 
-fn in_physics(
-    test: &CircuitTest,
-    rows: &[TestRow],
-    demands: &[Demand],
-    compiled: Compiled,
-    physics: &Physics,
-    observer: &mut dyn Observer,
-) -> TestRun {
-    let (trace, end) = physics.run(&compiled, inputs(rows, demands), observer);
-    let (verdict, warnings) = judged(test, rows, demands, &compiled, &trace, end);
-    TestRun { verdict, end, swarm: Some(SwarmRun { compiled, trace }), warnings }
+/// Whether a row has failed that ends with a trace's last cycle; to be asked after each cycle.
+fn has_failed<'a>(
+    test: &'a CircuitTest,
+    rows: &'a [TestRow],
+    demands: &'a [Demand],
+) -> impl FnMut(&SwarmTrace) -> bool + 'a {
+    let ends = demands.iter().scan(0, |end, demand| {
+        *end += demand.hold;
+        Some(*end)
+    });
+    let mut left = ends.zip(rows.iter().zip(demands)).peekable();
+    move |trace| {
+        let row = left.next_if(|(end, _)| *end == trace.cycles.len());
+        row.is_some_and(|(_, (row, demand))| !swarm::passes(test, row, *demand, trace))
+    }
 }
 
 /// The input bits of each cycle.

@@ -59,6 +59,16 @@ pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> V
     rows.iter().map(judge).collect()
 }
 
+/// Whether a row passes that ends with the last cycle of a trace.
+///
+/// # Panics
+/// When the trace is shorter than the row.
+pub fn passes(test: &CircuitTest, row: &TestRow, demand: Demand, trace: &SwarmTrace) -> bool {
+    let end = trace.cycles.len();
+    let steady = steady_outputs(trace, &(end - demand.hold..end));
+    judge_row(test, row, &trace.cycles[end - 1].outputs, &steady).passed
+}
+
 /// Judges a trace whose cycles are the rows of a test one after another, with the given holds; `clocks[k]` is the clock
 /// of robot `k` in cycles. If the trace ends early, only complete rows are judged.
 ///

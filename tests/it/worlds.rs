@@ -178,6 +178,23 @@ fn yields_are_the_same_for_any_number_of_threads_and_worlds_can_be_declared() {
 }
 
 #[test]
+fn a_trial_ends_with_the_first_row_that_fails() {
+    let dead = WorldNoise { dead: 1.0, ..WorldNoise::default() };
+    let world = PhysicsWorld { noise: dead, ..PhysicsWorld::default() };
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("a.nb", 1, HOSTILE);
+    let checked = session.open("a.nb").unwrap_or_else(|error| panic!("{error}"));
+    let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+    let case = session.cases(&checked, &checked.program.tests[0], &options).unwrap().remove(0);
+    let mut told = (0, 0);
+    let run = session.run_case(case.trial_in(world), &mut |done, all| told = (done, all));
+    assert!(!run.verdict.passed && run.verdict.rows.iter().filter(|row| !row.passed).count() == 1);
+    assert!(run.verdict.rows.len() < case.rows().len() && told.0 == told.1);
+    assert_eq!(run.world_trial().unwrap().failed.unwrap().0, run.verdict.rows.len());
+    assert!(session.run_case(case.trial_in(PhysicsWorld::default()), &mut ()).verdict.passed);
+}
+
+#[test]
 fn yields_are_drawn() {
     let bench = Bench::new();
     bench.file("a.nb", HOSTILE);

@@ -198,7 +198,7 @@ impl Visit<'_, '_, '_> {
     ) -> Option<(TestVerdict, WorldTrial)> {
         let Experiment { case, variation, .. } = self.experiment;
         let world = WorldSample { variation: *variation, seed }.world(&case.world(), self.world);
-        let run = session.run_case(case.in_world(world), &mut interrupt.observe(bar.part()));
+        let run = session.run_case(case.trial_in(world), &mut interrupt.observe(bar.part()));
         let trial = (run.end == RunEnd::Complete).then(|| run.world_trial()).flatten()?;
         Some((run.verdict, trial))
     }
