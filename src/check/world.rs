@@ -75,7 +75,7 @@ pub(crate) fn variation(value: &ValueSyntax) -> Result<Variation, Diagnostic> {
     let ValueKind::Record(record) = &value.kind else {
         return Err(quantity::wrong_kind(Expected::Changes, value.span));
     };
-    let mut fields = Fields::inner("vary", value.span, record);
+    let mut fields = Fields::inner("variation", value.span, record);
     let all = fields.read(Variation::ALL, 0.0, |value| change(Variation::ALL, value));
     let variation = Variation::of(|name| {
         let usual = if Variation::is_factor(name) { all } else { 0.0 };
