@@ -110,7 +110,9 @@ fn every_error_page_has_a_failing_and_a_corrected_example() {
 fn every_example_of_the_manual_runs() {
     let majority = fences(&read("docs/language.md")).into_iter().find(|fence| fence.words == ["blif"]);
     let majority = majority.expect("the manual shows the file that an example uses").text;
-    for (path, least) in [("docs/language.md", 6), ("grammar/README.md", 6), ("docs/computer.md", 1)] {
+    let pages =
+        ["docs/language.md", "grammar/README.md", "docs/computer.md", "docs/evolution.md", "docs/robustness.md"];
+    for (path, least) in pages.into_iter().zip([6, 6, 1, 1, 1]) {
         let examples: Vec<_> = fences(&read(path)).into_iter().filter(|fence| fence.words == ["nb"]).collect();
         assert!(examples.len() >= least, "{path} has examples");
         for example in examples {
@@ -119,6 +121,7 @@ fn every_example_of_the_manual_runs() {
             let mut world = MemoryWorld::default();
             world.insert("adders.nb", read("circuits/full_adder.nb"));
             world.insert("computer.nb", read("circuits/computer.nb"));
+            world.insert("circuits/counter.nb", read("circuits/counter.nb"));
             world.insert("majority.blif", majority.as_str());
             let checked = check::check(&world, &mut sources, file);
             let text = render::text(&checked.diagnostics, &sources, false);
