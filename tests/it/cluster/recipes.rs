@@ -4,13 +4,15 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use serde_yaml::Value;
 
 use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
-use crate::cluster::{Running, assert_same, bench};
+use crate::cluster::{PATIENCE, Running, assert_same, bench};
 use crate::language::root;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_nbc");
@@ -95,8 +97,14 @@ fn three_machines_by_ssh() {
     site.program("hostname", "echo 127.0.0.1");
     let (_, rest) = script.split_once("--pass \"$NBC_PASSWORD\"\n").expect("the server with a password");
     assert_same(&site.bench, &site.shell(rest, &[("NBC_PASSWORD", "secret")]).end());
+    // A worker may start after the others have done the work.
+    let started = Instant::now();
     for host in ["one", "two", "three"] {
-        assert!(fs::read_to_string(site.bench.path().join(host).join("worker.log")).unwrap().contains("physics"));
+        let log = site.bench.path().join(host).join("worker.log");
+        while !fs::read_to_string(&log).unwrap().contains("physics") {
+            assert!(started.elapsed() < PATIENCE, "the worker of {host} has not started");
+            thread::sleep(Duration::from_millis(50));
+        }
     }
 }
 
