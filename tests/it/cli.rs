@@ -19,6 +19,13 @@ schedule short(s1, s2) {
 
 ";
 
+/// The program. It has one thread, because tests run side by side.
+pub fn program() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_nbc"));
+    command.env("RAYON_NUM_THREADS", "1");
+    command
+}
+
 /// A folder of its own for one test, with the program run inside it.
 pub struct Bench {
     folder: tempfile::TempDir,
@@ -59,7 +66,7 @@ impl Bench {
     }
 
     pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_nbc"));
+        let mut command = program();
         command.args(arguments).current_dir(self.path()).env_remove("NO_COLOR");
         command
     }

@@ -160,8 +160,8 @@ fn yields_are_the_same_for_any_number_of_threads_and_worlds_can_be_declared() {
     let one = |found: &serde_json::Value| found["tests"][0].clone();
     let failures = one(&wild)["failures"].as_array().unwrap().clone();
     assert!(!failures.is_empty(), "{wild}");
-    let alone = ["test", "a.nb", "--worlds", "6", "--format", "json", "--vary", "all=90%,dead=50%"];
-    let output = bench.command(&alone).env("RAYON_NUM_THREADS", "1").output().unwrap();
+    let shared = ["test", "a.nb", "--worlds", "6", "--format", "json", "--vary", "all=90%,dead=50%"];
+    let output = bench.command(&shared).env("RAYON_NUM_THREADS", "3").output().unwrap();
     assert_eq!(validate("robustness", std::str::from_utf8(&output.stdout).unwrap()), wild);
     assert_eq!(run(&["--vary", "all=90%,dead=50%", "--least-yield", "100%"]).0, 1);
     assert_eq!(run(&["--vary", "all=45%,dead=25%", "--times", "2"]).1["tests"][0]["failures"], one(&wild)["failures"]);

@@ -46,7 +46,7 @@ struct Running {
 
 impl Running {
     fn start(bench: &Bench, arguments: &[&str]) -> Self {
-        Self::spawn(bench.command(arguments).env("RAYON_NUM_THREADS", "1"))
+        Self::spawn(&mut bench.command(arguments))
     }
 
     fn spawn(command: &mut Command) -> Self {

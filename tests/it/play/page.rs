@@ -4,11 +4,13 @@ use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
+
+use crate::cli::program;
 
 /// A running server.
 pub(super) struct Server {
@@ -19,7 +21,7 @@ pub(super) struct Server {
 
 impl Server {
     pub(super) fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_nbc"))
+        let mut child = program()
             .args(["play", "--no-open"])
             .args(arguments)
             .current_dir(folder)

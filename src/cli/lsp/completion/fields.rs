@@ -1,6 +1,9 @@
 //! The fields of declarations and what they may hold. `tests` compares them with the checker.
 
+use std::iter;
+
 use crate::check::NameKind;
+use crate::model::Variation;
 
 /// What a field may hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,23 +29,11 @@ pub(super) fn of(keyword: &str) -> &'static [(&'static str, Holds)] {
 }
 
 /// The fields of the record that is the value of a field.
-pub(super) fn inside(field: &str) -> &'static [&'static str] {
+pub(super) fn inside(field: &str) -> Vec<&'static str> {
     match field {
-        "mutation" => &["add_node", "remove_node", "add_link", "remove_link", "change_activation", "change_weight"],
-        "vary" => &[
-            "all",
-            "friction",
-            "gravity",
-            "stiffness",
-            "drag",
-            "damping",
-            "swelling",
-            "start",
-            "missed",
-            "weak",
-            "dead",
-        ],
-        _ => &[],
+        "mutation" => vec!["add_node", "remove_node", "add_link", "remove_link", "change_activation", "change_weight"],
+        "vary" => iter::once(Variation::ALL).chain(Variation::NAMES).collect(),
+        _ => Vec::new(),
     }
 }
 
