@@ -197,12 +197,13 @@ mod tests {
 
     #[test]
     fn the_work_reported_is_the_work_announced() {
-        let nominees = [nominee(&["33"], 1.0), nominee(&["3"], 2.0), nominee(&["34"], 0.0)];
+        let nominees = [nominee(&["3"], 2.0), nominee(&["34"], 0.0)];
+        let selection = Selection { finalists: 1, ..SELECTION };
         for behavior in ["RRRR", "LLLL"] {
             let done = Cell::new(0);
             let observe = |more| done.set(done.get() + more);
-            SELECTION.select(&Simulator::default(), behavior.parse().unwrap(), &nominees, &observe);
-            assert_eq!(done.get(), SELECTION.cost(nominees.len()));
+            selection.select(&Simulator::default(), behavior.parse().unwrap(), &nominees, &observe);
+            assert_eq!(done.get(), selection.cost(nominees.len()));
         }
         let found =
             SELECTION.select(&Simulator::default(), "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
@@ -213,15 +214,14 @@ mod tests {
     fn a_robot_that_errs_is_left_out_unless_it_is_allowed_to() {
         let body = Body::parse(&["34"], &Palette::paper()).unwrap();
         let measured = measure(&Simulator::default(), &body).unwrap();
-        let nominees = [nominee(&["34"], 1.0)];
-        let select = |behavior, max_error| {
-            let selection = Selection { max_error, ..SELECTION };
-            selection.select(&Simulator::default(), behavior, &nominees, &|_| ())
+        let judge = |behavior, max_error| {
+            let result = TaskResult::Measurement(Ok(measured.clone()));
+            Selection { max_error, ..SELECTION }.judge(result, behavior, &nominee(&["34"], 1.0))
         };
         let own = measured.behavior;
-        assert!(matches!(select(own, measured.character.error_rate), Selected::Robot(_)));
-        assert!(matches!(select(own, -1.0), Selected::Erring(robot) if robot.behavior == own));
+        assert!(matches!(judge(own, measured.character.error_rate), Selected::Robot(_)));
+        assert!(matches!(judge(own, -1.0), Selected::Erring(robot) if robot.behavior == own));
         let other = ["RRRR", "LLLL"].map(|word| word.parse().unwrap()).into_iter().find(|&other| other != own).unwrap();
-        assert_eq!(select(other, 1.0), Selected::Other(own));
+        assert_eq!(judge(other, 1.0), Selected::Other(own));
     }
 }
