@@ -1,4 +1,4 @@
-//! Champions of several runs by behavior (paper, figure 4): each path in body lengths over cycles, one panel for each
+//! Champions of several runs by behavior (paper, figure 3): each path in body lengths over cycles, one panel for each
 //! behavior.
 
 use crate::model::{Behavior, CYCLE_STEPS, Trajectory};

@@ -1,5 +1,6 @@
-//! The paper's comparison of behaviors (paper, section 3 and figure 5): groups of equal difficulty, the exact
-//! Mann-Whitney U test between each two, Holm's correction, and the effect size A12.
+//! The paper's comparison of behaviors (paper, section 3 and figure 4): a behavior and its mirror image are one group.
+//! The paper does not name its test. Here it is the exact Mann-Whitney U test between each two groups, with Holm's
+//! correction and the effect size A12.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -12,16 +13,18 @@ use crate::evolve::Champion;
 use crate::model::{Behavior, Pattern};
 use crate::report::{Align, TextTable};
 
-/// The thresholds of significance that are spoken of; the paper's is the last.
-const THRESHOLDS: [f64; 2] = [0.05, 0.001];
+/// Thresholds of significance and their marks; the paper's is the last.
+const THRESHOLDS: [(f64, &str); 3] = [(0.05, "*"), (0.01, "**"), (0.001, "***")];
 
-/// The behaviors of one difficulty, which differ by exchanging left and right.
+/// A behavior and its mirror image.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BehaviorGroup {
-    /// Such as `XXYY, XYXY`.
+    /// Such as `XXYY` for LLRR and RRLL.
     pub name: &'static str,
     /// The number of stimuli that its robots depend on.
     pub stimuli: usize,
+    /// The place in the paper's order of difficulty, from 0 for the easiest to 3.
+    pub difficulty: usize,
     /// For each run that found any, the mean distance in voxels of its champions, one for each behavior found.
     pub values: Vec<f64>,
 }
@@ -43,27 +46,24 @@ pub struct GroupComparison {
     pub is_approximate: bool,
 }
 
-/// The robots that follow one stimulus, compared by which one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SideComparison {
-    /// The probability as in [`GroupComparison`], of one test alone.
-    pub p: f64,
-    /// How often a robot of the first stimulus goes farther than one of the second, likewise.
-    pub a12: f64,
-}
-
-/// Groups and their names, in the paper's order of difficulty.
-const GROUPS: [(&str, usize); 4] = [("XXXX", 0), ("XXYY, XYXY", 1), ("XXXY, XXYX, XYXX, XYYY", 2), ("XYYX", 2)];
+/// The groups by name, with their stimuli and difficulty, in the paper's order.
+const GROUPS: [(&str, usize, usize); 8] = [
+    ("XXXX", 0, 0),
+    ("XXYY", 1, 1),
+    ("XYXY", 1, 1),
+    ("XXXY", 2, 2),
+    ("XXYX", 2, 2),
+    ("XYXX", 2, 2),
+    ("XYYY", 2, 2),
+    ("XYYX", 2, 3),
+];
 
 /// The place of the group of a behavior.
 pub(super) fn group_of(behavior: Behavior) -> usize {
-    let function = behavior.function();
-    match (function.arity(), function.bits().count_ones()) {
-        (0, _) => 0,
-        (1, _) => 1,
-        (_, 2) => 3,
-        _ => 2,
-    }
+    let first = behavior.direction(Pattern::PAIRS[0]);
+    let letter = |pattern| if behavior.direction(pattern) == first { 'X' } else { 'Y' };
+    let name: String = Pattern::PAIRS.into_iter().map(letter).collect();
+    GROUPS.iter().position(|group| group.0 == name).expect("there are eight such names")
 }
 
 /// The groups' values, one for each run. Champions of one run are not independent samples, and neither are two runs
@@ -71,37 +71,18 @@ pub(super) fn group_of(behavior: Behavior) -> usize {
 pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup> {
     let groups = GROUPS.iter().enumerate();
     groups
-        .map(|(i, &(name, stimuli))| BehaviorGroup {
-            name,
-            stimuli,
-            values: values(runs, |behavior| group_of(behavior) == i),
-        })
+        .map(|(i, &(name, stimuli, difficulty))| BehaviorGroup { name, stimuli, difficulty, values: values(runs, i) })
         .collect()
 }
 
-/// For each run that found any of these behaviors, the mean distance of their champions in voxels.
-fn values(runs: &BTreeMap<u64, Vec<Champion>>, is_member: impl Fn(Behavior) -> bool) -> Vec<f64> {
+/// For each run that found a behavior of this group, the mean distance of their champions in voxels.
+fn values(runs: &BTreeMap<u64, Vec<Champion>>, group: usize) -> Vec<f64> {
     let mean = |run: &Vec<Champion>| {
-        let champions = run.iter().filter(|champion| is_member(champion.behavior));
+        let champions = run.iter().filter(|champion| group_of(champion.behavior) == group);
         let distances: Vec<f64> = champions.map(|champion| champion.fitness[0]).collect();
         (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
     };
     runs.values().filter_map(mean).collect()
-}
-
-/// Compares XXYY with XYXY; `None` if one of them was never found.
-pub fn compare_sides(runs: &BTreeMap<u64, Vec<Champion>>) -> Option<SideComparison> {
-    let follows = |stimulus: usize| {
-        let changes = move |behavior: Behavior| {
-            let at = |i: usize| behavior.direction(Pattern::PAIRS[i]);
-            // The patterns 01 and 10 differ from 00 in the second and in the first stimulus.
-            at(0) != at([2, 1][stimulus]) && at(0) == at([1, 2][stimulus])
-        };
-        let is_member = move |behavior: Behavior| group_of(behavior) == 1 && changes(behavior);
-        BehaviorGroup { name: ["XXYY", "XYXY"][stimulus], stimuli: 1, values: values(runs, is_member) }
-    };
-    let GroupComparison { p, a12, .. } = compare(&[follows(0), follows(1)], [0, 1])?;
-    Some(SideComparison { p, a12 })
 }
 
 /// Every two groups compared, in order; pairs without values are left out.
@@ -177,6 +158,16 @@ fn choices(n: usize, k: usize) -> f64 {
     (0..k).map(|i| (n - i) as f64 / (i + 1) as f64).product()
 }
 
+/// The mark of an adjusted probability.
+pub(super) fn mark(p_adjusted: f64) -> &'static str {
+    THRESHOLDS.iter().rfind(|threshold| p_adjusted < threshold.0).map_or("", |threshold| threshold.1)
+}
+
+/// What was done to which pairs.
+pub(super) fn describe_method(comparisons: &[GroupComparison]) -> String {
+    format!("exact two-sided Mann-Whitney U, adjusted by Holm for {} pairs", comparisons.len())
+}
+
 /// The groups and their comparisons in words.
 pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> String {
     use Align::{Left, Right};
@@ -193,19 +184,32 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
         let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), &v| (v.min(l), v.max(m)));
         table.push(vec![(*name).to_owned(), values.len().to_string(), number(mean), number(least), number(most)]);
     }
-    let mut pairs = TextTable::new(&[("compared", Left), ("p", Right), ("Holm", Right), ("A12", Right), ("", Left)]);
-    for comparison in comparisons {
-        let [a, b] = comparison.groups.map(|i| groups[i].name.split(',').next().unwrap_or_default());
-        let note = if comparison.is_approximate { "approximate: there are ties" } else { "" };
-        let [p, adjusted] = [comparison.p, comparison.p_adjusted].map(probability);
-        pairs.push(vec![format!("{a} > {b}"), p, adjusted, format!("{:.2}", comparison.a12), note.to_owned()]);
+    let columns: Vec<(&str, Align)> =
+        std::iter::once(("", Left)).chain(groups.iter().skip(1).map(|group| (group.name, Left))).collect();
+    let mut pairs = TextTable::new(&columns);
+    for (row, group) in groups.iter().enumerate().take(groups.len().saturating_sub(1)) {
+        let cell = |column| match comparisons.iter().find(|pair| pair.groups == [row, column]) {
+            Some(pair) => {
+                let ties = if pair.is_approximate { "~" } else { "" };
+                format!("{:.2}{}{ties}", pair.a12, mark(pair.p_adjusted))
+            }
+            None => String::new(),
+        };
+        pairs.push(std::iter::once(group.name.to_owned()).chain((1..groups.len()).map(cell)).collect());
     }
+    let marks: Vec<String> = THRESHOLDS.iter().map(|(threshold, mark)| format!("{mark} p < {threshold}")).collect();
     let mut text = format!(
-        "champions' distance in voxels, a value for each run\n{table}\nexact Mann-Whitney U, two-sided, Holm-adjusted; \
-         A12: how often a value of the first group exceeds one of the second\n{pairs}"
+        "champions' distance in voxels, a value for each run\n{table}\n\
+         A12: how often a value of the row's group exceeds one of the column's; {}\n\
+         {}\n{pairs}",
+        marks.join(", "),
+        describe_method(comparisons)
     );
+    if comparisons.iter().any(|pair| pair.is_approximate) {
+        text.push_str("~ approximate, because there are ties\n");
+    }
     let mut told = 0;
-    for threshold in THRESHOLDS {
+    for (threshold, _) in THRESHOLDS {
         let beyond = comparisons.iter().filter(|comparison| comparison.p_least > threshold).count();
         // A comparison that cannot reach one threshold cannot reach a lower one either.
         if beyond > told {
@@ -219,11 +223,6 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
         told = beyond;
     }
     text
-}
-
-/// A probability with three digits that matter.
-fn probability(p: f64) -> String {
-    if p < 0.001 { format!("{p:.2e}") } else { format!("{p:.3}") }
 }
 
 #[cfg(test)]
@@ -246,14 +245,17 @@ mod tests {
 
     #[test]
     fn behaviors_fall_into_the_papers_groups() {
-        let counts = Behavior::all().fold([0; 4], |mut counts, behavior| {
+        let counts = Behavior::all().fold([0; 8], |mut counts, behavior| {
             counts[group_of(behavior)] += 1;
             counts
         });
-        assert_eq!(counts, [2, 4, 8, 2]);
-        assert_eq!(group_of("LRRL".parse().unwrap()), 3);
-        assert_eq!(group_of("RLRL".parse().unwrap()), 1);
-        assert_eq!(group_of("LRRR".parse().unwrap()), 2);
+        assert_eq!(counts, [2; 8]);
+        for behavior in Behavior::all() {
+            let (function, (name, stimuli, difficulty)) = (behavior.function(), GROUPS[group_of(behavior)]);
+            assert_eq!(function.arity(), stimuli, "{name}");
+            let is_xor = stimuli == 2 && function.bits().count_ones() == 2;
+            assert_eq!(difficulty, stimuli + usize::from(is_xor), "{name}");
+        }
     }
 
     #[test]
@@ -269,7 +271,10 @@ mod tests {
         assert!((comparison.p - 0.1).abs() < 1e-12 && (comparison.p_least - 0.1).abs() < 1e-12);
         assert_eq!((comparison.a12, comparison.is_approximate), (1.0, false));
         let told = describe_groups(&groups, &comparisons);
-        assert!(told.contains("1 of 1 comparisons cannot reach p < 0.05") && !told.contains("p < 0.001"), "{told}");
+        assert!(
+            told.contains("1 of 1 comparisons cannot reach p < 0.05") && !told.contains("reach p < 0.001"),
+            "{told}"
+        );
     }
 
     #[test]
@@ -296,22 +301,11 @@ mod tests {
     fn a_comparison_matches_the_textbook() {
         // The example of scipy.stats.mannwhitneyu: U = 17, exact p = 1/9, for both orders of the samples.
         let [males, females] = [vec![19.0, 22.0, 16.0, 29.0, 24.0], vec![20.0, 11.0, 17.0, 12.0]];
-        let group = |values: &[f64]| BehaviorGroup { name: "", stimuli: 0, values: values.to_vec() };
+        let group = |values: &[f64]| BehaviorGroup { name: "", stimuli: 0, difficulty: 0, values: values.to_vec() };
         for (a, b, u) in [(&males, &females, 17.0), (&females, &males, 3.0)] {
             let found = compare(&[group(a), group(b)], [0, 1]).unwrap();
             assert!((found.p - 1.0 / 9.0).abs() < 1e-12 && (found.a12 - u / 20.0).abs() < 1e-12, "{found:?}");
         }
-    }
-
-    #[test]
-    fn one_stimulus_is_compared_with_the_other() {
-        let runs = seeds((0..4).map(|i| {
-            let shift = 0.1 * f64::from(i);
-            run(&[("LLRR", 10.0 + shift), ("RRLL", 12.0 + shift), ("LRLR", 8.0 + shift), ("LLLL", 90.0)])
-        }));
-        let sides = compare_sides(&runs).unwrap();
-        assert!((sides.p - 2.0 / 70.0).abs() < 1e-12 && sides.a12 == 1.0, "{sides:?}");
-        assert_eq!(compare_sides(&seeds([run(&[("LLRR", 1.0)])])), None);
     }
 
     #[test]
@@ -333,7 +327,12 @@ mod tests {
         assert_eq!(comparisons.len(), 6);
         assert!(comparisons.iter().all(|comparison| comparison.p_adjusted < 0.001 && comparison.a12 == 1.0));
         let told = describe_groups(&groups, &comparisons);
-        assert!(told.contains("1.08e-5  6.50e-5  1.00") && !told.contains("cannot reach"), "{told}");
+        assert!(
+            told.contains("XXXX  1.00***")
+                && told.contains("adjusted by Holm for 6 pairs")
+                && !told.contains("cannot reach"),
+            "{told}"
+        );
     }
 
     #[test]
@@ -342,6 +341,7 @@ mod tests {
         let groups = behavior_groups(&seeds(runs));
         let comparisons = compare_groups(&groups);
         assert!(comparisons[0].is_approximate);
-        assert!(describe_groups(&groups, &comparisons).contains("approximate"));
+        let told = describe_groups(&groups, &comparisons);
+        assert!(told.contains("XXXX  0.88~") && told.contains("~ approximate"), "{told}");
     }
 }

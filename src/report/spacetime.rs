@@ -1,4 +1,4 @@
-//! Spacetime diagrams (paper, figures 3 and 6): time runs downwards in cycles, position across in voxels. Beside each
+//! Spacetime diagrams (paper, figures 2 and 5): time runs downwards in cycles, position across in voxels. Beside each
 //! path are the bits that the robot sensed and the bit that it output.
 
 use std::collections::BTreeSet;
@@ -124,7 +124,7 @@ fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
 }
 
 /// The diagram of a swarm: each robot with its own stimuli, then the circuit's outputs with the circuit's inputs
-/// (paper, figure 6). Of a large swarm it shows the robots of outputs and of named nets.
+/// (paper, figure 5). Of a large swarm it shows the robots of outputs and of named nets.
 pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     let changes = input_changes(trace);
     let chosen: BTreeSet<usize> = trace.by_interest().into_iter().take(MAX_PANELS).collect();
@@ -153,7 +153,7 @@ pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
     draw_rows(&format!("{} in space and time", trace.circuit), trace.cycles.len() as f64, &rows)
 }
 
-/// The diagram of some of a swarm's robots, each with the inputs of the swarm (paper, figure 6).
+/// The diagram of some of a swarm's robots, each with the inputs of the swarm (paper, figure 5).
 pub fn draw_chosen(trace: &SwarmTrace, robots: &[usize]) -> Svg {
     let changes = input_changes(trace);
     let track = |&k: &usize| {

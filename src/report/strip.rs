@@ -1,4 +1,4 @@
-//! Gait film-strips (paper, figure 3, right): one row for each spell of the schedule, snapshots of its last cycle side
+//! Gait film-strips (paper, figure 2, right): one row for each spell of the schedule, snapshots of its last cycle side
 //! by side, each over the ghosts of the two before it.
 
 use crate::model::{Body, CYCLE_STEPS, Schedule, Setting};

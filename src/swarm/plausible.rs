@@ -114,7 +114,7 @@ mod tests {
             let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
             let search = Search::new(&evolution, 2);
             let tasks: Vec<EvaluationTask> =
-                search.ask().iter().take(5).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
+                search.ask().iter().take(3).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
             let (simulator, protocol) = (Simulator::default(), EvaluationProtocol::of(&evolution));
             let alone = |task: &EvaluationTask| evaluate_tasks(&simulator, &protocol, std::slice::from_ref(task))[0];
             let together = evaluate_tasks(&simulator, &protocol, &tasks);

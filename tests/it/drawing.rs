@@ -67,7 +67,7 @@ fn every_picture_of_a_run_is_drawn() {
     let progress = svg(&bench, "out/tiny --as progress");
     assert!(texts(&progress).iter().any(|text| text == "coverage") && ids(&progress, "course-") == 2);
     let comparison = svg(&bench, "out/tiny --as comparison");
-    assert_eq!(ids(&comparison, "group-"), 4);
+    assert_eq!(ids(&comparison, "group-"), 8);
     let discovery = svg(&bench, "out/tiny --as discovery");
     assert_eq!(ids(&discovery, "discovery-"), 16);
     assert!(

@@ -17,7 +17,7 @@ use crate::swarm::{Assembly, LiveSwarm, Room};
 const FILE: &str = "circuits/counter.nb";
 const SOURCE: &str = include_str!("../../../circuits/counter.nb");
 /// The shortest measurement of a swarm.
-const PATIENCE: Duration = Duration::from_secs(2);
+const PATIENCE: Duration = Duration::from_secs(1);
 /// Cycles for which the inputs are held.
 const HOLD: usize = 8;
 /// Cycles for which the world has room.

@@ -30,6 +30,5 @@ pub(super) fn comparison(results: &EvolutionResults) -> Svg {
     let champions = results.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
     let groups = report::behavior_groups(&champions);
     let title = format!("{}: champions by group of behaviors", results.name);
-    let sides = report::compare_sides(&champions);
-    report::draw_comparison(&title, results.unit(), &groups, &report::compare_groups(&groups), sides)
+    report::draw_comparison(&title, results.unit(), &groups, &report::compare_groups(&groups))
 }

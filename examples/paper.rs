@@ -1,0 +1,207 @@
+//! Prints the tables of docs/paper.md from the runs in `out/paper`:
+//!
+//!     cargo run --release --example paper
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+use nbc::evolve::{Champion, Elite};
+use nbc::model::Behavior;
+use nbc::report::{self, BehaviorGroup, GroupComparison, History, SeedRun};
+use nbc::store::Checkpoint;
+use serde::Deserialize;
+
+type Fallible<T> = Result<T, Box<dyn Error>>;
+
+/// The run of one seed.
+struct Run {
+    results: SeedRun,
+    end: End,
+}
+
+/// Fields of the last line of a run's `progress.jsonl`.
+#[derive(Deserialize)]
+struct End {
+    evaluations: usize,
+}
+
+/// The published robots.
+#[derive(Deserialize)]
+struct Published {
+    robots: Vec<PublishedRobot>,
+}
+
+#[derive(Deserialize)]
+struct PublishedRobot {
+    behavior: Behavior,
+    /// The least distance of the four simulations under a constant pattern, in voxels: the paper's second fitness.
+    min_displacement: f64,
+    body: Vec<String>,
+}
+
+fn main() -> Fallible<()> {
+    let boxes = [5, 7, 10];
+    let runs: Vec<BTreeMap<u64, Run>> =
+        boxes.iter().map(|side| read(&format!("paper{side}"))).collect::<Fallible<_>>()?;
+    let code = read("code5")?;
+    print_runs(&[("5x5", &runs[0]), ("7x7", &runs[1]), ("10x10", &runs[2]), ("5x5, as: code", &code)]);
+    print_least_distances(&runs);
+    print_published(&boxes, &runs)?;
+    print_difficulties(&runs);
+    print_rules(&runs[0], &code);
+    Ok(())
+}
+
+/// The runs of a declaration, by seed.
+fn read(name: &str) -> Fallible<BTreeMap<u64, Run>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("out/paper").join(name);
+    let Ok(seeds) = std::fs::read_dir(folder) else { return Ok(BTreeMap::new()) };
+    let folders: Vec<PathBuf> = seeds.map(|seed| Ok(seed?.path())).collect::<Result<_, std::io::Error>>()?;
+    let mut runs = BTreeMap::new();
+    for folder in folders {
+        let checkpoint = Checkpoint::open(&folder.join("checkpoint.nbc")).map_err(|fault| fault.message)?;
+        let Some(checkpoint) = checkpoint else { continue };
+        let text = std::fs::read_to_string(folder.join("progress.jsonl"))?;
+        let end = serde_json::from_str(text.lines().last().unwrap_or_default())?;
+        let progress = History::read(&text, checkpoint.state.generation).lines().collect();
+        let results = SeedRun { niches: checkpoint.state.niches, progress };
+        runs.insert(checkpoint.state.seed, Run { results, end });
+    }
+    Ok(runs)
+}
+
+/// What the runs of each declaration found.
+fn print_runs(declarations: &[(&str, &BTreeMap<u64, Run>)]) {
+    println!("| box | seeds | bodies evaluated | all 16 behaviors after | niches filled | QD-score |");
+    println!("|---|---|---|---|---|---|");
+    for (name, runs) in declarations {
+        let of = |value: &dyn Fn(&Run) -> f64| Spread::of(runs.values().map(value));
+        let whole = |run: &Run| {
+            let found = run.results.progress.iter().find(|line| line.behaviors.len() == 16);
+            found.map_or(f64::INFINITY, |line| f64::from(line.generation))
+        };
+        let last = |run: &Run| run.results.progress.last().cloned();
+        println!(
+            "| {name} | {} | {:.0} | {:.0} | {:.1} % | {:.0} |",
+            runs.len(),
+            of(&|run| run.end.evaluations as f64),
+            of(&whole),
+            of(&|run| last(run).map_or(0.0, |line| 100.0 * line.coverage)),
+            of(&|run| last(run).map_or(0.0, |line| line.qd_score)),
+        );
+    }
+}
+
+/// The largest second fitness of each seed, by behavior.
+fn print_least_distances(boxes: &[BTreeMap<u64, Run>]) {
+    println!("\n| behavior | 5x5 | 7x7 | 10x10 |\n|---|---|---|---|");
+    for behavior in Behavior::all() {
+        print!("| {behavior}");
+        boxes.iter().for_each(|runs| print!(" | {:.2}", least_distances(runs, behavior)));
+        println!(" |");
+    }
+}
+
+/// The published robots beside ours, by the second fitness.
+fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>]) -> Fallible<()> {
+    let published: Published = serde_json::from_str(include_str!("../tests/golden/paper_robots.json"))?;
+    println!("\n| behavior | box | published | best run | median run |\n|---|---|---|---|---|");
+    for PublishedRobot { behavior, min_displacement, body } in published.robots {
+        let Some(place) = boxes.iter().position(|&side| side == body.len()) else { continue };
+        let Spread { median, most, .. } = least_distances(&runs[place], behavior);
+        println!("| {behavior} | {0}x{0} | {min_displacement:.2} | {most:.2} | {median:.2} |", body.len());
+    }
+    Ok(())
+}
+
+/// The paper's order of difficulty: a value for each run is the mean of its groups. The last line compares the robots
+/// that follow the first stimulus with those that follow the second.
+fn print_difficulties(boxes: &[BTreeMap<u64, Run>]) {
+    println!("\n| compared | 5x5 | 7x7 | 10x10 |\n|---|---|---|---|");
+    let compared: Vec<Vec<GroupComparison>> = boxes
+        .iter()
+        .map(|runs| {
+            let eight = groups(runs);
+            let sides = [1, 2].map(|place| eight[place].clone());
+            let next = |pair: &GroupComparison| pair.groups[1] == pair.groups[0] + 1;
+            let order = report::compare_groups(&by_difficulty(&eight)).into_iter().filter(next);
+            order.chain(report::compare_groups(&sides)).collect()
+        })
+        .collect();
+    let names = ["no stimulus, one", "one, both", "both, XOR and XNOR", "first stimulus, second"];
+    for (line, name) in names.iter().enumerate() {
+        print!("| {name}");
+        for pairs in &compared {
+            pairs.get(line).iter().for_each(|pair| print!(" | {:.5} ({:.2})", pair.p_adjusted, pair.a12));
+        }
+        println!(" |");
+    }
+}
+
+/// The groups of a difficulty as one, if each run found all of them.
+fn by_difficulty(groups: &[BehaviorGroup]) -> Vec<BehaviorGroup> {
+    let same = groups.chunk_by(|a, b| a.difficulty == b.difficulty);
+    same.map(|groups| {
+        let mean = |run: usize| groups.iter().map(|group| group.values[run]).sum::<f64>() / groups.len() as f64;
+        BehaviorGroup { values: (0..groups[0].values.len()).map(mean).collect(), ..groups[0].clone() }
+    })
+    .collect()
+}
+
+/// The groups of behaviors of several runs.
+fn groups(runs: &BTreeMap<u64, Run>) -> Vec<BehaviorGroup> {
+    let champions: BTreeMap<u64, Vec<Champion>> =
+        runs.iter().map(|(&seed, run)| (seed, run.results.champions())).collect();
+    report::behavior_groups(&champions)
+}
+
+/// The groups of behaviors by the rules of the paper's text and by those of its code.
+fn print_rules(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
+    println!("\n| group | text | code | p | A12 |\n|---|---|---|---|---|");
+    for pair in groups(text).into_iter().zip(groups(code)).map(<[BehaviorGroup; 2]>::from) {
+        let [ours, theirs] = [&pair[0], &pair[1]].map(|group| Spread::of(group.values.iter().copied()).median);
+        for comparison in report::compare_groups(&pair) {
+            println!("| {} | {ours:.1} | {theirs:.1} | {:.2} | {:.2} |", pair[0].name, comparison.p, comparison.a12);
+        }
+    }
+}
+
+/// The largest second fitness of each seed's robots with a behavior, in voxels.
+fn least_distances(runs: &BTreeMap<u64, Run>, behavior: Behavior) -> Spread {
+    let elites =
+        |run: &Run| -> Vec<Elite> { run.results.niches.iter().flat_map(|(_, elites)| elites.clone()).collect() };
+    let best = |run: &Run| {
+        let own = elites(run).into_iter().filter(|elite| elite.behavior == behavior);
+        own.map(|elite| elite.fitness[1]).max_by(f64::total_cmp)
+    };
+    Spread::of(runs.values().filter_map(best))
+}
+
+/// The least value of several runs, their median and the largest.
+struct Spread {
+    least: f64,
+    median: f64,
+    most: f64,
+}
+
+impl Spread {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let mut values: Vec<f64> = values.collect();
+        values.sort_by(f64::total_cmp);
+        let [Some(&least), Some(&most)] = [values.first(), values.last()] else {
+            return Self { least: f64::NAN, median: f64::NAN, most: f64::NAN };
+        };
+        let median = (values[(values.len() - 1) / 2] + values[values.len() / 2]) / 2.0;
+        Self { least, median, most }
+    }
+}
+
+/// As `median (least to most)`.
+impl std::fmt::Display for Spread {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let digits = f.precision().unwrap_or(2);
+        let Self { least, median, most } = self;
+        write!(f, "{median:.digits$} ({least:.digits$} to {most:.digits$})")
+    }
+}
