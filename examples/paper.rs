@@ -162,7 +162,7 @@ fn print_rules(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
     for pair in groups(text).into_iter().zip(groups(code)).map(<[BehaviorGroup; 2]>::from) {
         let [ours, theirs] = [&pair[0], &pair[1]].map(|group| Spread::of(group.values.iter().copied()).median);
         for comparison in report::compare_groups(&pair) {
-            println!("| {} | {ours:.1} | {theirs:.1} | {:.2} | {:.2} |", pair[0].name, comparison.p, comparison.a12);
+            println!("| {} | {ours:.1} | {theirs:.1} | {:.5} | {:.2} |", pair[0].name, comparison.p, comparison.a12);
         }
     }
 }
@@ -201,7 +201,7 @@ impl Spread {
 impl std::fmt::Display for Spread {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let digits = f.precision().unwrap_or(2);
-        let Self { least, median, most } = self;
-        write!(f, "{median:.digits$} ({least:.digits$} to {most:.digits$})")
+        let number = |value: f64| if value.is_finite() { format!("{value:.digits$}") } else { "never".to_owned() };
+        write!(f, "{} ({} to {})", number(self.median), number(self.least), number(self.most))
     }
 }
