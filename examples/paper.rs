@@ -139,7 +139,7 @@ fn print_difficulties(boxes: &[BTreeMap<u64, Run>]) {
     }
 }
 
-/// The groups of a difficulty as one, if each run found all of them.
+/// The groups of a difficulty as one. Each run must have found all of them.
 fn by_difficulty(groups: &[BehaviorGroup]) -> Vec<BehaviorGroup> {
     let same = groups.chunk_by(|a, b| a.difficulty == b.difficulty);
     same.map(|groups| {
