@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use nbc::evolve::{Champion, Elite};
+use nbc::evolve::Champion;
 use nbc::model::Behavior;
 use nbc::report::{self, BehaviorGroup, GroupComparison, History, SeedRun};
 use nbc::store::Checkpoint;
@@ -169,11 +169,9 @@ fn print_rules(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
 
 /// The largest second fitness of each seed's robots with a behavior, in voxels.
 fn least_distances(runs: &BTreeMap<u64, Run>, behavior: Behavior) -> Spread {
-    let elites =
-        |run: &Run| -> Vec<Elite> { run.results.niches.iter().flat_map(|(_, elites)| elites.clone()).collect() };
     let best = |run: &Run| {
-        let own = elites(run).into_iter().filter(|elite| elite.behavior == behavior);
-        own.map(|elite| elite.fitness[1]).max_by(f64::total_cmp)
+        let elites = run.results.niches.iter().flat_map(|(_, elites)| elites);
+        elites.filter(|elite| elite.behavior == behavior).map(|elite| elite.fitness[1]).max_by(f64::total_cmp)
     };
     Spread::of(runs.values().filter_map(best))
 }
