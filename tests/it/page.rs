@@ -217,9 +217,9 @@ const niches = [...document.querySelectorAll("button.niche")], last = niches[nic
 const stage = document.querySelector(".stage");
 last.click();
 const elite = archive.data.elites[Number(last.dataset.elite)], shot = () => stage.toDataURL();
-const before = shot(), moved = () => shot() !== before;
+const before = shot(), moved = () => shot() !== before && archive.clock.time > 0;
 later(moved, () => {
-  const walked = moved() && archive.clock.time > 0, panel = document.querySelector(".robot").textContent;
+  const walked = moved(), panel = document.querySelector(".robot").textContent;
   niches[0].focus(); niches[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
   const stepped = document.activeElement === niches[1], maps = document.querySelectorAll(".map").length;
   const axis = document.querySelectorAll(".axis")[1]; axis.value = "2"; axis.dispatchEvent(new Event("change"));
