@@ -1,7 +1,11 @@
 //! The HTML report: its contents, and its scripts in a real browser if there is one.
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use nbc::model::{Base, Body, Character, CircuitTest, Function, PhysicsWorld, Provenance, Robot, Stimulation, TestRow};
 use nbc::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
@@ -174,27 +178,22 @@ fn chromium() -> Option<PathBuf> {
     found
 }
 
-/// Runs headless Chromium on a file; returns its output.
-fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> String {
+/// Headless Chromium with a file.
+fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> Command {
     let profile = format!("--user-data-dir={}", folder.join("profile").display());
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", &profile])
-        .args(arguments)
-        .arg(format!("file://{}", file.display()))
-        .output()
-        .unwrap();
-    String::from_utf8_lossy(&output.stdout).into_owned()
+    let mut command = Command::new(browser);
+    command.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", &profile]);
+    command.args(arguments).arg(format!("file://{}", file.display()));
+    command
 }
 
 /// A reader's actions, as scripts before and after the page's own.
 const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => faults.push(e.message));\
     addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => \
     faults.push(String(m));\
-    const tell = found => { document.body.innerHTML = ''; const told = document.createElement('pre'); told.id = \
-    'found';\
-    told.textContent = JSON.stringify({ ...found, faults }); document.body.append(told); };\
+    const tell = found => console.log('found ' + JSON.stringify({ ...found, faults }));\
     const later = (ready, then) => { const started = performance.now(), wait = setInterval(() => {\
-    if (ready() || performance.now() - started > 20000) { clearInterval(wait); then(); } }, 100); };</script>";
+    if (ready() || performance.now() - started > 60000) { clearInterval(wait); then(); } }, 100); };</script>";
 const READER: &str = r#"<script>
 const player = players[0], section = document.getElementById("swarm-0");
 const shot = () => section.querySelector(".stage").toDataURL();
@@ -240,6 +239,28 @@ section.querySelector(".play").click();
 later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
 </script>"#;
 
+/// What the reader's script tells on the console. Frames come in real time only: a virtual clock runs ahead of them on a
+/// busy machine.
+fn told(mut command: Command) -> String {
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let log = BufReader::new(child.stderr.take().unwrap());
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || log.lines().map_while(Result::ok).try_for_each(|line| sender.send(line)));
+    let (started, mut said) = (Instant::now(), String::new());
+    let found = loop {
+        let left = Duration::from_secs(120).saturating_sub(started.elapsed());
+        let Ok(line) = receiver.recv_timeout(left) else { break None };
+        if let Some((_, found)) = line.split_once("\"found ") {
+            break found.rsplit_once("\", source: ").map(|(found, _)| found.to_owned());
+        }
+        said += &line;
+        said.push('\n');
+    };
+    let _ = child.kill();
+    let _ = child.wait();
+    found.unwrap_or_else(|| panic!("the reader's script did not end:\n{said}"))
+}
+
 /// The findings of the reader's script on a page in a window of this size.
 fn found(browser: &Path, page: &str, reader: &str, size: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
@@ -247,14 +268,9 @@ fn found(browser: &Path, page: &str, reader: &str, size: &str) -> Value {
         page.replace("<head>\n", &format!("<head>\n{WATCH}\n")).replace("</body>", &format!("{reader}\n</body>"));
     let file = folder.path().join("watched.html");
     std::fs::write(&file, watched).unwrap();
-    let arguments = [size, "--virtual-time-budget=30000", "--run-all-compositor-stages-before-draw", "--dump-dom"];
-    let dom = browse(browser, folder.path(), &arguments, &file);
-    let start = dom
-        .find("<pre id=\"found\">")
-        .unwrap_or_else(|| panic!("the reader's script ended:\n{}", &dom[..dom.len().min(2000)]));
-    let text = &dom[start + 16..start + dom[start..].find("</pre>").unwrap()];
-    let found: Value =
-        serde_json::from_str(&text.replace("&amp;", "&").replace("&gt;", ">").replace("&lt;", "<")).unwrap();
+    // With its debugger the browser stays, and its console goes to standard error.
+    let arguments = [size, "--remote-debugging-port=0", "--enable-logging=stderr"];
+    let found: Value = serde_json::from_str(&told(browse(browser, folder.path(), &arguments, &file))).unwrap();
     assert_eq!(found["faults"], serde_json::json!([]), "{found}");
     assert_eq!(found["wide"], true, "nothing sticks out of the page: {found}");
     found
@@ -267,8 +283,8 @@ fn keep(browser: &Path, name: &str, page: &str, size: (u32, u32), look: &str) {
     std::fs::write(&file, page).unwrap();
     let (to, window) = (format!("--screenshot={}", picture.display()), format!("--window-size={},{}", size.0, size.1));
     let folder = tempfile::tempdir().unwrap();
-    browse(browser, folder.path(), &[&window, look, "--virtual-time-budget=1000", &to], &file);
-    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&picture).unwrap()));
+    browse(browser, folder.path(), &[&window, look, "--virtual-time-budget=1000", &to], &file).output().unwrap();
+    let decoder = png::Decoder::new(BufReader::new(std::fs::File::open(&picture).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
