@@ -239,8 +239,8 @@ section.querySelector(".play").click();
 later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
 </script>"#;
 
-/// What the reader's script tells on the console. Frames come in real time only: a virtual clock runs ahead of them on a
-/// busy machine.
+/// What the reader's script tells on the console. Frames come in real time only: a virtual clock runs ahead of them on
+/// a busy machine.
 fn told(mut command: Command) -> String {
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let log = BufReader::new(child.stderr.take().unwrap());
