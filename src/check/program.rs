@@ -210,6 +210,8 @@ impl<'a> Assembly<'a> {
             };
             checked[place] = evolution(source, home, &known, &mut self.faults);
         }
+        let own = sources.iter().filter(|(home, _)| *home == Home::Own);
+        self.program.own_evolutions = own.map(|(_, source)| source.name.text.clone()).collect();
         self.program.evolutions.extend(checked.into_iter().filter_map(|state| match state {
             CheckState::Sound(evolution) => Some(*evolution),
             _ => None,

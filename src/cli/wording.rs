@@ -268,8 +268,8 @@ pub(in crate::cli) enum SubjectError {
     NothingToRun { file: String },
     /// A test or simulation that the file does not have.
     UnknownRun { file: String, name: String, known: Vec<String> },
-    /// A file without evolutions.
-    NoEvolution { file: String },
+    /// A file without evolutions of its own.
+    NoEvolution { file: String, known: Vec<String> },
     /// An evolution that the file does not have.
     UnknownEvolution { name: String, known: Vec<String> },
     /// A folder that another process writes.
@@ -304,8 +304,10 @@ impl From<SubjectError> for Diagnostic {
                 let message = format!("no test and no simulation of `{file}` is called `{name}`");
                 fault(Code::Unknown, message).with_help(format!("there are {}", alternatives(&known, "and")))
             }
-            SubjectError::NoEvolution { file } => fault(Code::Unknown, format!("`{file}` declares no evolution"))
-                .with_help("without a file, the prelude's `gates` is run"),
+            SubjectError::NoEvolution { file, known } => {
+                fault(Code::Unknown, format!("`{file}` declares no evolution"))
+                    .with_help(format!("run one that it uses with `--run`: {}", alternatives(&known, "or")))
+            }
             SubjectError::UnknownEvolution { name, known } => {
                 fault(Code::Unknown, format!("no evolution is called `{name}`"))
                     .with_help(format!("there are {}", alternatives(&known, "and")))

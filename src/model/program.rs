@@ -14,6 +14,8 @@ pub struct Program {
     pub schedules: Vec<NamedSchedule>,
     /// The evolution runs.
     pub evolutions: Vec<Evolution>,
+    /// The names of the evolution runs of the file itself, not of files it uses.
+    pub own_evolutions: Vec<String>,
     pub circuits: Vec<Circuit>,
     pub libraries: Vec<LibrarySource>,
     pub swarms: Vec<Swarm>,

@@ -327,6 +327,23 @@ fn a_run_is_reported_as_text_and_as_json() {
 }
 
 #[test]
+fn a_file_runs_its_own_evolutions_and_others_by_name() {
+    let bench = bench();
+    bench.file("user.nb", "use \"runs.nb\"\n\nevolution strolls { from: walks, generations: 2 }\n");
+    bench.file("idle.nb", "use \"runs.nb\"\n");
+    let runs = |arguments: &[&str]| {
+        let json = bench.run(&[&["evolve", "--format", "json"], arguments].concat()).expect_json();
+        json["runs"].as_array().unwrap().iter().map(|run| run["run"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(runs(&["user.nb", "--out", "a"]), ["strolls"]);
+    assert_eq!(runs(&["user.nb", "--run", "walks", "--generations", "2", "--out", "b"]), ["walks"]);
+    let idle = bench.run(&["evolve", "idle.nb"]);
+    assert_eq!(idle.status, 2);
+    assert!(idle.err.contains("`idle.nb` declares no evolution"), "{}", idle.err);
+    assert!(idle.err.contains("run one that it uses with `--run`: `gates`, `walks` or `turns`"), "{}", idle.err);
+}
+
+#[test]
 fn several_runs_are_compared_as_text_and_as_json() {
     let bench = bench();
     bench.runs("three.nb", RUNS.replace("seed:        3", "seed:        1..3"));

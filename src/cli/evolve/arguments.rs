@@ -20,7 +20,7 @@ Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
 pub struct EvolveArguments {
     /// The file with the declarations; without it, `gates` of the prelude
     pub(super) file: Option<PathBuf>,
-    /// Run only the declaration with this name
+    /// Run only the declaration with this name, which may be in a file that the file uses
     #[arg(long, value_name = "NAME")]
     pub(super) run: Option<String>,
     /// Use this seed instead of the declared ones

@@ -192,27 +192,25 @@ impl EvolveArguments {
         context.log(&text);
     }
 
-    /// The evolutions of the file, or of the prelude without a file, or the one given by name.
+    /// The evolutions of the file itself, or of the prelude without a file, or the one given by name, which may be in a
+    /// file that it uses.
     fn chosen(&self) -> Result<Vec<Evolution>, Failure> {
-        let prelude = session::prelude().evolutions;
-        let Some(path) = &self.file else { return self.named(prelude.clone(), prelude) };
-        let checked = Session::new(DiskWorld).open(&path.to_string_lossy())?;
-        let all = checked.program.evolutions.clone();
-        let own: Vec<Evolution> = all.iter().filter(|evolution| !prelude.contains(evolution)).cloned().collect();
-        if own.is_empty() && self.run.is_none() {
-            return Err(SubjectError::NoEvolution { file: path.display().to_string() }.into());
+        let program = match &self.file {
+            None => session::prelude(),
+            Some(path) => Session::new(DiskWorld).open(&path.to_string_lossy())?.program.clone(),
+        };
+        let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
+        if let Some(name) = &self.run {
+            let found = program.evolution(name).cloned();
+            let unknown = || SubjectError::UnknownEvolution { name: name.clone(), known: known() };
+            return Ok(vec![found.ok_or_else(unknown)?]);
         }
-        self.named(own, all)
-    }
-
-    fn named(&self, usual: Vec<Evolution>, all: Vec<Evolution>) -> Result<Vec<Evolution>, Failure> {
-        let Some(name) = &self.run else { return Ok(usual) };
-        let names: Vec<String> = all.iter().map(|evolution| evolution.name.clone()).collect();
-        let found: Vec<Evolution> = all.into_iter().filter(|evolution| evolution.name == *name).collect();
-        if found.is_empty() {
-            return Err(SubjectError::UnknownEvolution { name: name.clone(), known: names }.into());
+        let Some(path) = &self.file else { return Ok(program.evolutions) };
+        if program.own_evolutions.is_empty() {
+            return Err(SubjectError::NoEvolution { file: path.display().to_string(), known: known() }.into());
         }
-        Ok(found)
+        let own = program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name));
+        Ok(own.cloned().collect())
     }
 }
 
