@@ -54,8 +54,7 @@ fn draw_panel(svg: &mut Svg, corner: (f64, f64), group: &Champions, changes: &[f
     svg.text((panel.right, panel.top - 7.0), group.behavior.function().name(), function);
     panel.x_axis(svg, 4);
     if first {
-        panel.y_axis(svg, 5);
-        panel.y_label(svg, "time (cycles)");
+        panel.y_axis(svg, 5, "time (cycles)");
     }
     for &cycle in changes {
         let y = panel.y.at(cycle);

@@ -128,28 +128,29 @@ impl Panel {
         }
     }
 
-    /// Ticks with their values left of the panel, and pale lines through it.
-    pub fn y_axis(&self, svg: &mut Svg, count: usize) {
+    /// Ticks with their values left of the panel, pale lines through it, and the title of the axis left of the values.
+    pub fn y_axis(&self, svg: &mut Svg, count: usize, label: &str) {
         let ticks = self.y.ticks(count);
+        let mut widest = 0;
         for &tick in &ticks {
+            let value = tick_label(tick, &ticks);
+            widest = widest.max(value.chars().count());
             let y = self.y.at(tick);
             svg.line((self.left, y), (self.right, y), Paint::stroke(Color::PALE, 0.6));
             svg.line((self.left - 4.0, y), (self.left, y), Paint::stroke(Color::GRAY, 1.0));
             let set = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::End);
-            svg.text((self.left - 7.0, y + 3.5), &tick_label(tick, &ticks), set);
+            svg.text((self.left - 7.0, y + 3.5), &value, set);
         }
+        // A digit is 6.4 pixels wide. Up to three leave room for a title at the usual place.
+        let beside = f64::max(34.0, 13.0 + 6.4 * widest as f64);
+        let set = Type::new(11.0).anchored(Anchor::Middle).upwards();
+        svg.text((self.left - beside, (self.top + self.bottom) / 2.0), label, set);
     }
 
     /// The title of the first axis, below its values.
     pub fn x_label(&self, svg: &mut Svg, label: &str) {
         let middle = (self.left + self.right) / 2.0;
         svg.text((middle, self.bottom + 31.0), label, Type::new(11.0).anchored(Anchor::Middle));
-    }
-
-    /// The title of the second axis, left of its values.
-    pub fn y_label(&self, svg: &mut Svg, label: &str) {
-        let middle = (self.top + self.bottom) / 2.0;
-        svg.text((self.left - 34.0, middle), label, Type::new(11.0).anchored(Anchor::Middle).upwards());
     }
 
     /// A title above the panel.

@@ -39,8 +39,7 @@ pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], compar
     svg.text((14.0, 28.0), title, Type::new(16.0).bold());
     let high = range_of(groups.iter().flat_map(|group| group.values.iter().copied()), 0.08).1;
     let panel = Panel::new((64.0, TOP), last * PITCH, HEIGHT, (0.0, last), (0.0, high));
-    panel.y_axis(&mut svg, 5);
-    panel.y_label(&mut svg, unit);
+    panel.y_axis(&mut svg, 5, unit);
     panel.frame(&mut svg);
     for (group, &slot) in groups.iter().zip(&slots) {
         svg.group(&format!("group-{}", group.name), group.name, |svg| draw_group(svg, &panel, group, slot));

@@ -34,11 +34,10 @@ pub fn draw_response(material: &Material) -> Option<Svg> {
         mark_present(&mut svg, &panel);
     }
     panel.x_axis(&mut svg, 6);
-    panel.y_axis(&mut svg, 4);
+    panel.y_axis(&mut svg, 4, "width");
     panel.frame(&mut svg);
     panel.title(&mut svg, &material.name);
     panel.x_label(&mut svg, "cycles");
-    panel.y_label(&mut svg, "width");
     let color = material.paper_code().map_or(Color::SERIES[0], |code| Scheme::default().color(code));
     panel.curve(&mut svg, samples, Paint::stroke(color, 2.0));
     Some(svg)

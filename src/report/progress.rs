@@ -33,8 +33,7 @@ pub fn draw_progress(title: &str, time: &str, courses: &[Course]) -> Svg {
 
 fn draw_course(svg: &mut Svg, panel: &Panel, course: &Course) {
     panel.x_axis(svg, 6);
-    panel.y_axis(svg, 4);
-    panel.y_label(svg, &course.unit);
+    panel.y_axis(svg, 4, &course.unit);
     panel.title(svg, &course.title);
     let times = times(&course.runs);
     if course.runs.len() > 1 {

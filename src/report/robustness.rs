@@ -89,9 +89,8 @@ pub fn draw_yields(title: &str, change: &str, curves: &[YieldCurve]) -> Svg {
     let most = curves.iter().flat_map(|curve| &curve.points).map(|point| point.0).fold(0.0, f64::max);
     let panel = Panel::new((64.0, 52.0), 550.0, 270.0, (0.0, most * 1.04), (0.0, 104.0));
     panel.x_axis(&mut svg, 8);
-    panel.y_axis(&mut svg, 5);
+    panel.y_axis(&mut svg, 5, "yield in % of the worlds");
     panel.x_label(&mut svg, change);
-    panel.y_label(&mut svg, "yield in % of the worlds");
     for (i, curve) in curves.iter().enumerate() {
         // Curves that agree lie beside each other.
         let aside = 3.0 * (i as f64 - (curves.len() as f64 - 1.0) / 2.0);

@@ -300,8 +300,7 @@ fn draw_row(svg: &mut Svg, row: &Row<'_>, top: f64, cycles: f64, height: f64) {
 /// The axis of time, left of the leftmost bits.
 fn draw_time_axis(svg: &mut Svg, panel: &Panel, strips: f64) {
     let outside = Panel { left: panel.left - strips, ..*panel };
-    outside.y_axis(svg, 8);
-    outside.y_label(svg, "time (cycles)");
+    outside.y_axis(svg, 8, "time (cycles)");
 }
 
 fn draw_track(svg: &mut Svg, track: &Track, panel: &Panel, changes: &[f64]) {
