@@ -1,4 +1,4 @@
-//! Prints the tables of docs/paper.md from the runs in `out/paper`:
+//! Prints the tables of docs/paper.md from the runs in `out/paper` and `out/long`:
 //!
 //!     cargo run --release --example paper
 
@@ -43,19 +43,22 @@ struct PublishedRobot {
 fn main() -> Fallible<()> {
     let boxes = [5, 7, 10];
     let runs: Vec<BTreeMap<u64, Run>> =
-        boxes.iter().map(|side| read(&format!("paper{side}"))).collect::<Fallible<_>>()?;
-    let code = read("code5")?;
-    print_runs(&[("5x5", &runs[0]), ("7x7", &runs[1]), ("10x10", &runs[2]), ("5x5, as: code", &code)]);
+        boxes.iter().map(|side| read(&format!("paper/paper{side}"))).collect::<Fallible<_>>()?;
+    let (long, code) = (read("long/paper5")?, read("paper/code5")?);
+    let [small, medium, large] = [&runs[0], &runs[1], &runs[2]];
+    let long_name = "5x5, 3,000 generations";
+    print_runs(&[("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long), ("5x5, as: code", &code)]);
     print_least_distances(&runs);
-    print_published(&boxes, &runs)?;
+    print_published(&boxes, &runs, &long)?;
     print_difficulties(&runs);
+    print_growth(&runs[0], &long);
     print_rules(&runs[0], &code);
     Ok(())
 }
 
-/// The runs of a declaration, by seed.
+/// The runs in a folder of `out`, by seed.
 fn read(name: &str) -> Fallible<BTreeMap<u64, Run>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("out/paper").join(name);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("out").join(name);
     let Ok(seeds) = std::fs::read_dir(folder) else { return Ok(BTreeMap::new()) };
     let folders: Vec<PathBuf> = seeds.map(|seed| Ok(seed?.path())).collect::<Result<_, std::io::Error>>()?;
     let mut runs = BTreeMap::new();
@@ -103,14 +106,15 @@ fn print_least_distances(boxes: &[BTreeMap<u64, Run>]) {
     }
 }
 
-/// The published robots beside ours, by the second fitness.
-fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>]) -> Fallible<()> {
+/// The published robots beside ours, by the second fitness. The long runs are of the first box.
+fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>], long: &BTreeMap<u64, Run>) -> Fallible<()> {
     let published: Published = serde_json::from_str(include_str!("../tests/golden/paper_robots.json"))?;
-    println!("\n| behavior | box | published | best run | median run |\n|---|---|---|---|---|");
+    println!("\n| behavior | box | published | best run | median run | best long run |\n|---|---|---|---|---|---|");
     for PublishedRobot { behavior, min_displacement, body } in published.robots {
         let Some(place) = boxes.iter().position(|&side| side == body.len()) else { continue };
         let Spread { median, most, .. } = least_distances(&runs[place], behavior);
-        println!("| {behavior} | {0}x{0} | {min_displacement:.2} | {most:.2} | {median:.2} |", body.len());
+        print!("| {behavior} | {0}x{0} | {min_displacement:.2} | {most:.2} | {median:.2} |", body.len());
+        if place == 0 { println!(" {:.2} |", least_distances(long, behavior).most) } else { println!(" |") }
     }
     Ok(())
 }
@@ -154,6 +158,23 @@ fn groups(runs: &BTreeMap<u64, Run>) -> Vec<BehaviorGroup> {
     let champions: BTreeMap<u64, Vec<Champion>> =
         runs.iter().map(|(&seed, run)| (seed, run.results.champions())).collect();
     report::behavior_groups(&champions)
+}
+
+/// What the long runs gain over the shorter ones of the same seeds: niches, and the mean distances by difficulty.
+fn print_growth(short: &BTreeMap<u64, Run>, long: &BTreeMap<u64, Run>) {
+    println!(
+        "\n| seed | generations | niches | no stimulus | one | both | XOR and XNOR |\n|---|---|---|---|---|---|---|"
+    );
+    for (seed, grown) in long {
+        for run in short.get(seed).into_iter().chain([grown]) {
+            let Some(last) = run.results.progress.last() else { continue };
+            print!("| {seed} | {} | {:.1} % |", last.generation, 100.0 * last.coverage);
+            let champions = BTreeMap::from([(*seed, run.results.champions())]);
+            let difficulties = by_difficulty(&report::behavior_groups(&champions));
+            difficulties.iter().for_each(|group| print!(" {:.1} |", group.values[0]));
+            println!();
+        }
+    }
 }
 
 /// The groups of behaviors by the rules of the paper's text and by those of its code.
