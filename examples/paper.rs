@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use nbc::evolve::Champion;
-use nbc::model::Behavior;
+use nbc::model::{Behavior, Direction, Pattern};
 use nbc::report::{self, BehaviorGroup, GroupComparison, History, SeedRun};
 use nbc::store::Checkpoint;
 use serde::Deserialize;
@@ -50,6 +50,7 @@ fn main() -> Fallible<()> {
     print_runs(&[("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long), ("5x5, as: code", &code)]);
     print_least_distances(&runs);
     print_published(&boxes, &runs, &long)?;
+    print_mirrors(&runs);
     print_difficulties(&runs);
     print_growth(&runs[0], &long);
     print_rules(&runs[0], &code);
@@ -119,6 +120,24 @@ fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>], long: &BTreeMap
     Ok(())
 }
 
+/// In each group, the behavior that starts to the left beside its mirror image.
+fn print_mirrors(boxes: &[BTreeMap<u64, Run>]) {
+    println!("\n| group | 5x5 | 7x7 | 10x10 |\n|---|---|---|---|");
+    let starting = |runs: &BTreeMap<u64, Run>, direction: Direction| {
+        groups(runs, |champion| champion.behavior.direction(Pattern::PAIRS[0]) == direction)
+    };
+    let sides = boxes.iter().map(|runs| [Direction::Left, Direction::Right].map(|side| starting(runs, side)));
+    let sides: Vec<[Vec<BehaviorGroup>; 2]> = sides.collect();
+    for place in 0..8 {
+        print!("| {}", sides[0][0][place].name);
+        for [left, right] in &sides {
+            let pair = report::compare_groups(&[left[place].clone(), right[place].clone()]);
+            pair.iter().for_each(|pair| print!(" | {:.2} ({:.2})", pair.p, pair.a12));
+        }
+        println!(" |");
+    }
+}
+
 /// The paper's order of difficulty: a value for each run is the mean of its groups. The last line compares the robots
 /// that follow the first stimulus with those that follow the second.
 fn print_difficulties(boxes: &[BTreeMap<u64, Run>]) {
@@ -126,7 +145,7 @@ fn print_difficulties(boxes: &[BTreeMap<u64, Run>]) {
     let compared: Vec<Vec<GroupComparison>> = boxes
         .iter()
         .map(|runs| {
-            let eight = groups(runs);
+            let eight = groups(runs, |_| true);
             let sides = [1, 2].map(|place| eight[place].clone());
             let next = |pair: &GroupComparison| pair.groups[1] == pair.groups[0] + 1;
             let order = report::compare_groups(&by_difficulty(&eight)).into_iter().filter(next);
@@ -153,10 +172,10 @@ fn by_difficulty(groups: &[BehaviorGroup]) -> Vec<BehaviorGroup> {
     .collect()
 }
 
-/// The groups of behaviors of several runs.
-fn groups(runs: &BTreeMap<u64, Run>) -> Vec<BehaviorGroup> {
-    let champions: BTreeMap<u64, Vec<Champion>> =
-        runs.iter().map(|(&seed, run)| (seed, run.results.champions())).collect();
+/// The groups of behaviors of several runs, of some of their champions.
+fn groups(runs: &BTreeMap<u64, Run>, chosen: impl Fn(&Champion) -> bool) -> Vec<BehaviorGroup> {
+    let champions = |run: &Run| run.results.champions().into_iter().filter(&chosen).collect();
+    let champions: BTreeMap<u64, Vec<Champion>> = runs.iter().map(|(&seed, run)| (seed, champions(run))).collect();
     report::behavior_groups(&champions)
 }
 
@@ -180,7 +199,8 @@ fn print_growth(short: &BTreeMap<u64, Run>, long: &BTreeMap<u64, Run>) {
 /// The groups of behaviors by the rules of the paper's text and by those of its code.
 fn print_rules(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
     println!("\n| group | text | code | p | A12 |\n|---|---|---|---|---|");
-    for pair in groups(text).into_iter().zip(groups(code)).map(<[BehaviorGroup; 2]>::from) {
+    let both = groups(text, |_| true).into_iter().zip(groups(code, |_| true));
+    for pair in both.map(<[BehaviorGroup; 2]>::from) {
         let [ours, theirs] = [&pair[0], &pair[1]].map(|group| Spread::of(group.values.iter().copied()).median);
         for comparison in report::compare_groups(&pair) {
             println!("| {} | {ours:.1} | {theirs:.1} | {:.5} | {:.2} |", pair[0].name, comparison.p, comparison.a12);
