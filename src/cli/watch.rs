@@ -41,11 +41,11 @@ fn stamp(path: &str) -> Option<(SystemTime, u64)> {
 }
 
 impl Stamps {
-    /// Adds the stamps of paths that have none.
-    fn add(&mut self, paths: impl IntoIterator<Item = String>) {
-        for path in paths {
-            self.0.entry(path).or_insert_with_key(|path| stamp(path));
-        }
+    /// Adds the stamps of paths that have none, and returns these paths.
+    fn add(&mut self, paths: impl IntoIterator<Item = String>) -> Vec<String> {
+        let new: Vec<_> = paths.into_iter().filter(|path| !self.0.contains_key(path)).collect();
+        self.0.extend(new.iter().map(|path| (path.clone(), stamp(path))));
+        new
     }
 
     /// The stamps that are different now.
@@ -73,8 +73,7 @@ impl WatchArguments {
         let mut stamps = Stamps::default();
         while !signal.is_raised() {
             context.clear()?;
-            let checked: Vec<_> = self.test.paths().map(|path| session.checked(&path)).collect();
-            stamps.add(self.test.paths().flat_map(|path| session.dependencies(&path)));
+            let checked = self.check(&mut session, &mut stamps);
             self.round(&session, &checked, (&stamps, &signal), context)?;
             context.flush()?;
             for path in wait(&mut stamps, &signal, context) {
@@ -84,7 +83,20 @@ impl WatchArguments {
         Ok(Status::Done)
     }
 
-    /// Checks once, and tests if there are no errors, until a file changes or a signal arrives.
+    /// Checks the programs. Only a check tells what they depend on, and a path may change before it has its stamp, so
+    /// what has a new stamp is read again.
+    fn check(&self, session: &mut Session, stamps: &mut Stamps) -> Vec<Arc<Checked>> {
+        loop {
+            let checked = self.test.paths().map(|path| session.checked(&path)).collect();
+            let new = stamps.add(self.test.paths().flat_map(|path| session.dependencies(&path)));
+            if new.is_empty() {
+                return checked;
+            }
+            new.iter().for_each(|path| session.close(path));
+        }
+    }
+
+    /// Prints the diagnostics, and tests if there are no errors, until a file changes or a signal arrives.
     fn round(
         &self,
         session: &Session,
@@ -125,17 +137,16 @@ impl WatchArguments {
 /// Waits for changes or a signal, and returns the paths that changed. A file may be written in parts, so the changes
 /// end with a pause in which nothing changes.
 fn wait(stamps: &mut Stamps, signal: &Interrupt, context: &Context) -> BTreeSet<String> {
+    if !signal.is_raised() {
+        context.log(&format!("watching {}; Ctrl-C ends\n", counted(stamps.0.len(), "path")));
+    }
     let mut changed = BTreeSet::new();
-    let mut is_told = false;
     while !signal.is_raised() {
         let now = stamps.renew();
         if now.is_empty() && !changed.is_empty() {
             break;
         }
         changed.extend(now);
-        if changed.is_empty() && !std::mem::replace(&mut is_told, true) {
-            context.log(&format!("watching {}; Ctrl-C ends\n", counted(stamps.0.len(), "path")));
-        }
         thread::sleep(PAUSE);
     }
     changed
