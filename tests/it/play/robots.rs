@@ -74,7 +74,7 @@ fn an_archive_fills_from_a_body_the_same_way_each_time() {
         archives.push(niches);
     }
     assert_eq!(archives[0], archives[1]);
-    let endless = json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
+    let endless = json!({ "do": "evolve", "body": null, "box": [3, 2], "generations": 1000, "seed": 1 });
     let id = page.begin(endless);
     page.event(|event| event["event"] == "archive");
     page.done(json!({ "do": "cancel", "of": id }));
@@ -86,12 +86,12 @@ fn a_body_of_the_archive_is_of_the_same_kind_in_the_designer() {
     let folder = tempfile::tempdir().unwrap();
     let server = Server::start(folder.path(), &[]);
     let mut page = server.page();
-    page.done(json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 2, "seed": 1 }));
-    for generation in 1..=2 {
-        let archive = page.event(|event| event["event"] == "archive" && event["generation"] == generation);
-        for niche in archive["niches"].as_array().unwrap() {
-            let probe = json!({ "do": "probe", "body": niche["body"], "cycles": 1, "character": false });
-            assert_eq!(page.done(probe)["letters"], niche["letters"], "{niche}");
-        }
+    page.done(json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 1, "seed": 1 }));
+    let archive = page.event(|event| event["event"] == "archive" && event["generation"] == 1);
+    let niches = archive["niches"].as_array().unwrap();
+    assert!(!niches.is_empty());
+    for niche in niches {
+        let probe = json!({ "do": "probe", "body": niche["body"], "cycles": 1, "character": false });
+        assert_eq!(page.done(probe)["letters"], niche["letters"], "{niche}");
     }
 }
