@@ -221,27 +221,40 @@ fn wrong_changes_are_explained() {
     assert_eq!(bench.run(&["test", "a.nb", "--logic", "--vary", "all=1%"]).status, 2);
 }
 
-#[test]
-fn a_robot_has_a_radius_and_its_file_keeps_it() {
+/// A folder with the NAND of the library.
+fn bench_with_a_gate() -> Bench {
     let bench = Bench::new();
     let text = std::fs::read_to_string(crate::language::root().join("library/robots/nand_5x5.yaml")).unwrap();
     bench.file("nand.yaml", &text);
-    let radius = |changes: &str, more: &[&str]| {
-        let command = ["library", "verify", "nand.yaml", "--worlds", "1", "--vary", changes];
-        let ran = bench.run(&[&command, more, &["--format", "json"]].concat());
-        (ran.status, validate("radii", &ran.out)["robots"][0]["radius"].as_f64().unwrap())
-    };
-    assert_eq!(radius("gravity=0.001%", &[]), (0, 4.0));
-    let (status, least) = radius("dead=100%", &["--write"]);
+    bench
+}
+
+/// The exit status and the radius that `nbc library verify` tells.
+fn radius(bench: &Bench, changes: &str, more: &[&str]) -> (i32, f64) {
+    let command = ["library", "verify", "nand.yaml", "--worlds", "1", "--vary", changes];
+    let ran = bench.run(&[&command, more, &["--format", "json"]].concat());
+    (ran.status, validate("radii", &ran.out)["robots"][0]["radius"].as_f64().unwrap())
+}
+
+#[test]
+fn a_change_without_effect_has_the_largest_radius() {
+    let bench = bench_with_a_gate();
+    assert_eq!(radius(&bench, "gravity=0.001%", &[]), (0, 4.0));
+}
+
+#[test]
+fn a_robot_has_a_radius_and_its_file_keeps_it() {
+    let bench = bench_with_a_gate();
+    let (status, least) = radius(&bench, "dead=100%", &["--write"]);
     assert!(status == 0 && least < 4.0);
     let file = bench.path().join("nand.yaml");
     let written = std::fs::read_to_string(&file).unwrap();
     assert!(written.contains("vary: 'dead=100%'"), "{written}");
-    assert_eq!(radius("dead=100%", &[]), (0, least));
+    assert_eq!(radius(&bench, "dead=100%", &[]), (0, least));
     let show = bench.run(&["library", "rewrite", "nand.yaml"]);
     assert_eq!((show.status, std::fs::read_to_string(&file).unwrap()), (0, written.clone()));
     bench.file("nand.yaml", written.replace(&format!("radius: {least:?}"), "radius: 77.0"));
-    assert_eq!(radius("dead=100%", &[]), (1, least), "the file says something else");
+    assert_eq!(radius(&bench, "dead=100%", &[]), (1, least), "the file says something else");
     bench.file("nand.yaml", written.replace("vary: 'dead=100%'", "vary: 'daed=100%'"));
     assert_eq!(bench.run(&["library", "rewrite", "nand.yaml"]).status, 2);
 }
