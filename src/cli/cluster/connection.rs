@@ -1,14 +1,16 @@
 //! A connection to a NATS server, for code that is not asynchronous.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use async_nats::jetstream::consumer::{AckPolicy, PullConsumer, pull};
+use async_nats::jetstream::context::{CreateStreamError, CreateStreamErrorKind};
 use async_nats::jetstream::stream::{RetentionPolicy, StorageType, Stream};
-use async_nats::jetstream::{self, stream};
+use async_nats::jetstream::{self, ErrorCode, stream};
 use async_nats::{ConnectOptions, ServerAddr};
 use clap::Args;
 use percent_encoding::percent_decode_str;
 use tokio::runtime::{Builder, EnterGuard, Runtime};
+use tokio::time;
 
 use crate::cli::Failure;
 use crate::cli::cluster::message::{MOST_BYTES, TaskKey, VERSION};
@@ -25,6 +27,8 @@ const MOST_AGE: Duration = Duration::from_secs(60 * 60);
 pub const PATIENCE: Duration = Duration::from_secs(5);
 /// That time when a program opens the queue: there is no second attempt, and a busy disk takes long to make a stream.
 const OPENING: Duration = Duration::from_secs(30);
+/// The time between attempts while another program makes the stream.
+const PAUSE: Duration = Duration::from_millis(50);
 /// The most tasks in the hands of workers.
 const MOST_TAKEN: i64 = 1_000_000;
 
@@ -105,7 +109,14 @@ impl Connection {
             max_message_size: MOST_BYTES as i32,
             ..stream::Config::default()
         };
-        jetstream.get_or_create_stream(config).await.map_err(|error| error.to_string())
+        let end = Instant::now() + PATIENCE;
+        loop {
+            match jetstream.get_or_create_stream(config.clone()).await {
+                // While another program makes it, the server may say that its subjects are taken.
+                Err(error) if has_overlap(&error) && Instant::now() < end => time::sleep(PAUSE).await,
+                stream => return stream.map_err(|error| error.to_string()),
+            }
+        }
     }
 
     /// The queue of the tasks for one kind of physics, which is made if there is none.
@@ -142,6 +153,12 @@ impl Connection {
     pub fn no_queue(&self, reason: String) -> Failure {
         ClusterError::JetStream { server: self.server.clone(), reason }.into()
     }
+}
+
+/// Whether a stream cannot be made because another one has its subjects.
+fn has_overlap(error: &CreateStreamError) -> bool {
+    let CreateStreamErrorKind::JetStream(error) = error.kind() else { return false };
+    error.error_code() == ErrorCode::STREAM_SUBJECT_OVERLAP
 }
 
 /// The subject of a task of a search, for workers of some physics.

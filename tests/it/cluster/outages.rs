@@ -1,4 +1,4 @@
-//! Networks that are cut and disks that are full.
+//! Networks that are cut, disks that are full, and subjects that are taken.
 
 use std::fs;
 use std::path::Path;
@@ -143,4 +143,17 @@ fn a_server_whose_disk_is_full_is_named_and_the_search_continues_when_there_is_r
     server.restart();
     assert_same(&bench, &search.end());
     good.kill();
+}
+
+#[test]
+fn a_queue_is_opened_as_soon_as_its_subjects_are_free() {
+    let Some(server) = Server::start(&[]) else { return };
+    let (bench, mut wire) = (bench(), Wire::open(&server));
+    // What a program is told while another one makes the queue.
+    wire.request("$JS.API.STREAM.CREATE.other", r#"{"name":"other","subjects":["nbc.v1.task.>"]}"#);
+    wire.subscribe("$JS.API.STREAM.CREATE.>");
+    let worker = worker(&bench, &server, "early");
+    (0..2).for_each(|_| _ = wire.wait_for(|message| message.subject.ends_with(".nbc-tasks")));
+    wire.request("$JS.API.STREAM.DELETE.other", "");
+    worker.wait_for("worker `early`: 1 thread");
 }

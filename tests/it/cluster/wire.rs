@@ -2,8 +2,9 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use crate::cluster::PATIENCE;
 use crate::cluster::server::Server;
 
 /// A connection that receives every message of the program.
@@ -44,14 +45,31 @@ impl Wire {
         line.trim_end().to_owned()
     }
 
+    /// Receives the messages of further subjects.
+    pub fn subscribe(&mut self, subjects: &str) {
+        self.say(format!("SUB {subjects} 2\r\nPING\r\n").as_bytes());
+        while self.line() != "PONG" {}
+    }
+
+    /// Asks the server itself and waits for its answer, which is not an error.
+    pub fn request(&mut self, subject: &str, payload: &str) {
+        let reply = "nbc.v1.reply.wire";
+        self.say(format!("PUB {subject} {reply} {}\r\n{payload}\r\n", payload.len()).as_bytes());
+        let answer = String::from_utf8(self.wait_for(|message| message.subject == reply).payload).unwrap();
+        assert!(!answer.contains("error"), "{answer}");
+    }
+
     pub fn publish(&mut self, subject: &str, payload: &[u8]) {
         let head = format!("PUB {subject} {}\r\n", payload.len());
         self.say(&[head.as_bytes(), payload, b"\r\n"].concat());
     }
 
     /// The next message that is wanted.
+    #[track_caller]
     pub fn wait_for(&mut self, wanted: impl Fn(&Seen) -> bool) -> Seen {
+        let end = Instant::now() + PATIENCE;
         loop {
+            assert!(Instant::now() < end, "the message does not come");
             let line = self.line();
             if line == "PING" {
                 self.say(b"PONG\r\n");
