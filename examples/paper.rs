@@ -52,8 +52,8 @@ fn main() -> Fallible<()> {
     print_published(&boxes, &runs, &long)?;
     print_mirrors(&runs);
     print_difficulties(&runs);
-    print_growth(&runs[0], &long);
-    print_rules(&runs[0], &code);
+    print_growth(small, &long);
+    print_rules(small, &code);
     Ok(())
 }
 

@@ -141,7 +141,7 @@ impl Panel {
             let set = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::End);
             svg.text((self.left - 7.0, y + 3.5), &value, set);
         }
-        // A digit is 6.4 pixels wide. Up to three leave room for a title at the usual place.
+        // A digit of DejaVu Sans in this size is 6.4 pixels wide. Three leave room for the title at its usual place.
         let beside = f64::max(34.0, 13.0 + 6.4 * widest as f64);
         let set = Type::new(11.0).anchored(Anchor::Middle).upwards();
         svg.text((self.left - beside, (self.top + self.bottom) / 2.0), label, set);

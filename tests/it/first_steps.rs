@@ -141,7 +141,7 @@ fn watch_checks_and_tests_again_when_a_file_or_one_that_it_uses_is_saved() {
     bench.file("used.nb", FINE);
     bench.file("a.nb", "use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\ntest g {\n    a | q\n    0 | 1\n}\n");
     let mut watch = Running::start(bench.command(&["watch", "a.nb", "--logic"]));
-    // A slow machine may stop between the two halves of a write in place for longer than the program waits.
+    // Saved in one step: a slow machine may pause within a write for longer than the program waits.
     let save = |name, text: &str| std::fs::rename(bench.file("new", text), bench.path().join(name)).unwrap();
     watch.expect("a.nb: no errors");
     watch.expect("pass  g (1 row, logic)");

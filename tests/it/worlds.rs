@@ -237,7 +237,7 @@ fn radius(bench: &Bench, changes: &str, more: &[&str]) -> (i32, f64) {
 }
 
 #[test]
-fn a_change_without_effect_has_the_largest_radius() {
+fn a_tiny_change_has_the_largest_radius() {
     let bench = bench_with_a_gate();
     assert_eq!(radius(&bench, "gravity=0.001%", &[]), (0, 4.0));
 }

@@ -30,8 +30,8 @@ impl Wire {
         let stream = TcpStream::connect(("127.0.0.1", server.port())).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
         let mut wire = Self { reader: BufReader::new(stream) };
-        wire.say(b"CONNECT {\"verbose\":false,\"pedantic\":false}\r\nSUB nbc.v1.> 1\r\nPING\r\n");
-        while wire.line() != "PONG" {}
+        wire.say(b"CONNECT {\"verbose\":false,\"pedantic\":false}\r\n");
+        wire.subscribe("nbc.v1.>");
         wire
     }
 
@@ -45,20 +45,21 @@ impl Wire {
         line.trim_end().to_owned()
     }
 
-    /// Receives the messages of further subjects.
+    /// Receives the messages of further subjects. The subscription is called by its subjects.
     pub fn subscribe(&mut self, subjects: &str) {
-        self.say(format!("SUB {subjects} 2\r\nPING\r\n").as_bytes());
+        self.say(format!("SUB {subjects} {subjects}\r\nPING\r\n").as_bytes());
         while self.line() != "PONG" {}
     }
 
     /// Asks the server itself and waits for its answer, which is not an error.
     pub fn request(&mut self, subject: &str, payload: &str) {
         let reply = "nbc.v1.reply.wire";
-        self.say(format!("PUB {subject} {reply} {}\r\n{payload}\r\n", payload.len()).as_bytes());
+        self.publish(&format!("{subject} {reply}"), payload.as_bytes());
         let answer = String::from_utf8(self.wait_for(|message| message.subject == reply).payload).unwrap();
         assert!(!answer.contains("error"), "{answer}");
     }
 
+    /// Sends a message. The subject for an answer may follow the subject.
     pub fn publish(&mut self, subject: &str, payload: &[u8]) {
         let head = format!("PUB {subject} {}\r\n", payload.len());
         self.say(&[head.as_bytes(), payload, b"\r\n"].concat());
