@@ -108,6 +108,12 @@ pub use diag::{Diagnostic, Severity};
 pub use diag::Diagnostics;
 
 /// ```
+/// assert_eq!(nbc::nearest("nnad", ["and", "nand", "or"]), Some("nand"));
+/// assert_eq!(nbc::nearest("register", ["and", "nand", "or"]), None);
+/// ```
+pub use diag::suggest::nearest;
+
+/// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 /// # session.update("run.nb", 1, "evolution mine { from: gates }");
 /// let checked = session.open("run.nb")?;

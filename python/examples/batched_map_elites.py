@@ -18,7 +18,7 @@ import nbc
 
 SIDE, BATCH = 4, 64
 GENERATIONS = 2 if os.environ.get("NBC_EXAMPLE") == "short" else 100
-RUN = nbc.Evolution(box=(SIDE, SIDE), fixed="4 cycles", descriptors=["active in 8 bins", "behavior"])
+RUN = nbc.Evolution(shape=(SIDE, SIDE), fixed="4 cycles", descriptors=["active in 8 bins", "behavior"])
 
 Bodies = npt.NDArray[np.uint8]
 Scores = Tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], Dict[str, npt.NDArray[np.float64]]]

@@ -46,7 +46,7 @@ def evaluate(bodies: npt.NDArray[np.uint8], run: nbc.Evolution) -> tuple[npt.NDA
 
 def main() -> None:
     """Evolves, and prints how far each behavior of the archive walks."""
-    run = nbc.Evolution(box=(SIDE, SIDE), fixed="4 cycles")
+    run = nbc.Evolution(shape=(SIDE, SIDE), fixed="4 cycles")
     dimensions = SIDE * SIDE * CODES
     archive = GridArchive(
         solution_dim=dimensions, dims=[SIDE * SIDE, 16], ranges=[(0.5, SIDE * SIDE + 0.5), (-0.5, 15.5)], seed=1,

@@ -1,59 +1,137 @@
 //! Bodies and materials as Python has them: codes in reading order, body after body, and a shape for each.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use nbc::{Body, MemoryWorld, Palette, Scheme, Session};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::errors::bad_value;
+use crate::errors::{bad_value, offering};
+use crate::memory::{VOXEL_BYTES, reserved};
 use crate::work::at_once;
+
+/// The most voxels of bodies that are simulated in one go; their points and springs are in memory at the same time.
+const GROUP_VOXELS: usize = 500_000;
+
+/// Codes and shapes, not yet read as bodies: some may be invalid.
+pub struct Batch {
+    codes: Vec<u8>,
+    /// Rows and columns of each body, and the place of its first code.
+    shapes: Vec<(usize, usize, usize)>,
+    palette: Arc<Palette>,
+}
+
+impl Batch {
+    /// Copies what Python gave.
+    ///
+    /// # Errors
+    /// When there are fewer codes than the shapes need, and `MemoryError`.
+    pub fn read(
+        codes: &PyReadonlyArray1<'_, u8>,
+        shapes: &PyReadonlyArray2<'_, u64>,
+        palette: &Arc<Palette>,
+    ) -> PyResult<Self> {
+        let found = codes.as_slice()?;
+        let rows = shapes.as_array().nrows();
+        let mut batch = Self { codes: reserved(found.len())?, shapes: reserved(rows)?, palette: palette.clone() };
+        batch.codes.extend_from_slice(found);
+        let mut at = 0_usize;
+        for shape in shapes.as_array().outer_iter() {
+            let (height, width) = (shape[0] as usize, shape[1] as usize);
+            batch.shapes.push((height, width, at));
+            let end = height.checked_mul(width).and_then(|size| at.checked_add(size));
+            at = end.filter(|&end| end <= found.len()).ok_or_else(|| bad_value("too few codes"))?;
+        }
+        Ok(batch)
+    }
+
+    /// The number of bodies.
+    pub fn len(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Places for the voxels of a body.
+    pub fn cells(&self, i: usize) -> usize {
+        self.shapes[i].0 * self.shapes[i].1
+    }
+
+    /// Points that a body has at most.
+    pub fn most_points(&self, i: usize) -> usize {
+        let (height, width, _) = self.shapes[i];
+        (2 * (height + 1) * (width + 1)).min(4 * height * width)
+    }
+
+    /// A body in one piece.
+    ///
+    /// # Errors
+    /// Why it is not one.
+    pub fn body(&self, i: usize) -> Result<Body, String> {
+        let body = self.any_body(i)?;
+        if body.is_connected() { Ok(body) } else { Err("the body is not in one piece".to_owned()) }
+    }
+
+    /// A body, which need not be in one piece.
+    fn any_body(&self, i: usize) -> Result<Body, String> {
+        let (height, width, at) = self.shapes[i];
+        let codes = &self.codes[at..at + height * width];
+        Body::from_codes(width, height, codes, &self.palette).map_err(|error| error.to_string())
+    }
+
+    /// All bodies, each in one piece.
+    ///
+    /// # Errors
+    /// `MemoryError`, and the first body that is invalid, by its index, with the number of those after it.
+    pub fn all(&self, check: impl Fn(&Body) -> Result<(), String>) -> PyResult<Vec<Body>> {
+        let mut bodies = reserved(self.len())?;
+        let mut wrong = Vec::new();
+        for i in 0..self.len() {
+            match self.body(i).and_then(|body| check(&body).map(|()| body)) {
+                Ok(body) => bodies.push(body),
+                Err(reason) => wrong.push((i, reason)),
+            }
+        }
+        let Some((i, reason)) = wrong.first() else { return Ok(bodies) };
+        let others = match wrong.len() {
+            1 => String::new(),
+            2 => " (and one more body is invalid)".to_owned(),
+            many => format!(" (and {} more bodies are invalid)", many - 1),
+        };
+        Err(bad_value(format!("bodies[{i}]: {reason}{others}")))
+    }
+
+    /// Ranges of bodies to be simulated together: at most `most`, and not too many voxels.
+    pub fn groups(&self, most: usize) -> Vec<Range<usize>> {
+        let (mut groups, mut start, mut voxels) = (Vec::new(), 0, 0);
+        for i in 0..self.len() {
+            voxels += self.cells(i);
+            if i > start && (i - start >= most || voxels > GROUP_VOXELS) {
+                groups.push(start..i);
+                (start, voxels) = (i, self.cells(i));
+            }
+        }
+        if start < self.len() {
+            groups.push(start..self.len());
+        }
+        groups
+    }
+
+    /// The memory for the simulation of some bodies at once, in bytes.
+    pub fn bytes(&self, bodies: Range<usize>) -> u64 {
+        bodies.map(|i| self.cells(i) as u64 * VOXEL_BYTES).sum()
+    }
+}
 
 /// The palette of these materials, as JSON; the paper's if there are none.
 pub fn palette(materials: Option<&str>) -> PyResult<Arc<Palette>> {
     let Some(text) = materials else { return Ok(Palette::paper()) };
     let read: Result<Palette, _> = serde_json::from_str(text);
-    read.map(Arc::new).map_err(|error| bad_value(format!("materials: {}", without_place(&error.to_string()))))
+    read.map(Arc::new).map_err(|error| bad_value(format!("materials: {}", offering(without_place(&error.to_string())))))
 }
 
 /// A message of the JSON reader without its place in a text that the user never saw.
 fn without_place(message: &str) -> &str {
     message.rfind(" at line ").map_or(message, |at| &message[..at])
-}
-
-/// Reads bodies of a palette, each in one piece.
-///
-/// # Errors
-/// The first body that is invalid, by its index.
-pub fn bodies(
-    codes: &PyReadonlyArray1<'_, u8>,
-    shapes: &PyReadonlyArray2<'_, u64>,
-    palette: &Arc<Palette>,
-) -> PyResult<Vec<Body>> {
-    let mut rest = codes.as_slice()?;
-    let mut bodies = Vec::new();
-    for (i, shape) in shapes.as_array().outer_iter().enumerate() {
-        let (height, width) = (shape[0] as usize, shape[1] as usize);
-        let (own, others) = rest.split_at_checked(height * width).ok_or_else(|| bad_value("too few codes"))?;
-        rest = others;
-        let body = Body::from_codes(width, height, own, palette);
-        let body = body.map_err(|error| bad_value(format!("bodies[{i}]: {error}")))?;
-        if !body.is_connected() {
-            return Err(bad_value(format!("bodies[{i}]: the body is not in one piece")));
-        }
-        bodies.push(body);
-    }
-    Ok(bodies)
-}
-
-/// Checks bodies as a simulation in the paper's world does.
-#[pyfunction]
-pub fn check_bodies(
-    py: Python<'_>,
-    codes: PyReadonlyArray1<'_, u8>,
-    shapes: PyReadonlyArray2<'_, u64>,
-) -> PyResult<()> {
-    at_once(py, || bodies(&codes, &shapes, &Palette::paper()).map(|_| ()))
 }
 
 /// Why each body cannot be tried in an evolution; empty for those that can.
@@ -65,18 +143,14 @@ pub fn invalid_bodies(
     materials: Option<&str>,
 ) -> PyResult<Vec<String>> {
     let palette = palette(materials)?;
-    let mut rest = codes.as_slice()?;
-    let reason = |shape: numpy::ndarray::ArrayView1<'_, u64>| {
-        let (height, width) = (shape[0] as usize, shape[1] as usize);
-        let (own, others) = rest.split_at_checked(height * width).ok_or_else(|| bad_value("too few codes"))?;
-        rest = others;
-        let reason = match Body::from_codes(width, height, own, &palette) {
-            Err(error) => error.to_string(),
+    at_once(py, || {
+        let batch = Batch::read(&codes, &shapes, &palette)?;
+        let reason = |i| match batch.any_body(i) {
+            Err(reason) => reason,
             Ok(body) => nbc::validate(&body).err().map_or_else(String::new, |reason| reason.to_string()),
         };
-        Ok(reason)
-    };
-    at_once(py, || shapes.as_array().outer_iter().map(reason).collect())
+        Ok((0..batch.len()).map(reason).collect())
+    })
 }
 
 /// The paper's materials, as JSON.
@@ -115,7 +189,7 @@ pub fn draw_body(
     safe_colors: bool,
 ) -> PyResult<String> {
     at_once(py, || {
-        let bodies = bodies(&codes, &shapes, &palette(materials)?)?;
+        let bodies = Batch::read(&codes, &shapes, &palette(materials)?)?.all(|_| Ok(()))?;
         let body = bodies.first().ok_or_else(|| bad_value("expected one body"))?;
         Ok(nbc::draw_portrait(title, body, scheme(safe_colors)).finish())
     })

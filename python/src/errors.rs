@@ -44,3 +44,31 @@ pub fn bad_value(message: impl Into<String>) -> PyErr {
 pub fn forked(what: &str) -> PyErr {
     PyRuntimeError::new_err(format!("the {what} was in use when this process was forked; make a new one here"))
 }
+
+/// A message of the form "unknown field `a`, expected `b` or `c`" that also offers the expected word most like the
+/// first.
+pub fn offering(message: &str) -> String {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let nearest = quoted.next().and_then(|found| nbc::nearest(found, quoted));
+    match nearest.filter(|_| message.starts_with("unknown ")) {
+        Some(near) => format!("{message}; did you mean `{near}`?"),
+        None => message.to_owned(),
+    }
+}
+
+/// `ValueError` for a word that is none of the expected ones, with the one most like it.
+pub fn bad_word(what: &str, word: &str, expected: &[&str]) -> PyErr {
+    let near = nbc::nearest(word, expected.iter().copied());
+    let offer = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    let words = match expected {
+        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+        [] => String::new(),
+    };
+    bad_value(format!("invalid {what} `{word}`; expected {words}{offer}"))
+}
+
+/// Of the known names, the one most like `word`. Python's own look-ups offer it.
+#[pyfunction]
+pub fn nearest(word: &str, known: Vec<String>) -> Option<String> {
+    nbc::nearest(word, known.iter().map(String::as_str)).map(str::to_owned)
+}

@@ -1,14 +1,15 @@
 //! Evaluation of bodies by the protocol of an evolution.
 
-use nbc::{CandidateOutcome, Descriptor, FaultKind, Scores};
+use nbc::{Body, CandidateOutcome, Descriptor, FaultKind, Scores, Simulator};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::bodies::bodies;
+use crate::bodies::Batch;
 use crate::errors::bad_value;
 use crate::evolution::Evolution;
-use crate::physics::{STOPPED, set_faults, setting};
+use crate::memory;
+use crate::physics::{Ending, STOPPED, check_place, set_endings};
 use crate::work::{self, Watch, at_once};
 
 /// Bodies that are evaluated in one go, so that an interrupt keeps the results of those before.
@@ -25,44 +26,78 @@ fn word(outcome: &CandidateOutcome) -> &'static str {
     }
 }
 
-/// Outcomes as arrays, with the niches of the measured bodies.
-pub fn into_python<'py>(
-    py: Python<'py>,
-    evolution: &nbc::Evolution,
-    bodies: &[nbc::Body],
-    outcomes: &[CandidateOutcome],
-) -> PyResult<Bound<'py, PyDict>> {
-    let descriptor = Descriptor::new(evolution);
-    let (count, axes) = (outcomes.len(), evolution.descriptors.len());
-    let (mut fitness, mut displacement, mut niche, mut behavior) = (vec![], vec![], vec![], vec![]);
-    for (body, outcome) in bodies.iter().zip(outcomes) {
-        match outcome {
-            CandidateOutcome::Measured(scores) => {
-                fitness.extend(scores.fitness);
-                displacement.extend(scores.displacement);
-                behavior.push(scores.behavior.to_string());
-                niche.extend(descriptor.niche(body, scores.behavior).0.into_iter().map(i32::from));
-            }
-            _ => {
-                fitness.extend([f64::NAN; 2]);
-                displacement.extend([f64::NAN; 4]);
-                behavior.push(String::new());
-                niche.extend(std::iter::repeat_n(-1, axes));
-            }
+/// Outcomes, row after row, with the niches of the measured bodies.
+pub struct Rows {
+    descriptor: Descriptor,
+    axes: usize,
+    words: Vec<&'static str>,
+    fitness: Vec<f64>,
+    displacement: Vec<f64>,
+    behavior: Vec<String>,
+    niche: Vec<i32>,
+    endings: Vec<Ending>,
+    errors: Vec<(usize, String)>,
+}
+
+impl Rows {
+    /// None yet.
+    pub fn new(evolution: &nbc::Evolution) -> Self {
+        Self {
+            descriptor: Descriptor::new(evolution),
+            axes: evolution.descriptors.len(),
+            words: vec![],
+            fitness: vec![],
+            displacement: vec![],
+            behavior: vec![],
+            niche: vec![],
+            endings: vec![],
+            errors: vec![],
         }
     }
-    let results = PyDict::new(py);
-    results.set_item("outcome", outcomes.iter().map(word).collect::<Vec<_>>())?;
-    results.set_item("fitness", fitness.into_pyarray(py).reshape([count, 2])?)?;
-    results.set_item("displacement", displacement.into_pyarray(py).reshape([count, 4])?)?;
-    results.set_item("behavior", behavior)?;
-    results.set_item("niche", niche.into_pyarray(py).reshape([count, axes])?)?;
-    let fault = |outcome: &CandidateOutcome| match outcome {
-        CandidateOutcome::Faulty(fault) => Some(*fault),
-        _ => None,
-    };
-    set_faults(&results, outcomes.iter().map(fault))?;
-    Ok(results)
+
+    /// Adds the outcome of a body.
+    pub fn push(&mut self, body: &Body, outcome: &CandidateOutcome) {
+        self.words.push(word(outcome));
+        match outcome {
+            CandidateOutcome::Measured(scores) => {
+                self.fitness.extend(scores.fitness);
+                self.displacement.extend(scores.displacement);
+                self.behavior.push(scores.behavior.to_string());
+                self.niche.extend(self.descriptor.niche(body, scores.behavior).0.into_iter().map(i32::from));
+                self.endings.push(Ending::Done);
+            }
+            CandidateOutcome::Faulty(fault) => self.push_nothing(Ending::Fault(*fault)),
+            CandidateOutcome::Surpassed | CandidateOutcome::Inconsistent => self.push_nothing(Ending::Done),
+        }
+    }
+
+    /// Adds a body that is invalid.
+    fn push_invalid(&mut self, reason: String) {
+        self.errors.push((self.words.len(), reason));
+        self.words.push("invalid");
+        self.push_nothing(Ending::Invalid);
+    }
+
+    fn push_nothing(&mut self, ending: Ending) {
+        self.fitness.extend([f64::NAN; 2]);
+        self.displacement.extend([f64::NAN; 4]);
+        self.behavior.push(String::new());
+        self.niche.extend(std::iter::repeat_n(-1, self.axes));
+        self.endings.push(ending);
+    }
+
+    /// The rows as arrays.
+    pub fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let (count, results) = (self.words.len(), PyDict::new(py));
+        results.set_item("outcome", self.words)?;
+        results.set_item("fitness", self.fitness.into_pyarray(py).reshape([count, 2])?)?;
+        results.set_item("displacement", self.displacement.into_pyarray(py).reshape([count, 4])?)?;
+        results.set_item("behavior", self.behavior)?;
+        results.set_item("niche", self.niche.into_pyarray(py).reshape([count, self.axes])?)?;
+        results.set_item("errors", self.errors)?;
+        set_endings(&results, &self.endings)?;
+        Ok(results)
+    }
 }
 
 /// Reads outcomes that Python computed.
@@ -94,6 +129,48 @@ pub fn outcomes(
     words.iter().enumerate().map(outcome).collect()
 }
 
+/// Bodies to be evaluated by an evolution.
+struct Examination {
+    batch: Batch,
+    evolution: nbc::Evolution,
+}
+
+impl Examination {
+    /// A body of the evolution's box that can stand in its world.
+    fn body(&self, i: usize) -> Result<Body, String> {
+        let body = self.batch.body(i)?;
+        let (found, expected) = ((body.height(), body.width()), (self.evolution.height, self.evolution.width));
+        if found != expected {
+            return Err(format!("the body has the shape {found:?}, expected {expected:?}, the shape of the evolution"));
+        }
+        check_place(&nbc::Setting::default(), &body).map(|()| body)
+    }
+
+    /// Evaluates the bodies, some at a time, until the end or an interrupt.
+    fn evaluate(&self, watch: &Watch) -> Rows {
+        let (simulator, mut rows) = (watch.simulator(), Rows::new(&self.evolution));
+        for group in self.batch.groups(GROUP) {
+            let bodies: Vec<Result<Body, String>> = group.map(|i| self.body(i)).collect();
+            let valid: Vec<Body> = bodies.iter().flatten().cloned().collect();
+            let mut outcomes = self.outcomes(&simulator, watch, valid).into_iter();
+            for body in bodies {
+                match body {
+                    Err(reason) => rows.push_invalid(reason),
+                    Ok(body) => rows.push(&body, &outcomes.next().expect("each valid body is evaluated")),
+                }
+            }
+        }
+        rows
+    }
+
+    fn outcomes(&self, simulator: &Simulator, watch: &Watch, bodies: Vec<Body>) -> Vec<CandidateOutcome> {
+        match watch.is_stopped() {
+            true => vec![CandidateOutcome::Faulty(STOPPED); bodies.len()],
+            false => nbc::evaluate_bodies(simulator, &self.evolution, bodies),
+        }
+    }
+}
+
 /// Evaluates bodies as an evolution does, for an empty archive.
 #[pyfunction]
 pub fn evaluate<'py>(
@@ -104,21 +181,13 @@ pub fn evaluate<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let evolution = evolution.0.clone();
-    let bodies = at_once(py, || bodies(&codes, &shapes, &evolution.palette))?;
-    let (width, height) = (evolution.width, evolution.height);
-    if let Some(i) = bodies.iter().position(|body| (body.width(), body.height()) != (width, height)) {
-        return Err(bad_value(format!("bodies[{i}] must be {height} rows of {width} codes, the box of the evolution")));
-    }
-    setting(nbc::Setting::default().world_width, None, &bodies)?;
-    let watch = Watch::over(0);
-    let (kept, declared) = (bodies.clone(), evolution.clone());
-    let ended = work::run(py, &watch, progress.as_ref(), move |watch| {
-        let simulator = watch.simulator();
-        let evaluated = bodies.chunks(GROUP).map(|group| match watch.is_stopped() {
-            true => vec![CandidateOutcome::Faulty(STOPPED); group.len()],
-            false => nbc::evaluate_bodies(&simulator, &evolution, group.to_vec()),
-        });
-        evaluated.flatten().collect::<Vec<_>>()
+    let examination = at_once(py, || {
+        let batch = Batch::read(&codes, &shapes, &evolution.palette)?;
+        // Each body is simulated under four patterns at once.
+        let largest = batch.groups(GROUP).into_iter().map(|group| 4 * batch.bytes(group)).max().unwrap_or(0);
+        memory::check(largest, "the evaluation", "evaluate fewer bodies at once")?;
+        Ok(Examination { batch, evolution })
     })?;
-    ended.or_partial(py, |outcomes| into_python(py, &declared, &kept, &outcomes))
+    let ended = work::run(py, &Watch::over(0), progress.as_ref(), move |watch| examination.evaluate(watch))?;
+    ended.or_partial(py, |rows| rows.into_python(py))
 }

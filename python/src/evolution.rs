@@ -24,6 +24,13 @@ impl Evolution {
         })
     }
 
+    /// The declaration of `to_json`.
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        let read: Result<nbc::Evolution, _> = serde_json::from_str(text);
+        read.map(Self).map_err(|error| bad_value(format!("the text is not a declaration: {error}")))
+    }
+
     /// All fields, as JSON.
     fn to_json(&self) -> String {
         serde_json::to_string(&self.0).expect("an evolution can be written as JSON")

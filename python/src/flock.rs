@@ -4,9 +4,10 @@ use nbc::{Flock as Robots, Pattern, Snapshot};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::bodies::{bodies, palette};
+use crate::bodies::{Batch, palette};
 use crate::errors::bad_value;
-use crate::physics::{fault_words, pattern, setting};
+use crate::memory;
+use crate::physics::{Ending, check_place, pattern, setting};
 use crate::slot::Slot;
 use crate::work::{self, Watch, at_once};
 
@@ -69,8 +70,13 @@ impl Flock {
         world_width: usize,
         start_x: Option<usize>,
     ) -> PyResult<Self> {
-        let bodies = at_once(py, || bodies(&codes, &shapes, &palette(materials)?))?;
-        let (size, setting) = (bodies.len(), setting(world_width, start_x, &bodies)?);
+        let setting = setting(world_width, start_x);
+        let bodies = at_once(py, || {
+            let batch = Batch::read(&codes, &shapes, &palette(materials)?)?;
+            memory::check(batch.bytes(0..batch.len()), "the flock", "use fewer bodies at once")?;
+            batch.all(|body| check_place(&setting, body))
+        })?;
+        let size = bodies.len();
         let made = work::run(py, &Watch::over(0), None, move |_| Setup::new(bodies, setting))?;
         Ok(Self { size, robots: Slot::new("flock", made.finished()?) })
     }
@@ -108,8 +114,9 @@ impl Flock {
 
     /// Env step and kind of each robot's fault.
     fn faults(&self, py: Python<'_>) -> PyResult<Vec<(u32, &'static str)>> {
-        self.robots
-            .with(py, |setup| Ok((0..setup.robots.len()).map(|robot| fault_words(setup.robots.fault(robot))).collect()))
+        self.robots.with(py, |setup| {
+            Ok((0..setup.robots.len()).map(|robot| Ending::from(setup.robots.fault(robot)).words()).collect())
+        })
     }
 
     /// The points of each robot.

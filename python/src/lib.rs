@@ -7,6 +7,7 @@ mod errors;
 mod evaluation;
 mod evolution;
 mod flock;
+mod memory;
 mod physics;
 mod program;
 mod search;
@@ -30,16 +31,17 @@ fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<search::Candidates>()?;
     module.add_class::<search::Search>()?;
     module.add_class::<swarm::Swarm>()?;
-    module.add_function(wrap_pyfunction!(bodies::check_bodies, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::draw_body, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::invalid_bodies, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::paper_materials, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::shipped_robots, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::nearest, module)?)?;
     module.add_function(wrap_pyfunction!(evaluation::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(program::write_file, module)?)?;
-    module.add_function(wrap_pyfunction!(physics::record_poses, module)?)?;
+    module.add_function(wrap_pyfunction!(physics::read_schedule, module)?)?;
     module.add_function(wrap_pyfunction!(physics::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(search::read_checkpoint, module)?)?;
+    module.add_function(wrap_pyfunction!(threads::most_threads, module)?)?;
     module.add_function(wrap_pyfunction!(threads::set_threads, module)?)?;
     Ok(())
 }

@@ -1,22 +1,29 @@
 //! Trials: bodies under a schedule, from a fresh start.
 
-use std::collections::BTreeSet;
+use std::ops::Range;
 
-use nbc::{Body, Fault, FaultKind, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyMemoryError;
+use nbc::{Body, Fault, FaultKind, Pattern, Schedule, Setting, Simulator, Spell, Trajectory, Trial};
+use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
-use crate::bodies::{bodies, palette};
+use crate::bodies::{Batch, palette};
 use crate::errors::{bad_value, diagnosed};
+use crate::memory::{self, reserved, too_large};
 use crate::work::{self, Watch, at_once};
 
 /// The most env steps of trials that are simulated in one go; their trajectories are in memory at the same time.
-const GROUP_STEPS: u64 = 20_000_000;
+const GROUP_STEPS: u64 = 5_000_000;
 
-/// The most memory of recorded paths.
+/// Robots whose poses are recorded on one thread.
+const TOGETHER: usize = 32;
+
+/// The most memory of recorded paths and poses.
 const MOST_BYTES: u64 = 1 << 33;
+
+/// What a call without room for its results can do.
+const LESS: &str = "simulate fewer bodies at once, or with `record=None`";
 
 /// The fault of a simulation that was not begun.
 pub const STOPPED: Fault = Fault { env_step: 1, kind: FaultKind::Stopped };
@@ -45,28 +52,58 @@ impl ScheduleWords {
     }
 }
 
+/// The spells of a schedule: patterns as digits, and env steps.
+#[pyfunction]
+pub fn read_schedule(py: Python<'_>, schedule: ScheduleWords) -> PyResult<Vec<(String, u32)>> {
+    at_once(py, || {
+        let spells = schedule.read(py)?.spells;
+        Ok(spells.into_iter().map(|spell| (spell.pattern.to_string(), spell.steps)).collect())
+    })
+}
+
 /// A pattern of digits.
 pub fn pattern(digits: String) -> PyResult<Pattern> {
     Pattern::try_from(digits).map_err(|error| bad_value(error.to_string()))
 }
 
-/// The setting, in which each of the bodies stands on the ground.
-pub fn setting(world_width: usize, start_x: Option<usize>, bodies: &[Body]) -> PyResult<Setting> {
-    let setting = Setting { world_width, start_x, ..Setting::default() };
-    for (i, body) in bodies.iter().enumerate() {
-        setting.check(body).map_err(|error| bad_value(format!("bodies[{i}]: {error}")))?;
-    }
-    Ok(setting)
+/// Why a body cannot stand in the setting, if it cannot.
+pub fn check_place(setting: &Setting, body: &Body) -> Result<(), String> {
+    setting.check(body).map_err(|error| error.to_string())
 }
 
-/// Env step and kind of a fault; 0 and nothing for none.
-pub fn fault_words(fault: Option<Fault>) -> (u32, &'static str) {
-    let word = |kind| match kind {
-        FaultKind::Unstable => "unstable",
-        FaultKind::NonFinite => "non_finite",
-        FaultKind::Stopped => "stopped",
-    };
-    fault.map_or((0, ""), |fault| (fault.env_step, word(fault.kind)))
+/// The setting of these arguments.
+pub fn setting(world_width: usize, start_x: Option<usize>) -> Setting {
+    Setting { world_width, start_x, ..Setting::default() }
+}
+
+/// How the simulation of a body ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// At its end.
+    Done,
+    /// With a fault.
+    Fault(Fault),
+    /// Before it began, because the body is invalid.
+    Invalid,
+}
+
+impl From<Option<Fault>> for Ending {
+    fn from(fault: Option<Fault>) -> Self {
+        fault.map_or(Self::Done, Self::Fault)
+    }
+}
+
+impl Ending {
+    /// The env step that was abandoned, and why; 0 and nothing for none.
+    pub fn words(&self) -> (u32, &'static str) {
+        match self {
+            Self::Done => (0, ""),
+            Self::Invalid => (1, "invalid"),
+            Self::Fault(Fault { env_step, kind: FaultKind::Unstable }) => (*env_step, "unstable"),
+            Self::Fault(Fault { env_step, kind: FaultKind::NonFinite }) => (*env_step, "non_finite"),
+            Self::Fault(Fault { env_step, kind: FaultKind::Stopped }) => (*env_step, "stopped"),
+        }
+    }
 }
 
 /// The trials of a call, as Python gives them.
@@ -79,129 +116,276 @@ pub struct TrialArguments<'py> {
     schedule: ScheduleWords,
     world_width: usize,
     start_x: Option<usize>,
+    /// Whether to keep the paths of the centers of mass.
+    record_com: bool,
+    /// Env steps between poses, if these are kept too.
+    stride: Option<u32>,
 }
 
 /// Bodies under a schedule, each in a world of its own.
 struct Experiment {
-    bodies: Vec<Body>,
+    batch: Batch,
     setting: Setting,
     schedule: Schedule,
+    record_com: bool,
+    stride: Option<u32>,
 }
 
 impl TrialArguments<'_> {
     /// The experiment.
     ///
     /// # Errors
-    /// When a body, a material, the schedule or the world is invalid.
+    /// When a material or the schedule is invalid, and `MemoryError`.
     fn read(self, py: Python<'_>) -> PyResult<Experiment> {
         at_once(py, || {
-            let bodies = bodies(&self.codes, &self.shapes, &palette(self.materials.as_deref())?)?;
-            let setting = setting(self.world_width, self.start_x, &bodies)?;
-            Ok(Experiment { bodies, setting, schedule: self.schedule.read(py)? })
+            let palette = palette(self.materials.as_deref())?;
+            let experiment = Experiment {
+                schedule: self.schedule.read(py)?,
+                batch: Batch::read(&self.codes, &self.shapes, &palette)?,
+                setting: setting(self.world_width, self.start_x),
+                record_com: self.record_com,
+                stride: self.stride,
+            };
+            experiment.check_memory()?;
+            Ok(experiment)
         })
     }
+}
+
+/// What was recorded of a robot.
+struct Recorded {
+    trajectory: Trajectory,
+    poses: Poses,
+}
+
+/// The poses of a robot.
+#[derive(Clone, Debug, Default)]
+struct Poses {
+    /// Its points, frame after frame.
+    frames: Vec<f64>,
+    /// Its number of points.
+    points: usize,
+    /// The points of each voxel, by their number: top left, top right, bottom right, bottom left.
+    voxels: Vec<[usize; 4]>,
 }
 
 impl Experiment {
     /// Its env steps, of all bodies together.
     fn env_steps(&self) -> u64 {
-        u64::from(self.schedule.steps()) * self.bodies.len() as u64
+        u64::from(self.schedule.steps()) * self.batch.len() as u64
     }
 
-    /// The memory of the paths in bytes.
-    fn path_bytes(&self) -> u64 {
-        16 * (self.env_steps() + self.bodies.len() as u64)
+    /// Moments of a whole path.
+    fn moments(&self) -> usize {
+        self.schedule.steps() as usize + 1
+    }
+
+    /// The bodies that are simulated together.
+    fn groups(&self) -> Vec<Range<usize>> {
+        self.batch.groups((GROUP_STEPS / u64::from(self.schedule.steps()).max(1)).max(1) as usize)
+    }
+
+    /// The memory of the recorded paths and poses in bytes.
+    fn recorded_bytes(&self) -> u64 {
+        let paths = if self.record_com { 16 * (self.env_steps() + self.batch.len() as u64) } else { 0 };
+        let frames = self.stride.map_or(0, |stride| u64::from(self.schedule.steps() / stride) + 1);
+        let points: u64 = (0..self.batch.len()).map(|i| self.batch.most_points(i) as u64).sum();
+        paths + (16 * points).saturating_mul(frames)
+    }
+
+    /// Checks that there is room for the results, and for the simulation of the largest group.
+    fn check_memory(&self) -> PyResult<()> {
+        let recorded = self.recorded_bytes();
+        if recorded > MOST_BYTES {
+            return Err(too_large(recorded, "the paths", LESS));
+        }
+        let steps = u64::from(self.schedule.steps());
+        let group = |bodies: Range<usize>| 32 * steps * bodies.len() as u64 + self.batch.bytes(bodies);
+        let largest = self.groups().into_iter().map(group).max().unwrap_or(0);
+        let spells = 8 * self.schedule.spells.len() as u64 * self.batch.len() as u64;
+        memory::check(recorded + largest + spells, "the simulation", LESS)
+    }
+
+    /// A body that can stand in its place.
+    fn body(&self, i: usize) -> Result<Body, String> {
+        self.batch.body(i).and_then(|body| check_place(&self.setting, &body).map(|()| body))
     }
 
     /// Simulates the bodies, some at a time, until the end or an interrupt.
-    fn simulate(&self, watch: &Watch, record_com: bool) -> Results {
-        let (simulator, mut results) = (watch.simulator(), Results::default());
-        let group = (GROUP_STEPS / u64::from(self.schedule.steps()).max(1)).max(1) as usize;
-        for bodies in self.bodies.chunks(group) {
-            if watch.is_stopped() {
-                let stopped = Trajectory { fault: Some(STOPPED), ..Trajectory::default() };
-                bodies.iter().for_each(|_| results.push(&stopped, &self.schedule, record_com));
-                continue;
+    fn simulate(&self, watch: &Watch) -> PyResult<Results> {
+        let simulator = watch.simulator();
+        let mut results = Results::new(self)?;
+        for group in self.groups() {
+            let bodies: Vec<Result<Body, String>> = group.clone().map(|i| self.body(i)).collect();
+            let valid: Vec<Body> = bodies.iter().flatten().cloned().collect();
+            let mut recorded = self.run(&simulator, watch, valid).into_iter();
+            for (i, body) in group.zip(bodies) {
+                match body {
+                    Err(reason) => results.push_invalid(i, reason),
+                    Ok(_) => results.push(recorded.next().expect("each valid body is simulated")),
+                }
             }
-            let trial = |body: &Body| Trial { body: body.clone(), schedule: self.schedule.clone() };
-            let trials: Vec<Trial> = bodies.iter().map(trial).collect();
-            let trajectories = simulator.run_trials(&self.setting, &trials);
-            trajectories.iter().for_each(|trajectory| results.push(trajectory, &self.schedule, record_com));
         }
-        results
+        Ok(results)
     }
 
-    /// The frames of each robot, and the four points of each of its voxels.
-    fn record(&self, watch: &Watch, stride: u32) -> (Vec<Frames>, Vec<Vec<[usize; 4]>>) {
-        let mut flock = watch.simulator().flock(&self.setting, &self.bodies);
-        let mut frames: Vec<Frames> = vec![Vec::new(); self.bodies.len()];
-        let mut record = |flock: &dyn nbc::Flock| {
-            for (robot, frames) in frames.iter_mut().enumerate() {
-                frames.extend(flock.points(robot).into_iter().flatten());
+    /// Simulates these bodies at once.
+    fn run(&self, simulator: &Simulator, watch: &Watch, bodies: Vec<Body>) -> Vec<Recorded> {
+        let only = |trajectory| Recorded { trajectory, poses: Poses::default() };
+        match self.stride {
+            _ if watch.is_stopped() => {
+                bodies.iter().map(|_| only(Trajectory { fault: Some(STOPPED), ..Trajectory::default() })).collect()
             }
-        };
-        record(&*flock);
-        for (pattern, steps, is_frame) in stretches(&self.schedule, stride) {
-            flock.advance(&vec![pattern; self.bodies.len()], steps);
-            if is_frame {
-                record(&*flock);
+            None => {
+                let trial = |body| Trial { body, schedule: self.schedule.clone() };
+                let trials: Vec<Trial> = bodies.into_iter().map(trial).collect();
+                simulator.run_trials(&self.setting, &trials).into_iter().map(only).collect()
+            }
+            Some(stride) => {
+                let together = |bodies: &[Body]| self.record(simulator, bodies, stride);
+                bodies.par_chunks(TOGETHER).flat_map_iter(together).collect()
             }
         }
-        let corners = |robot| flock.lattice(robot).voxels().iter().map(|voxel| voxel.corners).collect();
-        let voxels = (0..flock.len()).map(corners).collect();
-        (frames, voxels)
+    }
+
+    /// Simulates these bodies env step by env step, with a pose every `stride` of them.
+    fn record(&self, simulator: &Simulator, bodies: &[Body], stride: u32) -> Vec<Recorded> {
+        let mut flock = simulator.flock(&self.setting, bodies);
+        let new = |i: usize| {
+            let voxels = flock.lattice(i).voxels().iter().map(|voxel| voxel.corners).collect();
+            let poses = Poses { points: flock.lattice(i).points().len(), voxels, frames: Vec::new() };
+            Recorded { trajectory: Trajectory::default(), poses }
+        };
+        let mut recorded: Vec<Recorded> = (0..flock.len()).map(new).collect();
+        record_moment(&*flock, &mut recorded, true);
+        let patterns =
+            self.schedule.spells.iter().flat_map(|spell| std::iter::repeat_n(spell.pattern, spell.steps as usize));
+        for (env_step, pattern) in (1..).zip(patterns) {
+            flock.advance(&vec![pattern; bodies.len()], 1);
+            record_moment(&*flock, &mut recorded, u32::is_multiple_of(env_step, stride));
+            let is_stopped = |i| flock.fault(i).is_some_and(|fault| fault.kind == FaultKind::Stopped);
+            if (0..flock.len()).any(is_stopped) {
+                break;
+            }
+        }
+        recorded
+    }
+}
+
+/// Records the centers of mass of robots without a fault, and, in a frame, the points of all.
+fn record_moment(flock: &dyn nbc::Flock, recorded: &mut [Recorded], is_frame: bool) {
+    for (i, Recorded { trajectory, poses }) in recorded.iter_mut().enumerate() {
+        trajectory.fault = flock.fault(i);
+        if trajectory.fault.is_none() {
+            let [x, y] = flock.center(i);
+            trajectory.com_x.push(x);
+            trajectory.com_y.push(y);
+        }
+        let is_stopped = trajectory.fault.is_some_and(|fault| fault.kind == FaultKind::Stopped);
+        if is_frame && !is_stopped {
+            poses.frames.extend(flock.points(i).into_iter().flatten());
+        }
     }
 }
 
 /// The results of trials, row after row.
-#[derive(Default)]
 struct Results {
+    schedule: Schedule,
     displacement: Vec<f64>,
-    paths: Vec<Vec<f64>>,
-    faults: Vec<Option<Fault>>,
+    /// The paths, each as long as a whole one.
+    com: Option<Vec<f64>>,
+    /// Numbers of a whole path.
+    row: usize,
+    /// Numbers of the longest path.
+    longest: usize,
+    endings: Vec<Ending>,
+    /// The bodies that are invalid, and why.
+    errors: Vec<(usize, String)>,
+    /// Numbers of frames of a whole simulation, if poses are kept.
+    frames: Option<usize>,
+    poses: Vec<Poses>,
 }
 
 impl Results {
-    fn push(&mut self, trajectory: &Trajectory, schedule: &Schedule, record_com: bool) {
-        self.displacement.extend(trajectory.displacements(schedule).into_iter().map(|moved| moved.unwrap_or(f64::NAN)));
-        self.faults.push(trajectory.fault);
-        if record_com {
-            self.paths.push(trajectory.com_x.iter().zip(&trajectory.com_y).flat_map(|(&x, &y)| [x, y]).collect());
+    /// None yet, with room for all.
+    fn new(experiment: &Experiment) -> PyResult<Self> {
+        let (bodies, row) = (experiment.batch.len(), 2 * experiment.moments());
+        Ok(Self {
+            displacement: reserved(bodies * experiment.schedule.spells.len())?,
+            com: if experiment.record_com { Some(reserved(bodies * row)?) } else { None },
+            row,
+            longest: 2,
+            endings: reserved(bodies)?,
+            errors: Vec::new(),
+            frames: experiment.stride.map(|stride| (experiment.schedule.steps() / stride) as usize + 1),
+            poses: Vec::new(),
+            schedule: experiment.schedule.clone(),
+        })
+    }
+
+    fn push(&mut self, Recorded { trajectory, poses }: Recorded) {
+        let Trajectory { com_x, com_y, fault, .. } = &trajectory;
+        let moved = trajectory.displacements(&self.schedule);
+        self.displacement.extend(moved.into_iter().map(|moved| moved.unwrap_or(f64::NAN)));
+        self.longest = self.longest.max(2 * com_x.len());
+        if let Some(com) = &mut self.com {
+            let path = com_x.iter().zip(com_y).flat_map(|(&x, &y)| [x, y]);
+            com.extend(path.chain(std::iter::repeat(f64::NAN)).take(self.row));
+        }
+        self.endings.push((*fault).into());
+        if self.frames.is_some() {
+            self.poses.push(poses);
         }
     }
 
-    /// The paths side by side, and the moments of each. After an interrupt these are as many as the longest path has.
-    fn com(&mut self, schedule: &Schedule) -> (Vec<f64>, usize) {
-        let whole = 2 * (schedule.steps() as usize + 1);
-        let is_stopped = |fault: &Option<Fault>| fault.is_some_and(|fault| fault.kind == FaultKind::Stopped);
-        let longest = self.paths.iter().map(Vec::len).max().unwrap_or(whole);
-        let row = if self.faults.iter().any(is_stopped) { longest } else { whole };
-        let mut com = Vec::with_capacity(row * self.paths.len());
-        for path in std::mem::take(&mut self.paths) {
-            com.extend(path.into_iter().chain(std::iter::repeat(f64::NAN)).take(row));
+    fn push_invalid(&mut self, body: usize, reason: String) {
+        self.push(Recorded { trajectory: Trajectory::default(), poses: Poses::default() });
+        *self.endings.last_mut().expect("the body was added") = Ending::Invalid;
+        self.errors.push((body, reason));
+    }
+
+    /// After an interrupt, shortens the rows of the paths to the longest path.
+    fn shorten(&mut self) {
+        let is_stopped = |ending: &Ending| ending.words().1 == "stopped";
+        if let Some(com) = self.com.as_mut().filter(|_| self.endings.iter().any(is_stopped)) {
+            for robot in 0..self.endings.len() {
+                com.copy_within(robot * self.row..robot * self.row + self.longest, robot * self.longest);
+            }
+            com.truncate(self.endings.len() * self.longest);
+            self.row = self.longest;
         }
-        (com, row / 2)
+    }
+
+    /// The results as arrays.
+    fn into_python(mut self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        self.shorten();
+        let (robots, spells, moments) = (self.endings.len(), self.schedule.spells.len(), self.row / 2);
+        let arrays = PyDict::new(py);
+        arrays.set_item("displacement", self.displacement.into_pyarray(py).reshape([robots, spells])?)?;
+        let com = self.com.map(|com| com.into_pyarray(py).reshape([robots, moments, 2])).transpose()?;
+        arrays.set_item("com", com)?;
+        set_endings(&arrays, &self.endings)?;
+        arrays.set_item("errors", self.errors)?;
+        if let Some(frames) = self.frames {
+            let array = |poses: &mut Poses| poses_array(py, poses, frames);
+            let shown = self.poses.iter_mut().map(array).collect::<PyResult<Vec<_>>>()?;
+            arrays.set_item("poses", shown)?;
+            arrays.set_item("voxels", self.poses.into_iter().map(|poses| poses.voxels).collect::<Vec<_>>())?;
+        }
+        Ok(arrays)
     }
 }
 
-/// Results as arrays.
-fn arrays<'py>(
-    py: Python<'py>,
-    spells: usize,
-    (results, com): (Results, Option<(Vec<f64>, usize)>),
-) -> PyResult<Bound<'py, PyDict>> {
-    let robots = results.faults.len();
-    let arrays = PyDict::new(py);
-    arrays.set_item("displacement", results.displacement.into_pyarray(py).reshape([robots, spells])?)?;
-    let com = com.map(|(com, moments)| com.into_pyarray(py).reshape([robots, moments, 2])).transpose()?;
-    arrays.set_item("com", com)?;
-    set_faults(&arrays, results.faults.into_iter())?;
-    Ok(arrays)
+/// The frames of a robot; of an invalid body all are without points.
+fn poses_array<'py>(py: Python<'py>, poses: &mut Poses, whole: usize) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let frames = std::mem::take(&mut poses.frames);
+    let count = if poses.points == 0 { whole } else { frames.len() / (2 * poses.points) };
+    frames.into_pyarray(py).reshape([count, poses.points, 2])
 }
 
-/// Adds the env step and the kind of each fault.
-pub fn set_faults(arrays: &Bound<'_, PyDict>, faults: impl Iterator<Item = Option<Fault>>) -> PyResult<()> {
-    let (steps, kinds): (Vec<u32>, Vec<&str>) = faults.map(fault_words).unzip();
+/// Adds the env step and the kind of each ending.
+pub fn set_endings(arrays: &Bound<'_, PyDict>, endings: &[Ending]) -> PyResult<()> {
+    let (steps, kinds): (Vec<u32>, Vec<&str>) = endings.iter().map(Ending::words).unzip();
     arrays.set_item("fault_step", steps.into_pyarray(arrays.py()))?;
     arrays.set_item("fault_kind", kinds)
 }
@@ -211,62 +395,10 @@ pub fn set_faults(arrays: &Bound<'_, PyDict>, faults: impl Iterator<Item = Optio
 pub fn simulate<'py>(
     py: Python<'py>,
     trials: TrialArguments<'py>,
-    record_com: bool,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let experiment = trials.read(py)?;
-    if record_com && experiment.path_bytes() > MOST_BYTES {
-        let size = experiment.path_bytes() >> 30;
-        let message = format!("the paths would need {size} GiB; simulate fewer bodies at once, or with `record=None`");
-        return Err(PyMemoryError::new_err(message));
-    }
     let watch = Watch::over(experiment.env_steps());
-    let spells = experiment.schedule.spells.len();
-    let ended = work::run(py, &watch, progress.as_ref(), move |watch| {
-        let mut results = experiment.simulate(watch, record_com);
-        let com = record_com.then(|| results.com(&experiment.schedule));
-        (results, com)
-    })?;
-    ended.or_partial(py, |results| arrays(py, spells, results))
-}
-
-/// The frames of a robot: its points in each, frame after frame.
-type Frames = Vec<f64>;
-/// The frames of each robot, and the four points of each of its voxels.
-type Poses<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Vec<Vec<[usize; 4]>>);
-
-/// The poses of each body under the schedule, every `stride` env steps: a flat array for each, and the four points of
-/// each voxel.
-#[pyfunction]
-pub fn record_poses<'py>(
-    py: Python<'py>,
-    trials: TrialArguments<'py>,
-    stride: u32,
-    progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Poses<'py>> {
-    let experiment = trials.read(py)?;
-    let watch = Watch::over(experiment.env_steps());
-    let ended = work::run(py, &watch, progress.as_ref(), move |watch| experiment.record(watch, stride))?;
-    let (frames, voxels) = ended.finished()?;
-    Ok((frames.into_iter().map(|frames| frames.into_pyarray(py)).collect(), voxels))
-}
-
-/// The stretches of env steps between frames and changes of the pattern, and whether a frame ends each.
-fn stretches(schedule: &Schedule, stride: u32) -> Vec<(Pattern, u32, bool)> {
-    let all = schedule.steps();
-    let mut ends: BTreeSet<u32> = (1..=all / stride).map(|frame| frame * stride).collect();
-    let changes = schedule.spells.iter().scan(0, |at, spell| {
-        *at += spell.steps;
-        Some(*at)
-    });
-    let changes: Vec<u32> = changes.collect();
-    ends.extend(&changes);
-    let mut before = 0;
-    let stretch = |end: u32| {
-        let spell = changes.iter().position(|&change| before < change).unwrap_or_default();
-        let steps = end - before;
-        before = end;
-        (schedule.spells[spell].pattern, steps, end.is_multiple_of(stride))
-    };
-    ends.into_iter().map(stretch).filter(|&(_, steps, _)| steps > 0).collect()
+    let ended = work::run(py, &watch, progress.as_ref(), move |watch| experiment.simulate(watch))?;
+    ended.or_partial(py, |results| results?.into_python(py))
 }

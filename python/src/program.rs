@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 use crate::circuits::Compiled;
-use crate::errors::{bad_value, diagnosed, internal, without_place};
+use crate::errors::{bad_word, diagnosed, internal, without_place};
 use crate::evolution::Evolution;
 use crate::work::{self, Watch, at_once};
 
@@ -42,13 +42,13 @@ impl Compiling {
             "area" => MappingObjective::Area,
             "delay" => MappingObjective::Delay,
             "margin" => MappingObjective::Margin,
-            word => return Err(bad_value(format!("invalid objective `{word}`; expected area, delay or margin"))),
+            word => return Err(bad_word("objective", word, &["area", "delay", "margin"])),
         };
         let effort = match self.effort.as_str() {
             "fast" => Effort::Fast,
             "normal" => Effort::Normal,
             "high" => Effort::High,
-            word => return Err(bad_value(format!("invalid effort `{word}`; expected fast, normal or high"))),
+            word => return Err(bad_word("effort", word, &["fast", "normal", "high"])),
         };
         let cancel = watch.cancel.clone();
         Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs: self.runs, cancel })
@@ -174,7 +174,7 @@ fn read_level(word: &str) -> PyResult<Level> {
     match word {
         "logic" => Ok(Level::Logic),
         "physics" => Ok(Level::Physics),
-        word => Err(bad_value(format!("invalid level `{word}`; expected logic or physics"))),
+        word => Err(bad_word("level", word, &["logic", "physics"])),
     }
 }
 

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use nbc::{Body, Candidate, CandidateOutcome, Checkpoint, Elite, NicheKey, Work};
+use nbc::{Candidate, CandidateOutcome, Checkpoint, Elite, NicheKey, Palette, Work};
 use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::errors::{bad_value, without_place};
 use crate::evaluation;
@@ -67,6 +67,14 @@ impl Search {
         Self { course: Slot::new("search", Course { search, work }), evolution, number }
     }
 
+    /// The search of the checkpoint that is called `name`.
+    fn continued(py: Python<'_>, checkpoint: Checkpoint, name: &str, evolution: &Evolution) -> PyResult<Self> {
+        let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
+        let seed = checkpoint.state.seed;
+        let search = checkpoint.resume(name, &evolution.0, seed).map_err(|found| without_place(py, found))?;
+        Ok(Self::of(search, work))
+    }
+
     fn check(&self, candidates: &Candidates, search: &nbc::Search) -> PyResult<()> {
         let (found, expected) = (candidates.generation, search.generation());
         if candidates.search != self.number {
@@ -76,10 +84,6 @@ impl Search {
             return Err(bad_value(format!("the candidates are of generation {found}, expected {expected}: ask again")));
         }
         Ok(())
-    }
-
-    fn bodies(candidates: &Candidates) -> Vec<Body> {
-        candidates.list.iter().map(|one| one.body.clone()).collect()
     }
 }
 
@@ -96,10 +100,7 @@ impl Search {
         at_once(py, || {
             let read = Checkpoint::open(&path).map_err(|found| without_place(py, found))?;
             let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
-            let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
-            let (name, seed) = (path.display().to_string(), checkpoint.state.seed);
-            let search = checkpoint.resume(&name, &evolution.0, seed).map_err(|found| without_place(py, found))?;
-            Ok(Self::of(search, work))
+            Self::continued(py, checkpoint, &path.display().to_string(), evolution)
         })
     }
 
@@ -108,6 +109,23 @@ impl Search {
         self.course.with(py, |Course { search, work }| {
             let saved = Checkpoint::save(&path, search, work.env_steps, work.left_out);
             saved.map_err(|found| without_place(py, found))
+        })
+    }
+
+    /// The bytes of a checkpoint.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        self.course.with(py, |Course { search, work }| {
+            Ok(PyBytes::new(py, &Checkpoint::print(search, work.env_steps, work.left_out)))
+        })
+    }
+
+    /// The search of a checkpoint's bytes.
+    #[staticmethod]
+    fn from_bytes(py: Python<'_>, bytes: &[u8], evolution: &Evolution) -> PyResult<Self> {
+        const NAME: &str = "the copy of a search";
+        at_once(py, || {
+            let checkpoint = Checkpoint::read(NAME, bytes).map_err(|found| without_place(py, found))?;
+            Self::continued(py, checkpoint, NAME, evolution)
         })
     }
 
@@ -130,7 +148,11 @@ impl Search {
             }
             outcomes
         })?;
-        evaluation::into_python(py, &self.evolution, &Self::bodies(candidates), &evaluated.finished()?)
+        let mut rows = evaluation::Rows::new(&self.evolution);
+        for (candidate, outcome) in candidates.list.iter().zip(&evaluated.finished()?) {
+            rows.push(&candidate.body, outcome);
+        }
+        rows.into_python(py)
     }
 
     /// Takes the outcomes of candidates.
@@ -185,12 +207,14 @@ impl Search {
         })
     }
 
-    /// The archive as arrays.
-    fn archive<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    /// The archive.
+    fn archive<'py>(&self, py: Python<'py>) -> PyResult<ArchiveOnAxes<'py>> {
         self.course.with(py, |course| {
             let niches = course.search.archive().niches();
             let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
-            archive(py, elites, self.evolution.descriptors.len())
+            let nbc::Evolution { descriptors, palette, .. } = &self.evolution;
+            let arrays = archive(py, elites, descriptors.len())?;
+            Ok((arrays, descriptors.iter().map(axis).collect(), materials(palette)))
         })
     }
 
@@ -200,8 +224,13 @@ impl Search {
     }
 }
 
-/// The arrays of an archive, and the name and bins of each axis.
-type ArchiveOnAxes<'py> = (Bound<'py, PyDict>, Vec<(&'static str, usize)>);
+/// The arrays of an archive, the word and bins of each axis, and the materials of the codes as JSON.
+type ArchiveOnAxes<'py> = (Bound<'py, PyDict>, Vec<(&'static str, usize)>, String);
+
+/// Materials as JSON.
+fn materials(palette: &Palette) -> String {
+    serde_json::to_string(palette).expect("materials can be written as JSON")
+}
 
 /// The archive of a checkpoint: its arrays and its axes.
 #[pyfunction]
@@ -213,7 +242,7 @@ pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<ArchiveOnAxes<
         let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
         let axes: Vec<(&'static str, usize)> = checkpoint.declared.axes.iter().map(axis).collect();
         let depth = checkpoint.state.niches.first().map_or(axes.len(), |(key, _)| key.0.len());
-        Ok((archive(py, elites, depth)?, axes))
+        Ok((archive(py, elites, depth)?, axes, materials(&checkpoint.declared.palette)))
     })
 }
 
@@ -235,6 +264,8 @@ fn archive<'py, 'a>(
     let codes: Vec<u8> = elites.iter().flat_map(|(_, elite)| elite.body.codes().to_vec()).collect();
     arrays.set_item("body", codes.into_pyarray(py).reshape([count, height, width])?)?;
     arrays.set_item("behavior", elites.iter().map(|(_, elite)| elite.behavior.to_string()).collect::<Vec<_>>())?;
+    arrays
+        .set_item("function", elites.iter().map(|(_, elite)| elite.behavior.function().name()).collect::<Vec<_>>())?;
     arrays.set_item("generation", column(py, elites.iter().map(|(_, elite)| u64::from(elite.generation))))?;
     arrays.set_item("evaluations", column(py, elites.iter().map(|(_, elite)| elite.evaluations)))?;
     Ok(arrays)

@@ -7,6 +7,8 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::errors::bad_value;
+
 /// The pool of a process.
 struct Pool {
     process: u32,
@@ -40,8 +42,25 @@ fn replace(known: &mut Option<Pool>, threads: usize) -> PyResult<Arc<ThreadPool>
     Ok(pool)
 }
 
+/// Threads for each core at most: more would not be faster, and many more would take the machine down.
+const FOR_EACH_CORE: usize = 16;
+
+/// The most threads that can be set, and the cores of the machine.
+#[pyfunction]
+pub fn most_threads() -> (usize, usize) {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    (FOR_EACH_CORE * cores, cores)
+}
+
 /// Uses that many threads from now on; 0 stands for all cores.
 #[pyfunction]
 pub fn set_threads(threads: usize) -> PyResult<()> {
+    let (most, cores) = most_threads();
+    if threads > most {
+        let message = format!(
+            "threads is {threads}, expected 0 to {most}: at most {FOR_EACH_CORE} for each core, and {cores} can be used"
+        );
+        return Err(bad_value(message));
+    }
     replace(&mut POOL.lock().unwrap_or_else(PoisonError::into_inner), threads).map(|_| ())
 }

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import pickle
+import subprocess
+import sys
+import textwrap
 
 import numpy as np
 import pytest
@@ -27,17 +31,18 @@ BODY = np.full((1, 2, 3), 3, dtype=np.uint8)
         (BODY * 4, ValueError, r"bodies\[0\]: row 1, column 1: 12 is not a material code; expected 0 to 8"),
         (BODY * 0, ValueError, r"bodies\[0\]: the body has no voxels"),
         (np.zeros((2, 0, 0), dtype=np.uint8), ValueError, "has no voxels"),
-        ([["33"], ["30", "03"]], ValueError, r"bodies\[1\]: the body is not in one piece"),
+        ([["30", "03"]] * 3, ValueError, r"bodies\[0\]: the body is not in one piece \(all 3|and 2 more bodies"),
         ([["33", "3"]], ValueError, r"bodies\[0\]: row 2 has 1 voxels, expected 2 as in row 1"),
         ([["3!"]], ValueError, "`!` is not a material code"),
         ([[[3, 3], [3]]], ValueError, r"bodies\[0\]"),
-        ([[3, 3]], ValueError, r"bodies\[0\] has the shape \(2,\)"),
+        ([[3, 3]], ValueError, r"bodies\[0\]: the body has the shape \(2,\), expected \(H, W\)"),
         (["33"], TypeError, r"bodies\[0\] is a text"),
         ("33", TypeError, "of type str"),
         (None, TypeError, "of type NoneType"),
         (3, TypeError, "of type int"),
         ({"33"}, TypeError, "of type set"),
-        ([np.full((101, 1), 3)], ValueError, "expected at most 100 x 100"),
+        ([np.full((101, 1), 3)], ValueError, r"the shape \(101, 1\), expected at most \(100, 100\)"),
+        (np.full((1, 101, 1), 3), ValueError, r"the shape \(1, 101, 1\), expected at most \(1, 100, 100\)"),
         ([np.array([[np.nan]])], TypeError, "float64"),
         ([np.array([[None]])], TypeError, "object"),
     ],
@@ -70,6 +75,12 @@ def test_bodies(bodies, error, message):
         ({"world_width": float("nan")}, TypeError, "world_width is nan"),
         ({"start_x": 498}, ValueError, "off the ground, expected at most 497"),
         ({"record": "film"}, ValueError, "record is 'film'"),
+        ({"record": "pose"}, ValueError, "expected 'com', 'poses' or None; did you mean `poses`?"),
+        ({"materials": [3]}, TypeError, r"materials\[0\] is of type int, expected a mapping"),
+        ({"materials": [{"name": "a", "kind": object()}]}, TypeError, "a value is of type object"),
+        ({"materials": [{"name": "a", "kind": "sofd"}]}, ValueError, "did you mean `soft`?"),
+        ({"materials": [{"name": "a", "kind": "soft", "phas": 1}]}, ValueError, "did you mean `phase`?"),
+        ({"world_width": 10**5000}, ValueError, "a number of more than 30 digits"),
         ({"record": "poses", "stride": 0}, ValueError, "stride is 0"),
         ({"materials": [{"name": "a", "kind": "stone"}]}, ValueError, "materials: unknown variant `stone`"),
         ({"materials": [{"name": "a", "kind": "actuator"}]}, ValueError, "materials: the material `a` lacks"),
@@ -135,12 +146,125 @@ def test_flock_arguments(patterns, steps, error, message):
 
 def test_evolutions():
     with pytest.raises(nbc.NbcError) as caught:
-        nbc.Evolution(box=(0, 5), objective="beauty")
+        nbc.Evolution(shape=(0, 5), objective="beauty")
     assert {diagnostic.span.line for diagnostic in caught.value.diagnostics} == {3, 4}
     with pytest.raises(nbc.NbcError):
         nbc.Evolution.parse("evolution {")
     assert nbc.Evolution.parse("circuit f(a) -> (q) { q = not a }").fields["name"] == "gates"
-    with pytest.raises(ValueError, match=r"bodies\[0\] must be 5 rows of 5 codes"):
+    with pytest.raises(ValueError, match=r"bodies\[0\]: the body has the shape \(2, 3\), expected \(5, 5\)"):
         nbc.evaluate(BODY, nbc.Evolution())
     with pytest.raises(TypeError, match="of type str"):
         nbc.evaluate(BODY, "gates")
+
+
+def test_one_invalid_body_does_not_stop_the_others(walkers):
+    bodies = [walkers[0], ["30", "03"], walkers[1], [[0, 0]], ["3", "33"], walkers[2], np.full((1, 101), 3), [[3, 300]]]
+    good = [0, 2, 5]
+    with pytest.warns(nbc.InvalidBodyWarning, match=r"5 bodies of 8 .* bodies\[1\]: the body is not in one piece"):
+        walk = nbc.simulate(bodies, "01*1", record="poses")
+    alone = nbc.simulate([bodies[i] for i in good], "01*1", record="poses")
+    assert np.flatnonzero(walk.ok).tolist() == good and list(walk.errors) == [1, 3, 4, 6, 7]
+    assert walk.errors[3] == "the body has no voxels"
+    assert walk.errors[4] == "row 2 has 2 voxels, expected 1 as in row 1"
+    assert walk.errors[6] == "the body has the shape (1, 101), expected at most (100, 100)"
+    assert walk.errors[7] == "300 is not a material code; expected 0 to the number of materials"
+    assert set(walk.faults["kind"][list(walk.errors)]) == {"invalid"}
+    np.testing.assert_array_equal(walk.com[good], alone.com)
+    np.testing.assert_array_equal(walk.displacement[good], alone.displacement)
+    assert np.isnan(walk.com[list(walk.errors)]).all() and np.isnan(walk.displacement[list(walk.errors)]).all()
+    assert [pose.shape for pose in walk.poses] == [(8, 16, 2) if i in good else (8, 0, 2) for i in range(8)]
+
+
+def test_one_invalid_body_of_an_array_is_found(walkers):
+    bodies = walkers.astype(int)
+    bodies[4, 0, 0], bodies[6] = -1, 0
+    with pytest.warns(nbc.InvalidBodyWarning):
+        result = nbc.evaluate(bodies, nbc.Evolution(shape=(3, 3), fixed="1 cycles"))
+    assert result.errors == {4: "-1 is not a material code; expected 0 to the number of materials",
+                             6: "the body has no voxels"}
+    assert (result.outcome == "invalid").nonzero()[0].tolist() == [4, 6]
+    assert result.faults["kind"][4] == "invalid" and np.isnan(result.fitness[4]).all()
+    with pytest.warns(nbc.InvalidBodyWarning):
+        other = nbc.evaluate([walkers[0], ["333"]], nbc.Evolution(shape=(3, 3), fixed="1 cycles"))
+    assert other.errors[1] == "the body has the shape (1, 3), expected (3, 3), the shape of the evolution"
+    with pytest.raises(ValueError, match=r"bodies\[1\]: .* \(and one more body is invalid\)"):
+        nbc.Flock([["33"], ["30", "03"], ["00"]])
+
+
+def test_more_threads_than_the_machine_can_run_are_refused():
+    cores = len(os.sched_getaffinity(0))
+    with pytest.raises(ValueError, match=r"threads is 1000000, expected 0 to \d+: at most 16 for each core"):
+        nbc.set_threads(10**6)
+    with pytest.raises(ValueError, match=f"and {cores} can be used"):
+        nbc.set_threads(16 * cores + 1)
+    with pytest.raises(ValueError, match="threads is -1"):
+        nbc.set_threads(-1)
+    with pytest.raises(TypeError, match="threads is '2', expected a whole number"):
+        nbc.set_threads("2")
+
+
+def test_shapes_are_rows_and_columns():
+    run = nbc.Evolution(shape=(2, 5), fixed="1 cycles", batch=2)
+    assert run.shape == (2, 5) and (run.fields["height"], run.fields["width"]) == (2, 5)
+    assert nbc.Search(run).ask().bodies.shape[1:] == (2, 5)
+    assert nbc.evaluate(np.full((1, 2, 5), 3), run).outcome.shape == (1,)
+    assert nbc.Evolution.parse("evolution e { from: gates, box: 5 x 2 }").shape == (2, 5)
+    expected = r"box=\(5, 2\), columns first, is now shape=\(2, 5\), rows first"
+    with pytest.raises(TypeError, match=expected):
+        nbc.Evolution(box=(5, 2))
+
+
+def test_names_that_are_looked_up_are_offered(tmp_path):
+    program = nbc.loads('circuit inverter(a) -> (q) { q = not a }\ntest inverter "turns" { a | q\n 0 | 1 }')
+    swarm = program.compile().swarm()
+    wrong = [
+        (lambda: program.circuits["invertr"], KeyError, "no circuit called `invertr`; did you mean `inverter`?"),
+        (lambda: program.evolutions["gate"], KeyError, "no evolution called `gate`; did you mean `gates`?"),
+        (lambda: program.test("turn"), KeyError, "called `turn`; did you mean `turns`?"),
+        (lambda: program.compile(objective="aera"), ValueError, "did you mean `area`?"),
+        (lambda: program.compile(effort="hig"), ValueError, "did you mean `high`?"),
+        (lambda: program.test(level="logik"), ValueError, "did you mean `logic`?"),
+        (lambda: swarm.step(aa=1), ValueError, "no input port called `aa`; did you mean `a`?"),
+        (lambda: nbc.Search(nbc.Evolution()).archive.heatmap("voxel", "behavior"), ValueError, "mean `voxels`?"),
+    ]
+    for use, error, message in wrong:
+        with pytest.raises(error) as caught:
+            use()
+        assert message in str(caught.value)
+
+
+def test_a_path_is_checked_before_the_work(tmp_path, monkeypatch):
+    run = nbc.Evolution(shape=(2, 3), generations=10**6, batch=2, fixed="1 cycles")
+    for path in (tmp_path / "no/folder/run.nbc", tmp_path):
+        with pytest.raises(nbc.NbcError):
+            nbc.evolve(run, checkpoint=path)
+    program = nbc.loads("circuit f(a) -> (q) { q = not a }")
+    monkeypatch.setattr(nbc.Program, "run", lambda *_: pytest.fail("it ran"))
+    with pytest.raises(nbc.NbcError) as caught:
+        program.report(tmp_path / "no/folder/page.html")
+    assert caught.value.diagnostics[0].code == "unwritable"
+    for every in (-1, float("nan")):
+        with pytest.raises(ValueError, match="checkpoint_every"):
+            nbc.evolve(run, checkpoint_every=every)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /proc")
+@pytest.mark.parametrize("call", ["simulate(bodies, '00*1steps', record=None)", "Flock(bodies)", "evaluate(bodies)"])
+def test_bodies_that_do_not_fit_into_memory_are_refused(call):
+    code = f"""
+        import resource
+        import numpy as np, nbc
+        nbc.simulate([["33"]], "00*1")
+        bodies = np.full((12_800, 100, 100), 3, dtype=np.uint8)
+        if "evaluate" in {call!r}:
+            bodies = bodies[:, :64, :64].copy()
+        pages = int(open("/proc/self/statm").read().split()[0])
+        resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + (32 << 20),) * 2)
+        try:
+            nbc.{call}
+        except MemoryError as error:
+            print(error)
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "would need" in done.stdout and "fewer bodies at once" in done.stdout

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import nbc
+from conftest import ROOT
 
 INVERTER = "circuit inverter(a) -> (q) { q = not a }"
 ADDER = "circuit add(a[2], b[2]) -> (s[2]) { s = a + b }"
@@ -16,8 +17,6 @@ ADDER = "circuit add(a[2], b[2]) -> (s[2]) { s = a + b }"
 
 @pytest.fixture(scope="module")
 def latch():
-    from conftest import ROOT
-
     return nbc.load(ROOT / "circuits/latch.nb").circuits["d_latch"].compile()
 
 
@@ -80,7 +79,7 @@ def test_options_of_compiling(tmp_path, latch):
         program.compile(library=tmp_path / "none")
     with pytest.raises(nbc.NbcError):
         program.compile("other")
-    with pytest.raises(KeyError, match="there is no circuit `other`; there are inverter"):
+    with pytest.raises(KeyError, match="there is no circuit called `other`; expected one of inverter"):
         program.circuits["other"]
     assert latch.warnings == () and program.warnings == ()
 
@@ -89,7 +88,7 @@ def test_step_wants_each_port_once(latch):
     swarm = latch.swarm()
     for use, message in (
         (lambda: swarm.step(d=1), "missing value of `e`"),
-        (lambda: swarm.step(d=1, e=1, f=1), "unknown port `f`"),
+        (lambda: swarm.step(d=1, e=1, f=1), "no input port called `f`; expected one of d, e"),
         (lambda: swarm.step((1,)), "1 values, expected 2: d, e"),
         (lambda: swarm.step(d=2, e=0), "the value of `d` is 2, expected 0 to 1"),
         (lambda: swarm.step(d=1, e=1, cycles=0), "cycles is 0"),
@@ -137,9 +136,50 @@ def test_a_report_is_a_page_with_a_player(tmp_path, root):
 def test_evolutions_of_a_file(root):
     runs = nbc.load(root / "library/evolve.nb").evolutions
     assert runs["gates5"].fields["objective"] == "gate" and "gates" in runs
-    assert np.array(runs["gates7"].box).tolist() == [7, 7]
+    assert runs["gates7"].shape == (7, 7)
 
 
 def test_pictures_of_robots():
     robot = nbc.library()[0]
     assert ElementTree.fromstring(robot._repr_svg_()).tag.endswith("svg")
+
+
+def test_a_compiled_circuit_is_tested_with_its_options(tmp_path):
+    program = nbc.loads(INVERTER + '\ntest inverter "turns" { a | q\n 0 | 1 }')
+    robot = next(robot for robot in nbc.library() if robot.function == "not" and robot.body.shape == (7, 7))
+    source = ROOT / f"library/robots/{robot.name}.yaml"
+    (tmp_path / source.name).write_text(source.read_text())
+    compiled = program.compile(library=tmp_path)
+    seen = []
+    compiled.program.test = lambda name, **options: seen.append((name, options))  # type: ignore[method-assign]
+    compiled.test(level="physics", effort="fast")
+    assert seen == [("inverter", {"library": str(tmp_path), "swarm": None, "objective": "area", "effort": "fast",
+                                  "runs": "out", "level": "physics"})]
+    del compiled.program.test
+    (result,) = compiled.test(level="physics")
+    assert result.passed
+    (tmp_path / source.name).unlink()
+    with pytest.raises(nbc.NbcError):
+        compiled.test(level="physics")
+
+
+def test_a_swarm_takes_the_arrays_that_it_returns(latch):
+    first, second = latch.swarm(), latch.swarm()
+    first.run([{"d": 1, "e": 1}, (0, 0)], hold=4)
+    second.run(first.inputs, hold=1)
+    for name in ("inputs", "bits", "outputs", "paths"):
+        np.testing.assert_array_equal(getattr(first, name), getattr(second, name))
+    assert first.step(first.inputs[0]) == second.step(np.array([1, 1])) == {"q": 1, "nq": 0}
+    assert first.step(d=np.bool_(True), e=np.int64(1)).keys() == {"q", "nq"}
+    assert first.inputs[-1].tolist() == [True, True]
+    with pytest.raises(ValueError, match=r"5 bits, expected 2: d\[1\], e\[1\]"):
+        first.step(first.bits[0])
+    with pytest.raises(TypeError, match=r"an array of the shape \(16, 2\)"):
+        first.step(np.zeros((16, 2), dtype=bool))
+    with pytest.raises(TypeError, match="given twice"):
+        first.step((1, 0), d=1)
+    adder = nbc.loads(ADDER).compile(effort="fast").swarm()
+    adder.run([dict(a=1, b=2)], hold=1)
+    assert adder.inputs.tolist() == [[False, True, True, False]]
+    adder.step(adder.inputs[0])
+    assert adder.inputs.tolist() == [[False, True, True, False]] * 2

@@ -60,6 +60,39 @@ def test_what_nbc_lacks_is_refused(structure, joined, error, message):
         evogym.from_structure(structure, joined)
 
 
+def test_sensors_become_actuators_that_are_moved():
+    body = ["345", "678"]
+    structure, joined = evogym.to_structure(body, as_actuators=True)
+    assert structure.tolist() == [[3, 3, 3], [3, 3, 3]] and joined.shape == (2, 7)
+    widths = evogym.actions(body, "00*1 01*1 10*21steps")
+    assert widths.shape == (189, 6) and widths.min() >= 0.6 and widths.max() <= 1.6
+    assert widths[0, 2:].tolist() == [1.6, 1.6, 0.6, 0.6]
+    assert widths[84, 2:].tolist() == [1.6, 0.6, 0.6, 1.6]
+    assert widths[168, 2:].tolist() == [0.6, 1.6, 1.6, 0.6]
+    np.testing.assert_allclose(widths[:, 0] + widths[:, 1], 2.2)
+    np.testing.assert_allclose(widths[21, 0], 1.1 + np.sin(2 * np.pi * 21 / 83) / 2)
+    with pytest.raises(ValueError, match="`as_actuators=True` makes it a horizontal actuator, to be moved by"):
+        evogym.to_structure(body)
+    with pytest.raises(ValueError, match="9 is not one of the paper's materials"):
+        evogym.to_structure(["39"], as_actuators=True)
+
+
+def test_a_robot_with_sensors_walks_as_in_evolution_gym():
+    sim = pytest.importorskip("evogym")
+    body = next(robot.body for robot in nbc.library() if robot.name == "nand_5x5")
+    structure, joined = evogym.to_structure(body, as_actuators=True)
+    ground, world = np.full((1, 60), 5), sim.EvoWorld()
+    world.add_from_array("ground", ground, 0, 0, evogym.connections(ground))
+    world.add_from_array("robot", structure, 30 - 5 // 2, 1, joined)
+    theirs = sim.EvoSim(world)
+    theirs.reset()
+    for widths in evogym.actions(body, "01*84steps 10*28steps"):
+        theirs.set_action("robot", widths)
+        theirs.step()
+    ours = nbc.simulate(body[None], "01*84steps 10*28steps", world_width=60).com[0, -1]
+    np.testing.assert_allclose(theirs.object_pos_at_time(theirs.get_time(), "robot").mean(axis=1), ours, atol=1e-9)
+
+
 def test_a_structure_can_be_simulated():
     body = evogym.from_structure([[3, 3, 3], [3, 0, 3]])
     assert nbc.simulate(body[None], "00*1").ok.all()

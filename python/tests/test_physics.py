@@ -138,9 +138,57 @@ def test_progress_is_reported(walkers):
     nbc.simulate(walkers, "00*1", progress=True)
 
 
-def test_poses_are_half_of_the_progress(walkers):
+def test_poses_are_recorded_in_the_same_pass(walkers):
     seen = []
-    many = np.repeat(walkers, 4, axis=0)
-    nbc.simulate(many, "00*10", record="poses", progress=lambda done, all: seen.append((done, all)))
-    assert seen == sorted(seen) and all(all_ == 2 * 48 * 840 for _, all_ in seen)
-    assert seen[0][0] <= 48 * 840 < seen[-1][0]
+    walk = nbc.simulate(walkers, SCHEDULE, record="poses", progress=lambda done, all: seen.append((done, all)))
+    assert seen == sorted(seen) and all(done <= all_ == 12 * 392 for done, all_ in seen)
+    only = nbc.simulate(walkers, SCHEDULE)
+    np.testing.assert_array_equal(walk.com, only.com)
+    np.testing.assert_array_equal(walk.displacement, only.displacement)
+
+
+class Foreign:
+    """An array of another library, such as JAX, which is neither a sequence nor numpy's."""
+
+    def __init__(self, array):
+        self.array = np.asarray(array)
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self.array, dtype=dtype)
+
+
+class Exchanged:
+    """An array that can only be exchanged."""
+
+    def __init__(self, array):
+        self.array = np.asarray(array)
+
+    def __dlpack__(self, **options):
+        return self.array.__dlpack__(**options)
+
+    def __dlpack_device__(self):
+        return self.array.__dlpack_device__()
+
+
+@pytest.mark.parametrize("kind", [Foreign, Exchanged])
+def test_arrays_of_other_libraries_are_taken(walkers, kind):
+    expected = nbc.simulate(walkers, "01*1").com
+    for bodies in (kind(walkers), [kind(body) for body in walkers], kind(walkers.astype(np.int32))):
+        np.testing.assert_array_equal(nbc.simulate(bodies, "01*1").com, expected)
+    flock = nbc.Flock(kind(walkers))
+    flock.advance(kind(np.tile([0, 1], (12, 1))), kind(np.array(84)))
+    np.testing.assert_array_equal(flock.com, expected[:, -1])
+    assert nbc.rows(kind(walkers[0])) == nbc.rows(walkers[0]) and nbc.invalid(kind(walkers)) == nbc.invalid(walkers)
+    assert nbc.evogym.from_structure(kind([[3, 3]])).tolist() == [[3, 3]]
+    with pytest.raises(TypeError, match="dtype float32"):
+        nbc.simulate(kind(walkers.astype(np.float32)), "01*1")
+
+
+def test_materials_of_numpy_numbers():
+    plain = {"name": "a", "kind": "actuator", "period": 84, "phase": 90.0, "range": [0.75, 1.5]}
+    numpy = {**plain, "period": np.int64(84), "phase": np.float32(90), "range": np.array([0.75, 1.5])}
+    expected = nbc.simulate([["111"]], "00*1", materials=[plain]).com
+    np.testing.assert_array_equal(nbc.simulate([["111"]], "00*1", materials=[numpy]).com, expected)
+    vary = {"friction": np.float32(0.25)}
+    run = nbc.Evolution(objective="gate", vary=vary, batch=np.int64(3), shape=(np.int64(4), np.uint8(5)))
+    assert run.fields["sample"]["vary"]["friction"] == 0.25 and run.shape == (4, 5)

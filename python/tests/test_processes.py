@@ -81,7 +81,7 @@ def test_a_flock_in_use_is_refused_in_a_fork():
 
 
 def test_memory_stays_flat_over_ten_thousand_calls():
-    body, run = [["34", "33"]], nbc.Evolution(box=(2, 2), fixed="1 cycles", batch=2)
+    body, run = [["34", "33"]], nbc.Evolution(shape=(2, 2), fixed="1 cycles", batch=2)
     program = nbc.loads("circuit f(a) -> (q) { q = not a }")
 
     def calls(times: int) -> None:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
+import io
 import json
+import pickle
 
 import numpy as np
 import pytest
 
 import nbc
 
-RUN = dict(box=(3, 3), batch=6, newcomers=1, generations=6, fixed="2 cycles")
+RUN = dict(shape=(3, 3), batch=6, newcomers=1, generations=6, fixed="2 cycles")
 TEXT = "evolution small { from: gates, box: 3 x 3, batch: 6, newcomers: 1, generations: 6, fixed: 2 cycles }"
 
 
@@ -45,10 +48,10 @@ def test_an_archive_is_an_array_and_a_frame(done):
     np.testing.assert_array_equal(again.niche, archive.elites["niche"])
     frame = archive.frame()
     assert len(frame) == len(archive) and frame["fitness_1"].max() == archive.elites["fitness"][:, 0].max()
-    assert frame["body"][0].split() == nbc.rows(archive.elites["body"][0])
+    assert frame["body"][0].split("|") == nbc.rows(archive.elites["body"][0])
     heat = archive.heatmap("voxels", "behavior")
     assert heat.shape == (16, 4) and np.nanmax(heat) == archive.elites["fitness"][:, 0].max()
-    with pytest.raises(ValueError, match="no axis `size`"):
+    with pytest.raises(ValueError, match="no axis of the archive called `size`"):
         archive.heatmap("size", "voxels")
 
 
@@ -62,7 +65,64 @@ def test_a_run_resumes_to_the_same_archive(run, done, tmp_path):
     with pytest.raises(ValueError, match="belongs to seed 3, expected seed 4"):
         nbc.evolve(run, seed=4, checkpoint=file)
     with pytest.raises(nbc.NbcError, match="different declaration"):
-        nbc.Search.resume(file, nbc.Evolution(box=(4, 4)))
+        nbc.Search.resume(file, nbc.Evolution(shape=(4, 4)))
+
+
+def test_more_generations_than_declared_are_made(run, tmp_path):
+    short = nbc.Evolution(**{**RUN, "generations": 2})
+    search = nbc.evolve(short, seed=3, generations=4, checkpoint=tmp_path / "run.nbc")
+    assert search.generation == 4 and search.is_done
+    assert nbc.evolve(run, seed=3, generations=4).archive == search.archive
+    again = nbc.evolve(short, seed=3, generations=6, checkpoint=tmp_path / "run.nbc")
+    assert again.archive == nbc.evolve(run, seed=3).archive
+
+
+def test_axes_of_one_word_are_told_apart():
+    axes = ["active in 3 bins", "behavior", "active in 9 bins"]
+    search = nbc.evolve(nbc.Evolution(**{**RUN, "descriptors": axes}), seed=1)
+    archive = search.archive
+    assert archive.axes == search.evolution.axes == (("active_1", 3), ("behavior", 16), ("active_3", 9))
+    frame = archive.frame()
+    assert frame["niche_active_1"].tolist() == archive.elites["niche"][:, 0].tolist()
+    assert frame["niche_active_3"].tolist() == archive.elites["niche"][:, 2].tolist()
+    heat = archive.heatmap("active_3", "active_1")
+    assert heat.shape == (3, 9)
+    for bin_1, _, bin_3 in archive.elites["niche"]:
+        assert np.isfinite(heat[bin_1, bin_3])
+    with pytest.raises(ValueError, match="no axis of the archive called `active`"):
+        archive.heatmap("active", "behavior")
+
+
+@pytest.mark.parametrize("axes", [["voxels in 4 bins", "behavior"], ["active in 2 bins", "active in 4 bins"]])
+def test_a_frame_is_the_table_of_the_program(axes, program, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    search = nbc.evolve(nbc.Evolution(**{**RUN, "descriptors": axes, "name": "small"}), seed=1)
+    (tmp_path / "seed-1").mkdir()
+    search.save(tmp_path / "seed-1/checkpoint.nbc")
+    text = io.StringIO(program("export", tmp_path / "seed-1", "--to", "csv"))
+    table = pandas.read_csv(text, dtype={"body": str}, keep_default_na=False)
+    for archive in (search.archive, nbc.read_archive(tmp_path / "seed-1/checkpoint.nbc")):
+        found = archive.frame()
+        assert list(found.columns) == list(table.columns)[2:]
+        pandas.testing.assert_frame_equal(found, table[found.columns], check_dtype=False, check_exact=True)
+
+
+@pytest.mark.parametrize("copied", [copy.deepcopy, copy.copy, lambda value: pickle.loads(pickle.dumps(value))])
+def test_whole_data_can_be_copied(run, done, copied):
+    robot = nbc.library()[0]
+    assert copied(robot) == robot and hash(copied(robot)) == hash(robot) and robot != nbc.library()[1]
+    again = copied(run)
+    assert again == run and again.axes == run.axes and hash(again) == hash(run) and again != nbc.Evolution()
+    assert copied(done.archive) == done.archive and len(copied(done.archive)) == len(done.archive)
+    halfway = nbc.evolve(run, seed=3, generations=2)
+    other = copied(halfway)
+    while not other.is_done:
+        other.step()
+    assert other.archive == done.archive and halfway.generation == 2
+    program = nbc.loads("circuit f(a) -> (q) { q = not a }")
+    compiled = copied(program.compile(effort="fast"))
+    assert compiled.robots == program.compile().robots and copied(program.circuits["f"]).name == "f"
+    assert copied(nbc.Interrupted([1])).result == [1]
 
 
 def test_checkpoints_are_those_of_the_program(program, tmp_path):

@@ -261,10 +261,12 @@ impl<'a> CircuitChecker<'a> {
     fn drive(&mut self, targets: &'a [tree::TargetSyntax], value: tree::ExpressionSyntaxId) -> Option<Statement> {
         let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
         let span = self.body.expressions[value.0 as usize].span;
+        let start_fault = self.start_fault(targets, value);
         let value = self.expression(value, targets.len());
         if let Some(fault) = self.value_count(value, targets, span) {
             self.diagnostics.push(fault);
         }
+        self.diagnostics.extend(start_fault);
         Some(Statement::Drive { targets: lowered.into_iter().collect::<Option<_>>()?, value })
     }
 

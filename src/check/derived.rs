@@ -28,7 +28,7 @@ pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &NameTable) -
             taken[place] = true;
             chain.push(place);
             let (home, source) = sources[place];
-            let from = source.record.fields.iter().find(|field| field.name.text == "from");
+            let from = source.record.field("from");
             let word = from.and_then(|field| fields::word(&field.value, Expected::Name(names.kind().word())).ok());
             at = word.and_then(|name| names.find(&name.text, home));
         }

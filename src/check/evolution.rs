@@ -12,8 +12,8 @@ use crate::check::world::{self, Worlds};
 use crate::diag::Diagnostic;
 use crate::evolve::LEAST_ACTUATORS;
 use crate::model::{
-    Axis, Count, Evolution, Material, MutationWeights, NamedSchedule, Niche, Palette, Pattern, PhysicsWorld, Program,
-    Rules, SampledWorlds, Schedule, SearchObjective, Symmetry, Variation,
+    Axis, Count, Evolution, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette, Pattern,
+    PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, Symmetry, Variation,
 };
 use crate::source::Span;
 use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
@@ -33,7 +33,41 @@ pub(crate) struct Known<'a> {
     /// The worlds by the position of their names.
     pub(crate) worlds: Worlds<'a>,
     /// The evolutions by the position of their names, as far as they are checked.
-    pub(crate) checked: &'a [CheckState<Evolution>],
+    pub(crate) checked: &'a [CheckState<NamedEvolution>],
+}
+
+/// An evolution whose sensors still name stimuli of the program, so that others can take its materials or its schedule.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedEvolution {
+    evolution: Evolution,
+    /// The two stimuli of its schedule, as indices of [`Program::stimuli`], in ascending order.
+    stimuli: Vec<usize>,
+}
+
+impl NamedEvolution {
+    /// The evolution by itself: its two stimuli are the first and the second of its bodies.
+    pub(crate) fn into_evolution(self) -> Evolution {
+        let Self { evolution, stimuli } = self;
+        let own = |material: &Material| match material.kind {
+            MaterialKind::Sensor(response) => {
+                let stimulus = stimuli.binary_search(&response.stimulus).expect("its schedule has every stimulus");
+                Material { kind: MaterialKind::Sensor(Response { stimulus, ..response }), ..material.clone() }
+            }
+            _ => material.clone(),
+        };
+        let palette = Arc::new(Palette::new(evolution.palette.materials().iter().map(own).collect()));
+        Evolution { palette, ..evolution }
+    }
+
+    /// The first sensor whose stimulus the schedule never gives.
+    fn deaf_sensor(&self) -> Option<(&Material, usize)> {
+        self.evolution.palette.materials().iter().find_map(|material| match material.kind {
+            MaterialKind::Sensor(Response { stimulus, .. }) if !self.stimuli.contains(&stimulus) => {
+                Some((material, stimulus))
+            }
+            _ => None,
+        })
+    }
 }
 
 /// Checks an evolution.
@@ -42,19 +76,20 @@ pub(crate) fn evolution(
     home: Home,
     known: &Known<'_>,
     faults: &mut Vec<Diagnostic>,
-) -> CheckState<Evolution> {
+) -> CheckState<NamedEvolution> {
     let mut fields = Fields::new("evolution", source);
     let base =
         fields.read("from", &known.checked[0], |value| derived::base(value, home, known.evolutions, known.checked));
-    let (base, whole) = match base {
-        CheckState::Sound(base) => (Evolution::clone(base), true),
+    let (NamedEvolution { evolution: base, stimuli }, whole) = match base {
+        CheckState::Sound(base) => (NamedEvolution::clone(base), true),
         // The first evolution of the prelude has the default values of the others.
-        _ => (paper(), fields.value("from").is_none()),
+        _ => (NamedEvolution { evolution: paper(), stimuli: Vec::new() }, source.record.field("from").is_none()),
     };
     let (width, height) = fields.read("box", (base.width, base.height), area);
     let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
     fields.read("genome", (), |value| fields::choice(value, &[("cppn", ())]));
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
+    let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
     let objective = fields.read("objective", base.objective, objective);
     let evolution = Evolution {
         name: source.name.text.clone(),
@@ -62,7 +97,7 @@ pub(crate) fn evolution(
         height,
         palette: palette.unwrap_or(base.palette),
         mutation: fields.read("mutation", base.mutation, mutation),
-        variable: variable.unwrap_or(base.variable),
+        variable,
         fixed_steps: fields.read("fixed", base.fixed_steps, steps),
         descriptors: fields.read_list("descriptors", axis).unwrap_or(base.descriptors),
         batch: fields.read("batch", base.batch as u32, |value| quantity::count(value, 1..=1_000_000)) as usize,
@@ -83,7 +118,21 @@ pub(crate) fn evolution(
     let found = fields.finish();
     let sound = found.is_empty() && whole;
     faults.extend(found);
-    if sound { CheckState::Sound(Box::new(evolution)) } else { CheckState::Faulty }
+    let checked = NamedEvolution { evolution, stimuli };
+    let deaf = if sound { deaf_sensor(source, &checked, known.program) } else { None };
+    let is_deaf = deaf.is_some();
+    faults.extend(deaf);
+    if sound && !is_deaf { CheckState::Sound(Box::new(checked)) } else { CheckState::Faulty }
+}
+
+/// The error of a sensor whose stimulus is never given, at the field that chose the schedule or the materials.
+fn deaf_sensor(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
+    let (material, stimulus) = checked.deaf_sensor()?;
+    let name = |stimulus: usize| program.stimuli.get(stimulus).cloned();
+    let given = checked.stimuli.iter().filter_map(|&stimulus| name(stimulus)).collect();
+    let error = EvolutionError::DeafSensor { material: material.name.clone(), stimulus: name(stimulus)?, given };
+    let field = ["variable", "materials"].into_iter().find_map(|field| source.record.field(field));
+    Some(error.at(field.map_or(source.name.span, |field| field.value.span)))
 }
 
 /// The paper's evolution without its materials and stimuli, which the prelude declares.
@@ -157,25 +206,45 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
         }
         materials.extend(material.cloned());
     }
+    // The kind of a material with errors is unknown.
+    let are_known = materials.len() == values.len();
+    if are_known && !materials.iter().any(|material| matches!(material.kind, MaterialKind::Actuator(_))) {
+        return Err(EvolutionError::NoActuator { least: LEAST_ACTUATORS }.at(value.span));
+    }
     Ok(Arc::new(Palette::new(materials)))
 }
 
-fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Schedule, Diagnostic> {
+/// A schedule of two stimuli: which ones, and the schedule as one of the first and the second of them.
+fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
     let name = fields::word(value, Expected::Name("schedule"))?;
-    let found: Option<&NamedSchedule> = known.program.schedules.get(known.schedules.resolve(name, home)?);
-    if let Some(fault) = found.and_then(|found| missing_patterns(found, name)) {
+    let Some(found) = known.program.schedules.get(known.schedules.resolve(name, home)?) else {
+        return Ok(Default::default());
+    };
+    if found.stimuli.len() != 2 {
+        let error = EvolutionError::WrongStimuli { schedule: name.text.clone(), stimuli: found.stimuli.len() };
+        return Err(error.at(name.span));
+    }
+    if let Some(fault) = missing_patterns(found, name) {
         return Err(fault);
     }
-    Ok(found.map(|found| found.schedule.clone()).unwrap_or_default())
+    let mut stimuli = found.stimuli.clone();
+    stimuli.sort_unstable();
+    let own = |spell: &Spell| Spell { pattern: restricted(spell.pattern, &stimuli), ..*spell };
+    let schedule = Schedule { spells: found.schedule.spells.iter().map(own).collect() };
+    Ok((stimuli, schedule))
+}
+
+/// Which of these stimuli are present in a pattern, in their order.
+fn restricted(pattern: Pattern, stimuli: &[usize]) -> Pattern {
+    Pattern::new(&stimuli.iter().map(|&stimulus| pattern.has(stimulus)).collect::<Vec<_>>())
 }
 
 /// A behavior is the response of a body to each of the four patterns of two stimuli.
 fn missing_patterns(schedule: &NamedSchedule, name: &NameSyntax) -> Option<Diagnostic> {
-    let shown = |pattern: &Pattern| {
-        schedule.schedule.spells.iter().any(|spell| spell.pattern.pair_index() == pattern.pair_index())
-    };
+    let shown =
+        |pattern| schedule.schedule.spells.iter().any(|spell| restricted(spell.pattern, &schedule.stimuli) == pattern);
     let missing: Vec<String> =
-        Pattern::PAIRS.iter().filter(|pattern| !shown(pattern)).map(Pattern::to_string).collect();
+        Pattern::PAIRS.iter().filter(|&&pattern| !shown(pattern)).map(Pattern::to_string).collect();
     if missing.is_empty() {
         return None;
     }

@@ -12,6 +12,9 @@ use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
 use crate::source::Span;
 use crate::syntax::tree::{self, Infix};
 
+/// The operators that can be written as calls.
+const OPERATORS: [&str; 7] = ["and", "or", "xor", "nand", "nor", "xnor", "not"];
+
 /// The prelude's circuit for an operator.
 fn circuit_of(infix: Infix) -> &'static str {
     match infix {
@@ -180,7 +183,7 @@ impl<'a> CircuitChecker<'a> {
         outputs: usize,
         span: Span,
     ) -> ExpressionKind {
-        let circuit = match self.names.resolve(name, self.home) {
+        let circuit = match self.names.resolve_beside(name, self.home, &OPERATORS) {
             Ok(circuit) => circuit,
             Err(fault) => {
                 self.diagnostics.push(match Operator::parse(&name.text.to_lowercase()) {

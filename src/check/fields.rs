@@ -32,8 +32,11 @@ impl<'a> Fields<'a> {
 
     /// The value of a field.
     pub(crate) fn value(&mut self, field: &'static str) -> Option<&'a ValueSyntax> {
-        self.known.push(field);
-        self.record.fields.iter().find(|given| given.name.text == field).map(|given| &given.value)
+        // A field that has several forms is read once for each.
+        if !self.known.contains(&field) {
+            self.known.push(field);
+        }
+        self.record.field(field).map(|given| &given.value)
     }
 
     /// A field read by `read`, or `default` if it is missing or invalid.

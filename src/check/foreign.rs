@@ -3,7 +3,7 @@
 use crate::check::wording::{LoadError, at_use, of_translation};
 use crate::circuit::correspondence;
 use crate::circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Suggestion};
 use crate::source::{FileId, SourceFile, SourceWorld, Span};
 
 /// A file of another tool that a program uses.
@@ -36,7 +36,8 @@ impl Foreign<'_> {
     pub(super) fn aiger(&self) -> Result<String, Vec<Diagnostic>> {
         let file = self.name.to_owned();
         let bytes = self.world.read_bytes(self.name);
-        let bytes = bytes.map_err(|error| self.fault(LoadError::Unreadable { file, error }))?;
+        let meant = Suggestion::None;
+        let bytes = bytes.map_err(|error| self.fault(LoadError::Unreadable { file, error, meant }))?;
         let design = aiger::read(&bytes, Some(Register::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
         self.circuit(&self.titled(design))
     }

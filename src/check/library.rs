@@ -33,9 +33,7 @@ pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home
         DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => Some(&record.record),
         _ => None,
     });
-    let from = |record: &RecordSyntax| {
-        record.fields.iter().find(|field| field.name.text == "from").map(|field| field.value.clone())
-    };
+    let from = |record: &RecordSyntax| record.field("from").map(|field| field.value.clone());
     records.filter_map(from).filter_map(|value| folder_fault(world, sources, &value)).collect()
 }
 

@@ -4,8 +4,8 @@ use crate::check::foreign::Foreign;
 use crate::check::names::Home;
 use crate::check::wording::LoadError;
 use crate::circuit::formats::CircuitSource;
-use crate::diag::Diagnostic;
-use crate::source::{FileId, SourceWorld, Sources, Span};
+use crate::diag::{Diagnostic, Suggestion, similar_file};
+use crate::source::{FileError, FileId, SourceWorld, Sources, Span};
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
 
@@ -56,7 +56,7 @@ pub(crate) struct Loaded {
 pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
     match world.read(path) {
         Ok(text) => Ok(sources.add(path, text)),
-        Err(error) => Err(Diagnostic::unreadable(path, &error)),
+        Err(error) => Err(Diagnostic::unreadable_in(world, path, &error)),
     }
 }
 
@@ -117,19 +117,17 @@ impl Loader<'_> {
         } else if self.open.len() >= MAX_DEPTH {
             self.loaded.faults.push(LoadError::TooDeep { most: MAX_DEPTH }.at(path.span));
         } else if !self.done.contains(&identity) {
-            self.read(sources, name, identity, path.span);
+            self.read(sources, name, identity, path);
         }
     }
 
     /// Reads and parses a file at its first use.
-    fn read(&mut self, sources: &mut Sources, name: String, identity: String, place: Span) {
+    fn read(&mut self, sources: &mut Sources, name: String, identity: String, path: &Text) {
         let kind = UsedKind::of_path(&name).filter(|&kind| UsedKind::of_path(&identity) == Some(kind));
         let result = match kind {
-            Some(UsedKind::Program) => {
-                self.text(sources, &name, place).map(|file| self.file(sources, file, Home::Used))
-            }
-            Some(UsedKind::Circuit(format)) => self.circuits(sources, format, &name, place),
-            None => Err(vec![LoadError::NotUsable { file: name }.at(place)]),
+            Some(UsedKind::Program) => self.text(sources, &name, path).map(|file| self.file(sources, file, Home::Used)),
+            Some(UsedKind::Circuit(format)) => self.circuits(sources, format, &name, path),
+            None => Err(vec![LoadError::NotUsable { file: name }.at(path.span)]),
         };
         self.done.push(identity);
         for fault in result.err().into_iter().flatten() {
@@ -141,10 +139,21 @@ impl Loader<'_> {
     }
 
     /// Adds the text of a used file to `sources`.
-    fn text(&self, sources: &mut Sources, name: &str, place: Span) -> Result<FileId, Vec<Diagnostic>> {
-        let text = self.world.read(name).map_err(|error| LoadError::Unreadable { file: name.to_owned(), error });
+    fn text(&self, sources: &mut Sources, name: &str, path: &Text) -> Result<FileId, Vec<Diagnostic>> {
+        let text = self.world.read(name).map_err(|error| {
+            let meant = if error == FileError::NotFound { self.similar(name, path) } else { Suggestion::None };
+            LoadError::Unreadable { file: name.to_owned(), error, meant }
+        });
         let text = text.and_then(|text| over_limits(sources, &text).map_or(Ok(text), Err));
-        Ok(sources.add(name, text.map_err(|error| vec![error.at(place)])?))
+        Ok(sources.add(name, text.map_err(|error| vec![error.at(path.span)])?))
+    }
+
+    /// The file that may have been meant, with the folder as it is written.
+    fn similar(&self, name: &str, path: &Text) -> Suggestion {
+        let Suggestion::Near(near) = similar_file(self.world, name) else { return Suggestion::None };
+        let file = near.rsplit('/').next().unwrap_or_default();
+        let folder = path.text.rfind('/').map_or("", |end| &path.text[..=end]);
+        Suggestion::Near(format!("{folder}{file}"))
     }
 
     /// Translates another tool's file to circuits of the language, and parses them.
@@ -153,19 +162,19 @@ impl Loader<'_> {
         sources: &mut Sources,
         format: CircuitSource,
         name: &str,
-        place: Span,
+        path: &Text,
     ) -> Result<(), Vec<Diagnostic>> {
-        let foreign = Foreign { world: self.world, format, name, place };
+        let foreign = Foreign { world: self.world, format, name, place: path.span };
         let text = match format {
             CircuitSource::Aiger => foreign.aiger(),
-            CircuitSource::Bench => self.text(sources, name, place).and_then(|file| foreign.bench(sources.file(file))),
-            CircuitSource::Blif => self.text(sources, name, place).and_then(|file| foreign.blif(sources.file(file))),
+            CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
+            CircuitSource::Blif => self.text(sources, name, path).and_then(|file| foreign.blif(sources.file(file))),
             CircuitSource::Verilog => {
-                self.text(sources, name, place).and_then(|file| foreign.verilog(sources.file(file)))
+                self.text(sources, name, path).and_then(|file| foreign.verilog(sources.file(file)))
             }
         }?;
         if let Some(error) = over_limits(sources, &text) {
-            return Err(vec![error.at(place)]);
+            return Err(vec![error.at(path.span)]);
         }
         let file = sources.add(format!("{name} (as circuits)"), text);
         self.parse(sources, file, Home::Foreign);

@@ -4,6 +4,7 @@
 mod analysis;
 mod cell;
 mod circuit;
+mod consequences;
 pub(crate) mod constant;
 mod derived;
 mod evolution;
@@ -12,6 +13,7 @@ mod fields;
 mod foreign;
 mod instance;
 mod library;
+mod limit;
 mod load;
 mod material;
 mod names;
@@ -21,6 +23,7 @@ mod recursion;
 mod schedule;
 mod simulate;
 mod size;
+mod start;
 mod swarm;
 mod table;
 mod test;
@@ -36,34 +39,19 @@ pub(crate) use load::{beside, is_usable};
 pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
 
-use std::collections::BTreeSet;
-
-use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, SourceWorld, Sources, Span};
+use crate::source::{FileId, SourceWorld, Sources};
 
 /// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
     let loaded = load::load(world, sources, file);
     let mut analysis = program::program(&loaded.trees, sources);
     let diagnostics = &mut analysis.diagnostics;
-    forget_consequences(diagnostics, sources, &loaded);
+    consequences::forget(diagnostics, sources, &loaded.trees);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);
     analysis.trees = loaded.trees.into_iter().map(|(_, tree)| tree).collect();
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();
+    analysis.diagnostics = limit::limit(std::mem::take(diagnostics), sources);
     analysis
-}
-
-/// A name whose declaration could not be parsed is not reported as unknown, because the declaration has its own
-/// message.
-fn forget_consequences(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loaded: &load::Loaded) {
-    let text = |span: Span| &sources.file(span.file).text[span.range()];
-    let broken: BTreeSet<&str> =
-        loaded.trees.iter().flat_map(|(_, tree)| &tree.broken).map(|&span| text(span)).collect();
-    let follows = |diagnostic: &Diagnostic| {
-        diagnostic.code == Code::Unknown
-            && diagnostic.labels.first().is_some_and(|label| broken.contains(text(label.span)))
-    };
-    diagnostics.retain(|diagnostic| !follows(diagnostic));
 }

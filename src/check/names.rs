@@ -74,8 +74,13 @@ impl NameTable {
 
     /// The meaning of a name, or an error if it is unknown.
     pub(crate) fn resolve(&self, name: &NameSyntax, home: Home) -> Result<usize, Diagnostic> {
+        self.resolve_beside(name, home, &[])
+    }
+
+    /// As [`NameTable::resolve`], where words of the language may have been meant too.
+    pub(crate) fn resolve_beside(&self, name: &NameSyntax, home: Home, words: &[&str]) -> Result<usize, Diagnostic> {
         let entry = self.entry(&name.text, home).ok_or_else(|| {
-            let meant = self.suggestion(&name.text);
+            let meant = self.suggestion(&name.text, words);
             NameError::Unknown { kind: self.kind.word(), name: name.text.clone(), meant }.at(name.span)
         })?;
         self.refer(name.span, entry.span);
@@ -97,9 +102,10 @@ impl NameTable {
     }
 
     /// A suggestion for an unknown name, for the first unknown names only.
-    fn suggestion(&self, name: &str) -> Suggestion {
+    fn suggestion(&self, name: &str, words: &[&str]) -> Suggestion {
         self.unknown.set(self.unknown.get() + 1);
-        if self.unknown.get() <= suggest::MOST { Suggestion::of(name, self.all()) } else { Suggestion::None }
+        let known = words.iter().copied().chain(self.all());
+        if self.unknown.get() <= suggest::MOST { Suggestion::of(name, known) } else { Suggestion::None }
     }
 
     /// Every name, in order.

@@ -1,5 +1,6 @@
 //! The declarations of all files: first their names, then each kind after the kinds it refers to.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::analysis::Analysis;
@@ -117,6 +118,14 @@ impl<'a> Assembly<'a> {
         fine
     }
 
+    /// Whether the declaration at a place has lost a part.
+    fn is_broken(&self, place: Span) -> bool {
+        let covers = |declaration: Span| {
+            declaration.file == place.file && declaration.start <= place.start && place.end <= declaration.end
+        };
+        self.trees.iter().flat_map(|(_, tree)| &tree.broken).any(|part| covers(part.declaration))
+    }
+
     fn stimuli(&mut self) {
         for (home, declaration) in self.declarations() {
             let DeclarationKind::Stimulus(names) = &declaration.kind else { continue };
@@ -158,6 +167,7 @@ impl<'a> Assembly<'a> {
         for (home, declaration) in self.declarations() {
             let DeclarationKind::Schedule(source) = &declaration.kind else { continue };
             let checked = schedule(source, home, &self.stimuli, &mut self.faults);
+            let checked = checked.filter(|_| !self.is_broken(source.name.span));
             let index = if checked.is_some() { self.program.schedules.len() } else { usize::MAX };
             let declared = self.schedules.declare(&source.name, index, home);
             self.note(declared);
@@ -213,7 +223,7 @@ impl<'a> Assembly<'a> {
         let own = sources.iter().filter(|(home, _)| *home == Home::Own);
         self.program.own_evolutions = own.map(|(_, source)| source.name.text.clone()).collect();
         self.program.evolutions.extend(checked.into_iter().filter_map(|state| match state {
-            CheckState::Sound(evolution) => Some(*evolution),
+            CheckState::Sound(evolution) => Some(evolution.into_evolution()),
             _ => None,
         }));
     }
@@ -241,7 +251,8 @@ impl<'a> Assembly<'a> {
         let mut calls = Vec::new();
         for &(home, source) in &sources {
             let checked = circuit(source, home, &self.circuits, &self.headers);
-            self.sound.push(!checked.diagnostics.iter().any(Diagnostic::is_error));
+            let is_whole = !self.is_broken(source.name.span);
+            self.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
             self.homes.push(home);
             self.faults.extend(checked.diagnostics);
             self.inner.extend(checked.uses);
@@ -368,6 +379,7 @@ impl<'a> Assembly<'a> {
                 inspector.inspect_body(body);
             }
         }
+        self.same_titles();
         let found = inspector.finish();
         program.simulations = simulations;
         program.tests = tests;
@@ -437,11 +449,38 @@ impl<'a> Assembly<'a> {
             }
         };
         if let Stimulation::All { .. } = stimulation {
-            self.all_inputs(&inputs, source.circuit.name.span)?;
+            let place = source.circuit.name.span;
+            self.all_inputs(&inputs, place)?;
+            if self.places.get(&tested.circuit).is_some_and(|&at| inspector.has_memory(at, &tested.arguments, place)) {
+                self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
+            }
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.place(span);
         Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world })
+    }
+
+    /// Warns of tests that only their line tells apart.
+    fn same_titles(&mut self) {
+        let mut known = BTreeMap::new();
+        for (_, test) in self.own_tests() {
+            let Some(title) = &test.title else { continue };
+            let instance = test
+                .circuit
+                .arguments
+                .last()
+                .map_or(test.circuit.name.span, |last| test.circuit.name.span.to(last.span));
+            let circuit = self.sources.text(instance);
+            let world = test.world.as_ref().map(|world| &world.text);
+            match known.entry((circuit, &title.text, world)) {
+                Entry::Vacant(entry) => _ = entry.insert(title.span),
+                Entry::Occupied(first) => {
+                    let (circuit, first) = (test.circuit.name.text.clone(), *first.get());
+                    let error = CircuitError::SameTitle { circuit, title: title.text.clone(), first };
+                    self.faults.push(error.at(title.span));
+                }
+            }
+        }
     }
 
     /// The circuit of a test.
@@ -488,7 +527,7 @@ impl<'a> Assembly<'a> {
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { name, parameters: Vec::new(), inputs, outputs, body };
         let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
-        let sound = !checked.diagnostics.iter().any(Diagnostic::is_error);
+        let sound = !self.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);
         // Its ports are those of the tested circuit.
         let (ports, own): (Vec<_>, Vec<_>) = checked.uses.into_iter().partition(|found| found.declared == tested.span);

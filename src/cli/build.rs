@@ -8,14 +8,14 @@ use serde_json::json;
 
 use crate::circuit::formats::{Design, blif, dot, verilog};
 use crate::circuit::timing::{PulsedRegisters, fan_out};
-use crate::circuit::{CellLibrary, Delays, Memory, NetId, Netlist, Race, Timing, levels, races};
+use crate::circuit::{CellLibrary, Delays, NetId, Netlist, Race, Timing, levels, races};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::counted;
 use crate::model::Column;
-use crate::report::{Document, PhaseTiming, Schema};
+use crate::report::{self, Document, MemoryTimes, PhaseTiming, Schema};
 use crate::session::{CompileOptions, Mapping, Session};
 use crate::store::{self, DiskWorld};
 
@@ -57,7 +57,7 @@ enum Emit {
     Verilog,
     /// A graph for Graphviz
     Dot,
-    /// The slowest path, and the times of clocks and inputs
+    /// The slowest path, the times of clocks, inputs and memory, and the largest fan-out
     Timing,
     /// JSON with cells, levels, hold, critical path, clocks and races
     Json,
@@ -117,7 +117,16 @@ fn describe_timing(mapped: &Netlist, library: &CellLibrary, registers: Option<&P
     let path: Vec<String> = timing.critical_path.iter().map(|&id| mapped.net_name(id)).collect();
     let settles =
         format!("timing   settles within {}: {}\n", counted(timing.hold as usize, "cycle"), path.join(" -> "));
-    settles + &PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers).describe()
+    let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers).describe();
+    let memory: String =
+        MemoryTimes::all(mapped, &timing, clocks(mapped, library)).iter().map(MemoryTimes::describe).collect();
+    let loads = fan_out(mapped).into_iter().filter(|(id, _)| mapped.cell(*id).is_some());
+    settles + &phases + &memory + &report::describe_fan_out(loads.map(|(id, load)| (mapped.net_name(id), load)))
+}
+
+/// The clock of each cell.
+fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -> u32 + 'a {
+    |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock)
 }
 
 fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRegisters>) -> serde_json::Value {
@@ -135,11 +144,6 @@ fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRe
         .collect();
     let outputs: BTreeMap<_, _> = mapped.outputs().iter().map(|id| (name(id), name(&mapped.pins(*id)[0]))).collect();
     let race = |race: Race| json!({ "net": name(&race.net), "input": name(&race.input), "rises": race.rises });
-    let clock = |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock);
-    let memory = Memory::all(mapped, &timing, clock).into_iter().map(|Memory { nets, pulse, setup, hold }| {
-        let nets: Vec<_> = nets.iter().map(name).collect();
-        json!({ "nets": nets, "pulse": pulse, "setup": setup, "hold": hold })
-    });
     let ports = |ids: &[NetId]| Column::group(&ids.iter().map(name).collect::<Vec<_>>());
     json!({
         "circuit": mapped.name,
@@ -151,7 +155,7 @@ fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRe
         "depth": levels::depth(mapped),
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
-        "memory": memory.collect::<Vec<_>>(),
+        "memory": MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
         "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers),
         "proved": true,
         "races": races(mapped).map(|races| races.into_iter().map(race).collect::<Vec<_>>()),

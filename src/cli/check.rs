@@ -1,19 +1,13 @@
 //! `nbc check`: what is wrong with programs.
 
-use std::sync::Arc;
-
 use clap::Args;
 use serde_json::Value;
 
-use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status, standard_input};
 use crate::diag::{Severity, counted};
 use crate::report::Schema;
 use crate::session::{Checked, Session};
-use crate::source::SourceWorld;
 use crate::store::DiskWorld;
-
-/// Standard input as a file.
-const STANDARD_INPUT: &str = "/dev/stdin";
 
 /// Check programs and print their errors
 #[derive(Args)]
@@ -37,7 +31,10 @@ impl CheckArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut session = Session::new(DiskWorld);
         let mut check = |path: &String| match path.as_str() {
-            "-" => check_standard_input(&mut session),
+            standard_input::DASH => {
+                let path = standard_input::open(&mut session);
+                session.checked(path)
+            }
             path => session.checked(path),
         };
         let found: Vec<_> = self.files.iter().map(&mut check).collect();
@@ -57,19 +54,6 @@ impl CheckArguments {
         }
         let has_errors = found.iter().any(|checked| checked.has_errors());
         Ok(if has_errors { Status::BadInput } else { Status::Done })
-    }
-}
-
-/// Standard input, checked as a file of the current folder.
-fn check_standard_input(session: &mut Session) -> Arc<Checked> {
-    const NAME: &str = "<stdin>";
-    match DiskWorld.read(STANDARD_INPUT) {
-        Ok(text) => {
-            session.update(NAME, 0, text);
-            session.checked(NAME)
-        }
-        // Reading it once more gives the diagnostic.
-        Err(_) => session.checked(STANDARD_INPUT),
     }
 }
 

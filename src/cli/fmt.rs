@@ -5,6 +5,8 @@ use std::path::Path;
 use clap::Args;
 use serde_json::json;
 
+use crate::cli::standard_input::{self, DASH};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::report::Schema;
 use crate::session::{Formatted, Session};
@@ -15,10 +17,11 @@ use crate::store::{self, DiskWorld};
 #[command(after_help = "Examples:
   nbc fmt circuits/latch.nb
   nbc fmt --check circuits/*.nb
+  nbc fmt - < draft.nb                  standard input to standard output
 
 Exit status: 0 done, 1 with --check if a file is not formatted, 2 if a file cannot be parsed.")]
 pub struct FmtArguments {
-    /// The source files
+    /// The source files; `-` formats standard input and prints the result
     #[arg(required = true)]
     files: Vec<String>,
     /// List the files that would change, and change nothing
@@ -34,6 +37,13 @@ impl FmtArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut told = Vec::new();
         for path in &self.files {
+            if path == DASH && !self.check {
+                if context.format == OutputFormat::Json {
+                    return Err(UsageError::TwoFormats { option: DASH }.into());
+                }
+                context.print(&format_input()?.text)?;
+                continue;
+            }
             let canonical = self.format_file(path)?;
             if self.check && !canonical && context.format == OutputFormat::Text {
                 context.print(format!("{path}\n"))?;
@@ -49,11 +59,21 @@ impl FmtArguments {
 
     /// Formats a file, or only checks it; returns whether it was formatted.
     fn format_file(&self, path: &str) -> Result<bool, Failure> {
-        let Formatted { text, is_canonical } = Session::new(DiskWorld).formatted(path)?;
+        let Formatted { text, is_canonical } = match path {
+            DASH => format_input()?,
+            path => Session::new(DiskWorld).formatted(path)?,
+        };
         if !is_canonical && !self.check {
             let path = Path::new(path);
             store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
         }
         Ok(is_canonical)
     }
+}
+
+/// Standard input in its canonical form.
+fn format_input() -> Result<Formatted, Failure> {
+    let mut session = Session::new(DiskWorld);
+    let path = standard_input::open(&mut session);
+    Ok(session.formatted(path)?)
 }

@@ -61,7 +61,7 @@ impl MappingArguments {
     /// The library that the user chose.
     pub(super) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
         Ok(Some(match (&self.library, &self.cells[..]) {
-            (Some(path), _) => self.cells_of(robots::robots(path)?),
+            (Some(path), _) => self.cells_of(robots::robots_of(path)?),
             (None, []) => return Ok(None),
             (None, [all]) if all == "all" => CellLibrary::uniform(
                 Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),

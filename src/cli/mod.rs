@@ -43,6 +43,7 @@ mod robots;
 mod run;
 mod run_folder;
 mod simulate;
+mod standard_input;
 mod status;
 mod synth;
 mod test;

@@ -115,6 +115,9 @@ impl Drop for Progress {
 }
 
 impl State {
+    /// The pieces of work, of less than a tenth of all, after which the remaining time is known.
+    const SAMPLE: u64 = 100;
+
     /// A line for a log, if one is due.
     fn line(&mut self, elapsed: Duration) -> Option<String> {
         let due = self.done < self.total && self.pace.is_due(elapsed);
@@ -131,10 +134,11 @@ impl State {
             .collect()
     }
 
-    /// The remaining time at the speed so far; unknown at the start.
+    /// The remaining time at the speed so far; unknown at the start, when a few pieces may take longer than others.
     fn left(&self, elapsed: Duration) -> Option<Duration> {
         let (made, rest) = (self.done.saturating_sub(self.from), self.total.saturating_sub(self.done));
-        if made == 0 || rest == 0 || elapsed < Duration::from_secs(1) {
+        let is_start = made < Self::SAMPLE && made * 10 < made + rest;
+        if made == 0 || rest == 0 || is_start || elapsed < Duration::from_secs(1) {
             return None;
         }
         Duration::try_from_secs_f64(elapsed.as_secs_f64() * rest as f64 / made as f64).ok()
@@ -193,7 +197,9 @@ mod tests {
         assert_eq!(rest(&state(0, 16, 64), 0.2), "", "too early to tell");
         assert_eq!(rest(&state(0, 9_999, 10_000), 2.0), ", about 1 s left");
         assert_eq!(rest(&state(0, 64, 64), 60.0), "", "all is done");
-        assert_eq!(rest(&state(500, 510, 1000), 60.0), ", about 49 min left", "what was there before took no time");
+        assert_eq!(rest(&state(500, 550, 1000), 60.0), ", about 9 min left", "what was there before took no time");
+        assert_eq!(rest(&state(0, 4, 256), 9.0), "", "too few of many");
+        assert_eq!(rest(&state(0, 100, 10_000), 10.0), ", about 16 min left");
         let noted = State { note: "2 behaviors".to_owned(), ..state(0, 1, 5) };
         assert_eq!(rest(&noted, 10_000.0), ", 2 behaviors, about 11.1 h left");
     }

@@ -4,10 +4,33 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
 use crate::cli::wording::UsageError;
-use crate::diag::Diagnostic;
-use crate::model::{Body, Function, Library, Robot};
+use crate::diag::suggest::nearest;
+use crate::diag::{Diagnostic, Suggestion};
+use crate::model::{Behavior, Body, Function, Library, Robot};
 use crate::source::{FileError, Sources};
-use crate::store;
+use crate::store::{self, DiskWorld};
+
+/// The robot with that name in a folder of robot files; without a folder, in the built-in library. The name may be that
+/// of a robot file.
+pub(super) fn named(name: &str, library: Option<&Path>) -> Result<Robot, Failure> {
+    let path = Path::new(name);
+    if library.is_none() && path.is_file() {
+        return Ok(robots(path)?.robots.remove(0));
+    }
+    let library = library.map_or_else(|| Ok(store::shipped_library()), robots_of)?;
+    find(&library, name).cloned()
+}
+
+/// A behavior by its letters such as `RRRL`, or by its function such as `nand`.
+pub(super) fn behavior(word: &str) -> Result<Behavior, String> {
+    let function = || Function::parse(word).map(Behavior::from);
+    let expected = || {
+        let near = nearest(word, Function::all().map(Function::name));
+        let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        format!("expected four letters such as `RRRL`, or a function such as `nand`{near}")
+    };
+    word.parse().ok().or_else(function).ok_or_else(expected)
+}
 
 /// The body in a file or, if there is no such file, that of a robot of the library.
 pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
@@ -20,7 +43,7 @@ pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
         Err(FileError::NotFound) if !robot.contains(['/', '.']) => {
             find(&store::shipped_library(), robot).map(|robot| robot.body.clone())
         }
-        Err(error) => Err(Failure::plain(Diagnostic::unreadable(robot, &error))),
+        Err(error) => Err(Failure::plain(Diagnostic::unreadable_in(&DiskWorld, robot, &error))),
     }
 }
 
@@ -28,7 +51,24 @@ pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
 pub(super) fn find<'a>(library: &'a Library, name: &str) -> Result<&'a Robot, Failure> {
     let named = library.robots.iter().find(|robot| robot.name == name);
     let best = || Function::parse(name).and_then(|function| library.robots_for(function).next());
-    named.or_else(best).ok_or_else(|| UsageError::UnknownRobot { name: name.to_owned() }.into())
+    let unknown = || {
+        let functions = library.robots.iter().map(|robot| robot.function().name());
+        let meant = Suggestion::near(name, library.robots.iter().map(|robot| robot.name.as_str()).chain(functions));
+        UsageError::UnknownRobot { name: name.to_owned(), meant }
+    };
+    named.or_else(best).ok_or_else(|| unknown().into())
+}
+
+/// As [`robots`].
+///
+/// # Errors
+/// Those of [`robots`], and when there is no robot file.
+pub(super) fn robots_of(path: &Path) -> Result<Library, Failure> {
+    let found = robots(path)?;
+    if found.robots.is_empty() {
+        return Err(UsageError::NoRobots { path: path.display().to_string() }.into());
+    }
+    Ok(found)
 }
 
 /// The robots of a file, or of every robot file of a folder.
@@ -38,7 +78,7 @@ pub(super) fn robots(path: &Path) -> Result<Library, Failure> {
     for path in robot_paths(path)? {
         let name = path.display().to_string();
         let text = store::read_text(&path, store::MAX_ROBOT_BYTES);
-        let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable(&name, &error)))?;
+        let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &name, &error)))?;
         let id = sources.add(&name, text);
         match store::read_robot(sources.file(id)) {
             Ok(robot) => found.push(robot),

@@ -1,6 +1,6 @@
 //! `nbc run`: compiles a file's circuits, tests and simulates their swarms, and draws the results.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -18,8 +18,8 @@ use crate::model::{CircuitTest, Simulation};
 use crate::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{self, Checked, CompileOptions, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
-use crate::store::{self, DiskWorld};
+use crate::session::{self, Checked, CompileOptions, RUNS, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
+use crate::store::{self, DiskWorld, ResultPlace};
 use crate::swarm::{Level, Room};
 
 /// Run the tests and simulations of a file in physics, with pictures and a report
@@ -108,7 +108,7 @@ impl RunArguments {
         let file = session.open(&self.file.to_string_lossy())?;
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
-        store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
+        folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
         let options = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
         let all = tests.len() + simulations.len();
         let mut runs = Vec::new();
@@ -126,6 +126,7 @@ impl RunArguments {
                 return Ok(Status::Interrupted);
             }
         }
+        let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
         let status = timer.time(Chore::Output, || self.report(&runs, &folder, context))?;
         timer.report(context);
         Ok(if interrupt.is_raised() { Status::Interrupted } else { status })
@@ -144,9 +145,9 @@ impl RunArguments {
         Ok((tests, simulations))
     }
 
-    fn folder(&self) -> PathBuf {
+    fn folder(&self) -> ResultPlace {
         let stem = self.file.file_stem().unwrap_or(self.file.as_os_str());
-        self.out.clone().unwrap_or_else(|| Path::new("out").join(stem))
+        ResultPlace::new(self.out.as_deref(), &Path::new(RUNS).join(stem), "")
     }
 
     /// Writes pictures and results, then prints the verdict.
@@ -194,13 +195,17 @@ fn nothing_to_run(file: &Checked, only: Option<&str>) -> SubjectError {
 
 /// A name that no test and no simulation of a file has.
 pub(super) fn unknown_run(file: &Checked, name: &str) -> SubjectError {
-    let program = &file.program;
-    let mut known: Vec<String> = program.tests.iter().map(|test| test.circuit.to_string()).collect();
-    known.extend(program.tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty()));
-    known.extend(program.simulations.iter().map(|simulation| simulation.swarm.clone()));
-    known.sort();
-    known.dedup();
+    let mut known = names_of_tests(file);
+    known.extend(file.program.simulations.iter().map(|simulation| simulation.swarm.clone()));
+    let known = known.into_iter().collect();
     SubjectError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known }
+}
+
+/// The circuits and the titles of a file's tests.
+pub(super) fn names_of_tests(file: &Checked) -> BTreeSet<String> {
+    let tests = &file.program.tests;
+    let titles = tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty());
+    tests.iter().map(|test| test.circuit.to_string()).chain(titles).collect()
 }
 
 /// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen. Runs that a signal
@@ -282,7 +287,7 @@ fn draw<'a>(ran: &'a Ran, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failur
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))
+    store::write_result(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
 /// The page of a test or simulation that was run.
@@ -309,8 +314,8 @@ fn describe(drawn: &Drawn<'_>) -> String {
         Ran::Test(run) => report::describe_test(&run.verdict),
         Ran::Simulation(run) => report::describe_simulation(&run.result),
     };
-    let (swarm, timing) = (report::describe_swarm(trace), timing(drawn.ran).describe());
-    format!("{}: {swarm}\n\n{outcome}\n{files}{timing}", trace.circuit)
+    let (swarm, hold) = (report::describe_swarm(trace), timing(drawn.ran).describe_hold());
+    format!("{}: {swarm}\n\n{outcome}\n{files}{hold}", trace.circuit)
 }
 
 /// The kind of a file, in a word.

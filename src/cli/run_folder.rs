@@ -1,6 +1,7 @@
 //! The folder of an evolution run: its checkpoint and its progress.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
 use crate::diag::Diagnostic;
@@ -11,6 +12,25 @@ use crate::store::{self, Checkpoint, MAX_PROGRESS_BYTES};
 pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
 /// The file in a run's folder with a line for each generation.
 pub(super) const PROGRESS: &str = "progress.jsonl";
+
+/// The checkpoints of a run: that of one seed, or those of all seeds in their order.
+pub(super) fn checkpoints(folder: &Path) -> Vec<PathBuf> {
+    let own = folder.join(CHECKPOINT);
+    if own.is_file() {
+        return vec![own];
+    }
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let number = |path: &Path| path.file_name()?.to_str()?.strip_prefix("seed-")?.parse::<u64>().ok();
+    let mut seeds: Vec<(u64, PathBuf)> = entries
+        .filter_map(|entry| {
+            let path = entry.ok()?.path();
+            Some((number(&path)?, path.join(CHECKPOINT)))
+        })
+        .filter(|(_, checkpoint)| checkpoint.is_file())
+        .collect();
+    seeds.sort();
+    seeds.into_iter().map(|(_, checkpoint)| checkpoint).collect()
+}
 
 /// The checkpoint at a path, if there is one.
 pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {

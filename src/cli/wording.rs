@@ -24,7 +24,9 @@ pub(in crate::cli) enum UsageError {
     /// An unknown function.
     UnknownFunction { name: String, known: Vec<&'static str> },
     /// A robot that the library does not have.
-    UnknownRobot { name: String },
+    UnknownRobot { name: String, meant: Suggestion },
+    /// A folder without robot files.
+    NoRobots { path: String },
     /// A number of threads that is not a number.
     Threads { variable: &'static str, found: String },
     /// A ground that a body cannot stand on.
@@ -221,18 +223,20 @@ impl From<UsageError> for Diagnostic {
             UsageError::CircuitFormat { path } => {
                 bad(format!("unrecognized circuit format of `{path}`; expected .blif, .aig, .aag, .v, .dot or .nb"))
             }
-            UsageError::UnknownCode { word, meant } => {
-                let error = bad(format!("no message has the code `{word}`"));
-                match meant {
-                    Suggestion::Near(_) => error.with_suggestion(None, &meant),
-                    _ => error.with_help("`nbc explain` lists the codes"),
-                }
-            }
+            UsageError::UnknownCode { word, meant } => bad(format!("no message has the code `{word}`"))
+                .with_help("`nbc explain` lists the codes")
+                .with_near(&meant),
             UsageError::UnknownFunction { name, known } => bad(format!("`{name}` is not a function of two inputs"))
-                .with_help(format!("the functions are {}", known.join(", "))),
-            UsageError::UnknownRobot { name } => {
+                .with_help(format!("the functions are {}", known.join(", ")))
+                .with_near(&Suggestion::near(&name, known)),
+            UsageError::UnknownRobot { name, meant } => {
                 Self::without_place(Code::UnknownRobot, format!("no robot of the library is called `{name}`"))
                     .with_help("`nbc library list` lists the robots; a function such as `nand` means its best one")
+                    .with_near(&meant)
+            }
+            UsageError::NoRobots { path } => {
+                Self::without_place(Code::Empty, format!("`{path}` contains no robot files (.yaml)"))
+                    .with_help("`nbc library add RUN --into DIR` writes robot files")
             }
             UsageError::Threads { variable, found } => {
                 bad(format!("the environment variable `{variable}` is `{found}`, expected a number of threads"))
@@ -276,6 +280,8 @@ pub(in crate::cli) enum SubjectError {
     Held { folder: String, process: Option<u32> },
     /// A folder with a run in it.
     HasRun { folder: String },
+    /// Runs whose archives are empty.
+    NoRobotFound,
     /// A folder without a checkpoint.
     NoCheckpoint { path: String },
 }
@@ -302,15 +308,14 @@ impl From<SubjectError> for Diagnostic {
             }
             SubjectError::UnknownRun { file, name, known } => {
                 let message = format!("no test and no simulation of `{file}` is called `{name}`");
-                fault(Code::Unknown, message).with_help(format!("there are {}", alternatives(&known, "and")))
+                no_such(message, &name, &known)
             }
             SubjectError::NoEvolution { file, known } => {
                 fault(Code::Unknown, format!("`{file}` declares no evolution"))
                     .with_help(format!("run one that it uses with `--run`: {}", alternatives(&known, "or")))
             }
             SubjectError::UnknownEvolution { name, known } => {
-                fault(Code::Unknown, format!("no evolution is called `{name}`"))
-                    .with_help(format!("there are {}", alternatives(&known, "and")))
+                no_such(format!("no evolution is called `{name}`"), &name, &known)
             }
             SubjectError::Held { folder, process } => {
                 let who = process.map_or_else(|| "another process".to_owned(), |process| format!("process {process}"));
@@ -319,8 +324,12 @@ impl From<SubjectError> for Diagnostic {
             }
             SubjectError::HasRun { folder } => fault(Code::Checkpoint, format!("`{folder}` already contains a run"))
                 .with_help("continue it with `--resume`, or choose another folder with `--out`"),
+            SubjectError::NoRobotFound => fault(Code::Empty, "no run found a robot".to_owned())
+                .with_help("the summary tells what became of the bodies; more generations or a larger box may help"),
             SubjectError::NoCheckpoint { path } => fault(Code::Checkpoint, format!("there is no checkpoint `{path}`"))
-                .with_help("name the folder of a run, such as `out/gates/seed-1`"),
+                .with_help(
+                    "name the folder of a run such as `out/gates`, or of one of its seeds such as `out/gates/seed-1`",
+                ),
         }
     }
 }
@@ -372,7 +381,7 @@ pub(in crate::cli) enum DrawError {
     /// A file or circuit without tests and simulations.
     NoRun { what: String },
     /// A test that the file does not have.
-    UnknownTest { file: String, name: String },
+    UnknownTest { file: String, name: String, known: Vec<String> },
     /// A net that is not driven by a robot.
     UnknownNet { net: String, known: Vec<String> },
     /// A folder without a run.
@@ -418,14 +427,18 @@ impl From<DrawError> for Diagnostic {
                 let message = format!("`{what}` has no test and no simulation, so there is no run to draw");
                 Self::without_place(Code::Empty, message).with_help("`--as schematic` and `--as dot` need none")
             }
-            DrawError::UnknownTest { file, name } => unknown(format!("no test of `{file}` is called `{name}`")),
+            DrawError::UnknownTest { file, name, known } => {
+                no_such(format!("no test of `{file}` is called `{name}`"), &name, &known)
+            }
             DrawError::UnknownNet { net, known } => unknown(format!("no robot drives `{net}`"))
-                .with_help(format!("the robots drive {}", alternatives(&known, "and"))),
+                .with_help(format!("the robots drive {}", alternatives(&known, "and")))
+                .with_near(&Suggestion::near(&net, known.iter().map(String::as_str))),
             DrawError::AxisCount { found, axes } => {
                 with_axes(bad(format!("{found} axes were given, expected two such as `voxels,active`")), &axes)
             }
             DrawError::UnknownAxis { name, axes } => {
                 with_axes(bad(format!("`{name}` is not an axis of this archive")), &axes)
+                    .with_near(&Suggestion::near(&name, axes.iter().map(String::as_str)))
             }
             DrawError::SameAxis { name, axes } => {
                 with_axes(bad(format!("both axes are `{name}`, expected two different ones")), &axes)
@@ -446,6 +459,13 @@ impl From<DrawError> for Diagnostic {
             ),
         }
     }
+}
+
+/// A name that is not among the known ones.
+fn no_such(message: String, name: &str, known: &[String]) -> Diagnostic {
+    Diagnostic::without_place(Code::Unknown, message)
+        .with_help(format!("there are {}", alternatives(known, "and")))
+        .with_near(&Suggestion::near(name, known.iter().map(String::as_str)))
 }
 
 fn with_axes(error: Diagnostic, axes: &[String]) -> Diagnostic {

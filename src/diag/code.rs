@@ -44,6 +44,7 @@ macro_rules! codes {
 }
 
 codes! {
+    AllInputs = "all-inputs", Warning: "A test over all inputs of a circuit that has memory.";
     Ambiguous = "ambiguous", Error: "Operators side by side that can be read in two ways.";
     BadSchedule = "bad-schedule", Error: "A schedule on the command line that cannot be read.";
     BadValue = "bad-value", Error: "An option with an invalid value.";
@@ -65,6 +66,8 @@ codes! {
     Recursion = "recursion", Error: "A circuit that contains itself, or a declaration that uses its own fields.";
     RobotFile = "robot-file", Error: "A robot file with an error.";
     RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";
+    SameTitle = "same-title", Warning: "Two tests of a circuit that have the same title.";
+    StartValue = "start-value", Error: "A start value of a net whose driver has a start value of its own.";
     Syntax = "syntax", Error: "Text that does not follow the grammar.";
     TableIncomplete = "table-incomplete", Error: "A truth table without a row for some pattern.";
     TableOverlap = "table-overlap", Error: "A truth table with two rows for one pattern.";

@@ -81,6 +81,11 @@ impl Diagnostic {
         }
     }
 
+    /// Replaces the help by the near name, if there is one.
+    pub fn with_near(self, suggestion: &Suggestion) -> Self {
+        if let Suggestion::Near(_) = suggestion { self.with_suggestion(None, suggestion) } else { self }
+    }
+
     /// Adds a further labeled place.
     pub fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into() });

@@ -3,8 +3,9 @@
 use std::io;
 use std::path::Path;
 
-use super::{Code, Diagnostic};
-use crate::source::FileError;
+use super::suggest::nearest;
+use super::{Code, Diagnostic, Suggestion};
+use crate::source::{FileError, SourceWorld};
 
 impl Diagnostic {
     /// The error of reading the file at `path`, as the user wrote it.
@@ -13,14 +14,38 @@ impl Diagnostic {
         Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {why}"))
     }
 
+    /// As [`Diagnostic::unreadable`]; if there is no such file, with the file of the folder that may have been meant.
+    pub fn unreadable_in(world: &dyn SourceWorld, path: &str, error: &FileError) -> Self {
+        let meant = if *error == FileError::NotFound { similar_file(world, path) } else { Suggestion::None };
+        Self::unreadable(path, error).with_suggestion(None, &meant)
+    }
+
     /// The error of writing a file or folder.
     pub fn unwritable(path: &Path, error: &io::Error) -> Self {
         Self::without_place(Code::Unwritable, format!("cannot write `{}`: {}", path.display(), io_words(error)))
     }
 }
 
+/// The file that may have been meant by a path without a file: one in the same folder with the same extension. A name
+/// without an extension may lack `.nb`.
+pub fn similar_file(world: &dyn SourceWorld, path: &str) -> Suggestion {
+    let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (&path[..=folder.len()], name));
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "nb"));
+    let listed = match folder {
+        "" => ".",
+        "/" => "/",
+        _ => folder.trim_end_matches('/'),
+    };
+    let Ok(names) = world.list(listed) else { return Suggestion::None };
+    let stems = names.iter().filter_map(|name| name.rsplit_once('.')).filter(|(_, known)| *known == ending);
+    match nearest(stem, stems.map(|(stem, _)| stem)) {
+        Some(near) => Suggestion::Near(format!("{folder}{near}.{ending}")),
+        None => Suggestion::None,
+    }
+}
+
 /// Why a file cannot be read, in plain words.
-fn file_error(error: &FileError) -> String {
+pub(super) fn file_error(error: &FileError) -> String {
     match error {
         FileError::NotFound => "there is no such file".to_owned(),
         FileError::NotRegular(kind) => format!("expected a regular file, found {kind}"),
@@ -78,6 +103,22 @@ mod tests {
         assert_eq!(io_words(&io::Error::from(io::ErrorKind::NotFound)), "there is no such file or folder");
         assert!(!words(5).contains("os error"), "{}", words(5));
         assert_eq!(io_words(&io::Error::other("No More")), "no more");
+    }
+
+    #[test]
+    fn a_missing_file_is_compared_with_those_of_its_folder_and_kind() {
+        let mut world = crate::source::MemoryWorld::default();
+        for path in ["a/latch.nb", "a/latch.md", "a/lach.yaml"] {
+            world.insert(path, "");
+        }
+        let near = |path: &str| Suggestion::Near(path.to_owned());
+        assert_eq!(similar_file(&world, "a/lach.nb"), near("a/latch.nb"));
+        assert_eq!(similar_file(&world, "a/latch"), near("a/latch.nb"));
+        assert_eq!(similar_file(&world, "a/counter.nb"), Suggestion::None);
+        assert_eq!(similar_file(&world, "b/latch.nb"), Suggestion::None);
+        let told = Diagnostic::unreadable_in(&world, "a/lach.nb", &FileError::NotFound);
+        assert_eq!(told.help.as_deref(), Some("did you mean `a/latch.nb`?"));
+        assert_eq!(Diagnostic::unreadable_in(&world, "a/lach.nb", &FileError::NotRegular("a pipe")).help, None);
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub use code::Code;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related};
 pub use diagnostics::Diagnostics;
-pub use file::{folder_error, io_words};
+pub use file::{folder_error, io_words, similar_file};
 pub use fix::{Edit, Fix};
 pub use json::json;
 pub use severity::Severity;

@@ -39,24 +39,35 @@ fn shown<'a>(diagnostics: &[Diagnostic], sources: &'a Sources) -> Shown<'a> {
 /// Diagnostics as text, in their order, each with an excerpt of the source. If there are many, only the first are shown
 /// with the number of the others.
 pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
-    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
     let texts = shown(diagnostics, sources);
     let shown: String = diagnostics
         .iter()
         .take(MOST_SHOWN)
         .map(|diagnostic| {
             let mut text = String::new();
-            handler
+            handler(diagnostic, color)
                 .render_report(&mut text, &Report::new(diagnostic, sources, &texts))
                 .expect("text can be written to a string");
-            text + "\n"
+            // miette indents the message.
+            format!("{}\n", text.trim_start())
         })
         .collect();
     match diagnostics.len().saturating_sub(MOST_SHOWN) {
         0 => shown,
         more => format!("{shown}and {more} more like these; `--format json` has them all\n"),
     }
+}
+
+/// Renders with the severity and the code before the message: `error[unknown]: …`. Lines are not wrapped, so that paths
+/// and commands can be copied.
+fn handler(diagnostic: &Diagnostic, color: bool) -> GraphicalReportHandler {
+    let mut theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let (severity, mark) = match diagnostic.severity {
+        Severity::Error => ("error", &mut theme.characters.error),
+        Severity::Warning => ("warning", &mut theme.characters.warning),
+    };
+    *mark = format!("{severity}[{}]:", diagnostic.code);
+    GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false)
 }
 
 /// A diagnostic in miette's form.
@@ -98,10 +109,6 @@ impl fmt::Display for Report<'_> {
 impl std::error::Error for Report<'_> {}
 
 impl miette::Diagnostic for Report<'_> {
-    fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
-        self.heading.map(|diagnostic| Box::new(diagnostic.code) as Box<dyn fmt::Display>)
-    }
-
     fn severity(&self) -> Option<miette::Severity> {
         Some(match self.heading.map(|diagnostic| diagnostic.severity) {
             Some(Severity::Error) => miette::Severity::Error,
@@ -222,7 +229,8 @@ mod tests {
     #[test]
     fn a_diagnostic_shows_its_place_and_its_help() {
         let shown = render("circuit\n  }\n", 10, 11);
-        for part in ["syntax", "unexpected `}`", "a.nb:2:3", "expected a name", "write a name"] {
+        assert!(shown.starts_with("error[syntax]: unexpected `}`\n"), "{shown}");
+        for part in ["a.nb:2:3", "expected a name", "write a name"] {
             assert!(shown.contains(part), "no {part:?} in\n{shown}");
         }
     }

@@ -1,7 +1,8 @@
 //! Diagnostics for Verilog that cannot be translated.
 
+use super::file::file_error;
 use super::{Code, Diagnostic};
-use crate::source::{SourceFile, Span, VerilogError};
+use crate::source::{SourceFile, Span, VerilogError, VerilogFault, VerilogPlace};
 
 impl Diagnostic {
     /// The error of translating a Verilog file, at its line if there is one.
@@ -20,21 +21,78 @@ impl Diagnostic {
                 Self::without_place(Code::Unwritable, format!("cannot write a temporary folder: {why}"))
             }
             VerilogError::NoResult => Self::without_place(Code::CircuitFile, format!("yosys made no BLIF of `{name}`")),
-            VerilogError::Asynchronous { line } => {
+            VerilogError::Cancelled => {
+                Self::without_place(Code::CircuitFile, format!("the translation of `{name}` was stopped"))
+            }
+            VerilogError::TooLong { seconds } => {
+                Self::without_place(Code::CircuitFile, format!("yosys takes more than {seconds} s for `{name}`"))
+                    .with_help("does it have a loop of many steps? Split large files, or translate them to BLIF first")
+            }
+            VerilogError::TooLarge { megabytes } => {
+                let message = format!("yosys needs more than {megabytes} MB of memory for `{name}`");
+                Self::without_place(Code::CircuitFile, message)
+                    .with_help("does it have a loop of many steps? Split large files, or translate them to BLIF first")
+            }
+            VerilogError::Asynchronous { place } => {
                 let message = format!("`{name}` has a register with an asynchronous set or reset");
                 let label = "expected a register that changes with its clock only";
-                at_line(file, *line, message, label)
+                at_place(file, place.as_ref(), message, label)
                     .with_help("reset it at the clock: `always @(posedge clk) if (reset) … else …`")
             }
-            VerilogError::Outside { line, word } => {
-                let message = format!("`{name}` uses `{word}`, which could read files outside of the served folder");
-                at_line(file, Some(*line), message, "expected Verilog that only computes")
-                    .with_help("write it without macros, included files and such functions, or use `nbc run`")
+            VerilogError::Outside { place, word } => {
+                let message = format!("`{name}` uses `{word}`, which could reach other files or programs");
+                at_place(file, Some(place), message, "expected Verilog that only computes")
+                    .with_help("write values into the text, instead of reading or calling them")
             }
-            VerilogError::Rejected { reason, line } => {
-                at_line(file, *line, format!("yosys cannot read `{name}`"), reason)
+            VerilogError::Include { place, path, error } => {
+                let message = format!("cannot read `{path}`: {}", file_error(error));
+                at_place(file, Some(place), message, "included here")
+                    .with_help("only files in the folder of the Verilog file, or below it, can be included")
+            }
+            VerilogError::HighImpedance { place, construct } => {
+                let message = format!("`{name}` uses `{construct}`: a net that may be driven by nothing");
+                at_place(file, Some(place), message, "robots always compute 0 or 1")
+                    .with_help("drive the net at all times, and declare each port as `input` or `output`")
+            }
+            VerilogError::Unclear { place, fault } => {
+                at_place(file, Some(place), format!("cannot read `{name}`"), &unclear(fault))
+            }
+            VerilogError::Rejected { reason, place } => {
+                at_place(file, place.as_ref(), format!("yosys cannot read `{name}`"), reason)
             }
         }
+    }
+}
+
+/// What is wrong before Yosys reads a text.
+fn unclear(fault: &VerilogFault) -> String {
+    match fault {
+        VerilogFault::OpenComment => "expected `*/` at the end of the comment".to_owned(),
+        VerilogFault::OpenQuote => "expected `\"` in the same line".to_owned(),
+        VerilogFault::OpenCondition => "expected `` `endif ``".to_owned(),
+        VerilogFault::NoCondition { word } => format!("`` {word} `` without `` `ifdef ``"),
+        VerilogFault::Character { character } => format!("unexpected character {character:?}"),
+        VerilogFault::NoDigits { base } => format!("expected digits after `{base}`"),
+        VerilogFault::Directive { word, expected } => format!("expected {expected} after `` {word} ``"),
+        VerilogFault::Undefined { word } => format!("`` {word} `` is not defined"),
+        VerilogFault::Arguments { word, expected } => {
+            format!("`` {word} `` has another number of arguments than it declares ({expected})")
+        }
+        VerilogFault::TooDeep => "macros or files contain each other".to_owned(),
+        VerilogFault::TooMuch { megabytes } => {
+            format!("macros and included files become more than {megabytes} MB of text")
+        }
+    }
+}
+
+/// A fault at a line of the file, or of one that it includes.
+fn at_place(file: &SourceFile, place: Option<&VerilogPlace>, message: String, label: &str) -> Diagnostic {
+    match place {
+        Some(place) if place.file == file.name => at_line(file, Some(place.line), message, label),
+        Some(VerilogPlace { file: other, line }) => {
+            Diagnostic::without_place(Code::CircuitFile, format!("{message}: {label} (`{other}`, line {line})"))
+        }
+        None => at_line(file, None, message, label),
     }
 }
 

@@ -87,19 +87,19 @@ impl SwarmTiming {
             slack: timing.slack(id),
             fan_out: listeners[&id],
         };
-        let times = |Memory { nets, pulse, setup, hold }| MemoryTimes {
-            nets: nets.into_iter().map(|net| mapped.net_name(net)).collect(),
-            pulse,
-            setup,
-            hold,
-        };
         Self {
             hold: timing.hold,
             critical_path: timing.critical_path.iter().map(step).collect(),
             robots: players.iter().map(robot).collect(),
-            memory: Memory::all(mapped, timing, clock).into_iter().map(times).collect(),
+            memory: MemoryTimes::all(mapped, timing, clock),
             phases,
         }
+    }
+
+    /// What a user of the swarm needs to know, in a line.
+    pub fn describe_hold(&self) -> String {
+        let cycles = counted(self.hold as usize, "cycle");
+        format!("timing   hold each row for {cycles} or longer; `nbc build --emit timing` shows why\n")
     }
 
     /// The timing as lines for people.
@@ -112,13 +112,32 @@ impl SwarmTiming {
         let mut text =
             format!("timing   settles within {}: {}\n", counted(self.hold as usize, "cycle"), path.join(" -> "));
         text += &self.phases.describe();
-        for MemoryTimes { nets, pulse, setup, hold } in &self.memory {
-            let nets = nets.join(" ");
-            text.push_str(&format!("memory   {nets}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n"));
-        }
-        if let Some(busiest) = self.robots.iter().max_by_key(|robot| (robot.fan_out, std::cmp::Reverse(&robot.net))) {
-            text.push_str(&format!("fan-out  {} at most, of {}\n", busiest.fan_out, busiest.net));
-        }
-        text
+        text.extend(self.memory.iter().map(MemoryTimes::describe));
+        text + &describe_fan_out(self.robots.iter().map(|robot| (robot.net.clone(), robot.fan_out)))
     }
+}
+
+impl MemoryTimes {
+    /// The times of every memory element of a timed netlist, whose cells take `clock` cycles.
+    pub fn all(mapped: &Netlist, timing: &Timing, clock: impl Fn(NetId) -> u32) -> Vec<Self> {
+        let times = |Memory { nets, pulse, setup, hold }| Self {
+            nets: nets.into_iter().map(|net| mapped.net_name(net)).collect(),
+            pulse,
+            setup,
+            hold,
+        };
+        Memory::all(mapped, timing, clock).into_iter().map(times).collect()
+    }
+
+    /// The times as a line for people.
+    pub fn describe(&self) -> String {
+        let Self { nets, pulse, setup, hold } = self;
+        format!("memory   {}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n", nets.join(" "))
+    }
+}
+
+/// The net that drives most stimuli and outputs, as a line for people; empty without nets.
+pub fn describe_fan_out(nets: impl Iterator<Item = (String, usize)>) -> String {
+    let busiest = nets.max_by_key(|(net, fan_out)| (*fan_out, std::cmp::Reverse(net.clone())));
+    busiest.map_or(String::new(), |(net, fan_out)| format!("fan-out  {fan_out} at most, of {net}\n"))
 }

@@ -57,7 +57,21 @@ impl Checked {
         let mut sources = self.sources.clone();
         let file = sources.add("--circuit", circuit);
         let named = crate::check::named(&self.program, &sources, file);
+        let named = named.and_then(|named| self.with_parameters(named));
         named.map_err(|fault| Diagnostics { list: vec![fault], sources })
+    }
+
+    /// A circuit, if its choice has numbers for its parameters.
+    fn with_parameters(&self, named: Instance) -> Result<Instance, Diagnostic> {
+        let parameters = self.program.circuit(&named.circuit).map_or(&[][..], |circuit| &circuit.parameters);
+        let missing = parameters.iter().skip(named.arguments.len()).find(|parameter| parameter.default.is_none());
+        match missing {
+            None => Ok(named),
+            Some(parameter) => {
+                let (circuit, all) = (named.circuit, parameters.len());
+                Err(ChoiceError::NoNumber { circuit, parameter: parameter.name.clone(), all }.into())
+            }
+        }
     }
 
     /// The last circuit of the source itself.
@@ -66,7 +80,7 @@ impl Checked {
         let Some(last) = program.circuits.iter().rfind(|circuit| Some(circuit.span.file) == self.file) else {
             return Err(ChoiceError::NoCircuit.into());
         };
-        Ok(self.declared(last).unwrap_or_else(|| last.name.as_str().into()))
+        self.declared(last).map_or_else(|| self.with_parameters(last.name.as_str().into()), Ok)
     }
 
     /// A circuit with its defaults, or else with the parameters of its swarm or its test, if it has one.

@@ -7,6 +7,7 @@ mod choice;
 mod compile;
 mod documents;
 mod formatted;
+mod hold;
 mod observer;
 mod options;
 mod pictures;
@@ -119,7 +120,7 @@ impl Session {
 
     /// The robots that come with the program.
     pub fn shipped(&self) -> &Library {
-        self.supply().shipped()
+        self.shipped.get_or_init(store::shipped_library)
     }
 
     /// The robots of a folder of the world, best first.
@@ -141,13 +142,13 @@ impl Session {
         library: Option<&str>,
         options: &CompileOptions,
     ) -> Result<Library, Diagnostics> {
-        let robots = plan::robots(self.supply(), &checked.program, library, options);
+        let robots = plan::robots(self.supply(checked), &checked.program, library, options);
         let robots = robots.map_err(|faults| checked.fail(faults))?;
         Ok(swarm::prefer(robots, options.objective))
     }
 
-    fn supply(&self) -> Supply<'_> {
-        Supply { world: self.documents.world(), shipped: &self.shipped }
+    fn supply<'a>(&'a self, checked: &'a Checked) -> Supply<'a> {
+        Supply { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
     }
 
     /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
@@ -155,7 +156,7 @@ impl Session {
     /// # Errors
     /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.supply(), &checked.program, circuit, options);
+        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let (cells, place) = (swarm::cells(&plan.library), checked.place(circuit));
         let mapping = compile::map(&checked.program, circuit, &cells, &options.mapping(), plan.registers, place);
@@ -173,7 +174,7 @@ impl Session {
         net: Span,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.supply(), &checked.program, circuit, options);
+        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let mapping = compile::map_net(&checked.program, &plan, net, options.mapping());
         mapping.map_err(|faults| checked.fail(faults))
@@ -206,7 +207,7 @@ impl Session {
         circuit: &Instance,
         options: &CompileOptions,
     ) -> Result<Compiled, Diagnostics> {
-        let plan = plan::plan(self.supply(), &checked.program, circuit, options);
+        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
         let compiled =
             plan.and_then(|plan| compile::compile(&checked.program, plan, &options.mapping(), checked.place(circuit)));
         compiled.map_err(|faults| checked.fail(faults))
@@ -223,7 +224,7 @@ impl Session {
         test: &'a CircuitTest,
         options: &TestOptions,
     ) -> Result<Vec<TestCase<'a>>, Diagnostics> {
-        test::cases(self.supply(), &checked.program, test, options).map_err(|faults| checked.fail(faults))
+        test::cases(self.supply(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
     }
 
     /// Runs one case of a test.
@@ -257,7 +258,7 @@ impl Session {
         options: &CompileOptions,
         observer: &mut dyn Observer,
     ) -> Result<SimulationRun, Diagnostics> {
-        let compiled = simulation::compiled(self.supply(), &checked.program, simulation, options);
+        let compiled = simulation::compiled(self.supply(checked), &checked.program, simulation, options);
         let compiled = compiled.map_err(|faults| checked.fail(faults))?;
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }

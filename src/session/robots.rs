@@ -14,6 +14,8 @@ pub(super) struct Supply<'a> {
     pub(super) world: &'a dyn SourceWorld,
     /// The built-in robots, after their first use.
     pub(super) shipped: &'a OnceLock<Library>,
+    /// The path of the checked source.
+    pub(super) file: &'a str,
 }
 
 impl<'a> Supply<'a> {
@@ -31,9 +33,9 @@ impl<'a> Supply<'a> {
             Origin::Shipped => self.shipped().clone(),
             Origin::Folder(folder) => self.folder(folder, declared, None)?,
             Origin::Evolution(name) => {
-                let run = format!("{runs}/{name}");
+                let (run, file) = (format!("{runs}/{name}"), self.file);
                 let help = format!(
-                    "`nbc evolve --run {name} --out {runs}`, then `nbc library add {run}/seed-1 --into {run}/robots`"
+                    "`nbc evolve {file} --run {name} --out {runs}`, then `nbc library add {run} --into {run}/robots`"
                 );
                 self.folder(&format!("{run}/robots"), declared, Some(&help))?
             }

@@ -1,22 +1,16 @@
 //! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
-use crate::circuit::{Logic, Netlist, Timing, elaborate, elaborate_reference};
+use crate::circuit::{Logic, Netlist, elaborate, elaborate_reference};
 use crate::diag::Diagnostic;
-use crate::model::{Base, CircuitTest, Hold, PhysicsWorld, Program, Stimulation, TestRow};
+use crate::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
 use crate::session::compile::{Compiled, compile};
+use crate::session::hold;
 use crate::session::observer::Observer;
 use crate::session::options::CompileOptions;
 use crate::session::plan::plans;
 use crate::session::robots::Supply;
 use crate::session::swarm_run::{self, Physics, RunEnd, SwarmRun};
-use crate::session::wording::SwarmWarning;
-use crate::swarm::{
-    self, Demand, Level, STEADY_CYCLES, Settling, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial,
-};
-
-/// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
-/// [`STEADY_CYCLES`].
-const STEADY_EXTRA: usize = STEADY_CYCLES - 1;
+use crate::swarm::{self, Demand, Level, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
 
 /// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
@@ -84,14 +78,32 @@ pub(super) fn cases<'a>(
     let mut cases = Vec::new();
     for mut plan in plans(supply, program, &test.circuit, &options.compile)? {
         plan.world = test.world.unwrap_or(plan.world);
-        let compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
+        let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
         }
-        let demands = demands(&rows, &compiled);
+        let demands = hold::demands(&rows, &netlist, &compiled);
+        compiled.warnings.extend(short_holds(program, test, &rows, &demands, &compiled));
         cases.push(case(Subject::Robots(Box::new(compiled), demands)));
     }
     Ok(cases)
+}
+
+/// The warnings of a hold that is too short, with one that suffices for all tests of the circuit.
+fn short_holds(
+    program: &Program,
+    test: &CircuitTest,
+    own: &[TestRow],
+    demands: &[Demand],
+    compiled: &Compiled,
+) -> Vec<Diagnostic> {
+    let sufficient = || {
+        let others = program.tests.iter().filter(|other| other.circuit == test.circuit && *other != test);
+        let others = others.filter_map(|other| rows(program, other).ok());
+        let cycles = others.map(|rows| hold::sufficient(&rows, compiled));
+        cycles.fold(hold::sufficient(own, compiled), usize::max)
+    };
+    hold::warnings(test, own, demands, compiled, sufficient)
 }
 
 impl TestRun {
@@ -234,7 +246,7 @@ fn has_failed<'a>(
     let mut left = ends.zip(rows.iter().zip(demands)).peekable();
     move |trace| {
         let row = left.next_if(|(end, _)| *end == trace.cycles.len());
-        row.is_some_and(|(_, (row, demand))| !swarm::passes(test, row, *demand, trace))
+        row.is_some_and(|(_, (row, demand))| !swarm::passes(test, row, demand, trace))
     }
 }
 
@@ -253,8 +265,7 @@ fn judged(
     trace: &SwarmTrace,
     end: RunEnd,
 ) -> (TestVerdict, Vec<Diagnostic>) {
-    let mut warnings = compiled.warnings.clone();
-    warnings.extend(short_hold(test, rows, demands, compiled));
+    let warnings = compiled.warnings.clone();
     let judged = swarm::judge_swarm(test, rows, demands, trace, &clocks(compiled));
     let mut verdict = verdict(test, Level::Physics, Some(compiled), judged);
     verdict.passed &= end == RunEnd::Complete;
@@ -300,34 +311,4 @@ fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagn
         TestRow { inputs, expected, bases, hold: None, span, line, row: pattern + 1 }
     };
     Ok((0..1 << bits).map(row).collect())
-}
-
-/// The hold of each row: until every robot has settled for any delays, but not longer than static timing requires. Rows
-/// that cannot be shown to settle are held for that time.
-fn demands(rows: &[TestRow], compiled: &Compiled) -> Vec<Demand> {
-    let window = compiled.plan.window;
-    let bound = (compiled.timing.hold + window - 1) as usize;
-    let mut settling = Settling::new(&compiled.assembly, window as usize);
-    let demand = |(i, row): (usize, &TestRow)| {
-        let most = if i == 0 { bound + compiled.assembly.start_cycles() } else { bound };
-        let needed = settling.cycles_to_settle(&row.inputs, most).unwrap_or(most) + STEADY_EXTRA;
-        let hold = match (row.hold, compiled.plan.hold) {
-            (Some(cycles), _) | (None, Hold::Cycles(cycles)) => cycles.max(1) as usize,
-            (None, Hold::Auto) => needed,
-        };
-        settling.hold(&row.inputs, hold);
-        Demand { hold, needed }
-    };
-    rows.iter().enumerate().map(demand).collect()
-}
-
-/// Warns of a row that ends before its robots have settled; names the slowest path of static timing.
-fn short_hold(test: &CircuitTest, rows: &[TestRow], demands: &[Demand], compiled: &Compiled) -> Option<Diagnostic> {
-    let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
-    let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
-    let is_short = |(_, demand): &(&TestRow, &Demand)| demand.hold + STEADY_EXTRA < demand.needed;
-    let (row, demand) = rows.iter().zip(demands).find(is_short)?;
-    let needed = demand.needed - STEADY_EXTRA;
-    let place = if row.hold.is_some() { row.span } else { test.span };
-    Some(SwarmWarning::ShortHold { hold: demand.hold, needed, path }.at(place))
 }

@@ -10,6 +10,8 @@ use crate::swarm::WeakRobot;
 pub(super) enum ChoiceError {
     /// A source without circuits of its own.
     NoCircuit,
+    /// A circuit without a number for a parameter; `all` is how many parameters it has.
+    NoNumber { circuit: String, parameter: String, all: usize },
     /// An undeclared swarm.
     UnknownSwarm { name: String, meant: Suggestion },
     /// A circuit with several swarms, without a choice of one.
@@ -25,6 +27,12 @@ impl From<ChoiceError> for Diagnostic {
         match error {
             ChoiceError::NoCircuit => Self::without_place(Code::Empty, "the file declares no circuit")
                 .with_help("choose one that it uses: `--circuit NAME`"),
+            ChoiceError::NoNumber { circuit, parameter, all } => {
+                let numbers = vec!["4"; all].join(", ");
+                let message = format!("the parameter `{parameter}` of `{circuit}` has no number");
+                Self::without_place(Code::UnknownWidth, message)
+                    .with_help(format!("give one for each parameter, such as `--circuit '{circuit}[{numbers}]'`"))
+            }
             ChoiceError::UnknownSwarm { name, meant } => {
                 Self::without_place(Code::Unknown, format!("no swarm is called `{name}`")).with_suggestion(None, &meant)
             }

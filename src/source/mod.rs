@@ -2,11 +2,13 @@
 //! output.
 
 mod file;
+mod file_error;
 mod span;
 mod verilog;
 mod world;
 
 pub use file::{LineColumn, LineStarts, SourceFile, Sources};
+pub use file_error::FileError;
 pub use span::{FileId, Span};
-pub use verilog::{VerilogError, VerilogModules};
-pub use world::{FileError, MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};
+pub use verilog::{VerilogError, VerilogFault, VerilogModules, VerilogPlace};
+pub use world::{MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};

@@ -38,12 +38,13 @@ pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Resul
     }
 }
 
-fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+/// Writes a new file and gives it a name, whatever has that name.
+pub(super) fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let folder = match target.parent() {
         Some(folder) if folder != Path::new("") => folder.to_owned(),
         _ => PathBuf::from("."),
     };
-    let before = fs::metadata(target).ok();
+    let before = fs::symlink_metadata(target).ok().filter(fs::Metadata::is_file);
     if before.as_ref().is_some_and(|before| before.permissions().readonly()) {
         return Err(io::Error::other("it is read-only"));
     }

@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use crate::circuit::CancelFlag;
 use crate::circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileError, FileId, Sources};
+use crate::store::verilog::Verilog;
 use crate::store::wording::StoreError;
-use crate::store::{disk, yosys};
+use crate::store::{DiskWorld, disk};
 use crate::syntax;
 
 /// Reads a circuit; `clock` names the clock of registers for which the file names none.
@@ -23,7 +25,7 @@ pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnost
         Some(CircuitSource::Bench) => parse(name, text(path)?, |text, file| bench::read(text, file, clock)),
         Some(CircuitSource::Blif) => parse(name, text(path)?, |text, file| blif::read(text, file, clock)),
         Some(CircuitSource::Verilog) => {
-            let flat = translated(path, name.clone(), text(path)?)?;
+            let flat = translated(name.clone(), text(path)?)?;
             parse(format!("{name} (as BLIF)"), flat, |text, file| blif::read(text, file, clock))
         }
         None => Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
@@ -31,10 +33,11 @@ pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnost
 }
 
 /// The top module of a Verilog text as BLIF.
-fn translated(path: &Path, name: String, text: String) -> Result<String, Diagnostics> {
+fn translated(name: String, text: String) -> Result<String, Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
-    yosys::flatten(path, &sources.file(file).text).map_err(|error| {
+    let (source, cancel) = (sources.file(file), &CancelFlag::default());
+    Verilog { world: &DiskWorld, path: &source.name, text: &source.text, cancel }.flatten().map_err(|error| {
         let fault = Diagnostic::untranslated(sources.file(file), &error);
         Diagnostics { list: vec![fault], sources }
     })

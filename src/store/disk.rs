@@ -1,12 +1,11 @@
-//! Reading regular files up to a limit of size, and the disk as a [`World`].
+//! Reading regular files up to a limit of size.
 
 use std::fs::{self, File, FileType};
 use std::io::Read;
 use std::path::Path;
 
 use crate::diag::io_words;
-use crate::source::{FileError, SourceWorld, VerilogError, VerilogModules};
-use crate::store::yosys;
+use crate::source::FileError;
 use crate::syntax::MAX_SOURCE_BYTES;
 
 /// The largest checkpoint of an evolution run, in bytes.
@@ -48,7 +47,8 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
 }
 
-fn refusal(error: &std::io::Error) -> FileError {
+/// The error of the system.
+pub(super) fn refusal(error: &std::io::Error) -> FileError {
     match error.kind() {
         std::io::ErrorKind::NotFound => FileError::NotFound,
         _ => FileError::Io(io_words(error)),
@@ -73,38 +73,35 @@ fn kind(of: FileType) -> &'static str {
     if of.is_dir() { "a folder" } else { "a special file" }
 }
 
-/// The files of this computer.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct DiskWorld;
+/// The text of a source.
+///
+/// # Errors
+/// As [`read_text`].
+pub(super) fn source(path: &Path) -> Result<String, FileError> {
+    read_text(path, MAX_SOURCE_BYTES)
+}
 
-impl SourceWorld for DiskWorld {
-    fn read(&self, path: &str) -> Result<String, FileError> {
-        read_text(Path::new(path), MAX_SOURCE_BYTES)
-    }
+/// The bytes of a source.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn source_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    read(path, MAX_SOURCE_BYTES)
+}
 
-    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        read(Path::new(path), MAX_SOURCE_BYTES)
+/// The names of the entries of a folder, in order.
+///
+/// # Errors
+/// When it is not a folder, or the system rejects it.
+pub(super) fn list(folder: &Path) -> Result<Vec<String>, FileError> {
+    if folder.is_file() {
+        return Err(FileError::Io("it is not a folder".to_owned()));
     }
-
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        yosys::modules(Path::new(path), text)
-    }
-
-    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        if Path::new(folder).is_file() {
-            return Err(FileError::Io("it is not a folder".to_owned()));
-        }
-        let entries = fs::read_dir(folder).and_then(|entries| entries.collect::<Result<Vec<_>, _>>());
-        let entries = entries.map_err(|error| refusal(&error))?;
-        let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        names.sort();
-        Ok(names)
-    }
-
-    fn identity(&self, path: &str) -> String {
-        // A file that is missing has no other name.
-        fs::canonicalize(path).map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
-    }
+    let entries = fs::read_dir(folder).and_then(|entries| entries.collect::<Result<Vec<_>, _>>());
+    let entries = entries.map_err(|error| refusal(&error))?;
+    let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    Ok(names)
 }
 
 #[cfg(test)]
@@ -139,8 +136,8 @@ mod tests {
 
     #[test]
     fn missing_files_and_folders_are_distinguished() {
-        assert_eq!(DiskWorld.read("no/such/file"), Err(FileError::NotFound));
-        assert_eq!(DiskWorld.read("/"), Err(FileError::NotRegular("a folder")));
+        assert_eq!(source(Path::new("no/such/file")), Err(FileError::NotFound));
+        assert_eq!(source(Path::new("/")), Err(FileError::NotRegular("a folder")));
     }
 
     #[test]
@@ -150,17 +147,6 @@ mod tests {
         let pipe = folder.path().join("pipe.nb");
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         assert_eq!(read(&pipe, 10), Err(FileError::NotRegular("a pipe")));
-        assert_eq!(DiskWorld.read("/dev/zero"), Err(FileError::NotRegular("a device")));
-    }
-
-    #[test]
-    #[cfg(unix)]
-    fn a_link_is_the_file_it_leads_to() {
-        let folder = tempfile::tempdir().unwrap();
-        let [file, link] = ["a.nb", "b.nb"].map(|name| folder.path().join(name));
-        fs::write(&file, "x").unwrap();
-        std::os::unix::fs::symlink(&file, &link).unwrap();
-        let identity = |path: &Path| DiskWorld.identity(path.to_str().unwrap());
-        assert_eq!(identity(&file), identity(&link));
+        assert_eq!(source(Path::new("/dev/zero")), Err(FileError::NotRegular("a device")));
     }
 }

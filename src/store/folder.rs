@@ -4,9 +4,10 @@ use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use crate::circuit::CancelFlag;
 use crate::source::{FileError, SourceWorld, VerilogError, VerilogModules};
-use crate::store::disk::DiskWorld;
-use crate::store::enclosed;
+use crate::store::disk;
+use crate::store::verilog::{Verilog, VerilogFiles};
 
 /// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
 /// not through links.
@@ -77,31 +78,34 @@ impl FolderWorld {
 }
 
 fn outside() -> FileError {
-    FileError::Io("it is outside of the served folder".to_owned())
+    FileError::Io("it is outside of the folder".to_owned())
 }
 
 impl SourceWorld for FolderWorld {
     fn read(&self, path: &str) -> Result<String, FileError> {
-        DiskWorld.read(&self.existing(path)?.to_string_lossy())
+        disk::source(&self.existing(path)?)
     }
 
     fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        DiskWorld.read_bytes(&self.existing(path)?.to_string_lossy())
+        disk::source_bytes(&self.existing(path)?)
     }
 
     fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        if let Some((line, word)) = enclosed::reach(text) {
-            return Err(VerilogError::Outside { line, word });
-        }
-        DiskWorld.translate_verilog(&self.root.join(path).to_string_lossy(), text)
+        Verilog { world: self, path, text, cancel: &CancelFlag::default() }.modules()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        DiskWorld.list(&self.existing(folder)?.to_string_lossy())
+        disk::list(&self.existing(folder)?)
     }
 
     fn identity(&self, path: &str) -> String {
         self.existing(path).map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
+    }
+}
+
+impl VerilogFiles for FolderWorld {
+    fn included(&self, _main: &str, path: &str) -> Result<String, FileError> {
+        self.read(path)
     }
 }
 

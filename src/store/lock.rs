@@ -4,6 +4,8 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::Path;
 
+use crate::store::results::is_link;
+
 /// The locked file in a run's folder, which contains the number of the process. It is never removed: the operating
 /// system holds the lock and releases it when the process ends in any way.
 const NAME: &str = "lock";
@@ -30,6 +32,9 @@ pub enum LockFault {
 /// When another process has it, or no lock can be made there.
 pub fn lock_folder(folder: &Path) -> Result<FolderLock, LockFault> {
     let path = folder.join(NAME);
+    if is_link(&path) {
+        return Err(LockFault::Io(io::Error::other("it is a link")));
+    }
     let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
     match file.try_lock() {
         Ok(()) => {}
@@ -70,6 +75,17 @@ mod tests {
         let _held = lock_folder(folder.path()).unwrap();
         let said = std::fs::read_to_string(folder.path().join(NAME)).unwrap();
         assert_eq!(said, format!("{}\n", std::process::id()));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn the_lock_does_not_follow_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let other = folder.path().join("other");
+        std::fs::write(&other, "mine").unwrap();
+        std::os::unix::fs::symlink(&other, folder.path().join(NAME)).unwrap();
+        assert!(matches!(lock_folder(folder.path()), Err(LockFault::Io(_))));
+        assert_eq!(std::fs::read_to_string(other).unwrap(), "mine");
     }
 
     #[test]

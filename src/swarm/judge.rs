@@ -10,13 +10,15 @@ use crate::swarm::{Lapse, RowVerdict, SwarmTrace};
 /// Cycles over which an output must have had its value when its row ends.
 pub const STEADY_CYCLES: usize = 2;
 
-/// The hold of a test's row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The hold of a test's row, and what is known of its outputs.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Demand {
     /// Cycles for which the row is held.
     pub hold: usize,
     /// Cycles for which `hold: auto` would hold it.
     pub needed: usize,
+    /// For each output bit, whether it comes to rest at the level of logic.
+    pub rests: Vec<bool>,
 }
 
 /// Judges a row by the outputs at its end, and by which of them were steady. Every row of every test is judged here.
@@ -50,22 +52,34 @@ fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool
 pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> Vec<RowVerdict> {
     let mut logic = Logic::new(netlist);
     let judge = |row: &TestRow| {
-        let steady = match logic.settle(&row.inputs) {
-            Ok(outputs) => vec![true; outputs.len()],
-            Err(_) => logic.steady_outputs(),
-        };
+        let steady = rests(&mut logic, row);
         judge_row(test, row, &logic.outputs(), &steady)
     };
     rows.iter().map(judge).collect()
+}
+
+/// For each row, which output bits come to rest at the level of logic. In physics an output that keeps changing may
+/// have one value for the last cycles of a row by chance.
+pub fn resting_outputs(rows: &[TestRow], netlist: &Netlist) -> Vec<Vec<bool>> {
+    let mut logic = Logic::new(netlist);
+    rows.iter().map(|row| rests(&mut logic, row)).collect()
+}
+
+/// Holds the inputs of a row; which output bits come to rest.
+fn rests(logic: &mut Logic, row: &TestRow) -> Vec<bool> {
+    match logic.settle(&row.inputs) {
+        Ok(outputs) => vec![true; outputs.len()],
+        Err(_) => logic.steady_outputs(),
+    }
 }
 
 /// Whether a row passes that ends with the last cycle of a trace.
 ///
 /// # Panics
 /// When the trace is shorter than the row.
-pub fn passes(test: &CircuitTest, row: &TestRow, demand: Demand, trace: &SwarmTrace) -> bool {
+pub fn passes(test: &CircuitTest, row: &TestRow, demand: &Demand, trace: &SwarmTrace) -> bool {
     let end = trace.cycles.len();
-    let steady = steady_outputs(trace, &(end - demand.hold..end));
+    let steady = steady_outputs(trace, &(end - demand.hold..end), demand);
     judge_row(test, row, &trace.cycles[end - 1].outputs, &steady).passed
 }
 
@@ -89,7 +103,7 @@ pub fn judge_swarm(
             return None;
         }
         let last = &trace.cycles[cycles.end - 1];
-        let steady = steady_outputs(trace, &cycles);
+        let steady = steady_outputs(trace, &cycles, demand);
         let verdict = judge_row(test, row, &last.outputs, &steady);
         let mut wrong = if verdict.passed { Vec::new() } else { wrong(trace, cycles.clone(), clocks) };
         let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
@@ -100,11 +114,12 @@ pub fn judge_swarm(
     rows.iter().zip(demands).map_while(judge).collect()
 }
 
-/// Which outputs had one value over the last cycles of a row.
-fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>) -> Vec<bool> {
+/// Which outputs had one value over the last cycles of a row, and not by chance.
+fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>, demand: &Demand) -> Vec<bool> {
     let last = &trace.cycles[cycles.end - 1].outputs;
     let end = &trace.cycles[cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end];
-    last.iter().enumerate().map(|(bit, value)| end.iter().all(|cycle| cycle.outputs[bit] == *value)).collect()
+    let had_one_value = |bit: usize| end.iter().all(|cycle| cycle.outputs[bit] == last[bit]);
+    demand.rests.iter().enumerate().map(|(bit, &rests)| rests && had_one_value(bit)).collect()
 }
 
 /// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had been stable long
@@ -209,7 +224,7 @@ mod tests {
     }
 
     fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> RowVerdict {
-        let demand = Demand { hold: cycles.len(), needed: 4 };
+        let demand = Demand { hold: cycles.len(), needed: 4, rests: vec![true] };
         let row = row(cycles[0].0, expected);
         judge_swarm(&test(), &[row], &[demand], &inverter(cycles), &[clock]).remove(0)
     }
@@ -242,6 +257,18 @@ mod tests {
     fn a_row_passes_on_its_last_two_cycles() {
         check(&[(true, true), (true, false), (true, false)], Some(false), 1, true, &[]);
         check(&[(true, false), (true, true), (true, false)], Some(false), 1, false, &[1]);
+    }
+
+    #[test]
+    fn an_output_that_keeps_changing_fails_even_if_it_had_one_value_for_a_while() {
+        let (row, trace) = (row(true, Some(false)), inverter(&[(true, false); 3]));
+        let passed = |rests: bool| {
+            let demand = Demand { hold: 3, needed: 3, rests: vec![rests] };
+            let passed = passes(&test(), &row, &demand, &trace);
+            assert_eq!(judge_swarm(&test(), std::slice::from_ref(&row), &[demand], &trace, &[1])[0].passed, passed);
+            passed
+        };
+        assert!(passed(true) && !passed(false));
     }
 
     #[test]

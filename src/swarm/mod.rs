@@ -37,7 +37,7 @@ pub use cells::{cells, prefer};
 pub use characterize::{characterize, screen, sketch};
 pub use evaluate::{evaluate, evaluate_bodies, evaluate_tasks, evolve_generation, fixed_displacements, fixed_trials};
 pub use evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
-pub use judge::{Demand, STEADY_CYCLES, judge_logic, judge_swarm, passes};
+pub use judge::{Demand, STEADY_CYCLES, judge_logic, judge_swarm, passes, resting_outputs};
 pub use laboratory::{Laboratory, perform};
 pub use live::{LiveSwarm, SwarmSnapshot};
 pub use measure::{FIXED_STEPS, Measurement, measure, walk};

@@ -9,6 +9,7 @@ use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
 use crate::syntax::arena::Arena;
 use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::is_word;
 use crate::syntax::tree::{
     CircuitSyntax, Declaration, DeclarationKind, NameSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
 };
@@ -17,10 +18,10 @@ use crate::syntax::wording::Slip;
 /// Turns the pairs of one declaration into a tree.
 pub(crate) struct Converter<'a> {
     pub(crate) file: FileId,
-    /// The file's text and all its comments.
-    pub(crate) text: &'a str,
+    /// The declaration's text, and all comments of the file.
+    pub(crate) source: &'a str,
     pub(crate) comments: &'a [Range<usize>],
-    /// The start of the declaration's text in the file.
+    /// The place of the declaration's text in the file.
     pub(crate) offset: usize,
     pub(crate) errors: Vec<Diagnostic>,
 }
@@ -51,11 +52,12 @@ impl Converter<'_> {
         Some(Declaration { span, kind })
     }
 
+    /// The text of a circuit that begins like one of another language.
     fn slip_declaration(&mut self, pair: Pair<Rule>) {
-        let word = pair.as_str().split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default().to_owned();
+        let word = pair.as_str().split(|c: char| !is_word(c)).next().unwrap_or_default().to_owned();
         let start = self.span(&pair).start as usize;
         let span = Span::new(self.file, start, start + word.len());
-        self.slip(Slip::CircuitKeyword { word }, span);
+        self.slip(Slip::CircuitKeyword { word, is_circuit: false }, span);
     }
 
     fn record_declaration(&mut self, keyword: RecordKeyword, pair: Pair<Rule>) -> DeclarationKind {
@@ -68,13 +70,16 @@ impl Converter<'_> {
     fn circuit(&mut self, pair: Pair<Rule>) -> CircuitSyntax {
         let mut arena = Arena::default();
         let mut parts = parts(pair).peekable();
+        if let Some(word) = parts.next_if(|part| part.as_rule() == Rule::slip_circuit) {
+            self.slip(Slip::CircuitKeyword { word: word.as_str().to_owned(), is_circuit: true }, self.span(&word));
+        }
         let name = self.name(&parts.next().expect("a name"));
         let parameters = match parts.peek().map(Pair::as_rule) {
             Some(Rule::parameters) => self.parameters(parts.next().expect("parameters"), &mut arena),
             _ => Vec::new(),
         };
         let inputs = self.ports(parts.next().expect("inputs"), &mut arena);
-        let outputs = self.ports(parts.next().expect("outputs"), &mut arena);
+        let outputs = self.outputs(parts.next().expect("outputs"), &mut arena);
         let statements = self.statements(parts.next().expect("a body"), &mut arena);
         CircuitSyntax { name, parameters, inputs, outputs, body: arena.body(statements) }
     }
@@ -90,10 +95,15 @@ impl Converter<'_> {
         Span::new(self.file, start, self.solid_end(start, self.offset + span.end()))
     }
 
+    /// The text of the declaration at a place.
+    pub(crate) fn text(&self, span: Span) -> &str {
+        &self.source[span.start as usize - self.offset..span.end as usize - self.offset]
+    }
+
     /// The end of a text without the spaces and comments after it, which pest includes.
     fn solid_end(&self, start: usize, mut end: usize) -> usize {
         loop {
-            end = start + self.text[start..end].trim_end().len();
+            end = start + self.source[start - self.offset..end - self.offset].trim_end().len();
             let after = self.comments.partition_point(|comment| comment.start < end);
             match after.checked_sub(1).map(|last| &self.comments[last]) {
                 Some(last) if last.start > start && last.end >= end => end = last.start,

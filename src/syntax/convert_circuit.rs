@@ -3,9 +3,12 @@
 use pest::iterators::Pair;
 
 use crate::model::SizeOperator;
+use crate::source::Span;
 use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
+use crate::syntax::convert_expression::choice_of;
 use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::is_word;
 use crate::syntax::tree::{
     Argument, Index, ParameterSyntax, Port, SizeSyntaxId, SizeSyntaxKind, StatementKind, StatementSyntax, TargetSyntax,
 };
@@ -26,40 +29,183 @@ impl Converter<'_> {
         parts(pair).map(|port| self.port(port, arena)).collect()
     }
 
+    /// The outputs of a circuit, whose parentheses may be missing.
+    pub(crate) fn outputs(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Port> {
+        match parts(pair.clone()).next().filter(|first| first.as_rule() == Rule::slip_outputs) {
+            Some(bare) => {
+                let span = self.span(&bare);
+                self.slip(Slip::BareOutputs { outputs: self.text(span).to_owned() }, span);
+                self.ports(bare, arena)
+            }
+            None => self.ports(pair, arena),
+        }
+    }
+
     fn port(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Port {
-        let mut parts = parts(pair);
+        let mut parts = parts(pair).peekable();
+        while let Some(kind) = parts.next_if(|part| part.as_rule() == Rule::slip_kind) {
+            let next = self.span(parts.peek().expect("a name after the kind"));
+            let span = self.span(&kind);
+            let before = Span { end: next.start, ..span };
+            self.slip(Slip::KindOfPort { kind: kind.as_str().to_owned(), before }, span);
+        }
+        let range = parts.next_if(|part| part.as_rule() == Rule::slip_range);
         let name = self.name(&parts.next().expect("a name"));
-        Port { name, width: parts.next().map(|size| self.size(size, arena)) }
+        if let Some(range) = range {
+            let (span, (width, text)) = (self.span(&range), self.width_of_range(range, arena));
+            let slip = Slip::WidthBeforeName { name: name.text.clone(), width: text, both: span.to(name.span) };
+            self.slip(slip, Span { end: span.start + 1, ..span });
+            return Port { name, width: Some(width) };
+        }
+        let width = parts.next().map(|size| match size.as_rule() {
+            Rule::slip_range => {
+                let (span, (width, text)) = (self.span(&size), self.width_of_range(size, arena));
+                self.slip(Slip::RangeOfPort { port: name.text.clone(), width: text }, span);
+                width
+            }
+            _ => self.size(size, arena),
+        });
+        Port { name, width }
+    }
+
+    /// The number of bits in brackets, which may be a range such as `[7:0]`, and its text.
+    fn width_of_range(&mut self, range: Pair<Rule>, arena: &mut Arena) -> (SizeSyntaxId, String) {
+        let span = self.span(&range);
+        let mut ends = parts(range).map(|end| (end.as_str().trim().to_owned(), end));
+        let (high_text, high) = ends.next().expect("a width");
+        let Some((low_text, low)) = ends.next() else { return (self.size(high, arena), high_text) };
+        let [high_bit, low_bit] = [&high_text, &low_text].map(|end| end.parse::<u32>().ok());
+        if let (Some(high), Some(low)) = (high_bit, low_bit) {
+            let bits = (u64::from(high.abs_diff(low)) + 1).to_string();
+            return (arena.size(SizeSyntaxKind::Literal(bits.clone()), span), bits);
+        }
+        let text = match high_text.strip_suffix('1').and_then(|sum| sum.trim_end().strip_suffix('-')) {
+            Some(width) if low_bit == Some(0) => width.trim_end().to_owned(),
+            _ => format!("{high_text} - ({low_text}) + 1"),
+        };
+        let (high, low) = (self.size(high, arena), self.size(low, arena));
+        let bits = arena.size(SizeSyntaxKind::Binary(SizeOperator::Subtract, high, low), span);
+        let one = arena.size(SizeSyntaxKind::Literal("1".to_owned()), span);
+        (arena.size(SizeSyntaxKind::Binary(SizeOperator::Add, bits, one), span), text)
     }
 
     pub(crate) fn statements(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
-        parts(pair).filter_map(|statement| self.statement(statement, arena)).collect()
+        parts(pair).flat_map(|statement| self.statement(statement, arena)).collect()
     }
 
-    fn statement(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Option<StatementSyntax> {
+    fn statement(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::drive => self.drive(pair, arena),
             Rule::nets => StatementKind::Nets(self.ports(pair, arena)),
+            Rule::slip_nets => self.slip_nets(pair, arena),
             Rule::loop_ => self.for_loop(pair, arena),
+            Rule::slip_if => return self.if_block(pair, arena),
             Rule::slip_end => {
                 self.slip(Slip::StatementEnd { sign: pair.as_str().to_owned() }, span);
-                return None;
+                return Vec::new();
             }
             _ => {
-                self.slip(Slip::StatementKeyword { word: pair.as_str().to_owned() }, span);
-                return None;
+                let word = parts(pair.clone()).next().expect("a word").as_str().to_owned();
+                let end = pair.as_span().end();
+                let blank = self.source[end..].len() - self.source[end..].trim_start().len();
+                let whole = Span { end: (self.offset + end + blank) as u32, ..span };
+                let span = Span { end: span.start + word.len() as u32, ..span };
+                self.slip(Slip::StatementKeyword { word, whole }, span);
+                return Vec::new();
             }
         };
-        Some(StatementSyntax { kind, span })
+        vec![StatementSyntax { kind, span }]
+    }
+
+    /// Nets that are declared with a keyword of another language.
+    fn slip_nets(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
+        let span = self.span(&pair);
+        let mut parts = parts(pair).peekable();
+        let word = parts.next().expect("a keyword");
+        let range = parts.next_if(|part| part.as_rule() == Rule::slip_range);
+        let range = range.map(|range| self.width_of_range(range, arena));
+        let mut texts = Vec::new();
+        let mut nets = Vec::new();
+        for port in parts {
+            let text = self.text(self.span(&port)).to_owned();
+            let mut port = self.port(port, arena);
+            match (&range, port.width) {
+                (Some((width, bits)), None) => {
+                    port.width = Some(*width);
+                    texts.push(format!("{}[{bits}]", port.name.text));
+                }
+                _ => texts.push(text),
+            }
+            nets.push(port);
+        }
+        let slip = Slip::NetKeyword { word: word.as_str().to_owned(), nets: texts.join(", "), whole: span };
+        self.slip(slip, self.span(&word));
+        StatementKind::Nets(nets)
     }
 
     fn for_loop(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
-        let mut parts = parts(pair);
+        let mut parts = parts(pair).peekable();
         let variable = self.name(&parts.next().expect("a variable"));
         let from = self.size(parts.next().expect("a start"), arena);
+        if let Some(colon) = parts.next_if(|part| part.as_rule() == Rule::slip_colon) {
+            self.slip(Slip::ColonInLoop, self.span(&colon));
+        }
         let to = self.size(parts.next().expect("an end"), arena);
         StatementKind::For { variable, from, to, statements: self.statements(parts.next().expect("a body"), arena) }
+    }
+
+    /// `if` with statements in braces. If each branch drives the same nets, it is a choice for each of them.
+    fn if_block(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
+        let span = self.span(&pair);
+        let is_word = |part: &Pair<Rule>| part.as_rule() == Rule::else_word;
+        let (bodies, conditions): (Vec<_>, Vec<_>) =
+            parts(pair).filter(|part| !is_word(part)).partition(|part| part.as_rule() == Rule::body);
+        let drives: Option<Vec<Vec<_>>> = bodies.into_iter().map(|body| self.drives_of(body)).collect();
+        let drives = drives.filter(|drives| {
+            let nets = |drives: &[(Pair<Rule>, Pair<Rule>)]| {
+                drives.iter().map(|(target, _)| target.as_str().trim().to_owned()).collect::<Vec<_>>()
+            };
+            drives.len() == conditions.len() + 1 && drives.iter().all(|branch| nets(branch) == nets(&drives[0]))
+        });
+        let if_span = Span { end: span.start + 2, ..span };
+        let Some(drives) = drives else {
+            self.slip(Slip::IfBlock { choices: Vec::new(), whole: span }, if_span);
+            return Vec::new();
+        };
+        let (mut statements, mut choices) = (Vec::new(), Vec::new());
+        for (at, (target, _)) in drives[0].iter().enumerate() {
+            let target_text = self.text(self.span(target)).to_owned();
+            let mut text = format!("{target_text} =");
+            let mut values = Vec::new();
+            for (condition, branch) in conditions.iter().zip(&drives) {
+                let [condition_text, then] = [condition, &branch[at].1].map(|part| self.text(self.span(part)));
+                text += &format!(" if {condition_text} then {then} else");
+                values.push(self.expression(condition.clone(), arena));
+                values.push(self.expression(branch[at].1.clone(), arena));
+            }
+            let last = drives.last().expect("a branch")[at].1.clone();
+            text += &format!(" {}", self.text(self.span(&last)));
+            values.push(self.expression(last, arena));
+            let kind = choice_of(values, arena);
+            let value = arena.expression(kind, span);
+            choices.push(text);
+            let targets = vec![self.target(target.clone(), arena)];
+            statements.push(StatementSyntax { kind: StatementKind::Drive { targets, grouped: false, value }, span });
+        }
+        self.slip(Slip::IfBlock { choices, whole: span }, if_span);
+        statements
+    }
+
+    /// The targets and values of a body that only drives single nets.
+    fn drives_of<'p>(&self, body: Pair<'p, Rule>) -> Option<Vec<(Pair<'p, Rule>, Pair<'p, Rule>)>> {
+        let drive = |statement: Pair<'p, Rule>| {
+            let is_drive = statement.as_rule() == Rule::drive;
+            let mut parts = parts(statement);
+            let target = parts.next().filter(|target| is_drive && target.as_rule() == Rule::target)?;
+            Some((target, parts.next().filter(|value| value.as_rule() == Rule::expression)?))
+        };
+        parts(body).map(drive).collect()
     }
 
     fn drive(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
@@ -86,9 +232,23 @@ impl Converter<'_> {
 
     pub(crate) fn index(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Index {
         let span = self.span(&pair);
-        let mut parts = parts(pair);
-        let high = self.size(parts.next().expect("a bit"), arena);
-        Index { high, low: parts.next().map(|size| self.size(size, arena)), span }
+        let mut parts = parts(pair).peekable();
+        let high = parts.next().expect("a bit");
+        let Some(colon) = parts.next_if(|part| part.as_rule() == Rule::slip_colon) else {
+            let high = self.size(high, arena);
+            return Index { high, low: parts.next().map(|size| self.size(size, arena)), span };
+        };
+        // In other languages the first bit may be the lowest.
+        let low = parts.next().expect("the other end");
+        let bit = |end: &Pair<Rule>| end.as_str().trim().parse::<u32>().ok();
+        let is_ascending = bit(&high).zip(bit(&low)).is_some_and(|(high, low)| high < low);
+        let (high, low) = if is_ascending { (low, high) } else { (high, low) };
+        let net = self.source[..span.start as usize - self.offset].rsplit(|c| !is_word(c)).next().unwrap_or_default();
+        let slice = format!("[{}..{}]", high.as_str().trim(), low.as_str().trim());
+        let slip = Slip::ColonInSlice { net: net.to_owned(), slice, index: span };
+        self.slip(slip, self.span(&colon));
+        let high = self.size(high, arena);
+        Index { high, low: Some(self.size(low, arena)), span }
     }
 
     pub(crate) fn arguments(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Argument> {

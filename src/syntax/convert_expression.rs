@@ -39,9 +39,11 @@ impl Converter<'_> {
     pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxId {
         let mut stacks = Stacks::default();
         let mut parts = parts(pair).peekable();
+        let mut choice = None;
         while let Some(part) = parts.next() {
             let span = self.span(&part);
             match part.as_rule() {
+                Rule::slip_choice => choice = Some(part),
                 Rule::prefix => {
                     self.slip_prefix(&part, span, &stacks);
                     stacks.waiting.push(Waiting::Not(span));
@@ -60,7 +62,28 @@ impl Converter<'_> {
         while !stacks.waiting.is_empty() {
             stacks.reduce(arena);
         }
-        stacks.values.pop().expect("an expression has an operand")
+        let value = stacks.values.pop().expect("an expression has an operand");
+        choice.map_or(value, |choice| self.question_mark(value, choice, arena))
+    }
+
+    /// A choice with `?` and `:` after its condition.
+    fn question_mark(
+        &mut self,
+        condition: ExpressionSyntaxId,
+        pair: Pair<Rule>,
+        arena: &mut Arena,
+    ) -> ExpressionSyntaxId {
+        let (sign, first) = (self.span(&pair), arena.span(condition));
+        let values: Vec<_> = parts(pair).collect();
+        let mut texts = values.iter().map(|value| self.text(self.span(value)).to_owned());
+        let (then, otherwise) = (texts.next().unwrap_or_default(), texts.next().unwrap_or_default());
+        let whole = first.to(sign);
+        let condition_text = self.text(first).to_owned();
+        let slip = Slip::QuestionMark { condition: condition_text, then, otherwise, whole };
+        self.slip(slip, Span { end: sign.start + 1, ..sign });
+        let values: Vec<_> = values.into_iter().map(|value| self.expression(value, arena)).collect();
+        let [then, otherwise] = values[..] else { unreachable!("a choice has two values") };
+        arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, whole)
     }
 
     /// Each run of `~` and `!` is reported once.
@@ -75,7 +98,8 @@ impl Converter<'_> {
     /// A word that replaces a sign, with spaces around it if the text has none.
     fn apart(&self, sign: Span, word: &str) -> String {
         let space = |character: Option<char>| if character.is_some_and(char::is_whitespace) { "" } else { " " };
-        let (before, after) = (&self.text[..sign.start as usize], &self.text[sign.end as usize..]);
+        let (before, after) =
+            (&self.source[..sign.start as usize - self.offset], &self.source[sign.end as usize - self.offset..]);
         format!("{}{word}{}", space(before.chars().next_back()), space(after.chars().next()))
     }
 
@@ -87,7 +111,7 @@ impl Converter<'_> {
                 && !infix.chains_after(before)
             {
                 let [.., left, middle] = stacks.values[..] else { unreachable!("an operator has two operands") };
-                let [left, middle] = [left, middle].map(|value| brief(&self.text[arena.span(value).range()]));
+                let [left, middle] = [left, middle].map(|value| brief(self.text(arena.span(value))));
                 let readings = [
                     format!("({left} {} {middle}) {} {}", before.word(), infix.word(), brief(next)),
                     format!("{left} {} ({middle} {} {})", before.word(), infix.word(), brief(next)),
@@ -143,18 +167,18 @@ impl Converter<'_> {
 
     /// An `if` expression. In the grammar the expressions after `else` are siblings; in the tree they are nested.
     fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
-        let branches = parts(pair).filter(|part| part.as_rule() == Rule::expression);
-        let mut values: Vec<_> = branches.map(|branch| self.expression(branch, arena)).collect();
-        let mut otherwise = values.pop().expect("a choice has its last branch");
-        loop {
-            let then = values.pop().expect("a choice has a value");
-            let condition = values.pop().expect("a choice has a condition");
-            if values.is_empty() {
-                return ExpressionSyntaxKind::Choice { condition, then, otherwise };
+        let mut values = Vec::new();
+        for part in parts(pair) {
+            match part.as_rule() {
+                Rule::slip_then => {
+                    let start = self.span(&part).start;
+                    self.slip(Slip::MissingThen, Span { file: self.file, start, end: start + 1 });
+                }
+                Rule::expression => values.push(self.expression(part, arena)),
+                _ => {}
             }
-            let span = arena.span(condition).to(arena.span(otherwise));
-            otherwise = arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, span);
         }
+        choice_of(values, arena)
     }
 
     fn operation(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
@@ -173,6 +197,9 @@ impl Converter<'_> {
     fn constant(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let first = parts.next().expect("digits");
+        if first.as_rule() == Rule::slip_number {
+            return self.number_with_prefix(&first, arena);
+        }
         let Some(base) = parts.next() else { return ExpressionSyntaxKind::Digits(first.as_str().to_owned()) };
         let width = match first.as_rule() {
             Rule::digits => SizeSyntaxKind::Literal(first.as_str().to_owned()),
@@ -186,6 +213,17 @@ impl Converter<'_> {
         }
         let digits = value.as_str().to_owned();
         ExpressionSyntaxKind::Constant { width, base, digits }
+    }
+
+    /// A constant such as `0xff`, as wide as its digits.
+    fn number_with_prefix(&mut self, pair: &Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let (span, number) = (self.span(pair), pair.as_str());
+        let (base, bits) = if number[1..].starts_with(['x', 'X']) { ('h', 4) } else { ('b', 1) };
+        let digits = number[2..].to_owned();
+        let width = (bits * digits.len()).to_string();
+        let constant = format!("{width}'{base}{digits}");
+        self.slip(Slip::NumberWithPrefix { number: number.to_owned(), constant }, span);
+        ExpressionSyntaxKind::Constant { width: arena.size(SizeSyntaxKind::Literal(width), span), base, digits }
     }
 
     fn computed(
@@ -240,7 +278,7 @@ impl Converter<'_> {
         ExpressionSyntaxKind::Table { inputs, rows: parts.map(|row| self.table_row(row, arena)).collect() }
     }
 
-    fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {
+    pub(crate) fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {
         let span = self.span(&pair);
         let mut parts = parts(pair);
         let pattern = parts.next().expect("a pattern");
@@ -251,6 +289,20 @@ impl Converter<'_> {
             _ => TableOutputSyntax::Value(self.expression(output, arena)),
         };
         TableRowSyntax { pattern, output, span }
+    }
+}
+
+/// The choice of conditions and values in order of text; the last value has no condition.
+pub(crate) fn choice_of(mut values: Vec<ExpressionSyntaxId>, arena: &mut Arena) -> ExpressionSyntaxKind {
+    let mut otherwise = values.pop().expect("a choice has its last branch");
+    loop {
+        let then = values.pop().expect("a choice has a value");
+        let condition = values.pop().expect("a choice has a condition");
+        if values.is_empty() {
+            return ExpressionSyntaxKind::Choice { condition, then, otherwise };
+        }
+        let span = arena.span(condition).to(arena.span(otherwise));
+        otherwise = arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, span);
     }
 }
 

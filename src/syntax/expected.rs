@@ -3,29 +3,37 @@
 use pest::error::{Error, ErrorVariant, InputLocation};
 
 use crate::diag::{Diagnostic, Suggestion, suggest};
-use crate::source::{FileId, Span};
+use crate::source::Span;
 use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::{is_word, open_brackets};
+use crate::syntax::part::{PartKind, PartPlace};
 use crate::syntax::slips;
-use crate::syntax::split::{KEYWORDS, SourcePiece};
+use crate::syntax::split::KEYWORDS;
 use crate::syntax::wording::SyntaxError;
 
-/// The diagnostic for a declaration that does not follow the grammar.
-pub(crate) fn diagnostic(text: &str, file: FileId, piece: &SourcePiece, error: &Error<Rule>) -> Diagnostic {
-    let at = piece.range.start
-        + match error.location {
-            InputLocation::Pos(at) => at,
-            InputLocation::Span((at, _)) => at,
-        };
-    let found = found(&text[at..piece.range.end]);
-    let span = Span::new(file, at, at + found.len());
-    if found.is_empty() {
-        return unexpected_end(file, piece, error);
+/// The offset of a parse error.
+pub(crate) fn place(error: &Error<Rule>) -> usize {
+    match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
     }
-    if let Some(slip) = slips::look(text, file, &piece.range, at, found, error) {
+}
+
+/// The diagnostic for a part that does not follow the grammar at `at`.
+pub(crate) fn diagnostic(part: &PartPlace<'_>, at: usize, error: &Error<Rule>) -> Diagnostic {
+    let found = found(&part.source[at..part.end]);
+    let span = Span::new(part.file, part.offset + at, part.offset + at + found.len());
+    let end = found.is_empty().then(|| unexpected_end(part, error));
+    if let Some(Ok(unclosed)) = end {
+        return unclosed;
+    }
+    if let Some(slip) = slips::look(part, at, found, error) {
         return slip;
     }
+    if let Some(Err(end)) = end {
+        return end.at(span);
+    }
     let found = found.to_owned();
-    let error = if at == piece.range.start {
+    let error = if part.kind == PartKind::Declaration && at == 0 {
         let meant = Suggestion::near(&found, KEYWORDS);
         SyntaxError::UnexpectedDeclaration { found, meant }
     } else if let ErrorVariant::CustomError { .. } = error.variant {
@@ -38,19 +46,21 @@ pub(crate) fn diagnostic(text: &str, file: FileId, piece: &SourcePiece, error: &
     error.at(span)
 }
 
-fn unexpected_end(file: FileId, piece: &SourcePiece, error: &Error<Rule>) -> Diagnostic {
-    match piece.unclosed.last() {
-        Some(&open) => SyntaxError::UnclosedBracket.at(Span::new(file, open, open + 1)),
-        None => {
-            let end = Span::new(file, piece.range.end, piece.range.end);
-            SyntaxError::EndOfDeclaration { expected: expected(error) }.at(end)
-        }
+fn unexpected_end(part: &PartPlace<'_>, error: &Error<Rule>) -> Result<Diagnostic, SyntaxError> {
+    if let Some(open) = open_brackets(&part.source[part.start..part.end]).last() {
+        let open = part.offset + part.start + open;
+        let is_declaration = part.kind == PartKind::Declaration;
+        return Ok(SyntaxError::UnclosedBracket { is_declaration }.at(Span::new(part.file, open, open + 1)));
     }
+    let expected = expected(error);
+    Err(match part.kind {
+        PartKind::Declaration => SyntaxError::EndOfDeclaration { expected },
+        _ => SyntaxError::EndOfLine { expected },
+    })
 }
 
 /// The word or sign that a text begins with; a long one is cut.
 fn found(rest: &str) -> &str {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let first = rest.chars().next();
     let end = match first {
         Some(c) if is_word(c) => {
@@ -76,7 +86,6 @@ fn expected(error: &Error<Rule>) -> String {
 /// The name of a rule in messages; `None` if the message should not suggest it.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
-        Rule::EOI => "the end of the declaration",
         Rule::name => "a name",
         Rule::text => "a string in quotes",
         Rule::number | Rule::digits => "a number",

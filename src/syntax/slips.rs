@@ -6,6 +6,8 @@ use pest::error::{Error, ErrorVariant};
 use crate::diag::{Diagnostic, suggest};
 use crate::source::{FileId, Span};
 use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::{is_word, open_brackets};
+use crate::syntax::part::{PartKind, PartPlace};
 use crate::syntax::wording::Slip;
 
 /// Reserved words.
@@ -16,15 +18,14 @@ pub(crate) const RESERVED: [&str; 16] = [
 /// The tokens between two operands of an expression.
 const BETWEEN: [&str; 8] = ["and", "else", "nand", "nor", "or", "then", "xnor", "xor"];
 
-/// Keywords before a port in other languages.
-const KINDS: [&str; 8] = ["bit", "bool", "input", "int", "logic", "output", "reg", "wire"];
-
-/// A place where a declaration violates the grammar.
+/// A place where a part of a declaration violates the grammar.
 pub(crate) struct SlipPlace<'a> {
     file: FileId,
-    /// The text of the file.
+    kind: PartKind,
+    /// The text of the declaration, and its place in the file.
     text: &'a str,
-    /// The start and the end of the declaration.
+    offset: usize,
+    /// The start and the end of the part.
     start: usize,
     end: usize,
     /// The place of the parse error, and the token there.
@@ -32,7 +33,7 @@ pub(crate) struct SlipPlace<'a> {
     found: &'a str,
     /// The expected tokens.
     wanted: &'a [Rule],
-    /// The brackets that are open at that place, as offsets.
+    /// The brackets of the part that are open at that place, as offsets.
     open: Vec<usize>,
 }
 
@@ -40,16 +41,11 @@ pub(crate) struct SlipPlace<'a> {
 type Found = Option<(Slip, Span)>;
 
 /// In order: the first that recognizes the place decides.
-const LOOKS: [fn(&SlipPlace<'_>) -> Found; 16] = [
-    block_comment,
+const LOOKS: [fn(&SlipPlace<'_>) -> Found; 11] = [
     letters,
     unclosed_quote,
     single_quote,
     reserved_word,
-    colon_in_brackets,
-    question_mark,
-    width_before_name,
-    port_kind,
     width_of_constant,
     nets_in_braces,
     space_before_operands,
@@ -60,45 +56,12 @@ const LOOKS: [fn(&SlipPlace<'_>) -> Found; 16] = [
 ];
 
 /// The message for a known mistake.
-pub(crate) fn look(
-    text: &str,
-    file: FileId,
-    range: &std::ops::Range<usize>,
-    at: usize,
-    found: &str,
-    error: &Error<Rule>,
-) -> Option<Diagnostic> {
-    let ErrorVariant::ParsingError { positives, .. } = &error.variant else { return None };
-    let open = open_brackets(text, range.start, at);
-    let place = SlipPlace { file, text, start: range.start, end: range.end, at, found, wanted: positives, open };
+pub(crate) fn look(part: &PartPlace<'_>, at: usize, found: &str, error: &Error<Rule>) -> Option<Diagnostic> {
+    let ErrorVariant::ParsingError { positives: wanted, .. } = &error.variant else { return None };
+    let &PartPlace { file, kind, source: text, offset, start, end } = part;
+    let open = open_brackets(&text[start..at]).into_iter().map(|open| start + open).collect();
+    let place = SlipPlace { file, kind, text, offset, start, end, at, found, wanted, open };
     LOOKS.iter().find_map(|look| look(&place)).map(|(slip, span)| slip.at(span))
-}
-
-/// The brackets that are open at `at`, ignoring comments and texts.
-fn open_brackets(text: &str, start: usize, at: usize) -> Vec<usize> {
-    let mut open = Vec::new();
-    let mut here = start;
-    while here < at {
-        let rest = &text[here..at];
-        match rest.as_bytes()[0] {
-            b'/' if rest.starts_with("//") => here += rest.find(['\n', '\r']).unwrap_or(rest.len()),
-            b'"' => here += rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
-            b'(' | b'[' | b'{' => {
-                open.push(here);
-                here += 1;
-            }
-            b')' | b']' | b'}' => {
-                open.pop();
-                here += 1;
-            }
-            _ => here += 1 + rest[1..].bytes().take_while(|byte| (0x80..0xc0).contains(byte)).count(),
-        }
-    }
-    open
-}
-
-fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
 }
 
 /// The last word of a text, and the text before it.
@@ -122,7 +85,7 @@ impl<'a> SlipPlace<'a> {
     }
 
     fn span(&self, start: usize, end: usize) -> Span {
-        Span::new(self.file, start, end)
+        Span::new(self.file, self.offset + start, self.offset + end)
     }
 
     fn here(&self) -> Span {
@@ -151,8 +114,7 @@ impl<'a> SlipPlace<'a> {
 
     /// Whether the place is in the body of a circuit.
     fn in_body(&self) -> bool {
-        self.open.first().is_some_and(|&at| self.text.as_bytes()[at] == b'{')
-            && ["circuit", "test"].iter().any(|keyword| self.text[self.start..].starts_with(keyword))
+        matches!(self.kind, PartKind::Statement | PartKind::TableRow)
     }
 
     /// The word before the place, its start, and the text before it on its line.
@@ -168,10 +130,6 @@ fn ends_operand(text: &str) -> bool {
     let word = last_word(text).1;
     let ends = text.ends_with(|c: char| is_word(c) || matches!(c, ')' | ']' | '}'));
     ends && !RESERVED.contains(&word)
-}
-
-fn block_comment(place: &SlipPlace<'_>) -> Found {
-    place.after().starts_with("/*").then(|| (Slip::BlockComment, place.span(place.at, place.at + 2)))
 }
 
 fn letters(place: &SlipPlace<'_>) -> Found {
@@ -207,75 +165,6 @@ fn reserved_word(place: &SlipPlace<'_>) -> Found {
         (assigned(place.after()) && RESERVED.contains(&word) && !line.ends_with(is_word)).then_some((word, start))?
     };
     Some((Slip::ReservedWord { word: word.to_owned() }, place.span(start, start + word.len())))
-}
-
-fn colon_in_brackets(place: &SlipPlace<'_>) -> Found {
-    let (open, b'[') = place.inside()? else { return None };
-    if place.found != ":" {
-        return None;
-    }
-    let name = last_word(&place.text[place.start..open]).1;
-    let close = place.after().find(']')?;
-    let (high, low) = (&place.text[open + 1..place.at], &place.after()[1..close]);
-    if place.in_ports() {
-        let range = place.span(open + 1, place.at + close);
-        let slip = Slip::RangeOfPort { port: name.to_owned(), width: width(high, low), range };
-        return width_before_name(place).or_else(|| Some((slip, place.here())));
-    }
-    let [net, high, low] = [name, brief(high), brief(low)].map(str::to_owned);
-    Some((Slip::ColonInSlice { net, high, low }, place.here()))
-}
-
-/// The width that `[high:low]` has in Verilog.
-fn width(high: &str, low: &str) -> Option<u64> {
-    let [high, low] = [high, low].map(|end| end.trim().parse::<u32>().ok());
-    Some(u64::from(high?.abs_diff(low?)) + 1)
-}
-
-fn question_mark(place: &SlipPlace<'_>) -> Found {
-    if place.found != "?" {
-        return None;
-    }
-    let line = place.after().lines().next().unwrap_or_default();
-    let condition = place.before().rsplit(['=', '(', ',', '{', '\n']).next().unwrap_or_default();
-    let (then, rest) = line[1..].split_once(':').unwrap_or(("a", "b"));
-    let otherwise = rest.split([')', '}', ',']).next().unwrap_or_default();
-    let [condition, then, otherwise] = [condition, then, otherwise].map(|part| brief(part).to_owned());
-    Some((Slip::QuestionMark { condition, then, otherwise }, place.here()))
-}
-
-fn width_before_name(place: &SlipPlace<'_>) -> Found {
-    let open = match place.inside()? {
-        (_, b'(') if place.found == "[" => place.at,
-        (open, b'[') => open,
-        _ => return None,
-    };
-    let rest = place.text[open..place.end].strip_prefix('[')?;
-    let (range, name) = rest.split_once(']')?;
-    let name = name.trim_start_matches([' ', '\t']);
-    let start = place.end - name.len();
-    let name = &name[..name.find(|c| !is_word(c)).unwrap_or(name.len())];
-    let before = place.text[place.start..open].trim_end();
-    if name.is_empty() || !before.ends_with(['(', ',']) && !KINDS.contains(&last_word(before).1) {
-        return None;
-    }
-    let bits = match range.split_once(':') {
-        None => Some(brief(range).to_owned()),
-        Some((high, low)) => width(high, low).map(|bits| bits.to_string()),
-    };
-    let both = bits.as_ref().filter(|bits| *bits != "…").map(|_| place.span(open, start + name.len()));
-    let slip = Slip::WidthBeforeName { name: name.to_owned(), width: bits.unwrap_or_else(|| "8".to_owned()), both };
-    Some((slip, place.span(open, open + 1)))
-}
-
-fn port_kind(place: &SlipPlace<'_>) -> Found {
-    let (word, start, _) = place.word_before()?;
-    let named = place.in_ports() && KINDS.contains(&word) && place.found.starts_with(is_word);
-    named.then(|| {
-        let both = place.span(start, place.at + place.found.len());
-        let slip = Slip::KindOfPort { kind: word.to_owned(), port: place.found(), both };
-        (slip, place.span(start, start + word.len()))
-    })
 }
 
 fn width_of_constant(place: &SlipPlace<'_>) -> Found {
@@ -356,8 +245,7 @@ fn missing_operator(place: &SlipPlace<'_>) -> Found {
 
 fn space_in_pattern(place: &SlipPlace<'_>) -> Found {
     let is_pattern = |word: &str| !word.is_empty() && word.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-'));
-    let (open, b'{') = place.inside()? else { return None };
-    let in_table = place.text[place.start..open].trim_end().ends_with(')') && place.open.len() > 1;
+    let in_table = place.kind == PartKind::TableRow;
     let rest = place.after();
     let pattern = &rest[..rest.find([':', ',', '}', '\n']).unwrap_or(rest.len())];
     let words: Vec<&str> = pattern.split_whitespace().collect();

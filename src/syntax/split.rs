@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens};
+
 /// The keywords that begin declarations.
 pub const KEYWORDS: [&str; 11] = [
     "circuit",
@@ -20,43 +22,42 @@ pub const KEYWORDS: [&str; 11] = [
     "world",
 ];
 
+/// Words that begin a circuit in other languages.
+const FOREIGN_KEYWORDS: [&str; 4] = ["module", "fn", "def", "function"];
+
 /// A text split into declarations.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Split {
+pub(crate) struct Split {
     /// The declarations.
-    pub pieces: Vec<SourcePiece>,
-    pub comments: Vec<Range<usize>>,
+    pub(crate) pieces: Vec<SourcePiece>,
+    pub(crate) comments: Vec<Range<usize>>,
+    /// The comments of other languages.
+    pub(crate) foreign_comments: Vec<Range<usize>>,
 }
 
 /// The text of a declaration, without the spaces and comments around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SourcePiece {
+pub(crate) struct SourcePiece {
     /// The range of bytes.
-    pub range: Range<usize>,
-    /// The brackets that are not closed, as offsets.
-    pub unclosed: Vec<usize>,
-    /// The first closing bracket without an opening one.
-    pub unopened: Option<usize>,
+    pub(crate) range: Range<usize>,
+    /// The semicolons that end statements in other languages.
+    pub(crate) semicolons: Vec<usize>,
     /// The deepest nesting of brackets and `if`.
-    pub depth: usize,
+    pub(crate) depth: usize,
     /// The number of tokens.
-    pub words: usize,
+    pub(crate) words: usize,
 }
 
 /// Splits a text into declarations.
-pub fn split(text: &str) -> Split {
-    let mut splitter = Splitter {
-        text,
-        split: Split::default(),
-        piece: None,
-        open: Vec::new(),
-        closed: false,
-        line: Some(0),
-        choices: 0,
-    };
-    let mut at = 0;
-    while at < text.len() {
-        at = splitter.token(at);
+pub(crate) fn split(text: &str) -> Split {
+    let mut splitter =
+        Splitter { text, split: Split::default(), piece: None, open: Vec::new(), closed: false, choices: 0 };
+    for token in tokens(text) {
+        match token.kind {
+            TokenKind::Comment => splitter.split.comments.push(token.range),
+            TokenKind::ForeignComment => splitter.split.foreign_comments.push(token.range),
+            _ => splitter.token(&token),
+        }
     }
     splitter.end_piece();
     splitter.split
@@ -70,94 +71,53 @@ struct Splitter<'a> {
     /// Whether all braces of the piece are closed, so that any keyword at the start of a line begins another
     /// declaration.
     closed: bool,
-    /// The start of the line, while only spaces have been seen in it.
-    line: Option<usize>,
     /// Each `if` without its `else` so far.
     choices: usize,
 }
 
 impl Splitter<'_> {
-    /// Processes the token at `at`, and returns the start of the next one.
-    fn token(&mut self, at: usize) -> usize {
-        let rest = &self.text[at..];
-        let first = rest.chars().next().expect("the text goes on");
-        let length = match first {
-            _ if rest.starts_with("//") => return self.comment(at),
-            '"' => quoted(rest),
-            c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-            c => c.len_utf8(),
-        };
-        if first == '\n' {
-            self.line = Some(at + 1);
+    fn token(&mut self, token: &Token) {
+        let word = &self.text[token.range.clone()];
+        if self.begins(token, word) {
+            self.end_piece();
         }
-        if !first.is_whitespace() {
-            if self.begins(at, &rest[..length], first) {
-                self.end_piece();
-            }
-            self.extend(at, at + length);
-            self.bracket(at, first);
-            self.choice(at, &rest[..length]);
-            self.line = None;
-        }
-        at + length
-    }
-
-    fn comment(&mut self, at: usize) -> usize {
-        let length = self.text[at..].find(['\n', '\r']).unwrap_or(self.text.len() - at);
-        self.split.comments.push(at..at + length);
-        at + length
-    }
-
-    /// Whether a token is the first of a declaration.
-    fn begins(&self, at: usize, token: &str, first: char) -> bool {
-        let keyword = KEYWORDS.contains(&token);
-        if self.open.is_empty() {
-            return self.line.is_some() && is_word(first) && (keyword || self.closed);
-        }
-        keyword && self.line == Some(at) && starts_declaration(token, &self.text[at + token.len()..])
-    }
-
-    fn extend(&mut self, start: usize, end: usize) {
-        let empty = || SourcePiece { range: start..end, unclosed: Vec::new(), unopened: None, depth: 0, words: 0 };
+        let start = token.range.start;
+        let empty = || SourcePiece { range: start..start, semicolons: Vec::new(), depth: 0, words: 0 };
         let piece = self.piece.get_or_insert_with(empty);
-        piece.range.end = end;
+        piece.range.end = token.range.end;
         piece.words += 1;
-    }
-
-    fn bracket(&mut self, at: usize, first: char) {
-        let piece = self.piece.as_mut().expect("a token belongs to a piece");
-        match first {
-            '{' | '(' | '[' => self.open.push(at),
-            '}' | ')' | ']' => match self.open.last() {
-                Some(&open) if closes(self.text.as_bytes()[open], first) => {
-                    self.open.pop();
-                    self.closed |= first == '}' && self.open.is_empty();
-                }
-                _ => _ = piece.unopened.get_or_insert(at),
-            },
-            _ => {}
+        let text = self.text;
+        bracket(&mut self.open, word, start, |&open| &text[open..=open]);
+        self.closed |= word == "}" && self.open.is_empty();
+        if word == ";" && self.open.last().is_none_or(|&open| self.text.as_bytes()[open] == b'{') {
+            piece.semicolons.push(start);
         }
-        piece.depth = piece.depth.max(self.open.len());
-    }
-
-    /// Counts nested `if`s; the `else` of a table has a colon after it.
-    fn choice(&mut self, at: usize, token: &str) {
-        match token {
+        match word {
             "if" => self.choices += 1,
-            "else" if !self.text[at + token.len()..].trim_start().starts_with(':') => {
+            // The `else` of a table has a colon after it.
+            "else" if !self.text[token.range.end..].trim_start().starts_with(':') => {
                 self.choices = self.choices.saturating_sub(1);
             }
-            _ => return,
+            _ => {}
         }
-        let piece = self.piece.as_mut().expect("a token belongs to a piece");
         piece.depth = piece.depth.max(self.open.len() + self.choices);
     }
 
-    fn end_piece(&mut self) {
-        if let Some(mut piece) = self.piece.take() {
-            piece.unclosed = std::mem::take(&mut self.open);
-            self.split.pieces.push(piece);
+    /// Whether a token is the first of a declaration.
+    fn begins(&self, token: &Token, word: &str) -> bool {
+        let keyword = KEYWORDS.contains(&word);
+        let rest = &self.text[token.range.end..];
+        if self.open.is_empty() {
+            let foreign = FOREIGN_KEYWORDS.contains(&word) && starts_declaration(word, rest);
+            return token.is_first && word.starts_with(is_word) && (keyword || foreign || self.closed);
         }
+        let is_first_column = token.range.start == 0 || self.text[..token.range.start].ends_with(['\n', '\r']);
+        keyword && is_first_column && starts_declaration(word, rest)
+    }
+
+    fn end_piece(&mut self) {
+        self.split.pieces.extend(self.piece.take());
+        self.open.clear();
         self.closed = false;
         self.choices = 0;
     }
@@ -173,19 +133,6 @@ fn starts_declaration(keyword: &str, rest: &str) -> bool {
             name > 0 && !rest[..name].eq("init")
         }
     }
-}
-
-fn quoted(rest: &str) -> usize {
-    let end = rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 1);
-    end + usize::from(rest[end..].starts_with('"'))
-}
-
-fn closes(open: u8, close: char) -> bool {
-    matches!((open, close), (b'{', '}') | (b'(', ')') | (b'[', ']'))
-}
-
-fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
 }
 
 #[cfg(test)]
@@ -210,7 +157,13 @@ mod tests {
     fn an_unclosed_brace_ends_at_the_next_declaration() {
         let text = "circuit f(a) -> (q) {\n  q = a\ncircuit g(a) -> (q) { q = a }";
         check(text, &["circuit f(a) -> (q) {\n  q = a", "circuit g(a) -> (q) { q = a }"]);
-        assert_eq!(split(text).pieces[0].unclosed, [20]);
+    }
+
+    #[test]
+    fn comments_of_other_languages_hide_what_they_hold() {
+        let text = "/* circuit f\ncircuit g */ circuit h(a) -> (q) { q = a } # }";
+        check(text, &["circuit h(a) -> (q) { q = a }"]);
+        assert_eq!(split(text).foreign_comments, [0..25, 56..59]);
     }
 
     #[test]

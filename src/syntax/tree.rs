@@ -8,10 +8,19 @@ use crate::source::Span;
 pub struct Tree {
     /// The declarations that could be parsed.
     pub declarations: Vec<Declaration>,
-    /// The names of declarations that could not be parsed, if they have one.
-    pub broken: Vec<Span>,
+    /// The parts that could not be parsed, and that are missing in the declarations.
+    pub broken: Vec<BrokenSyntax>,
     /// The places of all comments, each from its `//` to the end of its line.
     pub comments: Vec<Span>,
+}
+
+/// A part that could not be parsed: a declaration, or a statement, field or row of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BrokenSyntax {
+    /// The part.
+    pub span: Span,
+    /// The declaration that it belongs to.
+    pub declaration: Span,
 }
 
 /// A declaration with its place.
@@ -103,6 +112,13 @@ pub struct RecordSyntax {
     pub fields: Vec<Field>,
     /// The place, including the braces.
     pub span: Span,
+}
+
+impl RecordSyntax {
+    /// The first field of that name.
+    pub fn field(&self, name: &str) -> Option<&Field> {
+        self.fields.iter().find(|field| field.name.text == name)
+    }
 }
 
 /// A field of a record.

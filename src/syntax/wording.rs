@@ -34,7 +34,7 @@ pub(crate) enum SyntaxError {
     /// A declaration that ends too early.
     EndOfDeclaration { expected: String },
     /// A bracket that is not closed.
-    UnclosedBracket,
+    UnclosedBracket { is_declaration: bool },
     /// Two operators without an order of precedence.
     Ambiguous { operators: [&'static str; 2], first: Span, readings: [String; 2] },
 }
@@ -81,10 +81,13 @@ impl SyntaxError {
             Self::EndOfDeclaration { expected } => {
                 Diagnostic::new(Code::Syntax, "unexpected end of declaration", span, expected)
             }
-            Self::UnclosedBracket => {
-                let label = "opened here, and still open at the end of the declaration";
-                Diagnostic::new(Code::Syntax, "unclosed bracket", span, label)
-                    .with_help("close it; a keyword in the first column begins a new declaration")
+            Self::UnclosedBracket { is_declaration } => {
+                let (end, help) = match is_declaration {
+                    true => ("declaration", "close it; a keyword in the first column begins a new declaration"),
+                    false => ("statement", "close it"),
+                };
+                let label = format!("opened here, and still open at the end of the {end}");
+                Diagnostic::new(Code::Syntax, "unclosed bracket", span, label).with_help(help)
             }
             Self::Ambiguous { operators: [before, after], first, readings: [left, right] } => {
                 let message = format!("`{before}` and `{after}` side by side can be read in two ways");
@@ -104,8 +107,20 @@ fn unexpected(found: &str, span: Span, expected: impl Into<String>) -> Diagnosti
 /// A habit from another language or a common mistake, whose meaning is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Slip {
-    /// A comment that begins with `/*`.
-    BlockComment,
+    /// A comment that begins with `#` or `/*`; `replacement` is the same comment in this language.
+    ForeignComment { sign: &'static str, replacement: Option<String> },
+    /// Outputs without parentheses.
+    BareOutputs { outputs: String },
+    /// A keyword of another language before nets; `whole` covers both.
+    NetKeyword { word: String, nets: String, whole: Span },
+    /// `:` in the range of a loop.
+    ColonInLoop,
+    /// `if` with statements in braces, and the choices that it means, if they are certain; `whole` covers it.
+    IfBlock { choices: Vec<String>, whole: Span },
+    /// A choice whose first value is in braces.
+    MissingThen,
+    /// A number such as `0xff`.
+    NumberWithPrefix { number: String, constant: String },
     /// A name with invalid letters.
     ForeignLetters { word: String },
     /// A quote that is not closed.
@@ -115,15 +130,15 @@ pub(crate) enum Slip {
     /// A keyword as a name.
     ReservedWord { word: String },
     /// `:` in the bits of a net.
-    ColonInSlice { net: String, high: String, low: String },
-    /// `[7:0]` after a port's name; `range` is the text in the brackets.
-    RangeOfPort { port: String, width: Option<u64>, range: Span },
+    ColonInSlice { net: String, slice: String, index: Span },
+    /// `[7:0]` after a port's name.
+    RangeOfPort { port: String, width: String },
     /// `[7:0]` before a name; `both` covers the two.
-    WidthBeforeName { name: String, width: String, both: Option<Span> },
-    /// `input` or `wire` before a port; `both` covers the two.
-    KindOfPort { kind: String, port: String, both: Span },
-    /// A choice with `?` and `:`.
-    QuestionMark { condition: String, then: String, otherwise: String },
+    WidthBeforeName { name: String, width: String, both: Span },
+    /// `input` or `wire` before a port; `before` covers it with the space after it.
+    KindOfPort { kind: String, before: Span },
+    /// A choice with `?` and `:`; `whole` covers it.
+    QuestionMark { condition: String, then: String, otherwise: String, whole: Span },
     /// A constant whose width is a sum; `zero` covers it where all its bits are 0.
     WidthOfConstant { width: String, digits: String, zero: Option<Span> },
     /// Nets in braces before `=`.
@@ -138,12 +153,12 @@ pub(crate) enum Slip {
     SpaceInPattern { found: String, pattern: String, whole: Span },
     /// Two entries of a list without a comma; `before` is the first of them.
     MissingComma { before: Option<(String, Span)>, found: String, close: char },
-    /// `module` or `fn` for a circuit.
-    CircuitKeyword { word: String },
+    /// `module` or `fn` for a circuit; the rest may be as it should.
+    CircuitKeyword { word: String, is_circuit: bool },
     /// A sign that ends a statement in other languages.
     StatementEnd { sign: String },
-    /// `assign` or `wire` before a statement.
-    StatementKeyword { word: String },
+    /// `assign` or `wire` before a statement; `whole` covers it with the space after it.
+    StatementKeyword { word: String, whole: Span },
     /// `<=`, `:=` or `:` for `=`.
     DriveSign { sign: String },
     /// `=` for `:` in a record.
@@ -161,6 +176,20 @@ pub(crate) enum Slip {
 }
 
 impl Slip {
+    /// A comment of another language, with the text after it.
+    pub(crate) fn foreign_comment(comment: &str, after: &str) -> Self {
+        if let Some(text) = comment.strip_prefix('#') {
+            return Self::ForeignComment { sign: "#", replacement: Some(format!("//{text}")) };
+        }
+        let inner = comment.strip_prefix("/*").and_then(|rest| rest.strip_suffix("*/"));
+        let replacement = inner.map(|inner| {
+            let lines: Vec<_> = inner.lines().map(|line| format!("// {}", line.trim()).trim_end().to_owned()).collect();
+            let ends_line = after.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']) || after.trim().is_empty();
+            lines.join("\n") + if ends_line { "" } else { "\n" }
+        });
+        Self::ForeignComment { sign: "/*", replacement }
+    }
+
     /// The slip at its place, with what to write instead.
     pub(crate) fn at(self, span: Span) -> Diagnostic {
         let error = Diagnostic::new(Code::Syntax, self.message(), span, self.label());
@@ -178,7 +207,14 @@ impl Slip {
             Self::ReservedWord { word } => return format!("`{word}` is a reserved word"),
             Self::SpaceBeforeOperands { .. } => return "unexpected space before `(`".to_owned(),
             Self::ParametersOfNet => return "unexpected parameters".to_owned(),
-            Self::BlockComment => "/*",
+            Self::ForeignComment { sign, .. } => sign,
+            Self::BareOutputs { outputs } => {
+                outputs.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+            }
+            Self::ColonInLoop => ":",
+            Self::IfBlock { .. } => "if",
+            Self::MissingThen => "{",
+            Self::NumberWithPrefix { number, .. } => number,
             Self::SingleQuote { .. } | Self::WidthOfConstant { .. } => "'",
             Self::ColonInSlice { .. } | Self::RangeOfPort { .. } => ":",
             Self::WidthBeforeName { .. } => "[",
@@ -192,8 +228,9 @@ impl Slip {
             | Self::MissingOperator { found: word }
             | Self::SpaceInPattern { found: word, .. }
             | Self::MissingComma { found: word, .. }
-            | Self::CircuitKeyword { word }
-            | Self::StatementKeyword { word } => word,
+            | Self::CircuitKeyword { word, .. }
+            | Self::NetKeyword { word, .. }
+            | Self::StatementKeyword { word, .. } => word,
             Self::StatementEnd { sign }
             | Self::DriveSign { sign }
             | Self::NotSign { sign }
@@ -204,13 +241,17 @@ impl Slip {
 
     fn label(&self) -> String {
         let label = match self {
-            Self::BlockComment => "expected a comment that begins with `//`",
+            Self::ForeignComment { .. } => "expected a comment that begins with `//`",
             Self::ForeignLetters { .. } => "expected the letters `a` to `z`, digits and `_`",
             Self::UnclosedQuote => "opened here",
             Self::SingleQuote { .. } => "expected `\"`",
             Self::ReservedWord { .. } | Self::WidthBeforeName { .. } => "expected a name",
-            Self::ColonInSlice { .. } => "expected `..`",
-            Self::RangeOfPort { .. } => "expected `]`",
+            Self::ColonInSlice { .. } | Self::ColonInLoop => "expected `..`",
+            Self::BareOutputs { .. } => "expected outputs in parentheses",
+            Self::NetKeyword { .. } => "expected `net`",
+            Self::MissingThen => "expected `then`",
+            Self::NumberWithPrefix { .. } => "expected a constant with its width",
+            Self::RangeOfPort { .. } => "expected a number of bits",
             Self::KindOfPort { .. } => "expected the name of a port",
             Self::QuestionMark { .. } | Self::MisspelledOperator { .. } => "expected an operator",
             Self::WidthOfConstant { .. } => "expected a number or a name as the width of a constant",
@@ -219,7 +260,7 @@ impl Slip {
             Self::MissingOperator { .. } => "expected an operator or a new line",
             Self::SpaceInPattern { .. } | Self::FieldSign { .. } => "expected `:`",
             Self::CircuitKeyword { .. } => "expected `circuit`",
-            Self::StatementEnd { .. } | Self::StatementKeyword { .. } => "expected a statement",
+            Self::StatementEnd { .. } | Self::StatementKeyword { .. } | Self::IfBlock { .. } => "expected a statement",
             Self::DriveSign { .. } => "expected `=`",
             Self::NotSign { .. } => "expected `not`",
             Self::BaseOfComputed { .. } => "expected `d` before a computed value",
@@ -233,18 +274,27 @@ impl Slip {
 
     fn help(&self) -> Option<String> {
         Some(match self {
-            Self::BlockComment => "a comment runs from `//` to the end of its line".to_owned(),
+            Self::ForeignComment { .. } => "a comment runs from `//` to the end of its line".to_owned(),
+            Self::BareOutputs { outputs } => format!("write `-> ({outputs})`"),
+            Self::NetKeyword { word, .. } => help_for_statement(word).to_owned(),
+            Self::ColonInLoop => "write `for i in 0..8 { … }`; the end is not included".to_owned(),
+            Self::IfBlock { choices, .. } => match &choices[..] {
+                [choice] if choice.len() < 60 => format!("`if` chooses a value: `{choice}`"),
+                _ => "`if` chooses a value, and needs an `else`: `q = if s then a else b`".to_owned(),
+            },
+            Self::MissingThen => "write `if s then a else b`".to_owned(),
+            Self::NumberWithPrefix { constant, .. } => format!("write `{constant}`"),
             Self::ForeignLetters { .. } => "write it with ASCII letters".to_owned(),
             Self::UnclosedQuote => "close it with `\"` on the same line".to_owned(),
             Self::SingleQuote { .. } => "write strings in double quotes".to_owned(),
             Self::ReservedWord { word } => format!("choose another name, for example `{word}_1`"),
-            Self::ColonInSlice { net, high, low } => format!("write `{net}[{high}..{low}]`"),
+            Self::ColonInSlice { net, slice, .. } => format!("write `{net}{slice}`, the highest bit first"),
             Self::RangeOfPort { port, width, .. } => {
-                format!("a port gives its number of bits: `{port}[{}]`", width.unwrap_or(8))
+                format!("write the number of bits: `{port}[{width}]`")
             }
             Self::WidthBeforeName { name, width, .. } => format!("write the width after the name: `{name}[{width}]`"),
-            Self::KindOfPort { port, .. } => format!("write only the name: `{port}`"),
-            Self::QuestionMark { condition, then, otherwise } => {
+            Self::KindOfPort { .. } => "write only the name, and the width after it".to_owned(),
+            Self::QuestionMark { condition, then, otherwise, .. } => {
                 format!("write `if {condition} then {then} else {otherwise}`")
             }
             Self::WidthOfConstant { width, zero: Some(_), .. } => format!("repeat a zero: `{{({width}){{0}}}}`"),
@@ -262,9 +312,10 @@ impl Slip {
             Self::MissingOperator { .. } => return None,
             Self::SpaceInPattern { pattern, .. } => format!("write patterns without spaces: `{pattern}`"),
             Self::MissingComma { before, found, .. } => format!("write `{}, {found}`", before.as_ref()?.0),
+            Self::CircuitKeyword { is_circuit: true, .. } => "write `circuit`".to_owned(),
             Self::CircuitKeyword { .. } => "write `circuit name(inputs) -> (outputs) { … }`".to_owned(),
             Self::StatementEnd { sign } => format!("a statement ends with its line; leave out the `{sign}`"),
-            Self::StatementKeyword { word } => help_for_statement(word).to_owned(),
+            Self::StatementKeyword { word, .. } => help_for_statement(word).to_owned(),
             Self::DriveSign { .. } => "drive a net with `=`".to_owned(),
             Self::FieldSign { field } => format!("write `{field}: …`"),
             Self::NotSign { .. } => "write `not`".to_owned(),
@@ -285,10 +336,22 @@ impl Slip {
                 first.edits.extend(second.edits);
                 first
             }
-            Self::ColonInSlice { .. } => Fix::replace(here, ".."),
-            Self::RangeOfPort { width, range, .. } => Fix::replace(*range, (*width)?.to_string()),
-            Self::WidthBeforeName { name, width, both } => Fix::replace((*both)?, format!("{name}[{width}]")),
-            Self::KindOfPort { port, both, .. } => Fix::replace(*both, port.as_str()),
+            Self::ColonInSlice { slice, index, .. } => Fix::replace(*index, slice.as_str()),
+            Self::RangeOfPort { width, .. } => Fix::replace(here, format!("[{width}]")),
+            Self::ForeignComment { replacement, .. } => Fix::replace(here, replacement.as_ref()?.as_str()),
+            Self::BareOutputs { outputs } => Fix::replace(here, format!("({outputs})")),
+            Self::NetKeyword { nets, whole, .. } => Fix::replace(*whole, format!("net {nets}")),
+            Self::ColonInLoop => Fix::replace(here, ".."),
+            Self::IfBlock { choices, whole } if !choices.is_empty() => Fix::replace(*whole, choices.join("\n    ")),
+            Self::QuestionMark { condition, then, otherwise, whole } => {
+                Fix::replace(*whole, format!("if {condition} then {then} else {otherwise}"))
+            }
+            Self::MissingThen => Fix::insert(here, "then "),
+            Self::NumberWithPrefix { constant, .. } => Fix::replace(here, constant.as_str()),
+            Self::CircuitKeyword { is_circuit: true, .. } => Fix::replace(here, "circuit"),
+            Self::StatementKeyword { word, whole } => Fix::remove(*whole, &format!("`{word}`")),
+            Self::WidthBeforeName { name, width, both } => Fix::replace(*both, format!("{name}[{width}]")),
+            Self::KindOfPort { kind, before } => Fix::remove(*before, &format!("`{kind}`")),
             Self::WidthOfConstant { width, zero, .. } => Fix::replace((*zero)?, format!("{{({width}){{0}}}}")),
             Self::SpaceBeforeOperands { .. } => Fix::remove(here, "the space"),
             Self::MisspelledOperator { operator, .. } => Fix::replace(here, operator.as_str()),

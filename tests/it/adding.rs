@@ -63,3 +63,35 @@ fn the_accepted_error_rate_is_between_0_and_1() {
         assert!(ran.status == 2 && ran.err.contains("expected a number from 0 to 1"), "{}", ran.err);
     }
 }
+
+#[test]
+fn a_failed_addition_leaves_nothing() {
+    let bench = Bench::new();
+    let missing = add(&bench, &[]);
+    missing.expect_fault(&["there is no checkpoint `out/walks/seed-3/checkpoint.nbc`", "`out/gates/seed-1`"]);
+    assert!(!bench.path().join("robots").exists());
+    let bench = self::bench();
+    let none = add(&bench, &["--behavior", "xor"]);
+    assert_eq!(none.status, 1, "{}", none.err);
+    assert!(!bench.path().join("robots").exists(), "no robot was added, so there is no library");
+    bench.file("robots", "a file");
+    assert_eq!(add(&bench, &["--behavior", "xor"]).status, 2, "checked before anything is measured");
+}
+
+#[test]
+fn the_folder_of_a_run_stands_for_its_seeds_and_a_function_for_its_behavior() {
+    let bench = bench();
+    let whole = ["library", "add", "out/walks", "--into", "robots", "--tries", "1", "--finalists", "1"];
+    let ran = bench.run(&[&whole[..], &["--behavior", "zero", "--max-error", "0.8"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert_eq!(written(&bench), ["zero_3x1.yaml"]);
+    add(&bench, &["--behavior", "nnad"])
+        .expect_fault(&["expected four letters such as `RRRL`", "did you mean `nand`?"]);
+    let listed = bench.run(&["library", "list", "robots"]);
+    assert!(listed.status == 0 && listed.out.contains("zero_3x1") && !listed.out.contains("nand"), "{}", listed.out);
+    for arguments in [&["zero_3x1", "robots"][..], &["zero", "robots"], &["robots/zero_3x1.yaml"]] {
+        let shown = bench.run(&[&["library", "show"], arguments].concat());
+        assert!(shown.status == 0 && shown.out.contains("zero_3x1"), "{arguments:?}: {}{}", shown.out, shown.err);
+    }
+    bench.run(&["library", "show", "nand", "robots"]).expect_fault(&["no robot of the library is called `nand`"]);
+}

@@ -309,7 +309,7 @@ fn a_full_disk_is_reported() {
 
 /// The program, run by a user who may not start more threads. Root has no such limit, so root becomes nobody.
 #[cfg(target_os = "linux")]
-fn without_threads(bench: &Bench, arguments: &[&str]) -> Output {
+fn without_threads(prlimit: &Path, bench: &Bench, arguments: &[&str]) -> Output {
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
     std::fs::set_permissions(bench.path(), std::fs::Permissions::from_mode(0o777)).unwrap();
     let program = bench.path().join("nbc");
@@ -317,22 +317,23 @@ fn without_threads(bench: &Bench, arguments: &[&str]) -> Output {
     let is_root = std::fs::metadata("/proc/self").unwrap().uid() == 0;
     let mut command = Command::new(if is_root { "setpriv" } else { "env" });
     command.args(if is_root { &["--reuid=65534", "--clear-groups"][..] } else { &[] });
-    command.args(["prlimit", "--nproc=1"]).arg(program).args(arguments);
+    command.arg(prlimit).arg("--nproc=1").arg(program).args(arguments);
     command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "8").output().unwrap()
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn fewer_threads_do_the_work_if_the_system_refuses_some() {
+    let Some(prlimit) = crate::tools::PRLIMIT.find() else { return };
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     bench.file("passing.nb", flip(true));
     let arguments = ["simulate", "walker.yaml", "--schedule", "00*1", "--format", "json"];
-    let alone = without_threads(&bench, &arguments);
+    let alone = without_threads(&prlimit, &bench, &arguments);
     let told = String::from_utf8(alone.stderr).unwrap();
     assert!(alone.status.success() && told.contains("1 of 8 threads"), "{told}");
     assert_eq!(String::from_utf8(alone.stdout).unwrap(), bench.run(&arguments).out);
-    let tests = without_threads(&bench, &["test", "--physics", "passing.nb", "passing.nb"]);
+    let tests = without_threads(&prlimit, &bench, &["test", "--physics", "passing.nb", "passing.nb"]);
     assert!(tests.status.success(), "{}", String::from_utf8_lossy(&tests.stderr));
 }
 
@@ -485,4 +486,147 @@ fn a_program_without_work_on_several_machines_says_how_to_get_it() {
             "build it with `cargo build --release --features cluster`",
         ]);
     }
+}
+
+#[test]
+fn what_is_looked_up_by_name_offers_the_nearest_one() {
+    let bench = Bench::new();
+    bench.file("passing.nb", flip(true));
+    let meant = |arguments: &[&str], name: &str| {
+        bench.run(arguments).expect_fault(&[&format!("did you mean `{name}`?")]);
+    };
+    meant(&["library", "show", "nnad"], "nand");
+    meant(&["library", "show", "nand5x5"], "nand_5x5");
+    meant(&["simulate", "nnad", "--schedule", "00*1"], "nand");
+    for command in ["run", "test", "check", "fmt", "build", "evolve"] {
+        meant(&[command, "pasing.nb"], "passing.nb");
+        meant(&[command, "passing"], "passing.nb");
+    }
+    meant(&["build", "passing.nb", "--circuit", "flop"], "flip");
+    meant(&["test", "passing.nb", "--only", "flp"], "flip");
+    meant(&["run", "passing.nb", "--only", "flp"], "flip");
+    meant(&["evolve", "--run", "gaets"], "gates");
+    meant(&["draw", "passing.nb", "--as", "schematic", "--test", "flp", "-o", "x.svg"], "flip");
+    meant(&["build", "passing.nb", "--cells", "nnad"], "nand");
+    meant(&["explain", "unknwn"], "unknown");
+    bench.file("user.nb", "use \"./pasing.nb\"\n");
+    meant(&["check", "user.nb"], "./passing.nb");
+    for (arguments, tip) in [(&["buld"][..], "'build'"), (&["build", "passing.nb", "--emit", "vrilog"], "'verilog'")] {
+        let ran = bench.run(arguments);
+        assert!(ran.status == 2 && ran.err.contains(tip), "{}", ran.err);
+    }
+}
+
+#[test]
+fn a_circuit_with_parameters_is_built_with_numbers_for_them() {
+    let bench = Bench::new();
+    bench.file("wide.nb", "circuit wide[n, m](a[n], b[m]) -> (q) {\n    q = any(a) nand any(b)\n}\n");
+    for arguments in [&["build", "wide.nb"][..], &["build", "wide.nb", "--circuit", "wide[2]"]] {
+        let parameter = if arguments.len() == 2 { "n" } else { "m" };
+        let message = format!("the parameter `{parameter}` of `wide` has no number");
+        bench.run(arguments).expect_fault(&[&message, "such as `--circuit 'wide[4, 4]'`"]);
+    }
+    let ran = bench.run(&["build", "wide.nb", "--circuit", "wide[4, 4]", "--cells", "nand,not"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+}
+
+/// Runs the program with a text on standard input.
+fn with_input(bench: &Bench, arguments: &[&str], text: &str) -> Output {
+    let mut command = bench.command(arguments);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn standard_input_is_formatted_to_standard_output() {
+    let bench = Bench::new();
+    let (wide, canonical) = (flip(true).replace("not a", "not  a"), flip(true));
+    let found = with_input(&bench, &["fmt", "-"], &wide);
+    assert_eq!((found.status.code(), String::from_utf8(found.stdout).unwrap()), (Some(0), canonical.clone()));
+    let check = |text: &str| with_input(&bench, &["fmt", "--check", "-"], text).status.code();
+    assert_eq!((check(&wide), check(&canonical)), (Some(1), Some(0)));
+    let broken = with_input(&bench, &["fmt", "-"], "circuit f(");
+    assert_eq!((broken.status.code(), broken.stdout), (Some(2), Vec::new()));
+    assert_eq!(with_input(&bench, &["fmt", "-", "--format", "json"], &wide).status.code(), Some(2));
+}
+
+#[test]
+fn an_evolution_that_finds_no_robot_says_so_and_fails() {
+    let bench = Bench::new();
+    let none = "evolution none { box: 3 x 2, variable: short, fixed: 1 cycles, batch: 1, generations: 1, seed: 2 }\n";
+    bench.runs("none.nb", none);
+    let ran = bench.run(&["evolve", "none.nb"]);
+    assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("0 of 16 behaviors") && ran.err.contains("no run found a robot"), "{}", ran.err);
+}
+
+#[test]
+fn folders_without_robots_are_errors() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path().join("empty")).unwrap();
+    for command in ["list", "verify", "rewrite"] {
+        bench.run(&["library", command, "empty"]).expect_fault(&["`empty` contains no robot files"]);
+    }
+    bench.run(&["library", "show", "nand", "empty"]).expect_fault(&["`empty` contains no robot files"]);
+}
+
+#[test]
+fn a_missing_library_is_made_by_the_commands_of_the_message() {
+    let bench = Bench::new();
+    let text =
+        "evolution walks { from: gates }\nlibrary mine { from: walks }\nswarm s { circuit: flip, library: mine }\n";
+    bench.file("own.nb", format!("{text}{}", flip(true)));
+    let ran = bench.run(&["test", "own.nb"]);
+    ran.expect_fault(&[
+        "`nbc evolve own.nb --run walks --out out`",
+        "`nbc library add out/walks --into out/walks/robots`",
+    ]);
+}
+
+#[test]
+fn a_run_says_in_one_line_how_long_rows_are_held_and_a_build_says_why() {
+    let bench = Bench::new();
+    bench.file("passing.nb", flip(true));
+    let ran = bench.run(&["run", "passing.nb"]);
+    let timing: Vec<&str> = ran.out.lines().skip_while(|line| !line.starts_with("timing ")).collect();
+    assert_eq!(timing.len(), 4, "{}", ran.out);
+    assert!(timing[0].starts_with("timing   hold each row for "), "{}", ran.out);
+    assert!(timing[1].starts_with("report ") && timing[2].starts_with("results ") && timing[3] == "pass");
+    let page = std::fs::read_to_string(bench.path().join("out/passing/report.html")).unwrap();
+    let built = bench.run(&["build", "passing.nb", "--emit", "timing"]).out;
+    assert!(built.contains("settles within ") && built.contains("fan-out  "), "{built}");
+    assert!(page.contains("settles within ") && page.contains("fan-out  "));
+}
+
+#[test]
+#[cfg(unix)]
+fn links_in_folders_of_results_are_not_followed() {
+    use std::os::unix::fs::symlink;
+    let bench = Bench::new();
+    bench.file("passing.nb", flip(true));
+    let mine = bench.file("mine.txt", "mine");
+    std::fs::create_dir_all(bench.path().join("out/passing")).unwrap();
+    for file in ["report.html", "result.json"] {
+        symlink(&mine, bench.path().join("out/passing").join(file)).unwrap();
+    }
+    assert_eq!(bench.run(&["run", "passing.nb"]).status, 0);
+    assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine");
+    assert!(std::fs::read_to_string(bench.path().join("out/passing/report.html")).unwrap().starts_with("<!"));
+    // A folder that is a link is refused, unless the user names it.
+    std::fs::remove_dir_all(bench.path().join("out")).unwrap();
+    std::fs::create_dir(bench.path().join("elsewhere")).unwrap();
+    symlink("elsewhere", bench.path().join("out")).unwrap();
+    bench.run(&["run", "passing.nb"]).expect_fault(&["`out` is a link"]);
+    assert_eq!(std::fs::read_dir(bench.path().join("elsewhere")).unwrap().count(), 0);
+    assert_eq!(bench.run(&["run", "passing.nb", "--out", "out"]).status, 0);
+    let small = "evolution small { box: 3 x 1, variable: short, fixed: 1 cycles, batch: 6, generations: 4, seed: 3 }\n";
+    bench.runs("small.nb", small);
+    bench.run(&["evolve", "small.nb"]).expect_fault(&["`out` is a link"]);
+    std::fs::create_dir_all(bench.path().join("runs/small/seed-3")).unwrap();
+    let progress = bench.path().join("runs/small/seed-3/progress.jsonl");
+    symlink(&mine, &progress).unwrap();
+    assert_eq!(bench.run(&["evolve", "small.nb", "--out", "runs"]).status, 0);
+    assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine");
+    assert!(std::fs::read_to_string(&progress).unwrap().contains("generation"));
 }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use nbc::Session;
 use nbc::evolve::{Search, SearchState};
 use nbc::model::{
-    Axis, Count, Evolution, MutationWeights, Niche, Palette, Rules, SampledWorlds, Schedule, SearchObjective, Spell,
-    Symmetry, Variation,
+    Axis, Body, Count, Evolution, MutationWeights, Niche, Palette, Pattern, Rules, SampledWorlds, Schedule,
+    SearchObjective, Setting, Spell, Symmetry, Trial, Variation,
 };
+use nbc::sim::Simulator;
 use nbc::source::MemoryWorld;
 use nbc::swarm::evolve_generation;
 
@@ -148,5 +149,35 @@ fn the_papers_experiment_is_declared_as_the_paper_says() {
         assert_eq!((run.fixed_steps, run.objective, run.niche), (840, SearchObjective::Distance, Niche::Dominance));
         assert_eq!((&run.palette, run.mutation), (&Palette::paper(), MutationWeights::default()));
         assert_eq!(Search::new(run, 1).archive().stats().niches, 1024);
+    }
+}
+
+#[test]
+fn stimuli_of_the_program_are_those_of_the_prelude_by_another_name() {
+    let own = "
+stimulus light, touch
+material eye  { kind: sensor, stimulus: light, absent: 1.6, present: 0.6 }
+material skin { kind: sensor, stimulus: touch, absent: 0.6, present: 1.6 }
+schedule day(touch, light) { 0 0 for 60 steps 1 0 for 60 steps 0 1 for 60 steps 1 1 for 60 steps }
+schedule same(s1, s2) { 0 0 for 60 steps 0 1 for 60 steps 1 0 for 60 steps 1 1 for 60 steps }
+evolution own  { box: 3 x 3, materials: [muscle, antimuscle, eye, skin], variable: day, fixed: 1 cycles }
+evolution usual { from: own, materials: [muscle, antimuscle, s1_shrink, s2_grow], variable: same }
+";
+    let mut world = MemoryWorld::default();
+    world.insert("run.nb", own);
+    let checked = Session::new(world).checked("run.nb");
+    assert_eq!(checked.diagnostics, []);
+    let walked = |name: &str| {
+        let evolution = checked.program.evolution(name).unwrap();
+        let body = Body::new(3, 3, vec![1, 3, 2, 1, 4, 2, 4, 1, 3], Arc::clone(&evolution.palette));
+        let schedules = Pattern::PAIRS.map(|pattern| Schedule::constant(pattern, 60));
+        let schedules = [evolution.variable.clone()].into_iter().chain(schedules);
+        let trials: Vec<Trial> = schedules.map(|schedule| Trial { body: body.clone(), schedule }).collect();
+        Simulator::default().run_trials(&Setting::default(), &trials)
+    };
+    let found = walked("own");
+    assert_eq!(found, walked("usual"));
+    for (at, one) in found.iter().enumerate() {
+        assert!(found[..at].iter().all(|other| other != one), "the body senses both stimuli");
     }
 }

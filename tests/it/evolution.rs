@@ -117,8 +117,7 @@ fn a_signal_ends_a_run_with_a_checkpoint() {
         // The program watches signals before it estimates the time of a long run.
         let estimate = BufReader::new(child.stderr.take().unwrap()).lines().next().unwrap().unwrap();
         assert!(estimate.starts_with("at most about ") && estimate.contains(" hours on this machine"), "{estimate}");
-        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
-        assert!(sent.success());
+        crate::tools::signal(signal, child.id());
         assert_eq!(child.wait().unwrap().code(), Some(4));
         assert!(bench.path().join(signal).join(CHECKPOINTS[0]).exists());
     }

@@ -15,7 +15,7 @@ use regex::Regex;
 
 use crate::cli::Bench;
 use crate::language::{programs, root};
-use crate::synth::has_yosys;
+use crate::tools::YOSYS;
 use crate::written::same;
 
 /// Every circuit of the gallery that has a test, as it is written.
@@ -180,7 +180,7 @@ fn through_yosys(design: &Design) -> Design {
 
 #[test]
 fn the_gallery_reads_back_from_verilog() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     for netlist in by_memory().0.into_iter().filter(|netlist| netlist.cells().count() < 40) {
@@ -204,7 +204,7 @@ fn named_for_verilog(mut netlist: Netlist) -> Netlist {
 
 #[test]
 fn loops_of_the_gallery_read_back_from_verilog() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     for netlist in by_memory().1.into_iter().map(named_for_verilog) {
@@ -215,7 +215,7 @@ fn loops_of_the_gallery_read_back_from_verilog() {
 
 #[test]
 fn the_gallerys_memory_passes_its_tests_as_verilog() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -286,7 +286,7 @@ proptest! {
 
 #[test]
 fn registers_read_back_from_verilog() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     let design = registers(&[(0, Some(true)), (0, None), (1, Some(false)), (2, None), (3, None)]);

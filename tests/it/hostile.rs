@@ -211,7 +211,7 @@ fn refused_in_bounds(bench: &Bench, file: &str, code: Code) {
 #[track_caller]
 fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
     let file = arguments[1];
-    let mut command = std::process::Command::new("bash");
+    let mut command = std::process::Command::new("sh");
     command.args(["-c", "ulimit -t 1 -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_nbc")]).args(arguments);
     let output = command.current_dir(bench.path()).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
@@ -270,7 +270,7 @@ fn long_tables_are_formatted_in_linear_time() {
     let records: String = (0..10_000).map(|at| format!("library l{at} {{ from: {long} }}\n")).collect();
     bench.file("records.nb", records);
     for file in ["rows.nb", "records.nb"] {
-        let mut command = std::process::Command::new("bash");
+        let mut command = std::process::Command::new("sh");
         command.args(["-c", "ulimit -t 8; exec \"$0\" fmt \"$1\"", env!("CARGO_BIN_EXE_nbc"), file]);
         let status = command.current_dir(bench.path()).status().unwrap();
         assert_eq!(status.code(), Some(0), "{file}");
@@ -301,4 +301,12 @@ fn hostile_circuit_files_are_rejected_within_a_second_and_a_gigabyte() {
     rejected("long.aag", b"aag 4000000 0 0 4000000 0\n");
     rejected("zero.blif", &[0; 1_000_000]);
     rejected("zero.bench", &[b'('; 1_000_000]);
+}
+
+#[test]
+fn a_file_of_very_many_errors_has_few_diagnostics_and_their_number() {
+    let nets: String = (0..5_000).map(|net| format!("    q{net} = missing{net}\n")).collect();
+    let found = found(format!("circuit f(a) -> (q) {{\n    q = a\n{nets}}}\n"));
+    assert_eq!(found.len(), 201);
+    assert!(found.last().unwrap().message.starts_with("4800 more errors"), "{}", found.last().unwrap().message);
 }

@@ -56,6 +56,7 @@ mod synth;
 mod terminal;
 mod testing;
 mod tidy;
+mod tools;
 mod ui;
 mod using;
 mod waves;

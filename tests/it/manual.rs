@@ -56,9 +56,9 @@ fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
     let ran = bench.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
     if fence.words.contains(&"fails".to_owned()) {
         assert_eq!(ran.status == 2, code.severity() == Severity::Error, "{line}: {}{}", ran.out, ran.err);
-        assert!(ran.err.starts_with(code.word()), "{line} says `{code}`: {}", ran.err);
+        assert!(ran.err.contains(&format!("[{code}]: ")), "{line} says `{code}`: {}", ran.err);
     } else {
-        assert_eq!((ran.status, ran.err.contains(code.word())), (0, false), "{line}: {}{}", ran.out, ran.err);
+        assert_eq!((ran.status, ran.err.contains(&format!("[{code}]"))), (0, false), "{line}: {}{}", ran.out, ran.err);
     }
     ran.err
 }

@@ -1,7 +1,7 @@
 //! The HTML report: its contents, and its scripts in a real browser if there is one.
 
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::mpsc;
 use std::thread;
@@ -15,6 +15,7 @@ use serde_json::Value;
 
 use crate::cli::Bench;
 use crate::pictures::{large, latch, latch_netlist};
+use crate::tools::CHROMIUM;
 
 pub fn robot(name: &str, function: Function) -> Robot {
     let rows = ["66666", "46666", "44444", "44404", "44005"];
@@ -68,7 +69,8 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         row: 1 + at,
     };
     let rows: Vec<TestRow> = [false, true, true].into_iter().enumerate().map(row).collect();
-    let rows = judge_swarm(&test, &rows, &[Demand { hold: 8, needed: 8 }; 3], trace, &[4; 5]);
+    let demands = vec![Demand { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];
+    let rows = judge_swarm(&test, &rows, &demands, trace, &[4; 5]);
     TestVerdict {
         file: test.file,
         line: test.line,
@@ -169,13 +171,6 @@ fn the_page_of_a_large_swarm_is_small() {
     let cells: Vec<_> = swarm["robots"].as_array().unwrap().iter().map(|robot| robot["cell"].as_u64()).collect();
     assert_eq!(cells, [Some(1), Some(4)], "a robot of the player knows its cell of the schematic");
     assert_eq!(swarm["waves"].as_array().unwrap().len(), 2 + 2 + 2, "inputs, recorded robots, outputs");
-}
-
-fn chromium() -> Option<PathBuf> {
-    let mut places = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].into_iter().map(PathBuf::from);
-    let found = places.find(|path| path.exists());
-    assert!(found.is_some() || std::env::var_os("CI").is_none(), "CI must have chromium");
-    found
 }
 
 /// Headless Chromium with a file.
@@ -298,7 +293,7 @@ const DARK: &str = "--blink-settings=preferredColorScheme=0";
 
 #[test]
 fn the_page_of_a_run_works_in_a_browser() {
-    let Some(browser) = chromium() else { return };
+    let Some(browser) = CHROMIUM.find() else { return };
     let page = page();
     for size in ["--window-size=1200,900", "--window-size=500,800"] {
         let found = found(&browser, &page, READER, size);
@@ -321,7 +316,7 @@ fn the_page_of_an_evolution_opens_elites_in_a_browser() {
     let data = data(&page);
     let elites = data["elites"].as_array().unwrap();
     assert!(elites.len() > 4 && elites.iter().all(|elite| elite["frames"].is_string()));
-    let Some(browser) = chromium() else { return };
+    let Some(browser) = CHROMIUM.find() else { return };
     let found = found(&browser, &page, EXPLORER, "--window-size=1200,900");
     assert_eq!(found["walked"], true, "the chosen elite walks: {found}");
     let panel = found["panel"].as_str().unwrap();
@@ -362,7 +357,7 @@ fn a_simulation_has_its_section_and_a_bus_its_strip() {
         assert_eq!(values.iter().filter(|found| **found == value).count(), 3, "{values:?}");
     }
     let page = std::fs::read_to_string(bench.path().join("out/buses/report.html")).unwrap();
-    let Some(browser) = chromium() else { return };
+    let Some(browser) = CHROMIUM.find() else { return };
     let found = found(&browser, &page, SIMULATION, "--window-size=1200,900");
     assert_eq!(found["walked"], true, "the simulated robots move: {found}");
     let rows = serde_json::json!([

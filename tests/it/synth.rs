@@ -5,6 +5,7 @@ use std::process::Command;
 
 use crate::cli::Bench;
 use crate::language::root;
+use crate::tools::{ABC, YOSYS};
 
 const FULL_ADDER: &str = "\
 .model fa
@@ -193,17 +194,9 @@ fn a_file_name_is_not_part_of_the_yosys_script() {
     assert!(!given.contains("PWNED") && !bench.path().join("PWNED").exists());
 }
 
-/// Whether Yosys is installed; under CI it must be.
-pub fn has_yosys() -> bool {
-    let found = Command::new("yosys").arg("-V").output().is_ok();
-    assert!(found || std::env::var_os("CI").is_none(), "CI must have yosys");
-    found
-}
-
 #[test]
 fn yosys_runs_no_command_in_a_file_name_and_finds_includes() {
-    if !has_yosys() {
-        eprintln!("yosys is not installed, so Verilog is not read");
+    if !YOSYS.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -229,8 +222,7 @@ endmodule
 
 #[test]
 fn yosys_keeps_latches_and_flip_flops() {
-    if !has_yosys() {
-        eprintln!("yosys is not installed, so Verilog is not read");
+    if !YOSYS.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -315,14 +307,8 @@ pub fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
     assert!(said.contains("Networks are equivalent"), "{said}");
 }
 
-/// The output of a script of ABC in a folder. Without ABC the test fails, unless `NBC_WITHOUT_ABC` is set.
+/// The output of a script of ABC in a folder; `None` without ABC, whose proof is then skipped.
 pub fn abc(folder: &Path, script: &str) -> Option<String> {
-    match Command::new("berkeley-abc").args(["-c", script]).current_dir(folder).output() {
-        Ok(output) => Some(String::from_utf8_lossy(&output.stdout).into_owned()),
-        Err(error) => {
-            let skip = std::env::var_os("NBC_WITHOUT_ABC").is_some();
-            assert!(skip, "install berkeley-abc ({error}), or set NBC_WITHOUT_ABC to skip what it proves");
-            None
-        }
-    }
+    let output = Command::new(ABC.find()?).args(["-c", script]).current_dir(folder).output().unwrap();
+    Some(String::from_utf8_lossy(&output.stdout).into_owned())
 }

@@ -9,7 +9,7 @@ use nbc::model::{Instance, Program};
 use nbc::source::{FileId, MemoryWorld, Sources};
 
 use crate::cli::Bench;
-use crate::synth::has_yosys;
+use crate::tools::YOSYS;
 use crate::written::{order, same_in_order};
 
 /// A file of the folder, with the program that uses it checked; returns the program and its messages.
@@ -158,7 +158,7 @@ module test_bench; wire [3:0] y; alu u(.a(4'd1), .b(4'd2), .op(2'b00), .y(y)); e
 
 #[test]
 fn verilog_modules_are_circuits_with_their_buses() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -206,7 +206,7 @@ fn without_yosys_the_use_says_what_to_install() {
 
 #[test]
 fn errors_of_yosys_are_at_the_line_of_the_used_file() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     let path = std::env::var("PATH").unwrap();
@@ -225,7 +225,7 @@ fn errors_of_yosys_are_at_the_line_of_the_used_file() {
 
 #[test]
 fn verilog_is_synthesized_to_buses_and_registers() {
-    if !has_yosys() {
+    if !YOSYS.is_there() {
         return;
     }
     let bench = Bench::new();

@@ -18,13 +18,14 @@ docs/python.md is the guide.
 from __future__ import annotations
 
 from . import evogym
-from ._nbc import __version__, set_threads
+from ._nbc import __version__
 from .bodies import PAPER_MATERIALS, Robot, invalid, library, rows
 from .circuits import Circuit, Compiled, Port, Program, Report, Swarm, TestResult, load, loads
-from .errors import Diagnostic, InternalError, Interrupted, NbcError, Span
+from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, Span
 from .evolution import Evaluation, Evolution, evaluate
 from .physics import CYCLE_STEPS, Flock, Trajectories, simulate
 from .search import Archive, Candidates, Search, evolve, read_archive
+from .threads import set_threads
 
 __all__ = [
     "CYCLE_STEPS",
@@ -39,6 +40,7 @@ __all__ = [
     "Flock",
     "InternalError",
     "Interrupted",
+    "InvalidBodyWarning",
     "NbcError",
     "Port",
     "Program",

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
+from .numbers import array_of, is_array
 
 __all__ = ["PAPER_MATERIALS", "Bodies", "Material", "Robot", "invalid", "library", "rows"]
 
@@ -25,12 +26,14 @@ OneBody = Union["Robot", npt.NDArray[Any], Sequence[str], Sequence[Sequence[int]
 Bodies = Union[npt.NDArray[Any], Sequence[OneBody]]
 """Bodies: an integer array of shape (N, H, W), or a sequence of bodies of any sizes, each an integer array of shape
 (H, W), rows of digits such as ``["343", "303"]``, or a `Robot`. Row 0 is on top. Code 0 is empty, code k is the k-th
-material."""
+material. Arrays may be of numpy or of any library whose arrays have ``__array__`` or ``__dlpack__``, such as JAX.
+
+All shapes of the package are (rows, columns), as those of numpy."""
 
 MOST_SIDE = 100
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Robot:
     """A body with a known behavior, of the library that comes with nbc."""
 
@@ -50,10 +53,20 @@ class Robot:
     materials: Tuple[Material, ...] = field(repr=False)
     """The materials of its codes."""
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Robot):
+            return NotImplemented
+        own, its = dict(vars(self)), dict(vars(other))
+        arrays = all(np.array_equal(own.pop(name), its.pop(name)) for name in ("body", "displacement"))
+        return arrays and own == its
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.body.tobytes()))
+
     def _repr_svg_(self) -> str:
-        codes, shapes = pack([self.body])
+        packed = pack([self.body])
         title = f"{self.name}: {self.function}, {self.behavior}"
-        return _nbc.draw_body(title, codes, shapes, pack_materials(self.materials), False)
+        return _nbc.draw_body(title, packed.codes, packed.shapes, pack_materials(self.materials), False)
 
 
 def library() -> Tuple[Robot, ...]:
@@ -76,8 +89,9 @@ def invalid(bodies: Bodies, *, materials: Optional[Sequence[Material]] = None) -
     >>> nbc.invalid([["333"], ["33"], ["330", "003"]])
     ['', 'the body has 2 actuators, expected at least 3', 'the body is not in one piece']
     """
-    codes, shapes = pack(bodies)
-    return _nbc.invalid_bodies(codes, shapes, pack_materials(materials))
+    packed = pack(bodies)
+    reasons = _nbc.invalid_bodies(packed.codes, packed.shapes, pack_materials(materials))
+    return [packed.errors.get(number, reason) for number, reason in enumerate(reasons)]
 
 
 def rows(body: OneBody) -> List[str]:
@@ -87,25 +101,66 @@ def rows(body: OneBody) -> List[str]:
     >>> nbc.rows(np.array([[3, 4, 3], [3, 0, 3]]))
     ['343', '303']
     """
-    return ["".join(np.base_repr(code, 36).lower() for code in row) for row in _codes(body, "body").tolist()]
+    return ["".join(np.base_repr(code, 36).lower() for code in row) for row in read(body, "body").tolist()]
 
 
-def pack(bodies: Bodies) -> Tuple[Codes, npt.NDArray[np.uint64]]:
-    """All codes in reading order, and the rows and columns of each body."""
+@dataclass(frozen=True, eq=False)
+class Packed:
+    """Bodies as the native half takes them."""
+
+    codes: Codes
+    """All codes in reading order, body after body."""
+    shapes: npt.NDArray[np.uint64]
+    """The rows and columns of each body; none for one that could not be read."""
+    errors: Mapping[int, str]
+    """Why bodies could not be read."""
+
+    def check(self) -> None:
+        """Raises ValueError for the first body that could not be read."""
+        for number, reason in self.errors.items():
+            raise ValueError(f"bodies[{number}]: {reason}")
+
+
+def pack(bodies: Bodies) -> Packed:
+    """Bodies for the native half.
+
+    Raises:
+        TypeError, ValueError: for what is no array or list of bodies. A wrong body among others is in ``errors``.
+    """
+    if is_array(bodies):
+        bodies = array_of(bodies)
     if isinstance(bodies, np.ndarray) and bodies.dtype != object:
-        if bodies.ndim != 3:
-            hint = "; for one body write `body[None]`" if bodies.ndim == 2 else ""
-            raise ValueError(f"bodies has the shape {bodies.shape}, expected (N, H, W){hint}")
-        codes = _as_codes(bodies, "bodies")
-        shapes = np.empty((len(bodies), 2), dtype=np.uint64)
-        shapes[:] = bodies.shape[1:]
-        return codes.reshape(-1), shapes
+        return _pack_array(bodies)
     if isinstance(bodies, (str, bytes)) or not isinstance(bodies, (Sequence, np.ndarray)):
         raise TypeError(f"bodies is of type {type(bodies).__name__}, expected an array (N, H, W) or a list of bodies")
-    packed = [_codes(body, f"bodies[{i}]") for i, body in enumerate(bodies)]
+    packed, errors = [], {}
+    for number, body in enumerate(bodies):
+        try:
+            packed.append(read(body, f"bodies[{number}]"))
+        except ValueError as error:
+            errors[number] = str(error).removeprefix(f"bodies[{number}]: ")
+            packed.append(np.empty((0, 0), dtype=np.uint8))
     shapes = np.array([body.shape for body in packed], dtype=np.uint64).reshape(-1, 2)
     flat = [body.reshape(-1) for body in packed]
-    return (np.concatenate(flat) if flat else np.empty(0, dtype=np.uint8)), shapes
+    return Packed(np.concatenate(flat) if flat else np.empty(0, dtype=np.uint8), shapes, errors)
+
+
+def _pack_array(bodies: npt.NDArray[Any]) -> Packed:
+    if bodies.ndim != 3:
+        hint = "; for one body write `body[None]`" if bodies.ndim == 2 else ""
+        raise ValueError(f"bodies has the shape {bodies.shape}, expected (N, H, W){hint}")
+    if max(bodies.shape[1:]) > MOST_SIDE:
+        raise ValueError(f"bodies has the shape {bodies.shape}, expected at most {(len(bodies), MOST_SIDE, MOST_SIDE)}")
+    _check_integers(bodies, "bodies")
+    shapes = np.empty((len(bodies), 2), dtype=np.uint64)
+    shapes[:] = bodies.shape[1:]
+    errors: Dict[int, str] = {}
+    if bodies.dtype != np.uint8 and bodies.size and (bodies.min() < 0 or bodies.max() > 255):
+        wrong = np.flatnonzero(((bodies < 0) | (bodies > 255)).any(axis=(1, 2)))
+        errors = {number: _wrong_code(bodies[number]) for number in wrong.tolist()}
+        bodies = bodies.copy()
+        bodies[wrong] = 0
+    return Packed(np.ascontiguousarray(bodies, dtype=np.uint8).reshape(-1), shapes, errors)
 
 
 def pack_materials(materials: Optional[Sequence[Material]]) -> Optional[str]:
@@ -114,13 +169,33 @@ def pack_materials(materials: Optional[Sequence[Material]]) -> Optional[str]:
         return None
     if isinstance(materials, (str, bytes, Mapping)) or not isinstance(materials, Sequence):
         raise TypeError(f"materials is of type {type(materials).__name__}, expected a list of mappings")
+    for number, material in enumerate(materials):
+        if not isinstance(material, Mapping):
+            raise TypeError(f"materials[{number}] is of type {type(material).__name__}, expected a mapping")
     try:
-        return json.dumps([dict(material) for material in materials], allow_nan=False)
+        return json.dumps([dict(material) for material in materials], allow_nan=False, default=_plain)
     except ValueError as error:
-        raise ValueError("materials: expected finite numbers") from error
+        fault = "expected finite numbers" if "Out of range" in str(error) else str(error)
+        raise ValueError(f"materials: {fault}") from error
 
 
-def _codes(body: OneBody, name: str) -> Codes:
+def _plain(value: Any) -> Any:
+    """A number or array of numpy or another library, as JSON has it."""
+    if isinstance(value, Mapping):
+        return dict(value)
+    if is_array(value):
+        plain = array_of(value)
+        if plain.dtype.kind in "biufU":
+            return plain.tolist()
+    raise TypeError(f"materials: a value is of type {type(value).__name__}, expected a number or a text")
+
+
+def read(body: OneBody, name: str) -> Codes:
+    """The codes of one body, shape (H, W).
+
+    Raises:
+        TypeError, ValueError: for what is no body; ``name`` is what it is called in messages.
+    """
     if isinstance(body, Robot):
         return body.body
     if isinstance(body, (str, bytes)):
@@ -128,12 +203,17 @@ def _codes(body: OneBody, name: str) -> Codes:
     if isinstance(body, Sequence) and body and all(isinstance(row, str) for row in body):
         return _of_rows([str(row) for row in body], name)
     try:
-        array = np.asarray(body)
+        array = array_of(body)
     except ValueError as error:
-        raise ValueError(f"{name} has rows of different lengths") from error
+        raise ValueError(f"{name}: the rows have different lengths") from error
     if array.ndim != 2:
-        raise ValueError(f"{name} has the shape {array.shape}, expected (H, W)")
-    return _as_codes(array, name)
+        raise ValueError(f"{name}: the body has the shape {array.shape}, expected (H, W)")
+    if max(array.shape) > MOST_SIDE:
+        raise ValueError(f"{name}: the body has the shape {array.shape}, expected at most {(MOST_SIDE, MOST_SIDE)}")
+    _check_integers(array, name)
+    if array.size and (array.min() < 0 or array.max() > 255):
+        raise ValueError(f"{name}: {_wrong_code(array)}")
+    return np.ascontiguousarray(array, dtype=np.uint8)
 
 
 def _of_rows(body: Sequence[str], name: str) -> Codes:
@@ -143,18 +223,20 @@ def _of_rows(body: Sequence[str], name: str) -> Codes:
         wrong = next((digit for digit in row if digit not in "0123456789abcdefghijklmnopqrstuvwxyz"), None)
         if wrong is not None:
             raise ValueError(f"{name}: row {number}: `{wrong}` is not a material code; expected a digit")
+    shape = (len(body), len(body[0]))
+    if max(shape) > MOST_SIDE:
+        raise ValueError(f"{name}: the body has the shape {shape}, expected at most {(MOST_SIDE, MOST_SIDE)}")
     return np.array([[int(digit, 36) for digit in row] for row in body], dtype=np.uint8)
 
 
-def _as_codes(array: npt.NDArray[Any], name: str) -> Codes:
-    if array.dtype == np.uint8:
-        return np.ascontiguousarray(array)
+def _check_integers(array: npt.NDArray[Any], name: str) -> None:
     if array.size and not np.issubdtype(array.dtype, np.integer):
         raise TypeError(f"{name} has the dtype {array.dtype}, expected integers")
-    if array.size and (array.min() < 0 or array.max() > 255):
-        wrong = array.min() if array.min() < 0 else array.max()
-        raise ValueError(f"{name}: {wrong} is not a material code; expected 0 to the number of materials")
-    return np.ascontiguousarray(array, dtype=np.uint8)
+
+
+def _wrong_code(body: npt.NDArray[Any]) -> str:
+    wrong = body.min() if body.min() < 0 else body.max()
+    return f"{wrong} is not a material code; expected 0 to the number of materials"
 
 
 def _robot(record: Mapping[str, Any]) -> Robot:

@@ -15,7 +15,8 @@ import numpy.typing as npt
 from . import _nbc
 from .errors import Diagnostic, Interrupted, diagnostics_of
 from .evolution import Evolution
-from .physics import count
+from .names import unknown
+from .numbers import array_of, count, is_array
 from .progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["Circuit", "Compiled", "Port", "Program", "Report", "Swarm", "TestResult", "load", "loads"]
 
 Path = Union[str, "os.PathLike[str]"]
-Row = Union[Mapping[str, int], Sequence[int]]
+Row = Union[Mapping[str, int], Sequence[int], npt.NDArray[Any]]
 
 
 class _Compiling(TypedDict, total=False):
@@ -105,7 +106,10 @@ class Report:
 
 
 class Program:
-    """A source file without errors: its circuits, tests and evolutions."""
+    """A source file without errors: its circuits, tests and evolutions.
+
+    A copy, also one for another process, reads the file again.
+    """
 
     def __init__(self, path: str, text: Optional[str]) -> None:
         self.path = path
@@ -127,7 +131,7 @@ class Program:
     @property
     def evolutions(self) -> Mapping[str, Evolution]:
         """The evolutions by name, those of the prelude included."""
-        return {name: Evolution._of(native) for name, native in self._native.evolutions()}
+        return _Evolutions({name: Evolution._of(native) for name, native in self._native.evolutions()})
 
     @property
     def tests(self) -> Tuple[Mapping[str, Any], ...]:
@@ -158,7 +162,7 @@ class Program:
             NbcError: when the circuit cannot be built, or the library lacks a gate.
         """
         options = _options(library, swarm, objective, effort, runs)
-        return Compiled(self, self._native.compile(circuit, options))
+        return Compiled(self, self._native.compile(circuit, options), circuit, options)
 
     def test(
         self,
@@ -182,18 +186,17 @@ class Program:
         The other arguments are those of `compile`. A test that fails is a result, not an exception.
 
         Raises:
+            KeyError: when no test has that name.
             Interrupted: on Ctrl-C, with the results of the tests before.
         """
         options = _options(library, swarm, objective, effort, runs)
+        chosen = self._chosen(name)
         results: List[TestResult] = []
         try:
-            for number, test in enumerate(self.tests):
-                if name is None or name in (test["circuit"], test["title"]):
-                    results += self._test(number, level, progress, options)
+            for number in chosen:
+                results += self._test(number, level, progress, options)
         except KeyboardInterrupt:
             raise Interrupted(results) from None
-        if name is not None and not results:
-            raise KeyError(name)
         return results
 
     def run(
@@ -225,9 +228,22 @@ class Program:
 
     def report(self, path: Path, **options: Unpack[_Running]) -> Report:
         """Runs the file as `run` does, and writes the page."""
+        _check_path(path)
         report = self.run(**options)
         report.save(path)
         return report
+
+    def __reduce__(self) -> Any:
+        return Program, (self.path, self._text)
+
+    def _chosen(self, name: Optional[str]) -> List[int]:
+        """The numbers of the tests of that name."""
+        known = [(test["circuit"], test["title"]) for test in self.tests]
+        chosen = [number for number, names in enumerate(known) if name is None or name in names]
+        if name is not None and not chosen:
+            words = [word for names in known for word in names if word]
+            raise KeyError(unknown("test of a circuit or title", name, dict.fromkeys(words)))
+        return chosen
 
     def _names(self) -> List[str]:
         return [circuit["name"] for circuit in json.loads(self._native.circuits())]
@@ -248,10 +264,17 @@ class _Circuits(Dict[str, "Circuit"]):
     """Circuits by name; instances of circuits with parameters are made on demand."""
 
     def __missing__(self, name: str) -> Circuit:
-        base = self.get(name.split("[")[0])
+        base = self.get(str(name).split("[")[0])
         if base is None:
-            raise KeyError(f"there is no circuit `{name}`; there are {', '.join(self)}")
+            raise KeyError(unknown("circuit", name, self))
         return Circuit(base.program, name)
+
+
+class _Evolutions(Dict[str, Evolution]):
+    """Evolutions by name."""
+
+    def __missing__(self, name: str) -> Evolution:
+        raise KeyError(unknown("evolution", name, self))
 
 
 class Circuit:
@@ -278,10 +301,12 @@ class Circuit:
 class Compiled:
     """A circuit compiled to a swarm of robots. In a notebook it is shown as its schematic."""
 
-    def __init__(self, program: Program, native: _nbc.Compiled) -> None:
+    def __init__(
+        self, program: Program, native: _nbc.Compiled, circuit: Optional[str], options: Mapping[str, Any]
+    ) -> None:
         self.program = program
         """Its program."""
-        self._native = native
+        self._native, self._circuit, self._options = native, circuit, dict(options)
         summary = json.loads(native.summary())
         self.name: str = summary["circuit"]
         """The circuit's name."""
@@ -336,12 +361,16 @@ class Compiled:
         return Swarm(self)
 
     def test(self, **options: Unpack[_Testing]) -> List[TestResult]:
-        """Runs the circuit's tests; see `Program.test`."""
-        return self.program.test(self.name, **options)
+        """Runs the circuit's tests with the options that it was compiled with; see `Program.test`."""
+        return self.program.test(self.name, **{**self._options, **options})
 
     def report(self, path: Path, **options: Unpack[_Running]) -> Report:
-        """Runs the program, and writes the page; see `Program.report`."""
-        return self.program.report(path, **options)
+        """Runs the program with the options that this circuit was compiled with, and writes the page; see
+        `Program.report`."""
+        return self.program.report(path, **{**self._options, **options})
+
+    def __reduce__(self) -> Any:
+        return _compiled_again, (self.program, self._circuit, self._options)
 
     def _repr_svg_(self) -> str:
         return self.schematic()
@@ -372,12 +401,15 @@ class Swarm:
 
         Args:
             values: a mapping from port to value, or values in the order of the ports; or name the ports:
-                ``step(d=1, e=0)``. The value of a bus is a whole number.
+                ``step(d=1, e=0)``. The value of a bus is a whole number. An array of booleans has the bits of all
+                ports, as a row of `inputs`.
             cycles: how many cycles the values are held.
 
         Raises:
             ValueError: for missing or unknown ports, and values that do not fit.
         """
+        if values is not None and ports:
+            raise TypeError("the values are given twice; name the ports, or give one mapping or sequence")
         row = self._row(ports if values is None else values)
         outputs = self._native.step([row] * count(cycles, "cycles", least=1), None)
         return self._values(self.compiled.outputs, outputs[-1])
@@ -394,7 +426,7 @@ class Swarm:
         """
         held = int(self.compiled.timing["hold"]) + self.compiled._window + 1 if hold is None else hold
         each = count(held, "hold", least=1)
-        packed = [self._row(row) for row in rows]
+        packed = [self._row(row) for row in (array_of(rows) if is_array(rows) else rows)]
         with reporting(progress, " cycles") as report:
             outputs = self._native.step([row for row in packed for _ in range(each)], report)
         return [self._values(self.compiled.outputs, row) for row in outputs[each - 1 :: each]]
@@ -406,7 +438,8 @@ class Swarm:
 
     @property
     def inputs(self) -> npt.NDArray[np.bool_]:
-        """The bits of the input ports in each cycle, shape (cycles, bits)."""
+        """The bits of the input ports in each cycle, shape (cycles, bits): port after port, high bits first.
+        ``run(inputs, hold=1)`` repeats them."""
         return self._native.bits()[0]
 
     @property
@@ -416,7 +449,7 @@ class Swarm:
 
     @property
     def outputs(self) -> npt.NDArray[np.bool_]:
-        """The bits of the output ports at the end of each cycle, shape (cycles, bits)."""
+        """The bits of the output ports at the end of each cycle, shape (cycles, bits), in the order of `inputs`."""
         return self._native.bits()[2]
 
     @property
@@ -447,20 +480,37 @@ class Swarm:
 
     def _row(self, row: Row) -> List[bool]:
         ports = self.compiled.inputs
+        if is_array(row):
+            array = array_of(row)
+            if array.dtype == np.bool_ and array.ndim == 1:
+                return self._bits(array)
+            row = array.tolist() if array.ndim == 1 else row
         if not isinstance(row, Mapping):
+            if isinstance(row, (str, bytes)) or not isinstance(row, Sequence):
+                shown = f"an array of the shape {array_of(row).shape}" if is_array(row) else f"a {type(row).__name__}"
+                raise TypeError(f"the values are {shown}, expected a mapping, or a value for each port")
             if len(row) != len(ports):
                 raise ValueError(f"{len(row)} values, expected {len(ports)}: {', '.join(port.name for port in ports)}")
             row = {port.name: value for port, value in zip(ports, row)}
-        unknown = set(row) - {port.name for port in ports}
+        strange = set(row) - {port.name for port in ports}
         missing = [port.name for port in ports if port.name not in row]
-        if unknown or missing:
-            fault = f"unknown port `{min(unknown)}`" if unknown else f"missing value of `{missing[0]}`"
-            raise ValueError(f"{fault}; the input ports are {', '.join(port.name for port in ports)}")
+        if strange or missing:
+            known = [port.name for port in ports]
+            if strange:
+                raise ValueError(unknown("input port", min(map(str, strange)), known))
+            raise ValueError(f"missing value of `{missing[0]}`; the input ports are {', '.join(known)}")
         bits: List[bool] = []
         for port in ports:
             value = count(row[port.name], f"the value of `{port.name}`", most=2**port.width - 1)
             bits += [bool(value >> bit & 1) for bit in reversed(range(port.width))]
         return bits
+
+    def _bits(self, row: npt.NDArray[np.bool_]) -> List[bool]:
+        expected = sum(port.width for port in self.compiled.inputs)
+        if len(row) != expected:
+            ports = ", ".join(f"{port.name}[{port.width}]" for port in self.compiled.inputs)
+            raise ValueError(f"{len(row)} bits, expected {expected}: {ports}")
+        return [bool(bit) for bit in row]
 
     @staticmethod
     def _values(ports: Sequence[Port], bits: Sequence[bool]) -> Dict[str, int]:
@@ -506,6 +556,18 @@ def _options(
         "effort": effort,
         "runs": os.fspath(runs),
     }
+
+
+def _compiled_again(program: Program, circuit: Optional[str], options: Mapping[str, Any]) -> Compiled:
+    return program.compile(circuit, **options)
+
+
+def _check_path(path: Path) -> None:
+    """Raises NbcError if a file cannot be written, before anything is simulated for it."""
+    where = os.fspath(path)
+    folder = os.path.dirname(where) or os.curdir
+    if os.path.isdir(where) or not os.access(folder, os.W_OK):
+        _nbc.write_file(where, "")
 
 
 def _report(page: str, records: str) -> Report:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import warnings
 from dataclasses import dataclass
-from typing import Any, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterable, Mapping, Optional, Sequence, Tuple
 
-__all__ = ["Diagnostic", "InternalError", "Interrupted", "NbcError", "Span"]
+__all__ = ["Diagnostic", "InternalError", "Interrupted", "InvalidBodyWarning", "NbcError", "Span"]
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,41 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, result: Any) -> None:
         super().__init__("interrupted; the results so far are in `.result`")
         self.result = result
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.result,)
+
+
+class InvalidBodyWarning(UserWarning):
+    """Some bodies of a call are invalid, and have no results; its ``errors`` has the reason for each.
+
+    ``warnings.simplefilter("error", nbc.InvalidBodyWarning)`` makes it an exception.
+    """
+
+
+def report_invalid(found: Iterable[Tuple[int, str]], unread: Mapping[int, str], bodies: int) -> Dict[int, str]:
+    """The reasons by body, told by a warning.
+
+    Args:
+        found: the invalid bodies of the native half with their reasons.
+        unread: better reasons for those that could not be read.
+        bodies: the number of all bodies.
+
+    Raises:
+        ValueError: when all bodies are invalid.
+    """
+    errors = {number: unread.get(number, reason) for number, reason in found}
+    if not errors:
+        return errors
+    number, reason = next(iter(errors.items()))
+    if len(errors) == bodies:
+        others = "" if bodies == 1 else f" (all {bodies} bodies are invalid)"
+        raise ValueError(f"bodies[{number}]: {reason}{others}")
+    which = "1 body of" if len(errors) == 1 else f"{len(errors)} bodies of"
+    text = f"{which} {bodies} could not be simulated; see `errors`. bodies[{number}]: {reason}"
+    # The place of the call of `simulate` or `evaluate`.
+    warnings.warn(text, InvalidBodyWarning, stacklevel=4)
+    return errors
 
 
 def diagnostics_of(records: Sequence[Mapping[str, Any]]) -> Tuple[Diagnostic, ...]:

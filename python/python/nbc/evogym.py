@@ -5,6 +5,10 @@ connections says which neighbors are joined. Bodies of nbc are always joined to 
 horizontal actuator in antiphase. Codes 0 to 3 mean the same in both. A body with something that the other side lacks
 is refused with the reason, never changed silently.
 
+All active voxels of nbc, codes 3 to 8, are one material and differ in their target widths only (docs/physics.md 1 and
+10). So ``to_structure(body, as_actuators=True)`` makes horizontal actuators of all of them, and `actions` has the width
+of each in each env step, for ``set_action``. Evolution Gym then simulates what nbc does.
+
 Evolution Gym itself is not needed.
 """
 
@@ -15,21 +19,30 @@ from typing import Any, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from .bodies import OneBody, pack
+from . import _nbc
+from .bodies import OneBody, read
+from .numbers import array_of
+from .physics import CYCLE_STEPS, Schedule, pack_schedule
 
-__all__ = ["connections", "from_structure", "to_structure"]
+__all__ = ["actions", "connections", "from_structure", "to_structure"]
 
+_SENSOR = "a sensor, which Evolution Gym does not have"
 _MATERIALS = {
     4: "an actuator in antiphase; Evolution Gym's 4 is a vertical actuator",
-    5: "a sensor, which Evolution Gym does not have",
-    6: "a sensor, which Evolution Gym does not have",
-    7: "a sensor, which Evolution Gym does not have",
-    8: "a sensor, which Evolution Gym does not have",
+    **{code: _SENSOR for code in (5, 6, 7, 8)},
 }
+# The stimulus of each sensor, counted from 0, and its widths while that is absent and present.
+_SENSORS = {5: (0, 1.6, 0.6), 6: (1, 1.6, 0.6), 7: (0, 0.6, 1.6), 8: (1, 0.6, 1.6)}
 
 
-def to_structure(body: OneBody) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+def to_structure(
+    body: OneBody, *, as_actuators: bool = False
+) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """A body as ``EvoGymBase.add_from_array`` and ``evogym.make(body=..., connections=...)`` take it.
+
+    Args:
+        body: a body of the paper's materials.
+        as_actuators: whether codes 4 to 8 become horizontal actuators, to be moved by `actions`.
 
     Returns:
         The structure, shape (H, W), and the connections, shape (2, edges).
@@ -42,13 +55,52 @@ def to_structure(body: OneBody) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.i
     >>> structure.tolist(), joined.tolist()
     ([[3, 3], [1, 2]], [[0, 0, 1, 2], [1, 2, 3, 3]])
     """
-    codes, shapes = pack([body])
-    structure = codes.reshape(tuple(int(side) for side in shapes[0])).astype(np.int64)
+    structure = _paper_codes(body)
     for row, column in np.argwhere(structure > 3).tolist():
+        if as_actuators:
+            break
         code = int(structure[row, column])
-        reason = _MATERIALS.get(code, "not one of the paper's materials")
-        raise ValueError(f"row {row + 1}, column {column + 1}: {code} is {reason}")
+        hint = "; `as_actuators=True` makes it a horizontal actuator, to be moved by `nbc.evogym.actions`"
+        raise ValueError(f"row {row + 1}, column {column + 1}: {code} is {_MATERIALS[code]}{hint}")
+    structure = np.minimum(structure, 3)
     return structure, connections(structure)
+
+
+def actions(body: OneBody, schedule: Schedule) -> npt.NDArray[np.float64]:
+    """The target widths of all active voxels under a schedule, as nbc simulates them.
+
+    Args:
+        body: a body of the paper's materials.
+        schedule: the stimuli over time; see `simulate`.
+
+    Returns:
+        An array of shape (env steps, active voxels): row ``t`` is for ``EvoSim.set_action`` before env step ``t``, with
+        the voxels in reading order, as those of ``get_actuator_indices``.
+
+    >>> import nbc
+    >>> nbc.evogym.actions(["35"], "00*1 10*1")[[0, 84]].tolist()
+    [[1.1, 1.6], [1.1, 0.6]]
+    """
+    codes = _paper_codes(body)
+    active = codes[codes >= 3]
+    steps = [pattern for pattern, length in _nbc.read_schedule(pack_schedule(schedule)) for _ in range(length)]
+    phase = 2 * np.pi * (np.arange(len(steps)) % CYCLE_STEPS) / (CYCLE_STEPS - 1)
+    targets = np.empty((len(steps), len(active)))
+    for column, code in enumerate(active.tolist()):
+        if code in _SENSORS:
+            stimulus, absent, present = _SENSORS[code]
+            targets[:, column] = [present if pattern[stimulus : stimulus + 1] == "1" else absent for pattern in steps]
+        else:
+            targets[:, column] = 0.6 + (np.sin(phase if code == 3 else np.pi + phase) + 1) / 2
+    return np.clip(targets, 0.6, 1.6)
+
+
+def _paper_codes(body: OneBody) -> npt.NDArray[np.int64]:
+    codes = read(body, "body").astype(np.int64)
+    for row, column in np.argwhere(codes > 8).tolist():
+        code = int(codes[row, column])
+        raise ValueError(f"row {row + 1}, column {column + 1}: {code} is not one of the paper's materials")
+    return codes
 
 
 def from_structure(
@@ -70,7 +122,7 @@ def from_structure(
     >>> nbc.evogym.from_structure([[3, 3], [1, 2]]).tolist()
     [[3, 3], [1, 2]]
     """
-    array = np.asarray(structure)
+    array = array_of(structure)
     if array.ndim != 2:
         raise ValueError(f"the structure has the shape {array.shape}, expected (H, W)")
     array = _whole(array, "the structure")
@@ -79,7 +131,7 @@ def from_structure(
     if not array.any():
         raise ValueError("the structure has no voxels")
     if connections is not None:
-        _check(array, np.asarray(connections))
+        _check(array, array_of(connections))
     return array.astype(np.uint8)
 
 

@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from . import _nbc
 from .bodies import Bodies, pack
-from .errors import Interrupted
+from .errors import Interrupted, report_invalid
+from .numbers import array_of, count
 from .physics import fault_array
 from .progress import Progress, reporting
 
@@ -27,7 +28,7 @@ class Evolution:
     docs/evolution.md.
 
     >>> import nbc
-    >>> run = nbc.Evolution(box=(5, 5), objective="gate", descriptors=["voxels in 4 bins", "behavior"])
+    >>> run = nbc.Evolution(shape=(5, 5), objective="gate", descriptors=["voxels in 4 bins", "behavior"])
     >>> run.axes
     (('voxels', 4), ('behavior', 16))
     """
@@ -37,7 +38,7 @@ class Evolution:
         *,
         base: str = "gates",
         name: str = "evolution_in_python",
-        box: Optional[Tuple[int, int]] = None,
+        shape: Optional[Tuple[int, int]] = None,
         generations: Optional[int] = None,
         batch: Optional[int] = None,
         newcomers: Optional[int] = None,
@@ -49,13 +50,15 @@ class Evolution:
         rules: Optional[str] = None,
         vary: Optional[Mapping[str, float]] = None,
         worlds: Optional[int] = None,
+        box: None = None,
     ) -> None:
         """Declares an evolution.
 
         Args:
             base: the evolution that the other values are from: ``gates`` is the paper's.
             name: its name, which checkpoints have.
-            box: columns and rows of the bodies.
+            shape: rows and columns of the bodies, as the shapes of their arrays. (The language's ``box: 7 x 5`` has the
+                columns first; here this is ``shape=(5, 7)``.)
             generations: how many generations make it complete.
             batch: offspring in each generation.
             newcomers: fresh random bodies in each generation.
@@ -68,13 +71,16 @@ class Evolution:
             vary: the largest changes of other worlds in which the gate objective tries bodies too, for example
                 ``{"friction": 0.1}``, or ``{"all": 0.1}`` for all factors.
             worlds: the number of these worlds.
+            box: refused; it was (columns, rows) in version 0.2.
 
         Raises:
             NbcError: for values that the language does not have.
         """
+        if box is not None:
+            raise TypeError(_no_box(box))
         fields: Dict[str, Optional[Field]] = {
             "from": base,
-            "box": None if box is None else f"{box[0]} x {box[1]}",
+            "box": None if shape is None else _box(shape),
             "generations": generations,
             "batch": batch,
             "newcomers": newcomers,
@@ -82,9 +88,9 @@ class Evolution:
             "symmetry": symmetry,
             "niche": niche,
             "fixed": fixed,
-            "descriptors": None if descriptors is None else f"[{', '.join(descriptors)}]",
+            "descriptors": None if descriptors is None else f"[{', '.join(_words(descriptors, 'descriptors'))}]",
             "as": rules,
-            "vary": None if vary is None else "{ " + ", ".join(f"{key}: {share}" for key, share in vary.items()) + " }",
+            "vary": None if vary is None else _variation(vary),
             "worlds": worlds,
         }
         lines = [f"    {key}: {value}," for key, value in fields.items() if value is not None]
@@ -104,6 +110,15 @@ class Evolution:
     def _declare(self, text: str, file: str) -> None:
         self._native = _nbc.Evolution(text, file)
 
+    def __reduce__(self) -> Any:
+        return _copied, (self._native.to_json(),)
+
+    def __eq__(self, other: object) -> bool:
+        return self.fields == other.fields if isinstance(other, Evolution) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._native.to_json())
+
     @classmethod
     def _of(cls, native: _nbc.Evolution) -> Evolution:
         evolution = cls.__new__(cls)
@@ -118,21 +133,22 @@ class Evolution:
 
     @property
     def axes(self) -> Tuple[Tuple[str, int], ...]:
-        """The name and the number of bins of each axis of the archive."""
-        return tuple(self._native.axes())
+        """The name and the number of bins of each axis of the archive. A word that several axes have gets their places,
+        from 1: ``active_1`` and ``active_3``."""
+        return axes_of(self._native.axes())
 
     @property
-    def box(self) -> Tuple[int, int]:
-        """Columns and rows of the bodies."""
+    def shape(self) -> Tuple[int, int]:
+        """Rows and columns of the bodies."""
         fields = self.fields
-        return fields["width"], fields["height"]
+        return fields["height"], fields["width"]
 
     def __repr__(self) -> str:
         fields = self.fields
-        return f"<Evolution {fields['name']}: {fields['width']} x {fields['height']}, {fields['objective']}>"
+        return f"<Evolution {fields['name']}: shape {self.shape}, {fields['objective']}>"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Evaluation:
     """The results of N bodies by the protocol of an evolution."""
 
@@ -144,6 +160,7 @@ class Evaluation:
       simulation; or, by the objective ``gate``, its first fitness is too low.
     - ``surpassed``: it cannot enter its niche.
     - ``faulty``: one of its simulations failed.
+    - ``invalid``: it is not a body of the evolution; ``errors`` has the reason.
     - ``stopped``: Ctrl-C ended its evaluation.
     """
     fitness: npt.NDArray[np.float64] = field(repr=False)
@@ -162,6 +179,8 @@ class Evaluation:
     that were not measured. Shape (N, axes)."""
     faults: Optional[npt.NDArray[Any]] = field(default=None, repr=False)
     """For each body the env step that was abandoned (0 for none) and the reason, as in `Trajectories`."""
+    errors: Mapping[int, str] = field(default_factory=dict, repr=False)
+    """Why each invalid body could not be evaluated, by its index."""
 
     @property
     def measured(self) -> npt.NDArray[np.bool_]:
@@ -194,22 +213,22 @@ def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress:
     >>> result.behavior.tolist()
     ['RRRL']
     """
-    codes, shapes = pack(bodies)
+    packed = pack(bodies)
     if evolution is None:
-        _nbc.check_bodies(codes, shapes)
-        evolution = Evolution(box=(int(shapes[0][1]), int(shapes[0][0])) if len(shapes) else None)
+        evolution = Evolution(shape=next(((int(h), int(w)) for h, w in packed.shapes if h and w), None))
     if not isinstance(evolution, Evolution):
         raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
     with reporting(progress, " env steps") as report:
         try:
-            return of_arrays(_nbc.evaluate(codes, shapes, evolution._native, report))
+            return of_arrays(_nbc.evaluate(packed.codes, packed.shapes, evolution._native, report), packed.errors)
         except Interrupted as interrupt:
-            interrupt.result = of_arrays(interrupt.result)
+            interrupt.result = of_arrays(interrupt.result, packed.errors)
             raise
 
 
-def of_arrays(arrays: Mapping[str, Any]) -> Evaluation:
-    """An evaluation of the native half."""
+def of_arrays(arrays: Mapping[str, Any], unread: Mapping[int, str] = {}) -> Evaluation:
+    """An evaluation of the native half, with better reasons for bodies that could not be read."""
+    errors = report_invalid(arrays["errors"], unread, len(arrays["outcome"]))
     return Evaluation(
         outcome=np.array(arrays["outcome"], dtype="U12"),
         fitness=arrays["fitness"],
@@ -217,9 +236,51 @@ def of_arrays(arrays: Mapping[str, Any]) -> Evaluation:
         behavior=np.array(arrays["behavior"], dtype="U4"),
         niche=arrays["niche"],
         faults=fault_array(arrays),
+        errors=errors,
     )
+
+
+def axes_of(axes: Sequence[Tuple[str, int]]) -> Tuple[Tuple[str, int], ...]:
+    """Axes by name, as the CSV of ``nbc export`` names them."""
+    words = [word for word, _ in axes]
+    named = (f"{word}_{place}" if words.count(word) > 1 else word for place, word in enumerate(words, start=1))
+    return tuple((name, bins) for name, (_, bins) in zip(named, axes))
 
 
 def letters(behavior: Any) -> List[str]:
     """Behaviors as a list of texts."""
-    return [str(word) for word in np.asarray(behavior).tolist()]
+    return [str(word) for word in array_of(behavior).tolist()]
+
+
+def _copied(text: str) -> Evolution:
+    return Evolution._of(_nbc.Evolution.from_json(text))
+
+
+def _box(shape: Sequence[int]) -> str:
+    """The field of the language for rows and columns."""
+    if isinstance(shape, str) or len(shape) != 2:
+        raise ValueError(f"shape is {shape!r}, expected rows and columns, such as (5, 7)")
+    rows, columns = (count(side, f"shape[{number}]") for number, side in enumerate(shape))
+    return f"{columns} x {rows}"
+
+
+def _no_box(box: Any) -> str:
+    """Where the argument of version 0.2 is now."""
+    try:
+        columns, rows = box
+    except (TypeError, ValueError):
+        columns, rows = "columns", "rows"
+    return f"box=({columns}, {rows}), columns first, is now shape=({rows}, {columns}), rows first as in all shapes"
+
+
+def _words(texts: Sequence[str], name: str) -> Sequence[str]:
+    if isinstance(texts, str) or not all(isinstance(text, str) for text in texts):
+        raise TypeError(f"{name} is {texts!r}, expected a list of texts")
+    return texts
+
+
+def _variation(vary: Mapping[str, float]) -> str:
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"vary is of type {type(vary).__name__}, expected a mapping")
+    shares = {key: np.format_float_positional(float(share), trim="-") for key, share in vary.items()}
+    return "{ " + ", ".join(f"{key}: {share}" for key, share in shares.items()) + " }"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any, List, Mapping, Optional, Sequence, Tuple, Type, Union
@@ -12,8 +11,10 @@ import numpy.typing as npt
 
 from . import _nbc
 from .bodies import Bodies, Material, pack, pack_materials
-from .errors import Interrupted
-from .progress import Progress, part, reporting
+from .errors import Interrupted, report_invalid
+from .names import meant
+from .numbers import array_of, count, is_array
+from .progress import Progress, reporting
 
 __all__ = ["CYCLE_STEPS", "Flock", "Schedule", "Trajectories", "simulate"]
 
@@ -25,11 +26,12 @@ Schedule = Union[str, Sequence[Tuple[str, int]]]
 pattern and a number of env steps, ``[("00", 840), ("01", 56)]``. A pattern has a digit for each stimulus, stimulus 1
 first."""
 
+RECORDS = ("com", "poses")
 FAULTS = np.dtype([("env_step", "u4"), ("kind", "U10")])
 MOST_STEPS = 10_000_000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trajectories:
     """What N bodies did under a schedule of S spells (entries) and T - 1 env steps. Lengths are in voxels."""
 
@@ -39,13 +41,16 @@ class Trajectories:
     """Center of mass at the start and after each env step, shape (N, T, 2); NaN after a fault.
     Ctrl-C may leave fewer env steps. None if not recorded."""
     faults: npt.NDArray[Any] = field(repr=False)
-    """For each body the env step that was abandoned (0 for none) and the reason: ``unstable`` or ``non_finite``, or
-    ``stopped`` if Ctrl-C ended it. A structured array of shape (N,) with the fields ``env_step`` and ``kind``."""
+    """For each body the env step that was abandoned (0 for none) and the reason: ``unstable`` or ``non_finite``,
+    ``invalid`` for a body that could not be simulated at all, or ``stopped`` if Ctrl-C ended it. A structured array of
+    shape (N,) with the fields ``env_step`` and ``kind``."""
     poses: Optional[List[npt.NDArray[np.float64]]] = field(default=None, repr=False)
     """With ``record="poses"``: for each body its P points every ``stride`` env steps, shape (frames, P, 2)."""
     voxels: Optional[List[npt.NDArray[np.intp]]] = field(default=None, repr=False)
     """With ``record="poses"``: for each body the four points of each voxel in reading order, shape (V, 4): top left,
     top right, bottom right, bottom left."""
+    errors: Mapping[int, str] = field(default_factory=dict, repr=False)
+    """Why each invalid body could not be simulated, by its index. Such a body has NaN everywhere."""
 
     @property
     def ok(self) -> npt.NDArray[np.bool_]:
@@ -73,23 +78,24 @@ def simulate(
     The results are those of ``nbc simulate``, to the last bit, for any number of bodies and cores. The lock of the
     interpreter is released, and Ctrl-C ends the call with `Interrupted`, which has the results so far.
 
+    An invalid body (empty, not in one piece, with a code that is no material, or without room in the world) does not
+    keep the others from being simulated: it has NaN, its reason is in ``errors``, and an `InvalidBodyWarning` tells.
+
     Args:
-        bodies: an integer array (N, H, W), or a list of bodies of any sizes.
+        bodies: an integer array (N, H, W) of numpy or a library such as JAX, or a list of bodies of any sizes.
         schedule: the stimuli over time, for all bodies.
         materials: the materials of the codes; by default the paper's.
         world_width: ground voxels in a row.
         start_x: the ground column of each body's left column; by default the middle of the world.
-        record: ``"com"`` keeps the path of the center of mass, ``"poses"`` also all points every ``stride`` env steps
-            (which takes about twice the time), None only displacements.
+        record: ``"com"`` keeps the path of the center of mass, ``"poses"`` also all points every ``stride`` env steps,
+            None only displacements.
         stride: env steps between poses.
-        progress: whether to show a tqdm bar, or a function of the env steps done and all env steps. Those of poses
-            count twice.
+        progress: whether to show a tqdm bar, or a function of the env steps done and all env steps.
 
     Raises:
         TypeError: for arrays that are not of integers, and arguments of other types.
-        ValueError: for wrong shapes, codes that are not materials, bodies that are empty or not in one piece, and
-            worlds without room for a body.
-        MemoryError: when the paths would need more than 8 GiB.
+        ValueError: for wrong shapes, and if no body at all is valid.
+        MemoryError: when there is no room for the bodies and paths, or the paths would need more than 8 GiB.
         NbcError: for a schedule that cannot be read; its diagnostics have the places in the text.
 
     >>> import nbc
@@ -98,33 +104,25 @@ def simulate(
     ((1, 2), (1, 253, 2))
     """
     if record not in (None, "com", "poses"):
-        raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None")
+        raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None{meant(record, RECORDS)}")
     every = count(stride, "stride", least=1)
-    codes, shapes = pack(bodies)
+    packed = pack(bodies)
     trials: _nbc._Trials = {
-        "codes": codes,
-        "shapes": shapes,
+        "codes": packed.codes,
+        "shapes": packed.shapes,
         "materials": pack_materials(materials),
         "schedule": pack_schedule(schedule),
         "world_width": count(world_width, "world_width"),
         "start_x": None if start_x is None else count(start_x, "start_x"),
+        "record_com": record is not None,
+        "stride": every if record == "poses" else None,
     }
     with reporting(progress, " env steps") as report:
-        passes = 2 if record == "poses" else 1
         try:
-            arrays = _nbc.simulate(trials, record is not None, part(report, 0, passes))
+            return _trajectories(_nbc.simulate(trials, report), packed.errors)
         except Interrupted as interrupt:
-            interrupt.result = _trajectories(interrupt.result)
+            interrupt.result = _trajectories(interrupt.result, packed.errors)
             raise
-        if record != "poses":
-            return _trajectories(arrays)
-        try:
-            flat, voxels = _nbc.record_poses(trials, every, part(report, 1, passes))
-        except KeyboardInterrupt:
-            raise Interrupted(_trajectories(arrays)) from None
-    corners = [np.array(each, dtype=np.intp).reshape(-1, 4) for each in voxels]
-    frames = len(arrays["com"][0, ::every]) if flat else 0
-    return _trajectories(arrays, [points.reshape(frames, -1, 2) for points in flat], corners)
 
 
 class Flock:
@@ -148,11 +146,13 @@ class Flock:
         world_width: int = 500,
         start_x: Optional[int] = None,
     ) -> None:
-        """Puts a robot for each body at its start; arguments and errors are those of `simulate`."""
-        codes, shapes = pack(bodies)
+        """Puts a robot for each body at its start; arguments and errors are those of `simulate`, but each body must be
+        valid."""
+        packed = pack(bodies)
+        packed.check()
         start = None if start_x is None else count(start_x, "start_x")
         width = count(world_width, "world_width")
-        self._native = _nbc.Flock(codes, shapes, pack_materials(materials), width, start)
+        self._native = _nbc.Flock(packed.codes, packed.shapes, pack_materials(materials), width, start)
 
     def __len__(self) -> int:
         return len(self._native)
@@ -191,9 +191,9 @@ class Flock:
 
     def voxels(self, robot: int) -> npt.NDArray[np.intp]:
         """The four points of each voxel of a robot, by their rows in its pose, shape (V, 4)."""
-        number = operator.index(robot)
+        number = count(robot, "the number of the robot", least=-(2**31))
         if not 0 <= number < len(self):
-            raise IndexError(f"robot {number} of {len(self)}")
+            raise IndexError(f"there is no robot {number}; the flock has {len(self)}, counted from 0")
         return np.array(self._native.voxels(number), dtype=np.intp).reshape(-1, 4)
 
     def snapshot(self) -> _nbc.FlockState:
@@ -202,6 +202,8 @@ class Flock:
 
     def restore(self, state: _nbc.FlockState) -> None:
         """Sets all robots to an earlier state of this flock, or of one with the same bodies."""
+        if not isinstance(state, _nbc.FlockState):
+            raise TypeError(f"state is of type {type(state).__name__}, expected what `snapshot` returned")
         self._native.restore(state)
 
     def close(self) -> None:
@@ -219,6 +221,10 @@ class Flock:
     def _patterns(self, patterns: Union[str, Sequence[str], npt.NDArray[Any]]) -> List[str]:
         if isinstance(patterns, str):
             return [patterns] * len(self)
+        if is_array(patterns):
+            patterns = array_of(patterns)
+        if not isinstance(patterns, (Sequence, np.ndarray)):
+            raise TypeError(f"patterns is of type {type(patterns).__name__}, expected a pattern, or one for each robot")
         if isinstance(patterns, np.ndarray) and patterns.dtype.kind in "biu":
             if patterns.ndim != 2 or len(patterns) != len(self):
                 raise ValueError(f"patterns has the shape {patterns.shape}, expected ({len(self)}, stimuli)")
@@ -248,17 +254,6 @@ def pack_schedule(schedule: Schedule) -> Union[str, List[Tuple[str, int]]]:
     return spells
 
 
-def count(value: Any, name: str, least: int = 0, most: int = 2**31) -> int:
-    """A whole number in a range."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name} is {value!r}, expected a whole number") from None
-    if not least <= number <= most:
-        raise ValueError(f"{name} is {number}, expected {least} to {most}")
-    return number
-
-
 def fault_array(arrays: Mapping[str, Any]) -> npt.NDArray[Any]:
     """The faults of the native half."""
     faults = np.empty(len(arrays["fault_step"]), dtype=FAULTS)
@@ -272,9 +267,8 @@ def _pattern(pattern: Any) -> str:
     return str(pattern)
 
 
-def _trajectories(
-    arrays: Mapping[str, Any],
-    poses: Optional[List[npt.NDArray[np.float64]]] = None,
-    voxels: Optional[List[npt.NDArray[np.intp]]] = None,
-) -> Trajectories:
-    return Trajectories(arrays["displacement"], arrays["com"], fault_array(arrays), poses, voxels)
+def _trajectories(arrays: Mapping[str, Any], unread: Mapping[int, str]) -> Trajectories:
+    poses, voxels = arrays.get("poses"), arrays.get("voxels")
+    corners = None if voxels is None else [np.array(each, dtype=np.intp).reshape(-1, 4) for each in voxels]
+    errors = report_invalid(arrays["errors"], unread, len(arrays["fault_step"]))
+    return Trajectories(arrays["displacement"], arrays["com"], fault_array(arrays), poses, corners, errors)

@@ -33,14 +33,6 @@ def reporting(progress: Progress, unit: str) -> Iterator[Optional[Report]]:
         yield show
 
 
-def part(report: Optional[Report], number: int, parts: int) -> Optional[Report]:
-    """The report of one of several equal parts, counted from 0."""
-    if report is None or parts == 1:
-        return report
-    whole = report
-    return lambda done, all: whole(number * all + done, parts * all)
-
-
 def _bar(unit: str) -> Any:
     try:
         from tqdm.auto import tqdm

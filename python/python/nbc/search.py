@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 import os
 import time
-from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
+from .bodies import PAPER_MATERIALS, Material, rows
 from .errors import Interrupted
-from .evolution import Evaluation, Evolution, letters, of_arrays
-from .physics import count
+from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
+from .names import unknown
+from .numbers import array_of, count, seconds
 from .progress import Progress, reporting
 
 __all__ = ["Archive", "Candidates", "Search", "evolve", "read_archive"]
@@ -48,8 +50,10 @@ class Archive:
     ``behavior``, ``displacement`` (4), ``body`` (H, W), ``generation`` and ``evaluations``.
     """
 
-    def __init__(self, arrays: Mapping[str, Any], axes: Tuple[Tuple[str, int], ...]) -> None:
-        rows = len(arrays["behavior"])
+    def __init__(
+        self, arrays: Mapping[str, Any], axes: Tuple[Tuple[str, int], ...], materials: Sequence[Material]
+    ) -> None:
+        size = len(arrays["behavior"])
         shape = {name: arrays[name].shape[1:] for name in ("niche", "body")}
         fields: List[Tuple[Any, ...]] = [
             ("niche", "u2", shape["niche"]),
@@ -61,37 +65,58 @@ class Archive:
             ("evaluations", "u8"),
         ]
         self.axes = axes
-        """The name and the number of bins of each axis."""
-        self.elites: npt.NDArray[Any] = np.zeros(rows, dtype=fields)
+        """The name and the number of bins of each axis; see `Evolution.axes`."""
+        self.materials: Tuple[Material, ...] = tuple(materials)
+        """The materials of the codes."""
+        self._functions: List[str] = list(arrays["function"])
+        self.elites: npt.NDArray[Any] = np.zeros(size, dtype=fields)
         for name in self.elites.dtype.names or ():
             self.elites[name] = arrays[name]
 
     def __len__(self) -> int:
         return len(self.elites)
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Archive):
+            return NotImplemented
+        alike = (self.axes, self.materials, self.elites.dtype) == (other.axes, other.materials, other.elites.dtype)
+        return alike and np.array_equal(self.elites, other.elites)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def frame(self) -> Any:
-        """The elites as a pandas frame: a column for each axis, fitness, displacement, behavior, generation and rows of
-        the body."""
+        """The elites as a pandas frame, with the columns of the CSV of ``nbc export`` (docs/evolution.md), except
+        ``run`` and ``seed``."""
         import pandas
 
-        columns: Dict[str, Any] = {name: self.elites["niche"][:, i] for i, (name, _) in enumerate(self.axes)}
-        if "behavior" in columns:
-            columns["function"] = columns.pop("behavior")
-        columns["behavior"] = letters(self.elites["behavior"])
+        columns: Dict[str, Any] = {"behavior": letters(self.elites["behavior"]), "function": self._functions}
         columns["fitness_1"], columns["fitness_2"] = self.elites["fitness"].T
+        for i, (name, _) in enumerate(self.axes):
+            columns[f"niche_{name}"] = self.elites["niche"][:, i]
         for i, pattern in enumerate(("00", "01", "10", "11")):
             columns[f"displacement_{pattern}"] = self.elites["displacement"][:, i]
+        height, width = self.elites["body"].shape[1:]
+        columns["width"], columns["height"] = np.full(len(self), width), np.full(len(self), height)
+        columns.update(self._voxels())
+        columns["body"] = ["|".join(rows(body)) for body in self.elites["body"]]
+        materials = "" if self.materials == PAPER_MATERIALS else json.dumps(self.materials, separators=(",", ":"))
+        columns["materials"] = [materials] * len(self)
         columns["generation"], columns["evaluations"] = self.elites["generation"], self.elites["evaluations"]
-        columns["body"] = [" ".join("".join(np.base_repr(c, 36) for c in row) for row in body).lower()
-                           for body in self.elites["body"].tolist()]
         return pandas.DataFrame(columns)
 
+    def _voxels(self) -> Dict[str, npt.NDArray[np.int64]]:
+        """How many voxels, actuators and sensors each elite has."""
+        kinds = np.array(["empty", *(material["kind"] for material in self.materials)])[self.elites["body"]]
+        wanted = {"voxels": kinds != "empty", "actuators": kinds == "actuator", "sensors": kinds == "sensor"}
+        return {name: of_kind.sum(axis=(1, 2)) for name, of_kind in wanted.items()}
+
     def heatmap(self, x: str, y: str) -> npt.NDArray[np.float64]:
-        """The best first fitness over two axes, shape (bins of y, bins of x); NaN where no niche is filled."""
+        """The best first fitness over two axes, by their names in `axes`; shape (bins of y, bins of x), NaN where no
+        niche is filled."""
         names = [name for name, _ in self.axes]
         for name in (x, y):
             if name not in names:
-                raise ValueError(f"the archive has no axis `{name}`; expected one of {', '.join(names)}")
+                raise ValueError(unknown("axis of the archive", name, names))
         (i, across), (j, up) = ((names.index(name), dict(self.axes)[name]) for name in (x, y))
         best = np.full((up, across), -np.inf)
         np.maximum.at(best, (self.elites["niche"][:, j], self.elites["niche"][:, i]), self.elites["fitness"][:, 0])
@@ -107,7 +132,7 @@ class Search:
     The same seed gives the same archive on any number of cores and after any number of interruptions.
 
     >>> import nbc
-    >>> search = nbc.Search(nbc.Evolution(box=(3, 3), batch=4, fixed="1 cycles"), seed=7)
+    >>> search = nbc.Search(nbc.Evolution(shape=(3, 3), batch=4, fixed="1 cycles"), seed=7)
     >>> candidates = search.ask()
     >>> candidates.bodies.shape
     (5, 3, 3)
@@ -120,7 +145,7 @@ class Search:
         """A new search."""
         self.evolution = evolution
         """The declaration that it follows."""
-        self._native = _nbc.Search(evolution._native, count(seed, "seed", most=2**64 - 1))
+        self._native = _nbc.Search(declaration(evolution)._native, count(seed, "seed", most=2**64 - 1))
 
     @classmethod
     def resume(cls, path: Path, evolution: Evolution) -> Search:
@@ -130,10 +155,16 @@ class Search:
             FileNotFoundError: when there is no such file.
             NbcError: when it is damaged, or belongs to another declaration.
         """
+        return cls._of(_nbc.Search.resume(os.fspath(path), declaration(evolution)._native), evolution)
+
+    @classmethod
+    def _of(cls, native: _nbc.Search, evolution: Evolution) -> Search:
         search = cls.__new__(cls)
-        search.evolution = evolution
-        search._native = _nbc.Search.resume(os.fspath(path), evolution._native)
+        search.evolution, search._native = evolution, native
         return search
+
+    def __reduce__(self) -> Any:
+        return _copied, (self._native.to_bytes(), self.evolution)
 
     def save(self, path: Path) -> None:
         """Writes a checkpoint, whole or not at all. ``nbc draw`` and ``nbc export`` read it too."""
@@ -146,7 +177,7 @@ class Search:
     def evaluate(self, candidates: Candidates) -> Evaluation:
         """Evaluates candidates by the protocol of the declaration, on all cores. Simulations that cannot matter for the
         archive as it is are left out: such bodies are ``surpassed``."""
-        return of_arrays(self._native.evaluate(candidates._native))
+        return of_arrays(self._native.evaluate(asked(candidates)._native))
 
     def tell(self, candidates: Candidates, evaluation: Evaluation) -> None:
         """Takes the results of the candidates of `ask`, which completes a generation.
@@ -155,14 +186,16 @@ class Search:
             ValueError: for results of other shapes, scores that are not finite numbers, or candidates of another
                 search or generation.
         """
-        size = len(candidates)
+        size = len(asked(candidates))
         for name, shape in (("outcome", (size,)), ("fitness", (size, 2)), ("displacement", (size, 4)),
                             ("behavior", (size,))):
-            found = np.shape(getattr(evaluation, name))
+            if not hasattr(evaluation, name):
+                raise TypeError(f"evaluation is of type {type(evaluation).__name__}, expected Evaluation")
+            found = np.shape(array_of(getattr(evaluation, name)))
             if found != shape:
                 raise ValueError(f"{name} has the shape {found}, expected {shape}")
-        numbers = (np.ascontiguousarray(evaluation.fitness, dtype=np.float64),
-                   np.ascontiguousarray(evaluation.displacement, dtype=np.float64))
+        numbers = (np.ascontiguousarray(array_of(evaluation.fitness), dtype=np.float64),
+                   np.ascontiguousarray(array_of(evaluation.displacement), dtype=np.float64))
         self._native.tell(candidates._native, letters(evaluation.outcome), *numbers, letters(evaluation.behavior))
 
     def step(self) -> None:
@@ -188,7 +221,8 @@ class Search:
     @property
     def archive(self) -> Archive:
         """The archive as it is now."""
-        return Archive(self._native.archive(), self.evolution.axes)
+        arrays, axes, materials = self._native.archive()
+        return Archive(arrays, axes_of(axes), json.loads(materials))
 
     def close(self) -> None:
         """Frees the search. Later calls raise ValueError."""
@@ -209,24 +243,30 @@ def evolve(
     Args:
         evolution: the declaration.
         seed: the seed of the run.
-        generations: stop when so many generations are done; by default those of the declaration.
-        checkpoint: a file to save to, and to resume from if it exists.
+        generations: run until so many generations are done, also if the declaration has fewer; by default those of the
+            declaration.
+        checkpoint: a file to save to, and to resume from if it exists. It is written before the first generation too.
         checkpoint_every: seconds between checkpoints.
         progress: whether to show a tqdm bar, or a function of the generations done and all generations.
 
     Raises:
         Interrupted: on Ctrl-C; its ``result`` is the search after its last complete generation, which is also saved.
-        NbcError: when the checkpoint is damaged, or belongs to another declaration or seed.
+        NbcError: when the checkpoint is damaged, belongs to another declaration or seed, or cannot be written, before
+            anything is simulated.
     """
-    if checkpoint is not None and os.path.exists(checkpoint):
-        search = Search.resume(checkpoint, evolution)
+    every, path = seconds(checkpoint_every, "checkpoint_every"), None if checkpoint is None else os.fspath(checkpoint)
+    most = None if generations is None else count(generations, "generations")
+    if path is not None and os.path.exists(path):
+        search = Search.resume(path, evolution)
         found = search.summary["seed"]
         if found != seed:
-            raise ValueError(f"`{os.fspath(checkpoint)}` belongs to seed {found}, expected seed {seed}")
+            raise ValueError(f"`{os.fsdecode(path)}` belongs to seed {found}, expected seed {seed}")
     else:
         search = Search(evolution, seed)
-    declared = int(search.summary["generations"])
-    most = declared if generations is None else min(declared, count(generations, "generations"))
+    if path is not None:
+        search.save(path)
+    if most is None:
+        most = int(search.summary["generations"])
     try:
         with reporting(progress, " generations") as report:
             saved = time.monotonic()
@@ -234,15 +274,15 @@ def evolve(
                 search.step()
                 if report is not None:
                     report(search.generation, most)
-                if checkpoint is not None and time.monotonic() - saved >= checkpoint_every:
-                    search.save(checkpoint)
+                if path is not None and time.monotonic() - saved >= every:
+                    search.save(path)
                     saved = time.monotonic()
     except KeyboardInterrupt:
-        if checkpoint is not None:
-            search.save(checkpoint)
+        if path is not None:
+            search.save(path)
         raise Interrupted(search) from None
-    if checkpoint is not None:
-        search.save(checkpoint)
+    if path is not None:
+        search.save(path)
     return search
 
 
@@ -253,5 +293,23 @@ def read_archive(path: Path) -> Archive:
         FileNotFoundError: when there is no such file.
         NbcError: when it is damaged.
     """
-    arrays, axes = _nbc.read_checkpoint(os.fspath(path))
-    return Archive(arrays, tuple(axes))
+    arrays, axes, materials = _nbc.read_checkpoint(os.fspath(path))
+    return Archive(arrays, axes_of(axes), json.loads(materials))
+
+
+def declaration(evolution: Evolution) -> Evolution:
+    """The argument, if it is an evolution."""
+    if not isinstance(evolution, Evolution):
+        raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
+    return evolution
+
+
+def asked(candidates: Candidates) -> Candidates:
+    """The argument, if it is what `Search.ask` returns."""
+    if not isinstance(candidates, Candidates):
+        raise TypeError(f"candidates is of type {type(candidates).__name__}, expected what `ask` returned")
+    return candidates
+
+
+def _copied(checkpoint: bytes, evolution: Evolution) -> Search:
+    return Search._of(_nbc.Search.from_bytes(checkpoint, evolution._native), evolution)

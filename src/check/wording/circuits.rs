@@ -28,6 +28,30 @@ pub(crate) enum CircuitError {
     DifferentPorts { circuits: [String; 2], first: Span },
     /// A test over all inputs with too many input bits.
     TooManyInputs { bits: usize, most: usize },
+    /// A test over all inputs of a circuit with memory.
+    AllInputsOfMemory { circuit: String },
+    /// Two tests of a circuit with the same title.
+    SameTitle { circuit: String, title: String, first: Span },
+    /// A start value of a net that a circuit drives whose start value is a parameter.
+    StartOfCall { net: String, circuit: String, start: Option<String>, edit: Option<StartEdit> },
+}
+
+/// The edits that move a start value from a net to the call that drives it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct StartEdit {
+    /// The `init` and its value.
+    pub(crate) init: Span,
+    /// The place and the text of the parameter, unless the call gives it already.
+    pub(crate) argument: Option<(Span, String)>,
+}
+
+impl From<StartEdit> for Fix {
+    fn from(StartEdit { init, argument }: StartEdit) -> Self {
+        let removed = Fix::remove(init, "the start value of the net");
+        let Some((span, text)) = argument else { return removed };
+        let moved = Edit { span, text };
+        Fix { title: "move the start value into the call".to_owned(), edits: [removed.edits, vec![moved]].concat() }
+    }
 }
 
 impl CircuitError {
@@ -86,6 +110,30 @@ impl CircuitError {
                 let message = format!("too many patterns to test: {bits} input bits");
                 Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most} bits"))
                     .with_help("test a narrower instance, or list rows")
+            }
+            Self::AllInputsOfMemory { circuit } => {
+                let message = format!("`{circuit}` has memory, so this test does not try all that it can do");
+                Diagnostic::new(Code::AllInputs, message, span, "every pattern is applied once, in one order")
+                    .with_help("list rows in the order that matters, with `^` for a rising edge of a clock")
+            }
+            Self::SameTitle { circuit, title, first } => {
+                let message = format!("two tests of `{circuit}` have the title \"{title}\"");
+                Diagnostic::new(Code::SameTitle, message, span, "this test")
+                    .with_label(first, "and this test")
+                    .with_help("give each its own title, so that results and reports can be told apart")
+            }
+            Self::StartOfCall { net, circuit, start, edit } => {
+                let start = start.as_deref().unwrap_or("…");
+                let message = format!("`init` does not set the start value of `{circuit}`, which drives `{net}`");
+                let help = match &edit {
+                    Some(StartEdit { argument: None, .. }) => {
+                        format!("remove `init {start}`; the parameter `start` is given already")
+                    }
+                    _ => format!("give it as a parameter: `{circuit}[start = {start}](…)`"),
+                };
+                Diagnostic::new(Code::StartValue, message, span, "this start value has no effect")
+                    .with_help(help)
+                    .with_fix(edit.map(Fix::from))
             }
             Self::Recursion { circuit, through } => {
                 let through = match through.is_empty() {

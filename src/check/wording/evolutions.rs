@@ -10,6 +10,12 @@ pub(crate) enum EvolutionError {
     SmallBox { columns: usize, rows: usize, least: usize },
     /// A palette without materials, or with too many.
     PaletteSize { materials: usize, most: usize },
+    /// A palette of materials that cannot move a body.
+    NoActuator { least: usize },
+    /// A schedule of another number of stimuli than the two of a behavior.
+    WrongStimuli { schedule: String, stimuli: usize },
+    /// A sensor of a stimulus that the schedule never gives; it gives others.
+    DeafSensor { material: String, stimulus: String, given: Vec<String> },
     /// A schedule that leaves out patterns of the two stimuli.
     MissingPatterns { schedule: String, missing: Vec<String> },
     /// A range without seeds, or with too many.
@@ -34,6 +40,23 @@ impl EvolutionError {
             Self::PaletteSize { materials, most } => {
                 let message = format!("palette has {}", counted(materials, "material"));
                 Diagnostic::new(Code::OutOfRange, message, span, format!("expected 1 to {most}"))
+            }
+            Self::NoActuator { least } => {
+                let label = format!("expected an actuator, because a body needs {least} of them");
+                Diagnostic::new(Code::Value, "no material is an actuator", span, label)
+                    .with_help("add one, for example `muscle` of the prelude")
+            }
+            Self::WrongStimuli { schedule, stimuli } => {
+                let noun = if stimuli == 1 { "stimulus" } else { "stimuli" };
+                let message = format!("the schedule `{schedule}` has {stimuli} {noun}");
+                Diagnostic::new(Code::Value, message, span, "expected two, the inputs of a robot")
+            }
+            Self::DeafSensor { material, stimulus, given } => {
+                let message = format!("the material `{material}` senses `{stimulus}`, which the schedule never gives");
+                let given = suggest::alternatives(&given, "and");
+                let label = format!("the schedule of this evolution gives {given}");
+                let help = format!("name a schedule with `{stimulus}` in `variable`, or materials that sense {given}");
+                Diagnostic::new(Code::Value, message, span, label).with_help(help)
             }
             Self::MissingPatterns { schedule, missing } => {
                 let names = suggest::alternatives(&missing, "or");

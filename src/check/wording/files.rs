@@ -1,6 +1,6 @@
 //! Files: those of the program, and folders of robots.
 
-use crate::diag::{Code, Diagnostic, Label, folder_error};
+use crate::diag::{Code, Diagnostic, Label, Suggestion, counted, folder_error};
 use crate::source::{FileError, Span};
 
 /// A file or folder that a program cannot use.
@@ -9,7 +9,7 @@ pub(crate) enum LoadError {
     /// A file without declarations.
     Empty { file: String },
     /// A file that cannot be read.
-    Unreadable { file: String, error: FileError },
+    Unreadable { file: String, error: FileError, meant: Suggestion },
     /// A file name without the extension of a program or of a circuit file.
     NotUsable { file: String },
     /// A circuit with a name that is not legal in the language.
@@ -24,6 +24,8 @@ pub(crate) enum LoadError {
     TooDeep { most: usize },
     /// Too many files.
     TooManyFiles { most: usize },
+    /// Errors and warnings of a file above the number that is shown.
+    MoreFaults { file: String, errors: usize, warnings: usize },
     /// Too much text.
     TooLarge { megabytes: usize },
     /// A folder that cannot be read.
@@ -40,9 +42,10 @@ impl LoadError {
                 Diagnostic::new(Code::Empty, format!("`{file}` declares nothing"), span, "expected a declaration")
                     .with_help("declare a circuit: `circuit inverter(a) -> (q) { q = not a }`")
             }
-            Self::Unreadable { file, error } => Diagnostic::unreadable(&file, &error)
+            Self::Unreadable { file, error, meant } => Diagnostic::unreadable(&file, &error)
                 .with_label(span, "used here")
-                .with_help("the path is relative to the file that uses it"),
+                .with_help("the path is relative to the file that uses it")
+                .with_suggestion(None, &meant),
             Self::NotUsable { file } => {
                 let message = format!("cannot use `{file}`: it is neither a program nor a circuit file");
                 let label = "expected a file name ending in .nb, .blif, .aig, .aag, .bench, .v or .sv";
@@ -74,6 +77,15 @@ impl LoadError {
             }
             Self::TooManyFiles { most } => too_large(format!("program has more than {most} files"), span),
             Self::TooLarge { megabytes } => too_large(format!("program is larger than {megabytes} MB"), span),
+            Self::MoreFaults { file, errors, warnings } => {
+                let more = |count, noun| (count > 0).then(|| counted(count, noun));
+                let more: Vec<_> =
+                    [more(errors, "more error"), more(warnings, "more warning")].into_iter().flatten().collect();
+                let verb = if errors + warnings == 1 { "is" } else { "are" };
+                let message = format!("{} in `{file}` {verb} not shown", more.join(" and "));
+                Diagnostic::new(Code::TooLarge, message, span, "the first one of them")
+                    .with_help("one fault may cause many others, so correct the first ones and check again")
+            }
             Self::UnreadableLibrary { folder, error } => library(&folder, folder_error(&error), span),
             Self::EmptyLibrary { folder } => library(&folder, "it contains no robot files (.yaml)", span),
         }

@@ -7,7 +7,7 @@ mod names;
 mod rows;
 mod values;
 
-pub(crate) use circuits::{CircuitError, OperandError, TableError};
+pub(crate) use circuits::{CircuitError, OperandError, StartEdit, TableError};
 pub(crate) use evolutions::EvolutionError;
 pub(crate) use files::{LoadError, at_use, of_translation};
 pub(crate) use names::NameError;

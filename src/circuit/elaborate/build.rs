@@ -196,6 +196,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             self.item(at as u32);
         }
         self.undriven();
+        self.contradicting_starts();
         self.total();
         (!self.failed).then_some(self.module)
     }

@@ -15,6 +15,7 @@ mod limits;
 mod loops;
 mod module;
 mod size;
+mod starts;
 mod table;
 mod unroll;
 mod width;
@@ -127,6 +128,11 @@ impl<'a> Inspector<'a> {
         let module = module?;
         self.0.look_for_loops(module);
         Some(self.0.columns(module))
+    }
+
+    /// Whether a circuit with numbers for its first parameters has memory, if it can be built.
+    pub fn has_memory(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> bool {
+        self.0.with_arguments(circuit, arguments, place).is_some_and(|module| self.0.has_memory(module))
     }
 
     /// Everything found.

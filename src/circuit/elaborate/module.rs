@@ -65,7 +65,7 @@ pub(super) struct Module {
     /// The nets: input ports, output ports, others.
     pub(super) nets: Vec<ModuleNet>,
     pub(super) sites: Vec<Site>,
-    /// Values before the first cycle.
+    /// Values before the first cycle, in order of the bits.
     pub(super) starts: Vec<(Bit, bool)>,
     /// The output bits, over the ports in order, the lowest bit of a port first.
     pub(super) output_bits: Vec<Bit>,
@@ -76,6 +76,12 @@ pub(super) struct Module {
 }
 
 impl Module {
+    /// The value of a bit before the first cycle, if it is given.
+    pub(super) fn start(&self, bit: Bit) -> Option<bool> {
+        let at = self.starts.binary_search_by_key(&bit, |(bit, _)| *bit).ok()?;
+        Some(self.starts[at].1)
+    }
+
     /// Makes the nets declared at a place its output.
     pub(super) fn show(&mut self, declared: Span) {
         let shown = self.nets.iter().filter(|net| net.span == declared);

@@ -133,6 +133,8 @@ pub(super) enum ElaborateError {
     Undriven { bits: String },
     /// A loop of names without a gate.
     DrivenByItself { net: String },
+    /// A net with another start value than the memory that drives it.
+    OtherStart { net: String },
     /// A feedback loop without a start value.
     NoStart { nets: Vec<String> },
     /// Circuits that are nested too deeply.
@@ -176,6 +178,13 @@ impl ElaborateError {
             Self::DrivenByItself { net } => {
                 Diagnostic::new(Code::Undriven, format!("`{net}` is driven only by itself"), span, "declared here")
                     .with_help("a loop needs a gate")
+            }
+            Self::OtherStart { net } => {
+                let message = format!("`{net}` cannot have this start value");
+                Diagnostic::new(Code::StartValue, message, span, "the memory that drives it starts with another value")
+                    .with_help(
+                        "remove the `init`, or let the circuit with the memory take its start value as a parameter",
+                    )
             }
             Self::NoStart { nets } => {
                 let message = format!("the loop through {} has no start value", suggest::alternatives(&nets, "and"));

@@ -73,7 +73,7 @@ fn draw(kind: &dyn PictureKind, subject: SubjectKind, order: &Order, context: &C
 
 fn draw_library(kind: &dyn PictureKind, order: &Order) -> Result<Drawing, Failure> {
     let what = &order.what;
-    let library = if what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(what))? };
+    let library = if what == "shipped" { store::shipped_library() } else { robots::robots_of(Path::new(what))? };
     let Some(behavior) = order.behavior else {
         return kind.of_library(&several::of_library(what, &library), order);
     };

@@ -5,6 +5,7 @@ use clap::builder::PossibleValuesParser;
 
 use crate::cli::Failure;
 use crate::cli::program::{CircuitArguments, RunsArguments};
+use crate::cli::robots::behavior;
 use crate::cli::wording::DrawError;
 use crate::model::{Behavior, CYCLE_STEPS, Schedule};
 use crate::report::{FRAMES_PER_CYCLE, Scheme};
@@ -25,8 +26,8 @@ pub struct Order {
     /// The cycle of a pose [default: the end of the schedule]
     #[arg(long, value_name = "CYCLE", value_parser = cycle, allow_negative_numbers = true)]
     pub(super) at: Option<f64>,
-    /// The best robot with this behavior, from a library or a run
-    #[arg(long, value_name = "BEHAVIOR")]
+    /// The best robot with this behavior, such as `RRRL` or its function `nand`, from a library or a run
+    #[arg(long, value_name = "BEHAVIOR", value_parser = behavior)]
     pub(super) behavior: Option<Behavior>,
     /// The two axes of a heat map: `voxels`, `active`, `sensory`, `behavior` [default: the first two]
     #[arg(long, value_name = "X,Y", value_delimiter = ',')]

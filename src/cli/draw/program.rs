@@ -2,7 +2,7 @@
 
 use crate::circuit::is_same_instance;
 use crate::cli::draw::order::Order;
-use crate::cli::run::{Ran, run_simulation, run_test};
+use crate::cli::run::{Ran, names_of_tests, run_simulation, run_test};
 use crate::cli::wording::DrawError;
 use crate::cli::{Failure, Interrupt};
 use crate::model::{CircuitTest, Instance};
@@ -70,6 +70,10 @@ impl Order {
 
 /// The first test of that title or circuit.
 fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, Failure> {
-    let unknown = || DrawError::UnknownTest { file: file.path.clone(), name: name.to_owned() };
+    let unknown = || DrawError::UnknownTest {
+        file: file.path.clone(),
+        name: name.to_owned(),
+        known: names_of_tests(file).into_iter().collect(),
+    };
     file.tests(name).next().ok_or_else(|| unknown().into())
 }

@@ -1,12 +1,11 @@
 //! The results of an evolution run: of one seed's folder, or of all seeds of a declaration.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::{One, Several};
-use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
+use crate::cli::run_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
 use crate::cli::wording::{DrawError, RunWarning};
 use crate::cli::{Context, Failure};
 use crate::model::Behavior;
@@ -16,32 +15,13 @@ use crate::store::Declared;
 
 /// Whether a folder is that of a run: of one seed, or of several.
 pub(in crate::cli) fn is_run(folder: &Path) -> bool {
-    !seeds(folder).is_empty()
-}
-
-/// The checkpoints of a run, in order of their seeds.
-fn seeds(folder: &Path) -> Vec<PathBuf> {
-    let own = folder.join(CHECKPOINT);
-    if own.is_file() {
-        return vec![own];
-    }
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let number = |path: &Path| path.file_name()?.to_str()?.strip_prefix("seed-")?.parse::<u64>().ok();
-    let mut seeds: Vec<(u64, PathBuf)> = entries
-        .filter_map(|entry| {
-            let path = entry.ok()?.path();
-            Some((number(&path)?, path.join(CHECKPOINT)))
-        })
-        .filter(|(_, checkpoint)| checkpoint.is_file())
-        .collect();
-    seeds.sort();
-    seeds.into_iter().map(|(_, checkpoint)| checkpoint).collect()
+    !checkpoints(folder).is_empty()
 }
 
 /// The results of the runs in a folder.
 pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<EvolutionResults, Failure> {
     let mut results: Option<EvolutionResults> = None;
-    for path in seeds(folder) {
+    for path in checkpoints(folder) {
         let Some(checkpoint) = read_checkpoint(&path)? else { continue };
         let (seed, progress) = (checkpoint.state.seed, path.with_file_name(PROGRESS));
         let bytes = read_progress(&progress)?;

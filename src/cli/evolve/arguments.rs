@@ -1,12 +1,14 @@
 //! The arguments of `nbc evolve`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::cli::device::DeviceArguments;
 use crate::cli::nats_access::QueueArguments;
 use crate::cli::timings::Timings;
+use crate::session::RUNS;
+use crate::store::ResultPlace;
 
 /// Evolve robots by the evolution declarations of a file
 #[derive(Args)]
@@ -16,7 +18,8 @@ Examples:
   nbc evolve library/evolve.nb --run gates5 one run of a file
   nbc evolve library/evolve.nb --resume     continue after an interruption
 
-Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.")]
+Ctrl-C, SIGTERM and SIGUSR1 write a checkpoint and end with status 4.
+Exit status: 0 done, 1 if no run found a robot, 2 bad input, 4 interrupted.")]
 pub struct EvolveArguments {
     /// The file with the declarations; without it, `gates` of the prelude
     pub(super) file: Option<PathBuf>,
@@ -29,9 +32,9 @@ pub struct EvolveArguments {
     /// Use this number of generations instead of the declared one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) generations: Option<u32>,
-    /// The folder for results
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    pub(super) out: PathBuf,
+    /// The folder for results [default: out]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
     /// Continue from the checkpoints in the folder; start runs without one
     #[arg(long)]
     pub(super) resume: bool,
@@ -50,4 +53,11 @@ pub struct EvolveArguments {
     pub(super) device: DeviceArguments,
     #[command(flatten)]
     pub(super) timings: Timings,
+}
+
+impl EvolveArguments {
+    /// The folder for the runs of a declaration, or for a part of their results.
+    pub(super) fn folder(&self, part: impl AsRef<Path>) -> ResultPlace {
+        ResultPlace::new(self.out.as_deref(), Path::new(RUNS), part)
+    }
 }

@@ -23,6 +23,8 @@ pub(super) struct MadeRun<'a> {
     pub(super) evolution: &'a Evolution,
     pub(super) seed: u64,
     pub(super) finished: bool,
+    /// Whether its archive has a robot.
+    pub(super) has_robots: bool,
     pub(super) ended: Ended,
     pub(super) summary: String,
     pub(super) champions: Vec<Champion>,
@@ -157,5 +159,6 @@ impl<'a> Campaign<'a> {
 
 fn made_run<'a>((evolution, seed): (&'a Evolution, u64), run: &EvolutionRun, finished: bool) -> MadeRun<'a> {
     let champions = run.archive_stats().champions;
-    MadeRun { evolution, seed, finished, ended: run.ended(finished), summary: run.summary(finished), champions }
+    let (ended, summary) = (run.ended(finished), run.summary(finished));
+    MadeRun { evolution, seed, finished, has_robots: run.has_robots(), ended, summary, champions }
 }

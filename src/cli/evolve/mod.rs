@@ -23,6 +23,7 @@ use crate::model::{Evolution, SearchObjective};
 use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
 use crate::session::{self, Session};
 use crate::sim::Simulator;
+use crate::source::Sources;
 use crate::store::{self, DiskWorld};
 use crate::swarm;
 
@@ -40,6 +41,9 @@ const SAMPLE: usize = 8;
 struct Results {
     runs: Vec<Ended>,
     comparisons: Vec<Comparison>,
+    /// Whether a run found a robot.
+    #[serde(skip)]
+    has_robots: bool,
 }
 
 /// The paper's comparison of behaviors over the runs of a declaration.
@@ -98,7 +102,8 @@ impl EvolveArguments {
         results: &mut Results,
         context: &mut Context,
     ) -> Result<(), Failure> {
-        let MadeRun { evolution, seed, finished, ended, summary, champions: found } = made;
+        let MadeRun { evolution, seed, finished, has_robots, ended, summary, champions: found } = made;
+        results.has_robots |= has_robots;
         champions.insert(seed, found);
         results.runs.push(ended);
         if context.format == OutputFormat::Text {
@@ -124,10 +129,10 @@ impl EvolveArguments {
 
     /// Writes the page of a declaration's runs beside their folders.
     fn write_report(&self, evolution: &Evolution, context: &mut Context) -> Result<(), Failure> {
-        let folder = self.out.join(&evolution.name);
+        let folder = self.folder(&evolution.name).path();
         let path = folder.join("report.html");
         let page = run_page(&read_run(&folder, context)?, Scheme::default());
-        store::write(&path, page.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
+        store::write_result(&path, page.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
         if context.format == OutputFormat::Text {
             context.print(format_args!("report  {}\n", path.display()))?;
         }
@@ -139,6 +144,10 @@ impl Results {
     fn end(&self, context: &mut Context, status: Status) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
             context.print_json(Schema::Evolve, self)?;
+        }
+        if status == Status::Done && !self.has_robots {
+            context.tell(&[SubjectError::NoRobotFound.into()], &Sources::default());
+            return Ok(Status::TestFailed);
         }
         Ok(status)
     }

@@ -64,8 +64,8 @@ impl<'a> EvolutionRun<'a> {
         timer: &'a Timer,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let folder = arguments.out.join(&evolution.name).join(format!("seed-{seed}"));
-        store::create_folder(&folder).map_err(|error| Failure::unwritable(&folder, &error))?;
+        let folder = arguments.folder(Path::new(&evolution.name).join(format!("seed-{seed}")));
+        let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
         let _lock = store::lock_folder(&folder).map_err(|fault| not_ours(&folder, fault))?;
         let path = folder.join(CHECKPOINT);
         let (search, work) = match read_checkpoint(&path)? {
@@ -94,6 +94,11 @@ impl<'a> EvolutionRun<'a> {
         };
         run.trim_progress(context)?;
         Ok(run)
+    }
+
+    /// Whether the archive has a robot.
+    pub(super) fn has_robots(&self) -> bool {
+        self.search.archive().elites().next().is_some()
     }
 
     /// Generations done.
@@ -145,7 +150,8 @@ impl<'a> EvolutionRun<'a> {
 
     fn save(&self) -> Result<(), Failure> {
         let path = self.folder.join(CHECKPOINT);
-        Checkpoint::save(&path, &self.search, self.work.env_steps, self.work.left_out).map_err(Failure::plain)
+        let bytes = Checkpoint::print(&self.search, self.work.env_steps, self.work.left_out);
+        store::write_result(&path, &bytes).map_err(|error| Failure::unwritable(&path, &error))
     }
 
     fn append(&self, line: &EvolutionLine) -> Result<(), Failure> {
@@ -158,8 +164,9 @@ impl<'a> EvolutionRun<'a> {
     /// Drops the lines of generations after the checkpoint, which will be made again. A damaged file is set aside and
     /// reported.
     fn trim_progress(&self, context: &Context) -> Result<(), Failure> {
-        let write =
-            |path: &Path, bytes: &[u8]| store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error));
+        let write = |path: &Path, bytes: &[u8]| {
+            store::write_result(path, bytes).map_err(|error| Failure::unwritable(path, &error))
+        };
         let path = self.folder.join(PROGRESS);
         let bytes = read_progress(&path)?;
         let text = String::from_utf8_lossy(&bytes);

@@ -1,6 +1,6 @@
 //! `nbc library add`: the best gates of evolution runs as robot files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,32 +10,34 @@ use serde::Serialize;
 use crate::cli::device::DeviceArguments;
 use crate::cli::laboratory::OpenLaboratory;
 use crate::cli::nats_access::QueueArguments;
-use crate::cli::run_folder::{CHECKPOINT, read_checkpoint};
+use crate::cli::robots::behavior;
+use crate::cli::run_folder::{CHECKPOINT, checkpoints, read_checkpoint};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
 use crate::evolve::Elite;
 use crate::model::{Behavior, Fault, FaultKind, Provenance, Robot};
 use crate::report::{Answer, Schema};
-use crate::store::{self, Checkpoint};
+use crate::store::{self, Checkpoint, ResultPlace};
 use crate::swarm::{Nominee, Selected, Selection};
 
 /// Measure the best gates of evolution runs and write them as robot files
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc library add out/gates5/seed-1 --into library/robots --behavior RRRL --behavior RRLL
-  nbc library add out/gates5/seed-* --into robots --max-error 0.01
+  nbc library add out/gates5 --into robots --max-error 0.01     the runs of all seeds
+  nbc library add out/gates5/seed-1 --into robots --behavior not
 
 The output shows for each behavior the robot that was added, or why there is none.
 Exit status: 0 done, 1 if there is no robot for a behavior named by --behavior, or none at all, 2 bad input.")]
 pub struct AddArguments {
-    /// Folders of runs, each with a checkpoint
+    /// Folders of runs, each of one seed or of all seeds of an evolution
     #[arg(required = true)]
     runs: Vec<PathBuf>,
     /// The folder for robot files
     #[arg(long, value_name = "DIR")]
     into: PathBuf,
-    /// Add only this behavior; may be given several times
-    #[arg(long, value_name = "BEHAVIOR")]
+    /// Add only this behavior, such as `RRRL` or its function `nand`; may be given several times
+    #[arg(long, value_name = "BEHAVIOR", value_parser = behavior)]
     behavior: Vec<Behavior>,
     /// Number of elites of each behavior that are screened
     #[arg(long, value_name = "N", default_value = "8", value_parser = clap::value_parser!(u32).range(1..))]
@@ -65,9 +67,10 @@ impl AddArguments {
     /// # Errors
     /// When a run has no checkpoint, the server cannot be used, or a file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        store::create_folder(&self.into).map_err(|error| Failure::unwritable(&self.into, &error))?;
         let selection = self.selection();
         let asked = self.asked(&selection)?;
+        let into = ResultPlace::new(Some(&self.into), &self.into, "");
+        into.probe().map_err(|error| Failure::unwritable(&self.into, &error))?;
         let work = asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum();
         let bar = Arc::new(Progress::new("measuring", work));
         let laboratory = OpenLaboratory::open(self.device, &self.queue, &bar, context)?;
@@ -111,6 +114,19 @@ impl AddArguments {
         Ok(if missed { Status::TestFailed } else { Status::Done })
     }
 
+    /// The checkpoints of the runs, each once.
+    fn checkpoints(&self) -> Result<BTreeSet<PathBuf>, Failure> {
+        let mut found = BTreeSet::new();
+        for folder in &self.runs {
+            let seeds = checkpoints(folder);
+            if seeds.is_empty() {
+                return Err(missing(&folder.join(CHECKPOINT)));
+            }
+            found.extend(seeds);
+        }
+        Ok(found)
+    }
+
     fn selection(&self) -> Selection {
         Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error: self.max_error }
     }
@@ -120,8 +136,7 @@ impl AddArguments {
         let is_asked = |behavior: &Behavior| self.behavior.is_empty() || self.behavior.contains(behavior);
         let mut nominees: BTreeMap<Behavior, Vec<Nominee>> =
             Behavior::all().filter(is_asked).map(|behavior| (behavior, Vec::new())).collect();
-        for folder in &self.runs {
-            let path = folder.join(CHECKPOINT);
+        for path in self.checkpoints()? {
             let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
             for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
                 if let Some(found) = nominees.get_mut(&elite.behavior) {
@@ -155,7 +170,9 @@ fn provenance(checkpoint: &Checkpoint, elite: &Elite) -> Provenance {
 
 fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {
     let path = folder.join(format!("{}.yaml", robot.name));
-    store::write(&path, store::print_robot(robot).as_bytes()).map_err(|error| Failure::unwritable(&path, &error))
+    let text = store::print_robot(robot);
+    let written = store::create_folder(folder).and_then(|()| store::write_result(&path, text.as_bytes()));
+    written.map_err(|error| Failure::unwritable(&path, &error))
 }
 
 fn missing(path: &Path) -> Failure {

@@ -5,13 +5,13 @@ mod radius;
 mod rewrite;
 mod verify;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
 use crate::cli::device::DeviceArguments;
 use crate::cli::nats_access::QueueArguments;
-use crate::cli::robots::{find, robots};
+use crate::cli::robots::{named, robots_of};
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::model::{Library, Robot};
 use crate::report::{self, Listing, Schema};
@@ -19,7 +19,12 @@ use crate::store;
 
 /// List, show, verify, add and rewrite robots
 #[derive(Args)]
-#[command(after_help = "Example:\n  nbc library show nand")]
+#[command(after_help = "\
+Examples:
+  nbc library list                      the built-in robots
+  nbc library list out/gates/robots     those of a folder
+  nbc library show nand
+  nbc library show nand out/gates/robots")]
 pub struct LibraryArguments {
     #[command(subcommand)]
     action: Action,
@@ -29,12 +34,17 @@ pub struct LibraryArguments {
 enum Action {
     Add(add::AddArguments),
     /// List all robots, best first within each function
-    List,
+    List {
+        /// A robot file, or a folder of them, instead of the built-in library
+        path: Option<PathBuf>,
+    },
     Rewrite(rewrite::RewriteArguments),
     /// Show one robot
     Show {
-        /// The name of a robot, or a function such as `nand` for its best robot
+        /// The name of a robot, a function such as `nand` for its best robot, or a robot file
         name: String,
+        /// A folder of robot files, instead of the built-in library
+        path: Option<PathBuf>,
     },
     /// Simulate all robots again and compare them with their files
     Verify {
@@ -55,14 +65,14 @@ impl LibraryArguments {
     /// # Errors
     /// When the output cannot be written, or no robot has the name.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let library = store::shipped_library();
+        let library = |path: Option<&Path>| path.map_or_else(|| Ok(store::shipped_library()), robots_of);
         match self.action {
             Action::Add(arguments) => arguments.run(context),
-            Action::List => list(&library, context),
+            Action::List { path } => list(&library(path.as_deref())?, context),
             Action::Rewrite(arguments) => arguments.run(context),
-            Action::Show { name } => show(find(&library, &name)?, context),
+            Action::Show { name, path } => show(&named(&name, path.as_deref())?, context),
             Action::Verify { path, radius, device, queue } => {
-                let library = path.as_ref().map_or(Ok(library), |path| robots(path))?;
+                let library = library(path.as_deref())?;
                 match radius.sample() {
                     Some(sample) => radius.run(&library, path.as_deref(), sample, context),
                     None => verify::verify(&library, device, &queue, context),

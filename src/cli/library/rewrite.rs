@@ -6,11 +6,12 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::robots::robot_paths;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use crate::diag::Diagnostic;
 use crate::report::Schema;
 use crate::source::Sources;
-use crate::store;
+use crate::store::{self, DiskWorld};
 
 /// Convert robot files to the newest format
 #[derive(Args)]
@@ -36,7 +37,11 @@ impl RewriteArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut files = Vec::new();
         for path in &self.paths {
-            for path in robot_paths(path)? {
+            let found = robot_paths(path)?;
+            if found.is_empty() {
+                return Err(UsageError::NoRobots { path: path.display().to_string() }.into());
+            }
+            for path in found {
                 let (old, new) = texts(&path)?;
                 files.push((path, old != new, new));
             }
@@ -60,7 +65,7 @@ impl RewriteArguments {
 fn texts(path: &Path) -> Result<(String, String), Failure> {
     let name = path.display().to_string();
     let old = store::read_text(path, store::MAX_ROBOT_BYTES)
-        .map_err(|error| Failure::plain(Diagnostic::unreadable(&name, &error)))?;
+        .map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &name, &error)))?;
     let mut sources = Sources::default();
     let id = sources.add(&name, old.as_str());
     match store::read_robot(sources.file(id)) {

@@ -61,10 +61,10 @@ fn named(name: &str) -> Uri {
 
 /// A text of the program as a file that editors can open. If it cannot be written, there is nothing to lead to.
 pub(super) fn readable(name: &str, text: &str) -> String {
-    let folder = std::env::temp_dir().join(format!("nbc-{}", env!("CARGO_PKG_VERSION")));
+    let Ok(folder) = store::temporary_folder() else { return name.to_owned() };
     let path = folder.join(name);
     if std::fs::read_to_string(&path).ok().as_deref() != Some(text) {
-        let _ = store::create_folder(&folder).and_then(|()| store::write(&path, text.as_bytes()));
+        let _ = store::write(&path, text.as_bytes());
     }
     path.to_string_lossy().into_owned()
 }

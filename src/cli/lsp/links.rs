@@ -16,7 +16,7 @@ pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {
     let named = declarations.filter_map(|declaration| match &declaration.kind {
         DeclarationKind::Use(path) => Some((path.text.as_str(), path.span)),
         DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => {
-            let from = record.record.fields.iter().find(|field| field.name.text == "from")?;
+            let from = record.record.field("from")?;
             match &from.value.kind {
                 ValueKind::Text(folder) => Some((folder.as_str(), from.value.span)),
                 _ => None,

@@ -5,7 +5,7 @@ use gen_lsp_types::{SemanticToken, SemanticTokens, SemanticTokensLegend};
 use crate::check::{NameKind, NameUse};
 use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
-use crate::cli::lsp::tokens::{Token, TokenKind, tokens};
+use crate::cli::lsp::tokens::{EditorToken, EditorTokenKind, tokens};
 use crate::source::{FileId, Span};
 use crate::syntax::KEYWORDS;
 
@@ -75,16 +75,16 @@ fn meaning(
     file: FileId,
     uses: &[NameUse],
     text: &str,
-    token: &Token,
+    token: &EditorToken,
     next: &str,
 ) -> Option<(&'static str, u32)> {
     let word = &text[token.range.clone()];
     match token.kind {
-        TokenKind::Comment => Some(("comment", 0)),
-        TokenKind::Quoted => Some(("string", 0)),
-        TokenKind::Number => Some(("number", 0)),
-        TokenKind::Sign => "+-=<>!*/%|".contains(&word[..1]).then_some(("operator", 0)),
-        TokenKind::Word => {
+        EditorTokenKind::Comment => Some(("comment", 0)),
+        EditorTokenKind::Quoted => Some(("string", 0)),
+        EditorTokenKind::Number => Some(("number", 0)),
+        EditorTokenKind::Sign => word.starts_with(|sign| "+-=<>!*/%|".contains(sign)).then_some(("operator", 0)),
+        EditorTokenKind::Word => {
             let place = Span::new(file, token.range.start, token.range.end);
             match uses.binary_search_by_key(&place, |found| found.place) {
                 Ok(at) => Some(of_name(files, uses[at])),

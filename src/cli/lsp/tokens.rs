@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// The kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum TokenKind {
+pub(super) enum EditorTokenKind {
     /// A name or a keyword.
     Word,
     /// Digits, or a constant with its width.
@@ -19,8 +19,8 @@ pub(super) enum TokenKind {
 
 /// A token and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Token {
-    pub(super) kind: TokenKind,
+pub(super) struct EditorToken {
+    pub(super) kind: EditorTokenKind,
     pub(super) range: Range<usize>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Token {
 const PAIRS: [&str; 7] = ["->", "==", "!=", "<=", ">=", "..", "**"];
 
 /// The tokens of a text, in order.
-pub(super) fn tokens(text: &str) -> Vec<Token> {
+pub(super) fn tokens(text: &str) -> Vec<EditorToken> {
     let mut tokens = Vec::new();
     let mut at = 0;
     while let Some(first) = text[at..].chars().next() {
@@ -37,30 +37,30 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
             continue;
         }
         let (kind, length) = token(&text[at..], first);
-        tokens.push(Token { kind, range: at..at + length });
+        tokens.push(EditorToken { kind, range: at..at + length });
         at += length;
     }
     tokens
 }
 
 /// The token at a byte, or the word that ends there.
-pub(super) fn at(tokens: &[Token], offset: usize) -> Option<&Token> {
+pub(super) fn at(tokens: &[EditorToken], offset: usize) -> Option<&EditorToken> {
     let next = tokens.partition_point(|token| token.range.start <= offset);
     let token = tokens[..next].last()?;
-    let ends_here = token.range.end == offset && matches!(token.kind, TokenKind::Word | TokenKind::Number);
+    let ends_here = token.range.end == offset && matches!(token.kind, EditorTokenKind::Word | EditorTokenKind::Number);
     (offset < token.range.end || ends_here).then_some(token)
 }
 
-fn token(rest: &str, first: char) -> (TokenKind, usize) {
+fn token(rest: &str, first: char) -> (EditorTokenKind, usize) {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let run = |is: &dyn Fn(char) -> bool| rest.find(|c| !is(c)).unwrap_or(rest.len());
     match first {
-        _ if rest.starts_with("//") => (TokenKind::Comment, rest.find(['\n', '\r']).unwrap_or(rest.len())),
-        '"' => (TokenKind::Quoted, quoted(rest)),
-        c if c.is_ascii_digit() => (TokenKind::Number, number(rest, run(&|c| is_word(c) || c == '\''))),
-        c if is_word(c) => (TokenKind::Word, run(&is_word)),
-        _ if PAIRS.iter().any(|pair| rest.starts_with(pair)) => (TokenKind::Sign, 2),
-        c => (TokenKind::Sign, c.len_utf8()),
+        _ if rest.starts_with("//") => (EditorTokenKind::Comment, rest.find(['\n', '\r']).unwrap_or(rest.len())),
+        '"' => (EditorTokenKind::Quoted, quoted(rest)),
+        c if c.is_ascii_digit() => (EditorTokenKind::Number, number(rest, run(&|c| is_word(c) || c == '\''))),
+        c if is_word(c) => (EditorTokenKind::Word, run(&is_word)),
+        _ if PAIRS.iter().any(|pair| rest.starts_with(pair)) => (EditorTokenKind::Sign, 2),
+        c => (EditorTokenKind::Sign, c.len_utf8()),
     }
 }
 

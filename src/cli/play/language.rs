@@ -44,9 +44,12 @@ pub(super) async fn serve(served: Arc<Served>, mut socket: WebSocket) {
 /// A message of the page. Whatever folders it names, it works in the served one.
 fn read(text: &str, served: &Served) -> Option<Message> {
     let mut value: Value = serde_json::from_str(text).ok()?;
-    if value["method"] == "initialize" {
-        value["params"]["rootUri"] = json!(served.root);
-        value["params"]["workspaceFolders"] = json!([{ "uri": served.root, "name": "play" }]);
+    // The language server answers other parameters with an error.
+    if value["method"] == "initialize"
+        && let Some(params) = value["params"].as_object_mut()
+    {
+        params.insert("rootUri".to_owned(), json!(served.root));
+        params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.root, "name": "play" }]));
     }
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return None;

@@ -236,7 +236,7 @@ impl Shown {
     fn cycle(&mut self) -> Option<String> {
         let now = self.now();
         if let Some((bit, half, last)) = &mut self.clock
-            && now >= *last + *half
+            && now >= last.saturating_add(*half)
         {
             self.inputs[*bit] = !self.inputs[*bit];
             *last = now;

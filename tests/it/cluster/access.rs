@@ -12,6 +12,7 @@ use serde_json::{Map, Value, json};
 use crate::cluster::server::Server;
 use crate::cluster::{Running, assert_same, bench};
 use crate::schemas::validate;
+use crate::tools::OPENSSL;
 
 #[test]
 fn servers_that_cannot_be_used_are_named_without_the_password() {
@@ -105,6 +106,9 @@ fn issue_certificates(folder: &Path) {
 #[test]
 fn a_server_with_tls_is_used_only_if_its_certificate_is_trusted() {
     let bench = bench();
+    if !OPENSSL.is_there() {
+        return;
+    }
     issue_certificates(bench.path());
     let path = |name: &str| bench.path().join(name).display().to_string();
     let options = ["--tls", "--tlscert", &path("server.pem"), "--tlskey", &path("server-key.pem")];

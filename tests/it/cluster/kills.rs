@@ -30,7 +30,7 @@ fn two_workers_that_are_both_killed_once_give_the_bytes_of_a_run_alone() {
     assert!(ran.err.contains("keeps about 30 cores busy\n"), "{}", ran.err);
     assert_same(&bench, &ran);
     for left in [third, fourth] {
-        left.signal("-TERM");
+        left.signal("TERM");
         let ran = left.end();
         assert_eq!(ran.status, 0, "{}", ran.err);
         assert!(ran.err.contains(" evaluations\n"), "{}", ran.err);
@@ -101,7 +101,7 @@ fn an_interrupted_search_can_be_resumed_alone() {
     let _worker = worker(&bench, &server, "steady");
     let search = evolve(&bench, &server, &[]);
     (0..60).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("steady")));
-    search.signal("-TERM");
+    search.signal("TERM");
     let ran = search.end();
     assert_eq!(ran.status, 4, "{}", ran.err);
     assert!(ran.out.contains("interrupted; `--resume` continues the run"), "{}", ran.out);

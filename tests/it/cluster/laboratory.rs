@@ -101,7 +101,7 @@ fn a_signal_stops_what_workers_do() {
         let mut wire = Wire::open(&server);
         let working = Running::start(&bench, &[command, &["--nats", &server.url()]].concat());
         wire.wait_for(|message| message.subject.starts_with("nbc.v1.task."));
-        working.signal("-TERM");
+        working.signal("TERM");
         let ran = working.end();
         assert_eq!((ran.status, &*ran.out), (4, out), "{}", ran.err);
     }

@@ -1,12 +1,13 @@
 //! `nbc workers`.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{bench, evolve, worker};
 use crate::schemas::validate;
+use crate::tools;
 
 #[test]
 fn workers_and_searches_are_listed() {
@@ -43,6 +44,6 @@ fn a_watch_prints_a_line_of_json_again_and_again_until_a_signal_arrives() {
         let found = validate("workers", &lines.next().unwrap().unwrap());
         assert_eq!(found["workers"].as_array().unwrap().len(), 0);
     }
-    assert!(Command::new("kill").args(["-INT", &watch.id().to_string()]).status().unwrap().success());
+    tools::signal("INT", watch.id());
     assert_eq!(watch.wait().unwrap().code(), Some(0));
 }

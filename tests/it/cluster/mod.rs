@@ -24,6 +24,7 @@ use std::time::Duration;
 
 use crate::cli::{Bench, Ran};
 use crate::cluster::server::Server;
+use crate::tools;
 
 const SMALL: &str = "\
 evolution small { box: 3 x 3, variable: short, fixed: 1 cycles, batch: 8, generations: 12, seed: 1..3 }
@@ -79,7 +80,7 @@ impl Running {
     }
 
     fn signal(&self, name: &str) {
-        assert!(Command::new("kill").args([name, &self.child.id().to_string()]).status().unwrap().success());
+        tools::signal(name, self.child.id());
     }
 
     /// `kill -9`.

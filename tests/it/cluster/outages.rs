@@ -10,6 +10,7 @@ use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
+use crate::tools::skip;
 
 /// Runs a command of the system; whether it succeeded.
 fn succeeds(line: &str) -> bool {
@@ -42,7 +43,7 @@ impl Namespace {
         ];
         for step in steps {
             if !succeeds(&step) {
-                eprintln!("skipped: `{step}` fails; this test needs root and `ip netns`");
+                skip(format_args!("`{step}` fails"), "run it as root, with `ip` (apt-get install iproute2)");
                 return None;
             }
         }
@@ -115,7 +116,7 @@ impl<'a> SmallDisk<'a> {
         if succeeds(&format!("mount -t tmpfs -o size=8m tmpfs {}", folder.display())) {
             return Some(Self(folder));
         }
-        eprintln!("skipped: `mount -t tmpfs` fails; this test needs root");
+        skip("`mount -t tmpfs` fails", "run it as root");
         None
     }
 }

@@ -53,7 +53,7 @@ impl Site {
     /// A shell that runs a script with the programs of this folder.
     fn shell(&self, script: &str, variables: &[(&str, &str)]) -> Running {
         let path = format!("{}:{}", self.programs.display(), std::env::var("PATH").unwrap());
-        let mut command = Command::new("bash");
+        let mut command = Command::new("sh");
         command.args(["-ec", script]).env("PATH", path).env("RAYON_NUM_THREADS", "1").envs(variables.iter().copied());
         Running::spawn(command.current_dir(self.bench.path()))
     }
@@ -64,7 +64,7 @@ impl Drop for Site {
         for process in fs::read_to_string(self.bench.path().join("started")).unwrap_or_default().lines() {
             // Its number may belong to another process by now.
             if fs::read_link(format!("/proc/{process}/exe")).is_ok_and(|path| path == Path::new(PROGRAM)) {
-                let _ = Command::new("kill").args(["-9", process]).status();
+                let _ = Command::new("sh").args(["-c", &format!("kill -9 {process}")]).status();
             }
         }
     }
@@ -121,7 +121,7 @@ fn a_slurm_array() {
     wire.wait_for(|message| message.subject.starts_with("nbc.v1.answer."));
     // Slurm ends the first job early.
     let [first, second] = jobs;
-    first.signal("-TERM");
+    first.signal("TERM");
     assert_eq!(first.end().status, 0);
     assert_same(&site.bench, &search.end());
     drop(second);

@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::tools::NATS_SERVER;
+
 /// The server, which is killed when it is dropped.
 pub struct Server {
     port: u16,
@@ -30,10 +32,7 @@ impl Server {
 
     /// As [`Server::start`], with its data in a folder.
     pub fn start_in(folder: TempDir, store: PathBuf, options: &[&str]) -> Option<Self> {
-        if Command::new("nats-server").arg("--version").stdout(Stdio::null()).status().is_err() {
-            eprintln!("skipped: `nats-server` is not installed (apt-get install nats-server)");
-            return None;
-        }
+        NATS_SERVER.find()?;
         let options: Vec<String> = options.iter().map(|&option| option.to_owned()).collect();
         // The server chooses its port: one that was free a moment ago may be taken.
         let child = spawn("-1", &folder, &store, &options);

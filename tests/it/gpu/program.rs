@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::cli::{Bench, Ran};
-use crate::gpu::device;
+use crate::gpu::{device, first_device};
 use crate::schemas::validate;
 
 const RUNS: &str = "\
@@ -94,7 +94,7 @@ fn a_device_that_is_not_there_is_reported() {
     let auto = without_drivers(&bench, &simulate("auto"));
     assert_eq!((auto.status, &auto.out), (0, &bench.run(&simulate("cpu")).out));
     bench.run(&simulate("cuda")).expect_fault(&["expected cpu, gpu, auto, or a device such as gpu:1"]);
-    if device().is_some() {
+    if first_device().is_some() {
         bench.run(&simulate("gpu:99")).expect_fault(&["there is no device `gpu:99`", "`nbc devices` lists them"]);
     }
 }

@@ -1,5 +1,6 @@
 //! Real editors with their own clients.
 
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
@@ -8,6 +9,7 @@ use crate::cli::Bench;
 use crate::language::root;
 use crate::lsp::client::at;
 use crate::manual::fences;
+use crate::tools::{EMACS, NEOVIM};
 
 /// The circuit that a user asks about.
 const NAME: &str = "d_latch";
@@ -23,8 +25,7 @@ fn latch() -> (Bench, String, usize) {
 
 /// What an editor wrote of what it found.
 fn run(bench: &Bench, editor: &mut Command) -> Value {
-    let output = editor.current_dir(bench.path()).stdin(Stdio::null()).output();
-    let output = output.unwrap_or_else(|error| panic!("install {:?}: {error}", editor.get_program()));
+    let output = editor.current_dir(bench.path()).stdin(Stdio::null()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let found = std::fs::read(bench.path().join("found.json"));
     serde_json::from_slice(&found.unwrap_or_else(|_| panic!("{output:?}"))).unwrap()
@@ -43,16 +44,13 @@ fn expect_no_picture(found: &Value) {
     assert!(robot.contains("| nand | `") && !robot.contains("data:image"), "{robot}");
 }
 
-/// Needs `nvim`; set `NBC_WITHOUT_NEOVIM` where there is none.
 #[test]
 fn neovim_hovers_goes_to_definitions_renames_and_formats() {
-    if std::env::var_os("NBC_WITHOUT_NEOVIM").is_some() {
-        return;
-    }
+    let Some(neovim) = NEOVIM.find() else { return };
     let (bench, text, used) = latch();
     let place = at(&text, &text[used..]);
     let script = root().join("tests/it/neovim.lua");
-    let mut editor = Command::new("nvim");
+    let mut editor = Command::new(neovim);
     editor
         .args(["--headless", "-u", "NONE", "-n", "-c", &format!("luafile {}", script.display())])
         .env("NBC", env!("CARGO_BIN_EXE_nbc"))
@@ -74,18 +72,27 @@ fn neovim_hovers_goes_to_definitions_renames_and_formats() {
     assert!(found["signature"].as_str().unwrap().contains("memory(d, e) -> (q, nq)"), "{found}");
 }
 
-/// Needs `emacs` with eglot; set `NBC_WITHOUT_EMACS` where there is none. It is configured as the manual says.
+/// Emacs with eglot.
+fn emacs() -> Option<PathBuf> {
+    let emacs = EMACS.find()?;
+    let eglot = Command::new(&emacs).args(["--batch", "-f", "package-initialize", "-l", "eglot"]).output().unwrap();
+    if !eglot.status.success() {
+        EMACS.skip();
+        return None;
+    }
+    Some(emacs)
+}
+
+/// It is configured as the manual says.
 #[test]
 fn emacs_hovers_goes_to_definitions_renames_and_formats() {
-    if std::env::var_os("NBC_WITHOUT_EMACS").is_some() {
-        return;
-    }
+    let Some(emacs) = emacs() else { return };
     let (bench, text, used) = latch();
     bench.file("init.el", configuration("elisp"));
     let program = std::path::Path::new(env!("CARGO_BIN_EXE_nbc")).parent().unwrap();
     let before = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([program.into()].into_iter().chain(std::env::split_paths(&before))).unwrap();
-    let mut editor = Command::new("emacs");
+    let mut editor = Command::new(emacs);
     editor
         .args(["--batch", "--no-site-file", "-l", "init.el", "-l"])
         .arg(root().join("tests/it/emacs.el"))

@@ -154,7 +154,8 @@ fn client_with_temporary_files(bench: &Bench) -> Client {
 fn results_end_with_their_server_and_those_of_dead_servers_are_removed() {
     let (bench, temporary) = (Bench::new(), Bench::new());
     let (uri, text) = file(&bench, "a.nb", TESTED);
-    let all = temporary.path().join(format!("nbc-{}", env!("CARGO_PKG_VERSION")));
+    let user = std::os::unix::fs::MetadataExt::uid(&std::fs::metadata(temporary.path()).unwrap());
+    let all = temporary.path().join(format!("nbc-{}-{user}", env!("CARGO_PKG_VERSION")));
     let kept = ["results-x", "other", "prelude.nb"].map(|name| all.join(name));
     for folder in ["results-4194305/a_nb", "results-x", "other"] {
         std::fs::create_dir_all(all.join(folder)).unwrap();

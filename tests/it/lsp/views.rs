@@ -136,7 +136,7 @@ fn a_selection_grows_from_the_word_to_the_file() {
 fn every_token_has_its_meaning() {
     let bench = Bench::new();
     let text = "// é\nuse \"half.nb\"\ncircuit f[n = 2](a[n]) -> (q) {\n    (q, _) = half(a[0], a[1])\n}\n\
-                swarm s { circuit: f }\n";
+                swarm s { circuit: f }\né\n";
     file(&bench, "half.nb", HALF);
     let (uri, text) = file(&bench, "a.nb", text);
     let mut client = Client::start();

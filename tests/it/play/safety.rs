@@ -52,7 +52,7 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
     let mut page = server.page();
     for path in ["../secret.nb", "/etc/passwd", "inner/../../secret.nb"] {
         let refused = page.ask(json!({ "do": "read", "path": path })).unwrap_err();
-        assert!(refused["message"].as_str().unwrap().ends_with("it is outside of the served folder"), "{refused}");
+        assert!(refused["message"].as_str().unwrap().ends_with("it is outside of the folder"), "{refused}");
     }
     let refused = page.ask(json!({ "do": "save", "path": "../new.nb", "text": "", "stamp": null })).unwrap_err();
     assert!(refused["message"].as_str().unwrap().contains("outside"), "{refused}");
@@ -62,7 +62,7 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
     assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("outside"), "{program}");
     fs::write(folder.path().join("inner/a.v"), "module a(input b, output c);\n`include \"../secret.nb\"\n").unwrap();
     let program = page.done(json!({ "do": "program", "path": "a.nb", "text": "use \"a.v\"" }));
-    assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("`include`"), "{program}");
+    assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("outside of the folder"), "{program}");
 }
 
 #[test]

@@ -115,6 +115,9 @@ fn a_clock_changes_an_input_by_itself_and_a_swarm_runs_at_its_pace() {
     page.frame(|frame| !frame.runs);
     page.done(json!({ "do": "view", "robots": [3, 1, 3, 9] }));
     assert_eq!(page.frame(|frame| frame.shown == 2).poses()[..2], [1, 0]);
+    page.done(json!({ "do": "clock", "bit": 1, "half": u32::MAX }));
+    let [before, after] = [1, 3].map(|cycles| steps(&mut page, cycles));
+    assert_eq!(after.now, before.now + 3);
 }
 
 #[test]

@@ -12,7 +12,7 @@ mod waves;
 use crate::check::{NameKind, NameUse};
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::spot::Spot;
-use crate::cli::lsp::tokens::{self, TokenKind};
+use crate::cli::lsp::tokens::{self, EditorTokenKind};
 use crate::model::Operator;
 use crate::session::Session;
 use crate::source::Span;
@@ -38,8 +38,8 @@ pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option
     let token = tokens::at(&tokens, spot.offset)?;
     let word = &text[token.range.clone()];
     let shown = match token.kind {
-        TokenKind::Number => constant::text(word),
-        TokenKind::Word => of_word(spot, word, session, pictures),
+        EditorTokenKind::Number => constant::text(word),
+        EditorTokenKind::Word => of_word(spot, word, session, pictures),
         _ => None,
     }?;
     let place = Span::new(spot.file, token.range.start, token.range.end);

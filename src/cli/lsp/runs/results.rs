@@ -18,18 +18,14 @@ const PREFIX: &str = "results-";
 /// How often the folder is made. A server that starts may remove it before it is locked.
 const TRIES: usize = 3;
 
-/// The folder of the folders of all servers.
-fn all() -> PathBuf {
-    std::env::temp_dir().join(format!("nbc-{}", env!("CARGO_PKG_VERSION")))
-}
-
 impl ResultFolder {
     /// Its path; an error is a message for people.
     pub(super) fn path(&mut self) -> Result<PathBuf, String> {
         if let Some((path, _)) = &self.made {
             return Ok(path.clone());
         }
-        let path = all().join(format!("{PREFIX}{}", std::process::id()));
+        let all = store::temporary_folder().map_err(|error| format!("cannot make a temporary folder: {error}"))?;
+        let path = all.join(format!("{PREFIX}{}", std::process::id()));
         let made = (0..TRIES).find_map(|_| {
             store::create_folder(&path).ok()?;
             lock_folder(&path).ok()
@@ -51,7 +47,7 @@ impl Drop for ResultFolder {
 
 /// Removes the folders of servers that have ended: those whose lock nobody holds.
 pub(super) fn remove_leftovers() {
-    for entry in fs::read_dir(all()).into_iter().flatten().flatten().filter(is_results) {
+    for entry in store::temporary_folder().and_then(fs::read_dir).into_iter().flatten().flatten().filter(is_results) {
         let _ = remove_unlocked(&entry);
     }
 }

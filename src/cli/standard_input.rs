@@ -1,0 +1,24 @@
+//! Standard input as a source file, which the command line calls `-`.
+
+use crate::session::Session;
+use crate::source::SourceWorld;
+use crate::store::DiskWorld;
+
+/// What the command line calls it.
+pub(super) const DASH: &str = "-";
+/// Its name in messages.
+const NAME: &str = "<stdin>";
+/// Its path.
+const PATH: &str = "/dev/stdin";
+
+/// Adds standard input to a session as a file of the current folder, and returns its path there.
+pub(super) fn open(session: &mut Session) -> &'static str {
+    match DiskWorld.read(PATH) {
+        Ok(text) => {
+            session.update(NAME, 0, text);
+            NAME
+        }
+        // Reading it once more gives the diagnostic.
+        Err(_) => PATH,
+    }
+}
