@@ -30,7 +30,7 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
     }
     let bits = match word.text.split_once('\'') {
         Some((width, constant)) => sized(word, width, constant, column)?,
-        None => plain(word)?,
+        None => plain(word, column)?,
     };
     let letter = word.text.split_once('\'').and_then(|(_, constant)| constant.chars().next());
     if bits.len() == column.width {
@@ -41,29 +41,58 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
 }
 
 fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
-    CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width }.at(word.span)
+    // Digits of 0 and 1 may be bits or a number.
+    let is_bits = word.text.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-' | b'_'));
+    let meant = if is_bits { None } else { meant(&word.text, column.width) };
+    CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width, meant }.at(word.span)
 }
 
-fn plain(word: &NameSyntax) -> Result<Vec<Option<bool>>, Diagnostic> {
+/// How a value of another language is written for a column of that width.
+fn meant(word: &str, width: usize) -> Option<String> {
+    if let Some(bit) = constant::truth(word).filter(|_| width == 1) {
+        return Some(u8::from(bit).to_string());
+    }
+    if constant::is_unknown(word) {
+        return Some("-".to_owned());
+    }
+    let any = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z');
+    if word.len() == width && word.contains(any) && word.chars().all(|c| matches!(c, '0' | '1' | '-') || any(c)) {
+        return Some(word.replace(any, "-"));
+    }
+    let lower = word.to_ascii_lowercase();
+    let (base, digits) = match lower.split_once('\'') {
+        Some((_, constant)) => (constant.chars().next()?, constant.get(1..)?),
+        None => match lower.get(..2) {
+            Some("0x") => ('h', &lower[2..]),
+            Some("0b") => ('b', &lower[2..]),
+            _ => ('d', lower.as_str()),
+        },
+    };
+    let value = constant::value(digits, constant::radix(base)?).ok()?;
+    let fits = width >= 128 || value >> width == 0;
+    fits.then(|| if width == 1 { value.to_string() } else { format!("{width}'{base}{digits}") })
+}
+
+fn plain(word: &NameSyntax, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
     let bit = |c| match c {
         '0' => Some(Some(false)),
         '1' => Some(Some(true)),
         '-' => Some(None),
         _ => None,
     };
-    word.text.chars().filter(|&c| c != '_').map(bit).collect::<Option<_>>().ok_or_else(|| no_value(word))
+    word.text.chars().filter(|&c| c != '_').map(bit).collect::<Option<_>>().ok_or_else(|| no_value(word, column))
 }
 
 /// A number with the given width in bits.
 fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
     let mut digits = constant.chars();
-    let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word))?;
+    let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word, column))?;
     if width.is_empty() || !width.bytes().all(|byte| byte.is_ascii_digit()) {
-        return Err(no_value(word));
+        return Err(no_value(word, column));
     }
     let value = constant::value(digits.as_str(), radix).map_err(|error| match error {
         IntErrorKind::PosOverflow => CellError::TooLarge.at(word.span),
-        _ => no_value(word),
+        _ => no_value(word, column),
     })?;
     let width = match width.parse() {
         Ok(width) if width < 128 && value >> width != 0 => {
@@ -76,6 +105,6 @@ fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Res
     Ok((0..width).rev().map(|bit| Some(bit < 128 && value >> bit & 1 == 1)).collect())
 }
 
-fn no_value(word: &NameSyntax) -> Diagnostic {
-    CellError::NotAValue { word: word.text.clone() }.at(word.span)
+fn no_value(word: &NameSyntax, column: &Column) -> Diagnostic {
+    CellError::NotAValue { word: word.text.clone(), meant: meant(&word.text, column.width) }.at(word.span)
 }

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::check::constant;
 use crate::check::names::{Home, NameTable, duplicate};
 use crate::check::uses::{NameKind, NameUse};
 use crate::check::wording::{CircuitError, NameError};
@@ -262,7 +263,7 @@ impl<'a> CircuitChecker<'a> {
         let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
         let span = self.body.expressions[value.0 as usize].span;
         let start_fault = self.start_fault(targets, value);
-        let value = self.expression(value, targets.len());
+        let value = self.expression(value, targets);
         if let Some(fault) = self.value_count(value, targets, span) {
             self.diagnostics.push(fault);
         }
@@ -348,11 +349,17 @@ impl<'a> CircuitChecker<'a> {
     fn unknown_net(&self, name: &tree::NameSyntax) -> Diagnostic {
         let circuit = self.names.find(&name.text, self.home);
         let circuit = circuit.map(|circuit| self.headers.circuits[circuit].signature());
+        if let (None, Some(bit)) = (&circuit, constant::truth(&name.text)) {
+            return NameError::Truth { word: name.text.clone(), bit }.at(name.span);
+        }
         let meant = if circuit.is_some() || self.diagnostics.len() >= suggest::MOST {
             Suggestion::None
         } else {
             Suggestion::of(&name.text, self.nets_in_scope())
         };
+        if circuit.is_none() && !matches!(meant, Suggestion::Near(_)) && constant::is_unknown(&name.text) {
+            return NameError::UnknownBit { word: name.text.clone() }.at(name.span);
+        }
         NameError::UnknownNet { name: name.text.clone(), circuit, meant }.at(name.span)
     }
 

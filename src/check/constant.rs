@@ -12,6 +12,20 @@ pub(crate) fn radix(letter: char) -> Option<u32> {
     }
 }
 
+/// The bit that a word of other languages means.
+pub(crate) fn truth(word: &str) -> Option<bool> {
+    match word.to_ascii_lowercase().as_str() {
+        "true" | "high" => Some(true),
+        "false" | "low" => Some(false),
+        _ => None,
+    }
+}
+
+/// Whether a word stands for an unknown bit in other languages.
+pub(crate) fn is_unknown(word: &str) -> bool {
+    matches!(word, "x" | "X" | "z" | "Z")
+}
+
 /// The value of digits in a base; underscores separate. A sign is not a digit.
 pub(crate) fn value(digits: &str, radix: u32) -> Result<u128, IntErrorKind> {
     let digits: String = digits.chars().filter(|&c| c != '_').collect();

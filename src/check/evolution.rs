@@ -262,14 +262,14 @@ fn axis(value: &ValueSyntax) -> Result<Axis, Diagnostic> {
     let ValueKind::Bins(name, bins) = &value.kind else {
         return match fields::word(value, Expected::Axis) {
             Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
-            _ => Err(quantity::wrong_kind(Expected::Axis, value.span)),
+            _ => Err(fields::not_one_of(value, Expected::Axis, &["behavior"])),
         };
     };
     let of = match name.text.as_str() {
         "voxels" => Count::Voxels,
         "active" => Count::Active,
         "sensory" => Count::Sensory,
-        _ => return Err(quantity::wrong_kind(Expected::Axis, name.span)),
+        _ => return Err(fields::unknown_word(name, Expected::Axis, &["voxels", "active", "sensory"])),
     };
     let bins = quantity::whole(quantity::number(bins)?, 1..=1000, bins.span, "bins")?;
     Ok(Axis::Count { of, bins: bins as usize })
@@ -308,8 +308,11 @@ fn niche(value: &ValueSyntax) -> Result<Niche, Diagnostic> {
         ValueKind::Applied(name, size) if name.text == "pareto" && size.len() == 1 => {
             Ok(Niche::Pareto(quantity::count(&size[0], 1..=1000)? as usize))
         }
+        ValueKind::Applied(name, _) if name.text != "pareto" => {
+            Err(fields::unknown_word(name, Expected::Niche, &["pareto"]))
+        }
         _ => fields::choice(value, &[("dominance", Niche::Dominance)])
-            .map_err(|_| quantity::wrong_kind(Expected::Niche, value.span)),
+            .map_err(|_| fields::not_one_of(value, Expected::Niche, &["dominance", "pareto"])),
     }
 }
 

@@ -6,6 +6,7 @@ use std::num::IntErrorKind;
 use crate::check::circuit::{CircuitChecker, Header};
 use crate::check::constant;
 use crate::check::names::Home;
+use crate::check::number::NumberPlace;
 use crate::check::wording::{CircuitError, NameError, OperandError};
 use crate::diag::{Diagnostic, Suggestion};
 use crate::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
@@ -31,17 +32,24 @@ fn circuit_of(infix: Infix) -> &'static str {
 }
 
 impl<'a> CircuitChecker<'a> {
-    /// Resolves an expression from its leaves to its root without recursion. The root has `outputs` values.
-    pub(crate) fn expression(&mut self, root: tree::ExpressionSyntaxId, outputs: usize) -> ExpressionId {
+    /// Resolves an expression from its leaves to its root without recursion. The root has a value for each target.
+    pub(crate) fn expression(
+        &mut self,
+        root: tree::ExpressionSyntaxId,
+        targets: &[tree::TargetSyntax],
+    ) -> ExpressionId {
         let body = self.body;
         let mut done: Vec<ExpressionId> = Vec::new();
         for at in first_leaf(&body.expressions, root) as usize..=root.0 as usize {
             let expression = &body.expressions[at];
-            let wanted = if at == root.0 as usize { outputs } else { 1 };
+            let outputs = if at == root.0 as usize { targets.len() } else { 1 };
             if let tree::ExpressionSyntaxKind::Group(_) = expression.kind {
                 continue;
             }
-            let kind = self.kind(expression, wanted, &mut done);
+            let kind = match &expression.kind {
+                tree::ExpressionSyntaxKind::Digits(digits) => self.digits(digits, NumberPlace { at, root, targets }),
+                _ => self.kind(expression, outputs, &mut done),
+            };
             let id = self.push(kind, expression.span);
             done.push(id);
         }
@@ -71,13 +79,14 @@ impl<'a> CircuitChecker<'a> {
     ) -> ExpressionKind {
         let span = expression.span;
         match &expression.kind {
-            tree::ExpressionSyntaxKind::Digits(digits) => self.digits(digits, span),
             tree::ExpressionSyntaxKind::Constant { width, base, digits } => self.constant(*width, *base, digits, span),
             tree::ExpressionSyntaxKind::Computed { width, value } => {
                 ExpressionKind::Computed { width: self.size(*width), value: self.size(*value) }
             }
             tree::ExpressionSyntaxKind::Net { name, index } => self.reference(name, index.as_ref()),
-            tree::ExpressionSyntaxKind::Group(_) => unreachable!("groups are passed over"),
+            tree::ExpressionSyntaxKind::Group(_) | tree::ExpressionSyntaxKind::Digits(_) => {
+                unreachable!("groups are passed over, and numbers without a width are read before")
+            }
             tree::ExpressionSyntaxKind::Concatenation(parts) => ExpressionKind::Concatenation(take(done, parts.len())),
             tree::ExpressionSyntaxKind::Repetition { count, values } => {
                 self.repetition(*count, take(done, values.len()), span)
@@ -105,15 +114,6 @@ impl<'a> CircuitChecker<'a> {
                 ExpressionKind::Table { inputs, outputs, table: self.circuit.tables.len() - 1 }
             }
         }
-    }
-
-    fn digits(&mut self, digits: &str, span: Span) -> ExpressionKind {
-        if !matches!(digits, "0" | "1") {
-            let bits = digits.parse::<u64>().map_or(8, |value| u64::BITS - value.leading_zeros()).max(1);
-            let error = CircuitError::ConstantWithoutWidth { digits: digits.to_owned(), bits };
-            self.diagnostics.push(error.at(span));
-        }
-        ExpressionKind::Bits(vec![digits == "1"])
     }
 
     fn constant(&mut self, width: tree::SizeSyntaxId, base: char, digits: &str, span: Span) -> ExpressionKind {

@@ -114,10 +114,25 @@ pub(crate) fn choice<T: Copy>(value: &ValueSyntax, choices: &[(&'static str, T)]
     let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
     let expected = Expected::OneOf(words.clone());
     let name = word(value, expected.clone())?;
-    choices.iter().find(|(word, _)| *word == name.text).map(|(_, choice)| *choice).ok_or_else(|| {
-        let meant = Suggestion::near(&name.text, words);
-        ValueError::UnknownChoice { found: name.text.clone(), expected, meant }.at(name.span)
-    })
+    choices
+        .iter()
+        .find(|(word, _)| *word == name.text)
+        .map(|(_, choice)| *choice)
+        .ok_or_else(|| unknown_word(name, expected, &words))
+}
+
+/// The error for a word that is not one of `words`, perhaps with the one that is meant.
+pub(crate) fn unknown_word(name: &NameSyntax, expected: Expected, words: &[&str]) -> Diagnostic {
+    let meant = Suggestion::near(&name.text, words.iter().copied().filter(|word| *word != name.text));
+    ValueError::UnknownChoice { found: name.text.clone(), expected, meant }.at(name.span)
+}
+
+/// As [`unknown_word`], for a value that may be something else than a word.
+pub(crate) fn not_one_of(value: &ValueSyntax, expected: Expected, words: &[&str]) -> Diagnostic {
+    match word(value, expected.clone()) {
+        Ok(name) => unknown_word(name, expected, words),
+        Err(error) => error,
+    }
 }
 
 /// The values of a list; a single value is a list of one.

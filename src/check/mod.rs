@@ -17,6 +17,7 @@ mod limit;
 mod load;
 mod material;
 mod names;
+mod number;
 mod program;
 mod quantity;
 mod recursion;

@@ -25,7 +25,7 @@ use crate::model::{
     CircuitId, CircuitTest, Column, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference, Simulation,
     Stimulation,
 };
-use crate::source::{Sources, Span};
+use crate::source::{FileId, Sources, Span};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
 
 /// The program of the trees, and what is known of it.
@@ -51,6 +51,8 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
 /// A program under construction.
 struct Assembly<'a> {
     trees: &'a [(Home, Tree)],
+    /// The declarations that have lost a part: where they begin and end.
+    broken: BTreeMap<(FileId, u32), u32>,
     sources: &'a Sources,
     program: Program,
     faults: Vec<Diagnostic>,
@@ -77,8 +79,10 @@ struct Assembly<'a> {
 
 impl<'a> Assembly<'a> {
     fn new(trees: &'a [(Home, Tree)], sources: &'a Sources) -> Self {
+        let broken = trees.iter().flat_map(|(_, tree)| &tree.broken).map(|part| part.declaration);
         Self {
             trees,
+            broken: broken.map(|declaration| ((declaration.file, declaration.start), declaration.end)).collect(),
             sources,
             program: Program::default(),
             faults: Vec::new(),
@@ -120,10 +124,8 @@ impl<'a> Assembly<'a> {
 
     /// Whether the declaration at a place has lost a part.
     fn is_broken(&self, place: Span) -> bool {
-        let covers = |declaration: Span| {
-            declaration.file == place.file && declaration.start <= place.start && place.end <= declaration.end
-        };
-        self.trees.iter().flat_map(|(_, tree)| &tree.broken).any(|part| covers(part.declaration))
+        let before = self.broken.range(..=(place.file, place.start)).next_back();
+        before.is_some_and(|(&(file, _), &end)| file == place.file && place.end <= end)
     }
 
     fn stimuli(&mut self) {

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::check::wording::{Bounds, Expected, ValueError};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Suggestion};
 use crate::model::CYCLE_STEPS;
 use crate::source::Span;
 use crate::syntax::tree::{Number, Quantity, ValueKind, ValueSyntax};
@@ -57,8 +57,10 @@ pub(crate) fn measured(quantity: &Quantity, measure: Measure) -> Result<f64, Dia
     match UNITS.iter().filter(|unit| unit.measure == measure).find(known) {
         Some(unit) => Ok(number(&quantity.number)? * unit.factor),
         None => {
+            let words = UNITS.iter().filter(|unit| unit.measure == measure).flat_map(|unit| unit.words.iter().copied());
+            let meant = Suggestion::near(&word.text, words);
             let (number, unit) = (quantity.number.text.clone(), word.text.clone());
-            Err(ValueError::WrongUnit { number, unit, wanted }.at(word.span))
+            Err(ValueError::WrongUnit { number, unit, wanted, meant }.at(word.span))
         }
     }
 }

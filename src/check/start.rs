@@ -38,7 +38,7 @@ impl CircuitChecker<'_> {
     }
 
     /// A size as it is written, if it is a single word.
-    fn size_text(&self, size: SizeSyntaxId) -> Option<String> {
+    pub(crate) fn size_text(&self, size: SizeSyntaxId) -> Option<String> {
         match &self.body.sizes[size.0 as usize].kind {
             SizeSyntaxKind::Literal(text) | SizeSyntaxKind::Name(text) => Some(text.clone()),
             _ => None,

@@ -55,8 +55,7 @@ pub(crate) fn swarm(
 fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(hold) => quantity::cycles(hold).map(Hold::Cycles),
-        _ => {
-            fields::choice(value, &[("auto", Hold::Auto)]).map_err(|_| quantity::wrong_kind(Expected::Hold, value.span))
-        }
+        _ => fields::choice(value, &[("auto", Hold::Auto)])
+            .map_err(|_| fields::not_one_of(value, Expected::Hold, &["auto"])),
     }
 }

@@ -8,12 +8,11 @@ use serde_json::json;
 
 use crate::circuit::formats::{Design, blif, dot, verilog};
 use crate::circuit::timing::{PulsedRegisters, fan_out};
-use crate::circuit::{CellLibrary, Delays, NetId, Netlist, Race, Timing, levels, races};
+use crate::circuit::{CellLibrary, Delays, NetId, Netlist, Race, Timing, levels, races, rings};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::counted;
 use crate::model::Column;
 use crate::report::{self, Document, MemoryTimes, PhaseTiming, Schema};
 use crate::session::{CompileOptions, Mapping, Session};
@@ -115,13 +114,17 @@ fn emit(emit: Emit, mapping: Mapping) -> String {
 fn describe_timing(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRegisters>) -> String {
     let timing = Timing::of(mapped, library, Delays::Clock);
     let path: Vec<String> = timing.critical_path.iter().map(|&id| mapped.net_name(id)).collect();
-    let settles =
-        format!("timing   settles within {}: {}\n", counted(timing.hold as usize, "cycle"), path.join(" -> "));
+    let settles = report::describe_settling(timing.hold, &path, &ring_names(mapped));
     let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers).describe();
     let memory: String =
         MemoryTimes::all(mapped, &timing, clocks(mapped, library)).iter().map(MemoryTimes::describe).collect();
     let loads = fan_out(mapped).into_iter().filter(|(id, _)| mapped.cell(*id).is_some());
     settles + &phases + &memory + &report::describe_fan_out(loads.map(|(id, load)| (mapped.net_name(id), load)))
+}
+
+/// The nets of rings of inverters.
+fn ring_names(mapped: &Netlist) -> Vec<String> {
+    rings(mapped).into_iter().map(|net| mapped.net_name(net)).collect()
 }
 
 /// The clock of each cell.
@@ -155,6 +158,7 @@ fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRe
         "depth": levels::depth(mapped),
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
+        "rings": ring_names(mapped),
         "memory": MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
         "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers),
         "proved": true,

@@ -93,6 +93,6 @@ pub use stage::{Moment, Stage};
 pub use strip::draw_strip;
 pub use svg::Svg;
 pub use table::{Align, TextTable};
-pub use timing::{MemoryTimes, SwarmTiming, describe_fan_out};
+pub use timing::{MemoryTimes, SwarmTiming, describe_fan_out, describe_path, describe_settling};
 pub use vcd::vcd;
 pub use verdict::{describe_failures, describe_simulation, describe_swarm, describe_test};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::circuit::timing::fan_out;
-use crate::circuit::{Memory, NetId, Netlist, Timing};
+use crate::circuit::{Memory, NetId, Netlist, Timing, rings};
 use crate::diag::counted;
 use crate::report::phases::PhaseTiming;
 use crate::swarm::{Assembly, Member};
@@ -15,8 +15,10 @@ use crate::swarm::{Assembly, Member};
 pub struct SwarmTiming {
     /// Cycles after which every net is correct.
     pub hold: u32,
-    /// The slowest path, input first.
+    /// The slowest path, input first. It passes a loop twice, by the change and by the response to it.
     pub critical_path: Vec<PathStep>,
+    /// The nets of rings of inverters, which keep changing.
+    pub rings: Vec<String>,
     /// The robots in order.
     pub robots: Vec<RobotTiming>,
     /// The timing requirements of the memory elements.
@@ -90,6 +92,7 @@ impl SwarmTiming {
         Self {
             hold: timing.hold,
             critical_path: timing.critical_path.iter().map(step).collect(),
+            rings: rings(mapped).into_iter().map(|net| mapped.net_name(net)).collect(),
             robots: players.iter().map(robot).collect(),
             memory: MemoryTimes::all(mapped, timing, clock),
             phases,
@@ -98,6 +101,9 @@ impl SwarmTiming {
 
     /// What a user of the swarm needs to know, in a line.
     pub fn describe_hold(&self) -> String {
+        if !self.rings.is_empty() {
+            return describe_rings(&self.rings);
+        }
         let cycles = counted(self.hold as usize, "cycle");
         format!("timing   hold each row for {cycles} or longer; `nbc build --emit timing` shows why\n")
     }
@@ -109,8 +115,7 @@ impl SwarmTiming {
             None => step.net.clone(),
         };
         let path: Vec<String> = self.critical_path.iter().map(step).collect();
-        let mut text =
-            format!("timing   settles within {}: {}\n", counted(self.hold as usize, "cycle"), path.join(" -> "));
+        let mut text = describe_settling(self.hold, &path, &self.rings);
         text += &self.phases.describe();
         text.extend(self.memory.iter().map(MemoryTimes::describe));
         text + &describe_fan_out(self.robots.iter().map(|robot| (robot.net.clone(), robot.fan_out)))
@@ -136,8 +141,56 @@ impl MemoryTimes {
     }
 }
 
+/// The hold and the slowest path, input first, as a line for people; for a netlist with rings, which never settles, their
+/// nets.
+pub fn describe_settling(hold: u32, path: &[String], rings: &[String]) -> String {
+    match rings {
+        [] => format!("timing   settles within {}: {}\n", counted(hold as usize, "cycle"), describe_path(path)),
+        _ => describe_rings(rings),
+    }
+}
+
+fn describe_rings(rings: &[String]) -> String {
+    format!("timing   never settles, because these inverters form a ring: {}\n", rings.join(" "))
+}
+
+/// The nets of a path, each once.
+pub fn describe_path(path: &[String]) -> String {
+    let mut shown: Vec<&str> = Vec::new();
+    let mut again: Option<&str> = None;
+    for net in path {
+        if shown.contains(&net.as_str()) {
+            again = again.or(Some(net));
+        } else {
+            shown.push(net);
+        }
+    }
+    let again = again.map_or(String::new(), |net| format!(", and once more round the loop from {net}"));
+    shown.join(" -> ") + &again
+}
+
 /// The net that drives most stimuli and outputs, as a line for people; empty without nets.
 pub fn describe_fan_out(nets: impl Iterator<Item = (String, usize)>) -> String {
     let busiest = nets.max_by_key(|(net, fan_out)| (*fan_out, std::cmp::Reverse(net.clone())));
     busiest.map_or(String::new(), |(net, fan_out)| format!("fan-out  {fan_out} at most, of {net}\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_names_each_net_once() {
+        let path = |nets: &str| describe_path(&nets.split(' ').map(str::to_owned).collect::<Vec<_>>());
+        assert_eq!(path("a b q"), "a -> b -> q");
+        assert_eq!(path("d n q nq q nq"), "d -> n -> q -> nq, and once more round the loop from q");
+    }
+
+    #[test]
+    fn a_ring_never_settles() {
+        let names = |nets: &[&str]| nets.iter().map(|net| (*net).to_owned()).collect::<Vec<_>>();
+        let text = describe_settling(6, &names(&["n1", "q"]), &names(&["n1", "q"]));
+        assert_eq!(text, "timing   never settles, because these inverters form a ring: n1 q\n");
+        assert_eq!(describe_settling(1, &names(&["a", "q"]), &[]), "timing   settles within 1 cycle: a -> q\n");
+    }
 }

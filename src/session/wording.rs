@@ -2,6 +2,7 @@
 
 use crate::circuit::MapError;
 use crate::diag::{Code, Diagnostic, Suggestion, counted};
+use crate::report;
 use crate::source::Span;
 use crate::swarm::WeakRobot;
 
@@ -91,7 +92,7 @@ impl SwarmWarning {
             }
             Self::ShortHold { hold, needed, path } => {
                 let message = format!("a hold of {} is too short, expected at least {needed}", counted(hold, "cycle"));
-                let path = path.join(" -> ");
+                let path = report::describe_path(&path);
                 Diagnostic::new(Code::HoldTooShort, message, span, "held here").with_help(format!(
                     "`hold: auto` holds each row until every robot has settled; the slowest path is {path}"
                 ))

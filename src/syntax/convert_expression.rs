@@ -197,9 +197,6 @@ impl Converter<'_> {
     fn constant(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let first = parts.next().expect("digits");
-        if first.as_rule() == Rule::slip_number {
-            return self.number_with_prefix(&first, arena);
-        }
         let Some(base) = parts.next() else { return ExpressionSyntaxKind::Digits(first.as_str().to_owned()) };
         let width = match first.as_rule() {
             Rule::digits => SizeSyntaxKind::Literal(first.as_str().to_owned()),
@@ -213,17 +210,6 @@ impl Converter<'_> {
         }
         let digits = value.as_str().to_owned();
         ExpressionSyntaxKind::Constant { width, base, digits }
-    }
-
-    /// A constant such as `0xff`, as wide as its digits.
-    fn number_with_prefix(&mut self, pair: &Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
-        let (span, number) = (self.span(pair), pair.as_str());
-        let (base, bits) = if number[1..].starts_with(['x', 'X']) { ('h', 4) } else { ('b', 1) };
-        let digits = number[2..].to_owned();
-        let width = (bits * digits.len()).to_string();
-        let constant = format!("{width}'{base}{digits}");
-        self.slip(Slip::NumberWithPrefix { number: number.to_owned(), constant }, span);
-        ExpressionSyntaxKind::Constant { width: arena.size(SizeSyntaxKind::Literal(width), span), base, digits }
     }
 
     fn computed(

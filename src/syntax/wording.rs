@@ -119,8 +119,6 @@ pub(crate) enum Slip {
     IfBlock { choices: Vec<String>, whole: Span },
     /// A choice whose first value is in braces.
     MissingThen,
-    /// A number such as `0xff`.
-    NumberWithPrefix { number: String, constant: String },
     /// A name with invalid letters.
     ForeignLetters { word: String },
     /// A quote that is not closed.
@@ -214,7 +212,6 @@ impl Slip {
             Self::ColonInLoop => ":",
             Self::IfBlock { .. } => "if",
             Self::MissingThen => "{",
-            Self::NumberWithPrefix { number, .. } => number,
             Self::SingleQuote { .. } | Self::WidthOfConstant { .. } => "'",
             Self::ColonInSlice { .. } | Self::RangeOfPort { .. } => ":",
             Self::WidthBeforeName { .. } => "[",
@@ -250,7 +247,6 @@ impl Slip {
             Self::BareOutputs { .. } => "expected outputs in parentheses",
             Self::NetKeyword { .. } => "expected `net`",
             Self::MissingThen => "expected `then`",
-            Self::NumberWithPrefix { .. } => "expected a constant with its width",
             Self::RangeOfPort { .. } => "expected a number of bits",
             Self::KindOfPort { .. } => "expected the name of a port",
             Self::QuestionMark { .. } | Self::MisspelledOperator { .. } => "expected an operator",
@@ -283,7 +279,6 @@ impl Slip {
                 _ => "`if` chooses a value, and needs an `else`: `q = if s then a else b`".to_owned(),
             },
             Self::MissingThen => "write `if s then a else b`".to_owned(),
-            Self::NumberWithPrefix { constant, .. } => format!("write `{constant}`"),
             Self::ForeignLetters { .. } => "write it with ASCII letters".to_owned(),
             Self::UnclosedQuote => "close it with `\"` on the same line".to_owned(),
             Self::SingleQuote { .. } => "write strings in double quotes".to_owned(),
@@ -347,7 +342,6 @@ impl Slip {
                 Fix::replace(*whole, format!("if {condition} then {then} else {otherwise}"))
             }
             Self::MissingThen => Fix::insert(here, "then "),
-            Self::NumberWithPrefix { constant, .. } => Fix::replace(here, constant.as_str()),
             Self::CircuitKeyword { is_circuit: true, .. } => Fix::replace(here, "circuit"),
             Self::StatementKeyword { word, whole } => Fix::remove(*whole, &format!("`{word}`")),
             Self::WidthBeforeName { name, width, both } => Fix::replace(*both, format!("{name}[{width}]")),

@@ -255,7 +255,7 @@ fn a_closed_pipe_ends_the_program_quietly() {
 }
 
 /// A file whose test of `flip` passes or fails.
-fn flip(passes: bool) -> String {
+pub fn flip(passes: bool) -> String {
     let low = u8::from(passes);
     format!("circuit flip(a) -> (y) {{\n    y = not a\n}}\n\ntest flip {{\n    a | y\n    0 | {low}\n}}\n")
 }
@@ -582,51 +582,4 @@ fn a_missing_library_is_made_by_the_commands_of_the_message() {
         "`nbc evolve own.nb --run walks --out out`",
         "`nbc library add out/walks --into out/walks/robots`",
     ]);
-}
-
-#[test]
-fn a_run_says_in_one_line_how_long_rows_are_held_and_a_build_says_why() {
-    let bench = Bench::new();
-    bench.file("passing.nb", flip(true));
-    let ran = bench.run(&["run", "passing.nb"]);
-    let timing: Vec<&str> = ran.out.lines().skip_while(|line| !line.starts_with("timing ")).collect();
-    assert_eq!(timing.len(), 4, "{}", ran.out);
-    assert!(timing[0].starts_with("timing   hold each row for "), "{}", ran.out);
-    assert!(timing[1].starts_with("report ") && timing[2].starts_with("results ") && timing[3] == "pass");
-    let page = std::fs::read_to_string(bench.path().join("out/passing/report.html")).unwrap();
-    let built = bench.run(&["build", "passing.nb", "--emit", "timing"]).out;
-    assert!(built.contains("settles within ") && built.contains("fan-out  "), "{built}");
-    assert!(page.contains("settles within ") && page.contains("fan-out  "));
-}
-
-#[test]
-#[cfg(unix)]
-fn links_in_folders_of_results_are_not_followed() {
-    use std::os::unix::fs::symlink;
-    let bench = Bench::new();
-    bench.file("passing.nb", flip(true));
-    let mine = bench.file("mine.txt", "mine");
-    std::fs::create_dir_all(bench.path().join("out/passing")).unwrap();
-    for file in ["report.html", "result.json"] {
-        symlink(&mine, bench.path().join("out/passing").join(file)).unwrap();
-    }
-    assert_eq!(bench.run(&["run", "passing.nb"]).status, 0);
-    assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine");
-    assert!(std::fs::read_to_string(bench.path().join("out/passing/report.html")).unwrap().starts_with("<!"));
-    // A folder that is a link is refused, unless the user names it.
-    std::fs::remove_dir_all(bench.path().join("out")).unwrap();
-    std::fs::create_dir(bench.path().join("elsewhere")).unwrap();
-    symlink("elsewhere", bench.path().join("out")).unwrap();
-    bench.run(&["run", "passing.nb"]).expect_fault(&["`out` is a link"]);
-    assert_eq!(std::fs::read_dir(bench.path().join("elsewhere")).unwrap().count(), 0);
-    assert_eq!(bench.run(&["run", "passing.nb", "--out", "out"]).status, 0);
-    let small = "evolution small { box: 3 x 1, variable: short, fixed: 1 cycles, batch: 6, generations: 4, seed: 3 }\n";
-    bench.runs("small.nb", small);
-    bench.run(&["evolve", "small.nb"]).expect_fault(&["`out` is a link"]);
-    std::fs::create_dir_all(bench.path().join("runs/small/seed-3")).unwrap();
-    let progress = bench.path().join("runs/small/seed-3/progress.jsonl");
-    symlink(&mine, &progress).unwrap();
-    assert_eq!(bench.run(&["evolve", "small.nb", "--out", "runs"]).status, 0);
-    assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine");
-    assert!(std::fs::read_to_string(&progress).unwrap().contains("generation"));
 }

@@ -47,6 +47,7 @@ mod pulsed;
 mod python;
 mod reachable;
 mod redundant;
+mod results;
 mod runs;
 mod schemas;
 mod settling;

@@ -11,7 +11,7 @@ pub(crate) enum CircuitError {
     /// A net without a declared width, some of whose bits are driven.
     UnknownWidth { net: String },
     /// A constant of several bits without its width; it needs at least `bits`.
-    ConstantWithoutWidth { digits: String, bits: u32 },
+    ConstantWithoutWidth { number: String, constant: String, is_certain: bool },
     /// A constant of too many bits.
     ConstantTooLarge,
     /// Digits that are not of their base.
@@ -69,10 +69,8 @@ impl CircuitError {
                 Diagnostic::new(Code::UnknownWidth, message, span, "only some of its bits are driven here")
                     .with_help(format!("declare it first: `net {net}[8]`"))
             }
-            Self::ConstantWithoutWidth { digits, bits } => {
-                let message = format!("the width of `{digits}` is unknown");
-                let constant = format!("{bits}'d{digits}");
-                let is_certain = digits.parse::<u64>().is_ok();
+            Self::ConstantWithoutWidth { number, constant, is_certain } => {
+                let message = format!("the width of `{number}` is unknown");
                 Diagnostic::new(Code::UnknownWidth, message, span, "expected a constant with its width")
                     .with_help(format!("write `{constant}`"))
                     .with_fix(is_certain.then(|| Fix::replace(span, constant)))

@@ -12,6 +12,10 @@ pub(crate) enum NameError {
     Operator { name: String },
     /// An undeclared net; `circuit` is the signature of a circuit of that name.
     UnknownNet { name: String, circuit: Option<String>, meant: Suggestion },
+    /// A truth value of another language.
+    Truth { word: String, bit: bool },
+    /// An unknown bit of another language.
+    UnknownBit { word: String },
     /// An undeclared parameter or loop variable.
     UnknownNumber { name: String, meant: Suggestion },
     /// A net in the place of a number.
@@ -54,6 +58,12 @@ impl NameError {
             Self::UnknownNet { name, circuit: None, meant } => {
                 undeclared("net", &name, span).with_suggestion(span, &meant)
             }
+            Self::Truth { word, bit } => {
+                let bit = u8::from(bit).to_string();
+                undeclared("net", &word, span).with_help(format!("write `{bit}`")).with_fix(Fix::replace(span, bit))
+            }
+            Self::UnknownBit { word } => undeclared("net", &word, span)
+                .with_help("a bit is `0` or `1`; the value for patterns that never occur is `-` in a `table`"),
             Self::UnknownNumber { name, meant } => {
                 let error = undeclared("parameter or loop variable", &name, span);
                 match meant {

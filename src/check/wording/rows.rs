@@ -1,6 +1,6 @@
 //! Rows of tests, simulations and schedules, and their values.
 
-use crate::diag::{Code, Diagnostic, counted, suggest};
+use crate::diag::{Code, Diagnostic, Fix, counted, suggest};
 use crate::source::Span;
 
 /// The most bits of an example of a value.
@@ -10,11 +10,11 @@ const SHOWN: usize = 16;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum CellError {
     /// Neither bits nor a constant.
-    NotAValue { word: String },
+    NotAValue { word: String, meant: Option<String> },
     /// A pulse on a column of several bits.
     WidePulse { column: String, width: usize },
     /// A value that is not as wide as its column.
-    Width { found: String, column: String, width: usize },
+    Width { found: String, column: String, width: usize, meant: Option<String> },
     /// A number that does not fit into its width.
     Unfitting { value: u128, width: usize },
     /// A number of too many bits.
@@ -31,20 +31,22 @@ impl CellError {
     /// The error at the value.
     pub(crate) fn at(self, span: Span) -> Diagnostic {
         match self {
-            Self::NotAValue { word } => {
+            Self::NotAValue { word, meant } => {
                 let label = "expected bits such as `0`, `1`, `0110`, or `4'd6`";
-                Diagnostic::new(Code::Value, format!("`{word}` is not a value"), span, label)
-                    .with_help("`-` stands for any value, `^` for a clock pulse: 0, then 1")
+                let error = Diagnostic::new(Code::Value, format!("`{word}` is not a value"), span, label);
+                let general = "`-` stands for any value, `^` for a clock pulse: 0, then 1";
+                written_so(error, span, meant).unwrap_or_else(|error| error.with_help(general))
             }
             Self::WidePulse { column, width } => {
                 let message = format!("`^` pulses a single bit, but `{column}` has {width}");
                 Diagnostic::new(Code::Value, message, span, "expected a value of all bits")
                     .with_help(format!("write a number with its width, for example `{width}'d0`"))
             }
-            Self::Width { found, column, width } => {
+            Self::Width { found, column, width, meant } => {
                 let label = format!("expected {}, found {found}", counted(width, "bit"));
-                Diagnostic::new(Code::Width, format!("wrong width of a value for `{column}`"), span, label)
-                    .with_help(example_of(width))
+                let message = format!("wrong width of a value for `{column}`");
+                let error = Diagnostic::new(Code::Width, message, span, label);
+                written_so(error, span, meant).unwrap_or_else(|error| error.with_help(example_of(width)))
             }
             Self::Unfitting { value, width } => {
                 let message = format!("`{value}` does not fit into {}", counted(width, "bit"));
@@ -64,6 +66,14 @@ impl CellError {
                 Diagnostic::new(Code::Value, "an output cannot be pulsed", span, "expected `0`, `1` or `-`")
             }
         }
+    }
+}
+
+/// The error with how the value is written; without that, the error as it was.
+fn written_so(error: Diagnostic, span: Span, meant: Option<String>) -> Result<Diagnostic, Diagnostic> {
+    match meant {
+        Some(meant) => Ok(error.with_help(format!("write `{meant}`")).with_fix(Fix::replace(span, meant))),
+        None => Err(error),
     }
 }
 

@@ -152,7 +152,7 @@ pub(crate) enum ValueError {
     /// A number that needs a unit.
     MissingUnit { number: String, wanted: Vec<&'static str> },
     /// A number with a unit of something else.
-    WrongUnit { number: String, unit: String, wanted: Vec<&'static str> },
+    WrongUnit { number: String, unit: String, wanted: Vec<&'static str>, meant: Suggestion },
     /// A unit of a number that has none.
     UnexpectedUnit { number: String, unit: String },
     /// A number out of range.
@@ -187,9 +187,12 @@ impl ValueError {
                 let error = Diagnostic::new(Code::Unit, format!("`{number}` has no unit"), span, units(&wanted));
                 with_unit(error, &number, &wanted, Fix::insert(after, format!(" {}", wanted[0])))
             }
-            Self::WrongUnit { number, unit, wanted } => {
+            Self::WrongUnit { number, unit, wanted, meant } => {
                 let error = Diagnostic::new(Code::Unit, format!("wrong unit `{unit}`"), span, units(&wanted));
-                with_unit(error, &number, &wanted, Fix::replace(span, wanted[0]))
+                match meant {
+                    Suggestion::Near(_) => error.with_suggestion(span, &meant),
+                    _ => with_unit(error, &number, &wanted, Fix::replace(span, wanted[0])),
+                }
             }
             Self::UnexpectedUnit { number, unit } => {
                 let message = format!("unexpected unit `{unit}`");

@@ -286,11 +286,17 @@ impl ModuleBuilder<'_, '_> {
 
     /// A value with the name that advice calls it by.
     pub(super) fn operand(&self, id: ExpressionId, value: &[Bit]) -> OperandText {
-        let net = match self.circuit.expressions[id.0 as usize].kind {
+        let kind = &self.circuit.expressions[id.0 as usize].kind;
+        let net = match kind {
             ExpressionKind::Net(slot) => Some(self.circuit.nets[slot.0 as usize].name.clone()),
             _ => None,
         };
-        OperandText { width: value.len() as u32, span: self.span(id), net }
+        let constant = match kind {
+            ExpressionKind::Number { value, .. } => Some(*value),
+            ExpressionKind::Bits(bits) if bits.len() == 1 => Some(u128::from(bits[0])),
+            _ => None,
+        };
+        OperandText { width: value.len() as u32, span: self.span(id), net, constant }
     }
 
     /// The module of a called circuit, if its parameters and the widths of the operands fit.

@@ -71,7 +71,9 @@ impl ModuleBuilder<'_, '_> {
     /// An output for a message about its width.
     fn output_text(&self, output: &TableOutput, bits: &[OutputBit], values: TableValues) -> OperandText {
         match output.value {
-            OutputValue::Bits(_) => OperandText { width: bits.len() as u32, span: output.span, net: None },
+            OutputValue::Bits(_) => {
+                OperandText { width: bits.len() as u32, span: output.span, net: None, constant: None }
+            }
             OutputValue::Expression(index) => self.operand(values.expressions[index], &values.bits[index]),
         }
     }

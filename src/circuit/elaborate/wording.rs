@@ -16,9 +16,17 @@ pub(super) struct OperandText {
     pub(super) width: u32,
     pub(super) span: Span,
     pub(super) net: Option<String>,
+    /// The value of a constant.
+    pub(super) constant: Option<u128>,
 }
 
 impl OperandText {
+    /// The constant with `to` bits, if it is one that fits.
+    fn resized(&self, to: u32) -> Option<String> {
+        let value = self.constant.filter(|value| to >= u128::BITS || value >> to == 0)?;
+        Some(if to == 1 { value.to_string() } else { format!("{to}'d{value}") })
+    }
+
     /// How to widen it to `to` bits.
     fn widened(&self, to: u32) -> String {
         let net = self.net.as_deref().unwrap_or("…");
@@ -88,6 +96,7 @@ impl From<WidthError> for Diagnostic {
 
 fn wrong(what: &Wide, expected: u32, found: &OperandText) -> Diagnostic {
     let message = format!("{what} is {} wide, expected {}", bits(found.width), bits(expected));
+    let resized = found.resized(expected).filter(|_| *what != Wide::Condition);
     let help = match (what, found.net.as_deref().unwrap_or("…"), found.width) {
         (Wide::Condition, net, width) => {
             format!("test all bits, any bit or a value: `all({net})`, `any({net})`, `{net} == {width}'d3`")
@@ -95,7 +104,8 @@ fn wrong(what: &Wide, expected: u32, found: &OperandText) -> Diagnostic {
         (_, _, width) if width > expected => found.narrowed(expected),
         _ => found.widened(expected),
     };
-    let error = Diagnostic::new(Code::Width, message, found.span, bits(found.width)).with_help(help);
+    let error = Diagnostic::new(Code::Width, message, found.span, bits(found.width));
+    let error = with_resized(error, found, resized).unwrap_or_else(|error| error.with_help(help));
     match what {
         Wide::Value { target, .. } => error.with_label(*target, bits(expected)),
         _ => error,
@@ -113,9 +123,23 @@ fn unequal(what: &str, first: &OperandText, second: &OperandText) -> Diagnostic 
             wide.narrowed(narrow.width)
         ),
     };
-    Diagnostic::new(Code::Width, message, second.span, bits(second.width))
-        .with_label(first.span, bits(first.width))
-        .with_help(help)
+    let error = Diagnostic::new(Code::Width, message, second.span, bits(second.width))
+        .with_label(first.span, bits(first.width));
+    let resized = [(second, first), (first, second)].map(|(constant, other)| (constant, constant.resized(other.width)));
+    match resized.into_iter().find(|(_, resized)| resized.is_some()) {
+        Some((constant, resized)) => {
+            with_resized(error, constant, resized).unwrap_or_else(|error| error.with_help(help))
+        }
+        None => error.with_help(help),
+    }
+}
+
+/// The error with the constant of the width that is needed; without one, the error as it was.
+fn with_resized(error: Diagnostic, operand: &OperandText, resized: Option<String>) -> Result<Diagnostic, Diagnostic> {
+    match resized {
+        Some(text) => Ok(error.with_help(format!("write `{text}`")).with_fix(Fix::replace(operand.span, text))),
+        None => Err(error),
+    }
 }
 
 /// A circuit that cannot be built as it is written.
