@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::thread;
 
-use axum::extract::ws::WebSocket;
+use axum::extract::ws::{Utf8Bytes, WebSocket};
 use crossbeam_channel::bounded;
 use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ const ANSWERS: usize = 16;
 
 /// Serves one page until it is gone.
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
-    let (requests, mut waiting) = mpsc::channel(WAITING);
+    let (requests, mut waiting) = mpsc::channel::<Utf8Bytes>(WAITING);
     let (inbox, outgoing) = outbox();
     let (sender, receiver) = bounded(READ);
     let (answer, answers) = bounded(ANSWERS);
@@ -33,10 +33,15 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let folder = served.clone();
     thread::spawn(move || {
         while let Some(text) = waiting.blocking_recv() {
-            match read(&text, &folder) {
-                Ok(Some(message)) if sender.send(message).is_err() => return,
-                Ok(_) => {}
-                Err(refusal) => inbox.tell(&refusal),
+            let sent = match read(&text, &folder) {
+                Ok(message) => message.map_or(Ok(()), |message| sender.send(message)),
+                Err(refusal) => {
+                    inbox.tell(&refusal);
+                    Ok(())
+                }
+            };
+            if sent.is_err() {
+                return;
             }
         }
     });
