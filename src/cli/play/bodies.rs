@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::circuit::formats::is_word;
+use crate::cli::play::SCHEME;
 use crate::cli::play::files::PageFiles;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
@@ -12,7 +13,7 @@ use crate::evolve;
 use crate::model::{
     Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,
 };
-use crate::report::{self, Looks, Scheme, Stage, describe_material};
+use crate::report::{self, Looks, Stage, describe_material};
 use crate::session::{Checked, CompileOptions, Session};
 use crate::store;
 use crate::swarm::{Recorded, measure, sketch, walk};
@@ -38,7 +39,7 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Val
             all.extend(new);
         }
     }
-    let looks = Looks::of(all.iter().map(|robot| &robot.body), Scheme::default());
+    let looks = Looks::of(all.iter().map(|robot| &robot.body), SCHEME);
     let cards: Vec<Value> = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &looks)).collect();
     Ok(json!({ "robots": cards, "looks": report::look_data(&looks), "palette": palette(&looks) }))
 }
@@ -106,7 +107,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
     job.check()?;
     let (displacement, behavior, sketched) = measured(&body, is_whole, job)?;
-    let looks = Looks::of([&body], Scheme::default());
+    let looks = Looks::of([&body], SCHEME);
     let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
     Ok(Some(json!({
         "gaits": gaits.iter().map(gait).collect::<Vec<_>>(),

@@ -17,6 +17,9 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
     let robots = library["robots"].as_array().unwrap();
     assert!(robots.len() >= 32 && robots.iter().all(|robot| robot["shipped"] == true));
     assert_eq!(library["palette"].as_array().unwrap().len(), 8);
+    // Colors that everybody can tell apart.
+    let colors: Vec<&str> = library["looks"].as_array().unwrap().iter().filter_map(|look| look["color"].as_str()).collect();
+    assert!(colors.contains(&"#d55e00") && colors.contains(&"#009e73"), "{colors:?}");
     let nand = robots.iter().find(|robot| robot["name"] == NAND).unwrap();
     let probe = json!({ "do": "probe", "body": nand["body"], "cycles": 2, "character": false });
     let probe = page.done(probe);
