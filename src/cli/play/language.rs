@@ -14,8 +14,8 @@ use crate::cli::play::outbox::outbox;
 use crate::cli::play::served::Served;
 use crate::cli::play::socket::{WAITING, pump};
 
-/// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and answers
-/// that may.
+/// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and
+/// answers that may.
 const READ: usize = 2;
 const ANSWERS: usize = 16;
 

@@ -158,7 +158,8 @@ impl PlayArguments {
 /// A page that leads to another one.
 fn redirect(address: &str) -> String {
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"referrer\" content=\"no-referrer\">\n\
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"referrer\" content=\"no-referrer\">\n\
          <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<title>nbc</title>\n\
          <p><a href=\"{address}\">Open the page of nbc play</a></p>\n"
     )

@@ -123,7 +123,8 @@ mod tests {
 
     #[test]
     fn only_those_who_can_read_it_get_compressed_text() {
-        let accepts = |text: &str| accepts_gzip(&[(header::ACCEPT_ENCODING, text.parse().unwrap())].into_iter().collect());
+        let accepts =
+            |text: &str| accepts_gzip(&[(header::ACCEPT_ENCODING, text.parse().unwrap())].into_iter().collect());
         assert!(accepts("br, gzip") && accepts("gzip;q=0.5") && accepts("gzip"));
         assert!(!accepts("br") && !accepts("gzip;q=0") && !accepts("") && !accepts_gzip(&HeaderMap::new()));
     }

@@ -44,7 +44,11 @@ async fn document(State(served): State<Arc<Served>>, headers: HeaderMap) -> Resp
     served.page.document(&headers)
 }
 
-async fn part(State(served): State<Arc<Served>>, Path((_, name)): Path<(String, String)>, headers: HeaderMap) -> Response {
+async fn part(
+    State(served): State<Arc<Served>>,
+    Path((_, name)): Path<(String, String)>,
+    headers: HeaderMap,
+) -> Response {
     served.page.part(&name, &headers).unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
 }
 

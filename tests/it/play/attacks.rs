@@ -126,7 +126,8 @@ fn messages_that_nobody_has_time_for_wait_at_their_sender() {
     let document = json!({ "uri": "file:///a.nb", "languageId": "nb", "version": 1, "text": circuits });
     let open = json!({ "jsonrpc": "2.0", "method": "textDocument/didOpen", "params": { "textDocument": document } });
     socket.send(text(&open)).unwrap();
-    socket.send(text(&json!({ "jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": { "query": "c7" } })))
+    socket
+        .send(text(&json!({ "jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": { "query": "c7" } })))
         .unwrap();
     let before = memory_of(server.process());
     socket.get_mut().set_write_timeout(Some(Duration::from_secs(2))).unwrap();

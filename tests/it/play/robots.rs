@@ -18,7 +18,8 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
     assert!(robots.len() >= 32 && robots.iter().all(|robot| robot["shipped"] == true));
     assert_eq!(library["palette"].as_array().unwrap().len(), 8);
     // Colors that everybody can tell apart.
-    let colors: Vec<&str> = library["looks"].as_array().unwrap().iter().filter_map(|look| look["color"].as_str()).collect();
+    let colors: Vec<&str> =
+        library["looks"].as_array().unwrap().iter().filter_map(|look| look["color"].as_str()).collect();
     assert!(colors.contains(&"#d55e00") && colors.contains(&"#009e73"), "{colors:?}");
     let nand = robots.iter().find(|robot| robot["name"] == NAND).unwrap();
     let probe = json!({ "do": "probe", "body": nand["body"], "cycles": 2, "character": false });
@@ -38,17 +39,20 @@ fn a_body_is_measured_and_kept_as_a_robot() {
     let sketch = page.done(json!({ "do": "probe", "body": body, "cycles": 1 }))["character"].take();
     assert_eq!((&sketch["switches"], &sketch["clock"]), (&json!(128), &json!(1)));
     // Robots are beside the program that uses them.
-    let keep = |name: &str, replace: bool| {
-        json!({ "do": "keep", "path": "circuits/n.nb", "name": name, "body": body, "replace": replace })
+    let kept_as = |name: &str, replace: bool| {
+        let mut request = json!({ "do": "keep", "path": "circuits/n.nb", "body": body });
+        request["name"] = json!(name);
+        request["replace"] = json!(replace);
+        request
     };
-    let kept = page.done(keep("mine", false));
+    let kept = page.done(kept_as("mine", false));
     assert_eq!(kept, json!({ "path": "circuits/robots/mine.yaml", "use": "library own { from: \"robots\" }" }));
     let file = folder.path().join("circuits/robots/mine.yaml");
     let text = fs::read_to_string(&file).unwrap();
-    let refused = page.ask(keep("mine", false)).unwrap_err();
+    let refused = page.ask(kept_as("mine", false)).unwrap_err();
     assert_eq!((&refused["code"], &refused["help"]), (&json!("exists"), &json!("the name `mine_2` is free")));
     for (name, replace) in [("mine", true), ("mine_2", false)] {
-        let id = page.begin(keep(name, replace));
+        let id = page.begin(kept_as(name, replace));
         page.done(json!({ "do": "cancel", "of": id }));
         assert_eq!(page.wait(id).unwrap_err()["code"], "cancelled");
     }
