@@ -25,7 +25,7 @@ const PAPER: [Color; 8] = [
 
 const SAFE: [Color; 8] = [
     Color::new(0, 0, 0),
-    Color::new(160, 160, 160),
+    Color::new(215, 215, 215),
     Color::new(230, 159, 0),
     Color::new(86, 180, 233),
     Color::new(213, 94, 0),

@@ -62,7 +62,7 @@ pub use shape::read_body;
 #[cfg(feature = "disk")]
 pub use source_files::source_files;
 #[cfg(feature = "disk")]
-pub use temporary::temporary_folder;
+pub use temporary::{PrivateFile, temporary_folder};
 #[cfg(feature = "disk")]
 pub use verilog::VerilogFiles;
 pub use yaml::MAX_ROBOT_BYTES;

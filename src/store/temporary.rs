@@ -1,8 +1,10 @@
 //! The folder for temporary files of this version of the program and this user of the machine.
 
 use std::fs;
-use std::io;
-use std::path::PathBuf;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, TempPath};
 
 /// Makes the folder if it is missing. Only its user can read it.
 ///
@@ -12,8 +14,30 @@ pub fn temporary_folder() -> io::Result<PathBuf> {
     of_user(&std::env::temp_dir())
 }
 
+/// A file that only its user can read. It is removed when this is dropped.
+#[derive(Debug)]
+pub struct PrivateFile(TempPath);
+
+impl PrivateFile {
+    /// Writes a text to a new file in the folder for temporary files. Its name has this start and this end.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn create(start: &str, end: &str, text: &str) -> io::Result<Self> {
+        // Files that this makes are readable by their user only.
+        let mut file = Builder::new().prefix(start).suffix(end).tempfile_in(temporary_folder()?)?;
+        file.write_all(text.as_bytes())?;
+        Ok(Self(file.into_temp_path()))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
 #[cfg(unix)]
-fn of_user(all: &std::path::Path) -> io::Result<PathBuf> {
+fn of_user(all: &Path) -> io::Result<PathBuf> {
     use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
     // A file that this process makes belongs to its user.
     let user = tempfile::tempfile_in(all)?.metadata()?.uid();
@@ -33,7 +57,7 @@ fn of_user(all: &std::path::Path) -> io::Result<PathBuf> {
 }
 
 #[cfg(not(unix))]
-fn of_user(all: &std::path::Path) -> io::Result<PathBuf> {
+fn of_user(all: &Path) -> io::Result<PathBuf> {
     // Each user has a folder of temporary files.
     let folder = all.join(concat!("nbc-", env!("CARGO_PKG_VERSION")));
     fs::create_dir_all(&folder)?;

@@ -147,7 +147,7 @@ fn each_outer_crate_has_one_home() {
     forbid("only store/ names YAML", &["serde_yaml"], in_folder("store"));
     let shell = |path: &Path| matches!(folder(path).as_str(), "cli" | "main");
     let program = ["clap::", "indicatif", "signal_hook", "crossbeam_channel", "gen_lsp_types", "lsp_server"];
-    let server = ["axum", "open::"];
+    let server = ["axum", "flate2", "hyper::", "hyper_util", "open::"];
     forbid("only cli/play names the crates of the server", &server, |path| path.to_string_lossy().contains("cli/play"));
     let cluster = ["async_nats", "futures_util", "postcard"];
     forbid("only cli/cluster names the crates of the queue", &cluster, |path| {

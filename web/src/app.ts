@@ -40,7 +40,11 @@ export class App {
     });
     const learn = new LearnPanel(
       { program: this.#program, swarm: this.#swarm, tests, robots },
-      { open: (path, text) => this.#edit.begin(path, text), show: tab => this.#layout.show(tab) },
+      {
+        open: (path, text) => this.#edit.begin(path, text),
+        replace: text => this.#edit.editor.replace(text),
+        show: tab => this.#layout.show(tab),
+      },
     );
     this.#layout = new Layout(this.#header.host, this.#edit.host, learn.strip, [
       { name: "swarm", label: "Swarm", panel: swarm.host },

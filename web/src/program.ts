@@ -37,7 +37,12 @@ export class Program {
   #text = "";
   #saved: string | null = null;
   #compiled: { path: string; text: string; choice: string } | null = null;
+  /** The path of the program whose swarm is shown. */
+  shown: string | null = null;
   #timer = 0;
+  /** Whether there was an edit that has not been checked. */
+  #edited = false;
+  #checking: Promise<void> = Promise.resolve();
   #compilation: AbortController | null = null;
   #turn = 0;
 
@@ -88,7 +93,19 @@ export class Program {
     this.unsaved.set(unsaved);
     keepDraft(this.folder, this.path.value, unsaved ? { text, stamp: this.stamp } : null);
     clearTimeout(this.#timer);
+    this.#edited = true;
     this.#timer = window.setTimeout(() => this.#check(), PAUSE);
+  }
+
+  /** Waits until the present text has been checked. An edit of just now is checked at once. */
+  async settled(): Promise<void> {
+    if (this.#edited) {
+      this.#check();
+    }
+    for (let known; known !== this.#checking; ) {
+      known = this.#checking;
+      await known;
+    }
   }
 
   /** The draft of a program that may have no file. */
@@ -125,6 +142,7 @@ export class Program {
   /** Notes that the swarm is now another than that of the program, such as that of a replay. */
   forgetCompiled(choice: Choice | null): void {
     this.#compiled = null;
+    this.shown = this.path.value;
     this.choice.set(choice);
   }
 
@@ -140,8 +158,13 @@ export class Program {
     return entries;
   }
 
-  async #check(): Promise<void> {
+  #check(): void {
     clearTimeout(this.#timer);
+    this.#edited = false;
+    this.#checking = this.#checkNow();
+  }
+
+  async #checkNow(): Promise<void> {
     const turn = ++this.#turn;
     const [path, text] = [this.path.value, this.#text];
     this.stage.set({ state: "checking" });
@@ -195,7 +218,7 @@ export class Program {
       const { swarm } = await this.connection.request("compile", { path, ...choice }, { signal: compilation.signal });
       if (this.#compilation === compilation) {
         this.#compiled = { path, text, choice: JSON.stringify(choice) };
-        this.#start(swarm);
+        this.#start(swarm, path);
       }
     } catch (error) {
       if (this.#compilation === compilation) {
@@ -214,9 +237,10 @@ export class Program {
     );
   }
 
-  #start(swarm: Parameters<LiveSwarm["begin"]>[0]): void {
+  #start(swarm: Parameters<LiveSwarm["begin"]>[0], path: string): void {
     const plays = this.plays || this.swarm.wantsToRun;
     this.plays = false;
+    this.shown = path;
     this.swarm.begin(swarm);
     this.stage.set({ state: "ready" });
     if (plays) {

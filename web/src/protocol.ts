@@ -265,7 +265,7 @@ export interface Verbs {
   view: [{ robots: number[] }, object];
   robots: [{ path: string | null }, Robots];
   probe: [{ body: string[]; cycles: number; character: boolean }, Probe];
-  keep: [{ name: string; body: string[] }, { path: string; use: string }];
+  keep: [{ path: string | null; name: string; body: string[]; replace: boolean }, { path: string; use: string }];
   evolve: [
     { body: string[] | null; box: [number, number]; generations: number; seed: number },
     { generations: number; evaluations: number },

@@ -102,6 +102,34 @@ test("words are completed, and a name leads to its definition", async () => {
   );
 });
 
+test("a quick fix is offered beside the line and at the cursor", async () => {
+  const wrong = "circuit gate(first, b) -> (q) {\n    q = frist and b\n}\n";
+  const mended = () =>
+    here.page.waitForFunction(() =>
+      document.querySelector(".editor").shadowRoot.textContent.includes("q = first and b"),
+    );
+  await typeProgram(here.page, wrong);
+  await here.page.locator(".cm-fix-sign").click();
+  await here.page.locator(".cm-fix-list button").first().click();
+  await mended();
+  await typeProgram(here.page, wrong);
+  await here.page.locator(".cm-fix-sign").waitFor();
+  await here.page.keyboard.press("Control+Home");
+  await here.page.keyboard.press("ArrowDown");
+  await here.page.keyboard.press("Control+.");
+  await here.page.locator(".cm-fix-list button:focus").waitFor();
+  await here.page.keyboard.press("Enter");
+  await mended();
+});
+
+test("the keyboard leaves the editor, and the page says how", async () => {
+  await here.page.locator(".cm-content").click();
+  await here.page.getByText("Esc, then Tab leaves the editor").waitFor();
+  await here.page.keyboard.press("Escape");
+  await here.page.keyboard.press("Tab");
+  assert.equal(await here.page.evaluate(() => document.activeElement.className), "divider");
+});
+
 test("other files, examples and new files can be opened", async () => {
   await here.page.locator("[data-do=open]").click();
   await here.page.locator(".files section", { hasText: "In this folder" }).locator('[data-open="latch.nb"]').click();

@@ -62,6 +62,36 @@ test("pause, step, rewind and reset", async () => {
   await here.page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 0");
 });
 
+test("a rewind takes over the inputs of its moment", async () => {
+  await setInput(here.page, "d", 0);
+  await setInput(here.page, "e", 0);
+  await here.page.locator("[data-do=step]").click();
+  await setInput(here.page, "d", 1);
+  for (let i = 0; i < 3; i++) {
+    await here.page.locator("[data-do=step]").click();
+  }
+  await here.page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 4");
+  const slider = here.page.locator(".rewind");
+  for (let i = 0; i < 5; i++) {
+    for (const [moment, d] of [
+      [1, "false"],
+      [3, "true"],
+      [2, "true"],
+    ]) {
+      // As when the slider is dragged: each moment is asked for before the one before has come.
+      await slider.fill("4");
+      await slider.fill(String(moment));
+      await here.page.waitForFunction(
+        now => document.querySelector(".cycle").textContent === `cycle ${now} of 4`,
+        moment,
+      );
+      assert.equal(await here.page.locator('button[data-input="d"]').getAttribute("aria-checked"), d, String(moment));
+    }
+  }
+  await here.page.locator("[data-do=reset]").click();
+  await here.page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 0");
+});
+
 test("an automatic clock changes its input", async () => {
   await here.page.locator(".clock summary").click();
   await here.page.locator(".clock select").selectOption({ label: "d" });

@@ -31,6 +31,36 @@ test("the lesson on the latch is finished by using the latch as a memory", async
   await here.page.locator('.strip[data-finished="true"]').waitFor();
 });
 
+test("a lesson is begun again from its start, and runs, whatever was there before", async () => {
+  await here.page.locator("#tab-swarm").click();
+  await setInput(here.page, "d", 1);
+  await setInput(here.page, "e", 1);
+  await here.page.locator('[data-lamp="q"][data-value="1"]').waitFor();
+  await here.page.locator("[data-do=play][data-running=true]").click();
+  await here.page.locator("#tab-learn").click();
+  await here.page.locator("[data-lesson=latch] [data-do=begin]").click();
+  await here.page.locator("[data-do=play][data-running=true]").waitFor();
+  await cyclesLater(here.page, 8);
+  assert.equal(await here.page.locator('.strip li[data-done="true"]').count(), 0);
+  assert.equal(await here.page.locator('button[data-input="d"]').getAttribute("aria-checked"), "false");
+});
+
+test("the program of a lesson can be had back", async () => {
+  await here.page.locator(".strip [data-do=restore]").waitFor({ state: "hidden" });
+  await typeProgram(here.page, "circuit broken(a) -> (q) {\n    q = b\n}\n");
+  await here.page.locator('.swarm .status[data-state="errors"]').waitFor();
+  await here.page.locator(".strip [data-do=restore]").click();
+  await here.page.locator('.swarm .status[data-state="ready"]').waitFor();
+  assert.match(await here.page.locator(".cm-content").textContent(), /circuit d_latch/);
+  await setInput(here.page, "d", 1);
+  await setInput(here.page, "e", 1);
+  await done(1);
+  await setInput(here.page, "e", 0);
+  await done(2);
+  await setInput(here.page, "d", 0);
+  await here.page.locator('.strip[data-finished="true"]').waitFor();
+});
+
 test("the progress is remembered", async () => {
   await here.page.reload();
   await here.page.locator("#tab-learn").click();

@@ -74,7 +74,22 @@ test("the keyboard reaches what the mouse does", async () => {
   await page.keyboard.press("ArrowDown");
   await page.keyboard.press("Enter");
   await page.locator(".inspector .facts:not([hidden])").waitFor();
+  // What is said of a robot does not cover it.
+  const [stage, facts] = [
+    await page.locator(".stage").boundingBox(),
+    await page.locator(".inspector .facts").boundingBox(),
+  ];
+  assert.ok(stage.x + stage.width <= facts.x, `${JSON.stringify(stage)} ${JSON.stringify(facts)}`);
   await page.keyboard.press("Escape");
   await page.locator(".inspector .facts").waitFor({ state: "hidden" });
+  // The schematic is one stop of the tab key, however many robots it has; arrows go from robot to robot.
+  const focused = () => page.evaluate(() => document.activeElement.closest("[data-id]")?.dataset.id ?? "");
+  await page.locator('.schematic [tabindex="0"]').focus();
+  const first = await focused();
+  await page.keyboard.press("ArrowRight");
+  assert.notEqual(await focused(), first);
+  assert.match(await focused(), /^cell-/);
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(), "");
   await page.leave();
 });

@@ -101,9 +101,19 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await here.page.locator("[data-do=keep]").click();
   await here.page.getByText("wrote robots/mine.yaml").waitFor();
   assert.ok(existsSync(path.join(here.place.folder, "robots", "mine.yaml")));
+  // Another one of that name is not replaced without a question, and what takes long can be stopped.
+  await here.page.locator("[data-do=keep]").click();
+  await here.page.getByText("robots/mine.yaml` is there already").waitFor();
+  await here.page.locator("[data-do=replace]").click();
+  await here.page.getByText("measuring it over").waitFor();
+  await here.page.locator("[data-do=stop-keep]").click();
+  await here.page.getByText("nothing was kept").waitFor();
   await here.page.waitForFunction(() =>
     /library \w+ \{/.test(document.querySelector(".editor").shadowRoot.textContent),
   );
+  await here.page.locator(".keeping input").fill("other");
+  await here.page.locator("[data-do=keep]").click();
+  await here.page.getByText("wrote robots/other.yaml").waitFor();
   await here.page.locator("[data-do=build]").click();
   await here.page.locator("#tab-swarm").click();
   await here.page.locator(".circuit").selectOption({ label: "d_latch as d_latch_own" });

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { cycle, lamp } from "./browser.mjs";
+import { cycle, lamp, typeProgram } from "./browser.mjs";
 import { opened } from "./opened.mjs";
 import { LATCH } from "./program.mjs";
 
@@ -48,4 +48,14 @@ test("it leads to its moment in the run, which can be rewound", async () => {
   const end = await cycle(here.page);
   await here.page.locator(".rewind").fill("2");
   await here.page.waitForFunction(last => document.querySelector(".cycle").textContent === `cycle 2 of ${last}`, end);
+});
+
+test("a test that is started right after an edit runs after its check", async () => {
+  await here.page.locator("#tab-tests").click();
+  await typeProgram(here.page, LATCH);
+  await here.page.locator(".test [data-do=logic]").click();
+  await here.page.getByText("✓ passes as logic").waitFor();
+  // The check that the edit would have caused later takes nothing away.
+  await here.page.waitForTimeout(800);
+  assert.ok(await here.page.getByText("✓ passes as logic").isVisible());
 });

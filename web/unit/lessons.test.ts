@@ -62,6 +62,21 @@ test("there are eight lessons, each with something to do", () => {
   LESSONS.forEach(lesson => assert.ok(lesson.steps.length > 0));
 });
 
+test("the lesson on evolution follows the search at once, and not one of before", () => {
+  const lesson = LESSONS.find(({ name }) => name === "evolution");
+  assert.ok(lesson !== undefined);
+  const body = ["343"];
+  const niche = { place: [0], fitness: [1, 1], body, letters: "RRRL", function: "nand" };
+  const [begin, wait, click] = lesson.steps.map(step => step.check);
+  const old = { running: false, niches: [niche, niche, niche, niche, niche], chosen: null };
+  assert.equal(begin?.(situation([], { search: old })), false);
+  assert.equal(begin?.(situation([], { search: { running: true, niches: [], chosen: null } })), true);
+  assert.equal(wait?.(situation([], { search: old })), true);
+  const chosen = { ...old, chosen: niche };
+  assert.equal(click?.(situation([], { search: old, design: { body, probe: null } })), false);
+  assert.equal(click?.(situation([], { search: chosen, design: { body, probe: null } })), true);
+});
+
 test("outputs are found in a text", () => {
   assert.deepEqual(outputNames("circuit x(a, b) -> (q, sum[3]) {}\ncircuit y() -> (z) {}"), ["q", "sum", "z"]);
 });

@@ -3,16 +3,18 @@
 use serde_json::{Value, json};
 
 use crate::circuit::formats::is_word;
+use crate::cli::play::SCHEME;
+use crate::cli::play::files::PageFiles;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
+use crate::cli::play::request::KeepRequest;
 use crate::evolve;
 use crate::model::{
     Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,
 };
-use crate::report::{self, Looks, Scheme, Stage, describe_material};
+use crate::report::{self, Looks, Stage, describe_material};
 use crate::session::{Checked, CompileOptions, Session};
-use crate::sim::Simulator;
 use crate::store;
 use crate::swarm::{Recorded, measure, sketch, walk};
 
@@ -37,7 +39,7 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Val
             all.extend(new);
         }
     }
-    let looks = Looks::of(all.iter().map(|robot| &robot.body), Scheme::default());
+    let looks = Looks::of(all.iter().map(|robot| &robot.body), SCHEME);
     let cards: Vec<Value> = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &looks)).collect();
     Ok(json!({ "robots": cards, "looks": report::look_data(&looks), "palette": palette(&looks) }))
 }
@@ -105,7 +107,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
     job.check()?;
     let (displacement, behavior, sketched) = measured(&body, is_whole, job)?;
-    let looks = Looks::of([&body], Scheme::default());
+    let looks = Looks::of([&body], SCHEME);
     let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
     Ok(Some(json!({
         "gaits": gaits.iter().map(gait).collect::<Vec<_>>(),
@@ -140,16 +142,35 @@ fn character(character: &Character) -> Value {
     })
 }
 
-/// A robot file of a body: its path, its text, and the declaration that uses it.
+/// Measures a body and writes its robot file, into a folder beside the program that is to use it.
 ///
 /// # Errors
-/// When the name is not that of a robot, or the body cannot be simulated.
-pub(super) fn robot_file(name: &str, rows: &[String]) -> Result<(String, String, String), Refused> {
-    if !is_word(name) {
-        return Err(Refused::Name(name.to_owned()));
+/// When the name is not that of a robot, there is one already, the body cannot be simulated, or nothing can be written.
+pub(super) fn keep(request: &KeepRequest, files: &PageFiles, job: &Job) -> JobEnd {
+    if !is_word(&request.name) {
+        return Err(Refused::Name(request.name.clone()));
     }
-    let body = body(rows)?;
-    let measured = measure(&Simulator::default(), &body).map_err(Refused::fault)?;
+    let body = body(&request.body)?;
+    let (beside, _) = request.path.as_deref().unwrap_or_default().rsplit_once('/').unwrap_or_default();
+    let folder = if beside.is_empty() { FOLDER.to_owned() } else { format!("{beside}/{FOLDER}") };
+    let place = |name: &str| format!("{folder}/{name}.yaml");
+    let path = place(&request.name);
+    if files.has(&path) && request.replace != Some(true) {
+        let free = (2..).map(|number| format!("{}_{number}", request.name)).find(|name| !files.has(&place(name)));
+        return Err(Refused::RobotExists { path, free: free.expect("there are more numbers than files") });
+    }
+    // What can fail at once does so before the body is measured, which takes long.
+    files.folder_of(&path)?;
+    let text = robot_file(&request.name, body, job)?;
+    files.make_folder(&path)?;
+    files.write(&path, &text)?;
+    Ok(Some(json!({ "path": path, "use": format!("library own {{ from: \"{FOLDER}\" }}") })))
+}
+
+/// The text of a robot file.
+fn robot_file(name: &str, body: Body, job: &Job) -> Result<String, Refused> {
+    let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
+    let measured = measure(&job.simulator(), &body).map_err(stopped)?;
     let provenance = Provenance {
         program: env!("CARGO_PKG_NAME").to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -167,6 +188,5 @@ pub(super) fn robot_file(name: &str, rows: &[String]) -> Result<(String, String,
         provenance,
         genotype: None,
     };
-    let declaration = format!("library own {{ from: \"{FOLDER}\" }}");
-    Ok((format!("{FOLDER}/{name}.yaml"), store::print_robot(&robot), declaration))
+    Ok(store::print_robot(&robot))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use include_dir::{Dir, File, include_dir};
@@ -64,6 +64,11 @@ impl PageFiles {
         Ok(json!({ "stamp": stamp }))
     }
 
+    /// Whether there is a file of that path.
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.world.existing(path).is_ok()
+    }
+
     /// Writes a file below the folder.
     ///
     /// # Errors
@@ -74,15 +79,21 @@ impl PageFiles {
         store::write(&place, text.as_bytes()).map_err(|error| Refused::unwritable(path, &error))
     }
 
-    /// Makes the folder of a file, directly below the served one.
+    /// The folder of a file, which need not be there. The folder around it must be.
+    ///
+    /// # Errors
+    /// When it is not, or is outside of the served folder.
+    pub(super) fn folder_of(&self, path: &str) -> Result<PathBuf, Refused> {
+        let folder = Path::new(path).parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
+        self.world.writable(&folder).map_err(|error| Refused::Unreadable { path: folder, error })
+    }
+
+    /// Makes the folder of a file.
     ///
     /// # Errors
     /// When it cannot be made.
     pub(super) fn make_folder(&self, path: &str) -> Result<(), Refused> {
-        let folder = Path::new(path).parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
-        let place = self.world.writable(&folder);
-        let place = place.map_err(|error| Refused::Unreadable { path: folder.clone(), error })?;
-        store::create_folder(&place).map_err(|error| Refused::unwritable(&folder, &error))
+        store::create_folder(&self.folder_of(path)?).map_err(|error| Refused::unwritable(path, &error))
     }
 
     /// The files that have other stamps than the page knows, as events.

@@ -63,6 +63,10 @@ impl Jobs {
         let (stop, monitor, end) = (CancelFlag::default(), Arc::new(Monitor::default()), Instant::now() + TIME);
         {
             let mut running = lock(&self.running);
+            // Otherwise it could not be cancelled, and the end of one would count as that of the other.
+            if running.contains_key(&id) {
+                return self.outbox.answer(id, Err(Refused::NumberInUse { id }.into()));
+            }
             if running.len() >= MOST {
                 return self.outbox.answer(id, Err(Refused::Busy { most: MOST }.into()));
             }

@@ -2,59 +2,80 @@
 
 use std::sync::Arc;
 use std::thread;
-use std::time::Instant;
 
-use axum::extract::ws::{Message as Frame, WebSocket};
-use lsp_server::{Connection, Message};
+use axum::extract::ws::{Utf8Bytes, WebSocket};
+use crossbeam_channel::bounded;
+use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::{Value, json};
 use tokio::sync::mpsc;
 
 use crate::cli::lsp;
+use crate::cli::play::outbox::outbox;
 use crate::cli::play::served::Served;
-use crate::cli::play::socket::{Allowance, receive, send};
+use crate::cli::play::socket::{WAITING, pump};
 
-/// Messages that may wait for the page.
-const WAITING: usize = 256;
+/// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and
+/// answers that may.
+const READ: usize = 2;
+const ANSWERS: usize = 16;
 
 /// Serves one page until it is gone.
-pub(super) async fn serve(served: Arc<Served>, mut socket: WebSocket) {
-    let (server, page) = Connection::memory();
+pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
+    let (requests, mut waiting) = mpsc::channel::<Utf8Bytes>(WAITING);
+    let (inbox, outgoing) = outbox();
+    let (sender, receiver) = bounded(READ);
+    let (answer, answers) = bounded(ANSWERS);
     let world = served.world.clone();
     // A page that breaks the protocol is left alone: it sees that nothing is answered.
-    thread::spawn(move || _ = lsp::serve(&server, Arc::new(world)));
-    let (outbox, mut outgoing) = mpsc::channel(WAITING);
-    let answers = page.receiver;
-    thread::spawn(move || answers.into_iter().try_for_each(|message| outbox.blocking_send(written(&message))));
-    let mut allowance = Allowance::new(Instant::now());
-    loop {
-        tokio::select! {
-            text = receive(&mut socket, &mut allowance) => {
-                let Some(text) = text else { return };
-                let Some(message) = read(&text, &served) else { continue };
-                if page.sender.send(message).is_err() { return }
-            }
-            text = outgoing.recv() => {
-                let Some(text) = text else { return };
-                if !send(&mut socket, Frame::Text(text.into())).await { return }
+    thread::spawn(move || _ = lsp::serve(&Connection { sender: answer, receiver }, Arc::new(world)));
+    let told = inbox.clone();
+    thread::spawn(move || answers.into_iter().for_each(|message| told.send(written(&message))));
+    let folder = served.clone();
+    thread::spawn(move || {
+        while let Some(text) = waiting.blocking_recv() {
+            let sent = match read(&text, &folder) {
+                Ok(message) => message.map_or(Ok(()), |message| sender.send(message)),
+                Err(refusal) => {
+                    inbox.tell(&refusal);
+                    Ok(())
+                }
+            };
+            if sent.is_err() {
+                return;
             }
         }
-    }
+    });
+    pump(socket, requests, outgoing, &served.waiting).await;
 }
 
-/// A message of the page. Whatever folders it names, it works in the served one.
-fn read(text: &str, served: &Served) -> Option<Message> {
-    let mut value: Value = serde_json::from_str(text).ok()?;
-    // The language server answers other parameters with an error.
-    if value["method"] == "initialize"
-        && let Some(params) = value["params"].as_object_mut()
-    {
+/// A message of the page; none if it is not for the server. Whatever folders it names, it works in the served one.
+///
+/// # Errors
+/// The answer to what is no message.
+fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
+    if text.is_empty() {
+        return Ok(None);
+    }
+    let mut value: Value =
+        serde_json::from_str(text).map_err(|error| refusal(&Value::Null, ErrorCode::ParseError, &error.to_string()))?;
+    if value["method"] == "initialize" {
+        let id = value["id"].clone();
+        let Some(params) = value["params"].as_object_mut() else {
+            return Err(refusal(&id, ErrorCode::InvalidParams, "the parameters of `initialize` must be an object"));
+        };
         params.insert("rootUri".to_owned(), json!(served.root));
         params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.root, "name": "play" }]));
     }
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
-        return None;
+        return Ok(None);
     }
-    serde_json::from_value(value).ok()
+    let id = value.get("id").cloned().unwrap_or_default();
+    let message = serde_json::from_value(value);
+    message.map(Some).map_err(|error| refusal(&id, ErrorCode::InvalidRequest, &error.to_string()))
+}
+
+fn refusal(id: &Value, code: ErrorCode, message: &str) -> Value {
+    json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
 }
 
 fn written(message: &Message) -> String {

@@ -1,6 +1,7 @@
 //! `nbc play`: the robots live, in a browser. The server runs the swarms; the page of `web/` draws them.
 
 mod bodies;
+mod connections;
 mod evolving;
 mod files;
 mod frame;
@@ -26,19 +27,24 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
+use serde_json::json;
 use tokio::net::TcpListener;
 use tokio::runtime::Builder;
 
 use crate::cli::lsp;
 use crate::cli::wording::PlayError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use crate::report::Schema;
-use crate::store::FolderWorld;
+use crate::report::{Schema, Scheme};
+use crate::store::{FolderWorld, PrivateFile};
 use page::Page;
 use served::Served;
 
+/// The colors of materials on the page, and of what is taken from it.
+const SCHEME: Scheme = Scheme::Safe;
 /// The time between two looks for Ctrl-C.
 const LOOK: Duration = Duration::from_millis(100);
+/// The file that a browser is told to open. So the token is in no list of processes.
+const REDIRECT: (&str, &str) = ("open-", ".html");
 /// Bytes of a random token.
 const TOKEN: usize = 16;
 
@@ -101,31 +107,62 @@ impl PlayArguments {
         let listener = TcpListener::bind((self.host.as_str(), self.port)).await.map_err(refused)?;
         let port = listener.local_addr()?.port();
         let served = Arc::new(Served { host: self.host.clone(), port, ..served });
-        self.tell(&served.address(), context)?;
+        self.tell(&served, context)?;
+        let redirect = self.open(&served, context);
         let stopped = async {
             while !interrupt.is_raised() {
                 tokio::time::sleep(LOOK).await;
             }
         };
         tokio::select! {
-            ended = axum::serve(listener, server::router(served)).into_future() => ended?,
+            never = connections::serve(listener, server::router(served)) => match never {},
             () = stopped => {}
         }
+        drop(redirect);
         Ok(Status::Done)
     }
 
-    /// Prints the address, and opens it.
-    fn tell(&self, address: &str, context: &mut Context) -> Result<(), Failure> {
+    /// Prints the address, and the one for other computers.
+    fn tell(&self, served: &Served, context: &mut Context) -> Result<(), Failure> {
+        let (address, elsewhere) = (served.address(), served.address_elsewhere());
         match context.format {
-            OutputFormat::Text => context.print(format_args!("{address}\n"))?,
-            OutputFormat::Json => context.print_json(Schema::Play, &serde_json::json!({ "address": address }))?,
+            OutputFormat::Text => {
+                context.print(format_args!("{address}\n"))?;
+                if let Some(elsewhere) = elsewhere {
+                    context.print(format_args!("{elsewhere} (for other computers)\n"))?;
+                }
+            }
+            OutputFormat::Json => {
+                context.print_json(Schema::Play, &json!({ "address": address, "elsewhere": elsewhere }))?;
+            }
         }
-        context.flush()?;
-        if !self.no_open && open::that_detached(address).is_err() {
-            context.log("no browser could be opened; open the address yourself\n");
-        }
-        Ok(())
+        context.flush()
     }
+
+    /// Opens the address in a browser, through a file that must stay until the browser has read it.
+    fn open(&self, served: &Served, context: &Context) -> Option<PrivateFile> {
+        if self.no_open {
+            return None;
+        }
+        let file = PrivateFile::create(REDIRECT.0, REDIRECT.1, &redirect(&served.address()));
+        match file {
+            Ok(file) if open::that_detached(file.path()).is_ok() => Some(file),
+            _ => {
+                context.log("no browser could be opened; open the address yourself\n");
+                None
+            }
+        }
+    }
+}
+
+/// A page that leads to another one.
+fn redirect(address: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"referrer\" content=\"no-referrer\">\n\
+         <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<title>nbc</title>\n\
+         <p><a href=\"{address}\">Open the page of nbc play</a></p>\n"
+    )
 }
 
 /// The folder to serve, and the file in it.

@@ -3,12 +3,13 @@
 use serde_json::{Value, json};
 
 use crate::circuit::Effort;
+use crate::cli::play::SCHEME;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::runner::LoadedSwarm;
 use crate::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
-use crate::report::{self, Looks, Scheme};
+use crate::report::{self, Looks};
 use crate::session::{Checked, Choice, CompileOptions, Compiled, RunEnd, Session, TestOptions};
 use crate::swarm::{Level, LiveSwarm};
 
@@ -96,7 +97,7 @@ pub(super) fn loaded(
 
 fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> Value {
     let (assembly, trace) = (&compiled.assembly, swarm.trace());
-    let looks = Looks::of(assembly.members.iter().map(|member| &member.robot.body), Scheme::default());
+    let looks = Looks::of(assembly.members.iter().map(|member| &member.robot.body), SCHEME);
     json!({
         "number": number,
         "circuit": compiled.plan.circuit.to_string(),
@@ -106,7 +107,7 @@ fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> Value {
         "shown": assembly.shown,
         "robots": report::live_robots(trace, assembly, &looks),
         "looks": report::look_data(&looks),
-        "schematic": report::embedded(&compiled.schematic(Scheme::default())),
+        "schematic": report::embedded(&compiled.schematic(SCHEME)),
         "timing": compiled.swarm_timing().describe(),
         "hold": compiled.timing.hold,
         "start": assembly.start_cycles(),

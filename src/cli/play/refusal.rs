@@ -22,6 +22,10 @@ pub(super) enum Refused {
     NoTest,
     /// A circuit with more robots than one page may simulate.
     TooManyRobots { robots: usize, most: usize },
+    /// A request whose number a running one has.
+    NumberInUse { id: u64 },
+    /// A robot file that is there already.
+    RobotExists { path: String, free: String },
     /// Work of this page that already runs.
     Busy { most: usize },
     /// The work was stopped by the page.
@@ -83,6 +87,8 @@ impl Refused {
             Self::TooManyRobots { robots, most } => {
                 format!("the circuit needs {robots} robots; the page runs at most {most}")
             }
+            Self::NumberInUse { id } => format!("request {id} is still running"),
+            Self::RobotExists { path, .. } => format!("`{path}` is there already"),
             Self::Busy { most } => format!("{most} requests of this page are still running"),
             Self::Cancelled => "it was cancelled".to_owned(),
             Self::TimedOut { seconds } => format!("it took longer than {seconds} seconds and was stopped"),
@@ -105,6 +111,8 @@ impl Refused {
         match self {
             Self::Changed { .. } => Some("load it, or save again to replace it".to_owned()),
             Self::Name(_) => Some("use letters, digits, `_` and `-`".to_owned()),
+            Self::NumberInUse { .. } => Some("give each request a number of its own".to_owned()),
+            Self::RobotExists { free, .. } => Some(format!("the name `{free}` is free")),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
             Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
@@ -117,6 +125,8 @@ impl Refused {
             Self::Cancelled => Some("cancelled"),
             Self::TimedOut { .. } => Some("timed-out"),
             Self::Changed { .. } => Some("changed"),
+            Self::NumberInUse { .. } => Some("in-use"),
+            Self::RobotExists { .. } => Some("exists"),
             Self::Busy { .. } => Some("busy"),
             _ => None,
         }

@@ -35,7 +35,7 @@ pub(super) enum Verb {
     View { robots: Vec<usize> },
     Robots { path: Option<String> },
     Probe { body: Vec<String>, cycles: u32, character: Option<bool> },
-    Keep { name: String, body: Vec<String> },
+    Keep(KeepRequest),
     Evolve(EvolveRequest),
     Take { what: TakeKind, cycles: u32 },
     Cancel { of: u64 },
@@ -47,6 +47,17 @@ pub(super) enum Verb {
 pub(super) enum TestLevel {
     Logic,
     Physics,
+}
+
+/// A body to keep as a robot.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub(super) struct KeepRequest {
+    /// The program that is to use it. Its robots are beside it.
+    pub(super) path: Option<String>,
+    pub(super) name: String,
+    pub(super) body: Vec<String>,
+    /// Whether a robot of that name is replaced.
+    pub(super) replace: Option<bool>,
 }
 
 /// A search for bodies.

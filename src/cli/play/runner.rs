@@ -101,6 +101,8 @@ struct Shown {
     view: Vec<usize>,
     /// The last cycle that the page knows.
     sent: u32,
+    /// The last one that it knew before the newest frame.
+    sent_before: u32,
     /// Whether the page does not know the current state.
     is_new: bool,
     last_frame: Option<Instant>,
@@ -134,6 +136,10 @@ impl Runner {
         match order {
             SwarmOrder::Load(loaded) => self.load(*loaded),
             SwarmOrder::Change(id, change) => {
+                // A frame of before would come after the answer, and the page would take it for what follows.
+                if let Some(shown) = self.shown.as_mut().filter(|_| self.outbox.clear()) {
+                    shown.take_back();
+                }
                 let done = self.shown.as_mut().ok_or(Refused::NoSwarm).and_then(|shown| shown.change(change));
                 self.outbox.answer(id, done.map(|()| json!({})).map_err(Refusal::from));
             }
@@ -188,6 +194,7 @@ impl Shown {
             poses: Poses::of(&swarm),
             view: (0..robots).collect(),
             sent: 0,
+            sent_before: 0,
             is_new: true,
             last_frame: None,
             world: compiled.assembly.setting(Session::LIVE_CYCLES).world_width as f64,
@@ -355,6 +362,12 @@ impl Shown {
         Excerpt { compiled: self.compiled.clone(), start: start.clone(), inputs: self.history.inputs(from, now) }
     }
 
+    /// Notes that the page will not get the newest frame.
+    fn take_back(&mut self) {
+        self.sent = self.sent.min(self.sent_before);
+        self.is_new = true;
+    }
+
     /// Sends a frame if there is something new and the page can receive it.
     fn show(&mut self, outbox: &Outbox) {
         let too_soon = self.last_frame.is_some_and(|last| last.elapsed() < FRAME_TIME);
@@ -375,6 +388,7 @@ impl Shown {
             view: &self.view,
         };
         outbox.put(frame.encode());
+        self.sent_before = self.sent;
         self.sent = self.history.last();
         self.is_new = false;
         self.last_frame = Some(Instant::now());

@@ -1,7 +1,8 @@
 //! What all pages of a server share: the folder, the address, and who may come in.
 
-use std::net::IpAddr;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, UdpSocket};
 use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
 
 use axum::http::{HeaderMap, header};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -13,8 +14,9 @@ use crate::store::FolderWorld;
 
 /// The largest message that a page may send, in bytes.
 pub(super) const MOST_BYTES: usize = 1 << 20;
-/// The most sockets at once; a page has two.
+/// The most sockets at once, and those of a page.
 const MOST_SOCKETS: usize = 32;
+const SOCKETS_OF_PAGE: usize = 2;
 
 /// What is served, and to whom.
 pub(super) struct Served {
@@ -31,6 +33,8 @@ pub(super) struct Served {
     pub(super) page: Page,
     pub(super) takes: Takes,
     pub(super) sockets: Arc<Semaphore>,
+    /// The bytes of all messages that wait to be handled.
+    pub(super) waiting: AtomicUsize,
     /// Threads for searches and measurements, so that swarms never wait for these.
     pub(super) background: ThreadPool,
 }
@@ -50,14 +54,48 @@ impl Served {
             page: Page::default(),
             takes: Takes::default(),
             sockets,
+            waiting: AtomicUsize::new(0),
             background: background.expect("the system has threads"),
         }
     }
 
-    /// The address of the page.
+    /// The address of the page, for a browser on this computer.
     pub(super) fn address(&self) -> String {
-        let host = if self.host.contains(':') { format!("[{}]", self.host) } else { self.host.clone() };
+        match self.everywhere() {
+            Some(IpAddr::V4(_)) => self.address_at(&Ipv4Addr::LOCALHOST.to_string()),
+            Some(IpAddr::V6(_)) => self.address_at(&Ipv6Addr::LOCALHOST.to_string()),
+            None => self.address_at(&self.host),
+        }
+    }
+
+    /// The address of the page for other computers, if the server listens at all addresses of this one and it has one
+    /// in a network.
+    pub(super) fn address_elsewhere(&self) -> Option<String> {
+        // Nothing is sent: the system only chooses the address that it would send from. The target is one of those that
+        // are kept for documents.
+        let (any, target) = match self.everywhere()? {
+            IpAddr::V4(_) => ("0.0.0.0:0", "192.0.2.1:9"),
+            IpAddr::V6(_) => ("[::]:0", "[2001:db8::1]:9"),
+        };
+        let socket = UdpSocket::bind(any).ok()?;
+        socket.connect(target).ok()?;
+        let own = socket.local_addr().ok()?.ip();
+        (!own.is_loopback()).then(|| self.address_at(&own.to_string()))
+    }
+
+    fn address_at(&self, host: &str) -> String {
+        let host = if host.contains(':') { format!("[{host}]") } else { host.to_owned() };
         format!("http://{host}:{}/{}/", self.port, self.token)
+    }
+
+    /// The address that stands for all of this computer, if the server listens there.
+    fn everywhere(&self) -> Option<IpAddr> {
+        self.host.parse().ok().filter(IpAddr::is_unspecified)
+    }
+
+    /// Whether there is no room for the sockets of another page.
+    pub(super) fn is_full(&self) -> bool {
+        self.sockets.available_permits() < SOCKETS_OF_PAGE
     }
 
     /// Whether a path begins with the token. Takes the same time for any wrong one.
@@ -78,7 +116,7 @@ impl Served {
         let port = format!(":{}", self.port);
         let Some(name) = host.strip_suffix(&port) else { return false };
         let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
-        let everywhere = self.host.parse::<IpAddr>().is_ok_and(|own| own.is_unspecified());
+        let everywhere = self.everywhere().is_some();
         name == "localhost"
             || name == self.host
             || address.is_ok_and(|address| everywhere || address.is_loopback() || address.to_string() == self.host)
@@ -124,7 +162,18 @@ mod tests {
     fn the_token_must_be_right() {
         let served = served("::1");
         assert_eq!(served.address(), "http://[::1]:80/secret/");
+        assert_eq!(served.address_elsewhere(), None);
         assert!(served.knows("secret"));
         assert!(!served.knows("secreT") && !served.knows("secret1") && !served.knows(""));
+    }
+
+    #[test]
+    fn an_address_that_a_browser_accepts_is_told() {
+        for (host, own) in [("0.0.0.0", "127.0.0.1"), ("::", "[::1]"), ("192.168.0.7", "192.168.0.7")] {
+            let served = served(host);
+            assert_eq!(served.address(), format!("http://{own}:80/secret/"));
+            let elsewhere = served.address_elsewhere().unwrap_or_default();
+            assert!(!elsewhere.contains("0.0.0.0") && !elsewhere.contains("[::]"), "{elsewhere}");
+        }
     }
 }

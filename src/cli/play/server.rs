@@ -7,10 +7,9 @@ use axum::extract::ws::{WebSocket, WebSocketUpgrade};
 use axum::extract::{Path, Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
-use axum::response::{IntoResponse, Response};
+use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{any, get};
 
-use crate::cli::play::page::Page;
 use crate::cli::play::served::{MOST_BYTES, Served};
 use crate::cli::play::{language, live};
 
@@ -19,22 +18,38 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; i
                       blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
 
+/// What a visitor reads while there are too many pages. It asks again by itself, because one that was left may count
+/// for a moment.
+const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+                    <meta http-equiv=\"refresh\" content=\"5\">\n<title>nbc is full</title>\n\
+                    <h1>This server has no room for another page</h1>\n\
+                    <p>Close a page of it that nobody uses. This one tries again every five seconds.</p>\n";
+
 /// The routes. Every address begins with the token.
 pub(super) fn router(served: Arc<Served>) -> Router {
-    let text = |kind: &'static str, part: fn(&Page) -> &str| {
-        get(move |State(served): State<Arc<Served>>| async move {
-            ([(header::CONTENT_TYPE, kind)], part(&served.page).to_owned())
-        })
-    };
     Router::new()
-        .route("/{token}/", text("text/html; charset=utf-8", |page| &page.html))
-        .route("/{token}/app.js", text("text/javascript; charset=utf-8", |page| &page.script))
-        .route("/{token}/app.css", text("text/css; charset=utf-8", |page| &page.style))
+        .route("/{token}/", get(document))
+        .route("/{token}/{name}", get(part))
         .route("/{token}/live", any(live_socket))
         .route("/{token}/language", any(language_socket))
         .route("/{token}/take/{number}/{name}", get(take))
         .layer(middleware::from_fn_with_state(served.clone(), guard))
         .with_state(served)
+}
+
+async fn document(State(served): State<Arc<Served>>, headers: HeaderMap) -> Response {
+    if served.is_full() {
+        return (StatusCode::SERVICE_UNAVAILABLE, Html(FULL)).into_response();
+    }
+    served.page.document(&headers)
+}
+
+async fn part(
+    State(served): State<Arc<Served>>,
+    Path((_, name)): Path<(String, String)>,
+    headers: HeaderMap,
+) -> Response {
+    served.page.part(&name, &headers).unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
 }
 
 /// Lets in only this server's page, by its token, its host and its origin, and adds what keeps others out.
@@ -50,11 +65,12 @@ async fn guard(State(served): State<Arc<Served>>, request: Request, next: Next) 
         (header::CONTENT_SECURITY_POLICY, POLICY),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
-        (header::CACHE_CONTROL, "no-store"),
     ];
     for (name, value) in headers {
         response.headers_mut().insert(name, HeaderValue::from_static(value));
     }
+    // What may be kept says so itself.
+    response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
     for name in ["cross-origin-opener-policy", "cross-origin-resource-policy"] {
         response.headers_mut().insert(name, HeaderValue::from_static("same-origin"));
     }

@@ -2,11 +2,12 @@
 
 use std::io;
 
+use crate::cli::play::SCHEME;
 use crate::cli::play::jobs::Job;
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::TakeKind;
 use crate::model::CYCLE_STEPS;
-use crate::report::{self, FRAMES_PER_CYCLE, Film, Scheme, Stage, SwarmOutcome};
+use crate::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
 use crate::session::{Excerpt, RunEnd, Session, SimulationRun, run_page};
 
 /// The most cycles that a file covers.
@@ -46,7 +47,7 @@ pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &m
     Ok(match kind {
         TakeKind::Page => {
             let outcome = SwarmOutcome::Simulation(&run.result);
-            run_page(&run.result.circuit, &[(outcome, &run.swarm)], Scheme::default()).into_bytes()
+            run_page(&run.result.circuit, &[(outcome, &run.swarm)], SCHEME).into_bytes()
         }
         TakeKind::Gif => film(excerpt, &run).map_err(|error| Refused::unwritable("film", &error))?,
         TakeKind::Png => report::png(&report::draw_swarm(trace)),
@@ -64,7 +65,7 @@ fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {
     let film = Film {
         title: assembly.circuit.clone(),
         lanes: assembly.members.iter().map(|one| format!("{} ({})", one.net, one.robot.function())).collect(),
-        scheme: Scheme::default(),
+        scheme: SCHEME,
         largest: sides.max().unwrap_or(1),
     };
     let mut bytes = Vec::new();

@@ -101,7 +101,6 @@ impl Visit {
                 self.session.update(&path, self.revision, text);
                 Ok(programs::program(&self.session.checked(&path)))
             }
-            Verb::Keep { name, body } => self.keep(&name, &body),
             Verb::Cancel { of } => {
                 self.jobs.cancel(of);
                 Ok(json!({}))
@@ -143,6 +142,11 @@ impl Visit {
                 let served = self.served.clone();
                 Ok(boxed(move |job| evolving::evolve(&request, &served.background, job)))
             }
+            Verb::Keep(request) => {
+                let served = self.served.clone();
+                let files = PageFiles::new(served.world.clone());
+                Ok(boxed(move |job| served.background.install(|| bodies::keep(&request, &files, job))))
+            }
             Verb::Take { what, cycles } => Ok(self.take(what, cycles)),
             other => unreachable!("{other:?} is answered at once"),
         };
@@ -168,13 +172,6 @@ impl Visit {
             },
             "cycle_seconds": 0.25,
         })
-    }
-
-    fn keep(&mut self, name: &str, body: &[String]) -> Result<Value, Refused> {
-        let (path, text, declaration) = bodies::robot_file(name, body)?;
-        self.files.make_folder(&path)?;
-        self.files.write(&path, &text)?;
-        Ok(json!({ "path": path, "use": declaration }))
     }
 
     /// Compiles on another thread, and gives the swarm to the runner, which answers.

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
@@ -21,16 +21,20 @@ pub(super) struct Server {
 
 impl Server {
     pub(super) fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = program()
-            .args(["play", "--no-open"])
-            .args(arguments)
-            .current_dir(folder)
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
+        Self::run(program().args(["play", "--no-open"]).args(arguments).current_dir(folder))
+    }
+
+    /// Runs a command that is a server.
+    pub(super) fn run(command: &mut Command) -> Self {
+        let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let mut address = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
         Self { child, address: address.trim().to_owned() }
+    }
+
+    /// The number of the process.
+    pub(super) fn process(&self) -> u32 {
+        self.child.id()
     }
 
     /// `127.0.0.1:PORT`
@@ -144,8 +148,13 @@ impl Page {
     pub(super) fn begin(&mut self, mut request: Value) -> u64 {
         self.next += 1;
         request["id"] = json!(self.next);
-        self.socket.send(Message::text(request.to_string())).unwrap();
+        self.send(&request);
         self.next
+    }
+
+    /// Sends a request as it is.
+    pub(super) fn send(&mut self, request: &Value) {
+        self.socket.send(Message::text(request.to_string())).unwrap();
     }
 
     fn receive(&mut self) -> Option<Value> {

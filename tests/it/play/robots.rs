@@ -1,5 +1,7 @@
 //! Robots: cards, the designer, evolution.
 
+use std::fs;
+
 use serde_json::json;
 
 use super::page::Server;
@@ -15,6 +17,10 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
     let robots = library["robots"].as_array().unwrap();
     assert!(robots.len() >= 32 && robots.iter().all(|robot| robot["shipped"] == true));
     assert_eq!(library["palette"].as_array().unwrap().len(), 8);
+    // Colors that everybody can tell apart.
+    let colors: Vec<&str> =
+        library["looks"].as_array().unwrap().iter().filter_map(|look| look["color"].as_str()).collect();
+    assert!(colors.contains(&"#d55e00") && colors.contains(&"#009e73"), "{colors:?}");
     let nand = robots.iter().find(|robot| robot["name"] == NAND).unwrap();
     let probe = json!({ "do": "probe", "body": nand["body"], "cycles": 2, "character": false });
     let probe = page.done(probe);
@@ -25,17 +31,36 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
 #[test]
 fn a_body_is_measured_and_kept_as_a_robot() {
     let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("circuits")).unwrap();
     let server = Server::start(folder.path(), &[]);
     let mut page = server.page();
     // The NAND of the library: a clock of one cycle is measured in the shortest time.
     let body = json!(["37555", "77765", "02563", "00263", "33333"]);
     let sketch = page.done(json!({ "do": "probe", "body": body, "cycles": 1 }))["character"].take();
     assert_eq!((&sketch["switches"], &sketch["clock"]), (&json!(128), &json!(1)));
-    let kept = page.done(json!({ "do": "keep", "name": "mine", "body": body }));
-    assert_eq!(kept, json!({ "path": "robots/mine.yaml", "use": "library own { from: \"robots\" }" }));
+    // Robots are beside the program that uses them.
+    let kept_as = |name: &str, replace: bool| {
+        let mut request = json!({ "do": "keep", "path": "circuits/n.nb", "body": body });
+        request["name"] = json!(name);
+        request["replace"] = json!(replace);
+        request
+    };
+    let kept = page.done(kept_as("mine", false));
+    assert_eq!(kept, json!({ "path": "circuits/robots/mine.yaml", "use": "library own { from: \"robots\" }" }));
+    let file = folder.path().join("circuits/robots/mine.yaml");
+    let text = fs::read_to_string(&file).unwrap();
+    let refused = page.ask(kept_as("mine", false)).unwrap_err();
+    assert_eq!((&refused["code"], &refused["help"]), (&json!("exists"), &json!("the name `mine_2` is free")));
+    for (name, replace) in [("mine", true), ("mine_2", false)] {
+        let id = page.begin(kept_as(name, replace));
+        page.done(json!({ "do": "cancel", "of": id }));
+        assert_eq!(page.wait(id).unwrap_err()["code"], "cancelled");
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), text);
+    assert_eq!(fs::read_dir(file.parent().unwrap()).unwrap().count(), 1);
     let circuit = "circuit n(a, b) -> (c) { c = nand(a, b) }\nswarm s { circuit: n, library: own }";
     let text = format!("{}\n{circuit}\n", kept["use"].as_str().unwrap());
-    assert_eq!(page.compile("n.nb", &text)["robots"][0]["robot"], "mine");
+    assert_eq!(page.compile("circuits/n.nb", &text)["robots"][0]["robot"], "mine");
 }
 
 #[test]

@@ -37,6 +37,7 @@ export class EditPanel {
       element("div", { class: "bar" }, this.#name, this.#save),
       this.notices.host,
       this.editor.host,
+      element("p", { class: "leaving" }, "Tab indents. Esc, then Tab leaves the editor."),
       this.#picker.host,
     );
     server.client.on(client => this.editor.serve(client));

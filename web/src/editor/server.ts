@@ -3,6 +3,7 @@
 import { LSPClient, languageServerExtensions, type Transport } from "@codemirror/lsp-client";
 
 import { Observable } from "../observable";
+import { quickFixes } from "./fixes";
 import { sanitize } from "./sanitize";
 
 const TIMEOUT = 10_000;
@@ -22,7 +23,7 @@ export class LanguageServer {
       const client = new LSPClient({
         rootUri,
         timeout: TIMEOUT,
-        extensions: languageServerExtensions(),
+        extensions: [...languageServerExtensions(), quickFixes()],
         sanitizeHTML: sanitize,
       });
       this.client.set(client.connect(transportOver(socket)));

@@ -31,10 +31,6 @@ export function hasShown(patterns: Values[], cycles = 400): Check {
   };
 }
 
-export function all(...checks: Check[]): Check {
-  return situation => checks.every(check => check(situation));
-}
-
 /** The body in the designer is this gate. */
 export function designs(gate: (name: string) => boolean): Check {
   return ({ design }) =>

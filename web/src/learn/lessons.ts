@@ -2,7 +2,7 @@
 
 import { NEW_PROGRAM } from "../editor/files";
 import type { TabName } from "../layout";
-import { all, designs, hasShown, keeps, type Check } from "./checks";
+import { designs, hasShown, keeps, type Check } from "./checks";
 
 export interface Step {
   task: string;
@@ -192,15 +192,12 @@ export const LESSONS: Lesson[] = [
     steps: [
       {
         task: "In the tab Robots, make a body, such as a random one, and choose “Evolve from here”.",
-        check: ({ search }) => search.running || search.niches.length > 0,
+        check: ({ search }) => search.running,
       },
       { task: "Wait until at least five kinds are filled.", check: ({ search }) => search.niches.length >= 5 },
       {
         task: "Click one of them to put its body in the designer, and watch it walk.",
-        check: all(
-          ({ search }) => search.chosen !== null,
-          ({ design }) => design.probe !== null,
-        ),
+        check: ({ search, design }) => search.chosen !== null && search.chosen.body.join() === design.body.join(),
       },
     ],
   },

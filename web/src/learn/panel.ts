@@ -7,6 +7,7 @@ import { recall, remember } from "../memory";
 import type { Program } from "../program";
 import type { RobotsPanel } from "../robots/panel";
 import type { TestsPanel } from "../tests/panel";
+import { prefersStillness } from "../theme";
 import { LESSONS, lessonPath, type Lesson } from "./lessons";
 import { Progress } from "./progress";
 import { situationOf } from "./situation";
@@ -21,6 +22,8 @@ interface Parts {
 interface Doors {
   /** Opens a program without a file. */
   open: (path: string, text: string) => void;
+  /** Replaces the text of the program. */
+  replace: (text: string) => void;
   show: (tab: TabName) => void;
 }
 
@@ -28,6 +31,11 @@ export class LearnPanel {
   readonly host = element("div", { class: "learn" });
   readonly strip = element("aside", { class: "strip", "aria-label": "Lesson", "aria-live": "polite", hidden: true });
   readonly #progress = new Progress();
+  readonly #restoring = button("Restore the program", () => this.#onRestore(), {
+    "data-do": "restore",
+    title: "Begin again with the program of this lesson",
+  });
+  #onRestore = (): void => {};
   #lesson: Lesson | null = LESSONS.find(lesson => lesson.name === recall("lesson")) ?? null;
 
   constructor(
@@ -38,6 +46,8 @@ export class LearnPanel {
     parts.swarm.frame.on(check);
     parts.tests.states.on(check);
     parts.program.checked.on(check);
+    parts.program.checked.on(() => this.#offerRestoring());
+    parts.program.path.on(() => this.#offerRestoring());
     parts.robots.designer.design.on(check);
     parts.robots.evolution.search.on(check);
     this.#show();
@@ -57,14 +67,44 @@ export class LearnPanel {
   #begin(lesson: Lesson): void {
     this.#lesson = lesson;
     remember("lesson", lesson.name);
-    if (this.#progress.isFinished(lesson)) {
+    const again = this.#progress.isFinished(lesson);
+    if (again) {
       this.#progress.restart(lesson);
     }
-    if (lesson.program !== null && this.parts.program.path.value !== lessonPath(lesson)) {
-      this.doors.open(lessonPath(lesson), lesson.program);
+    if (lesson.program !== null) {
+      this.#open(lesson, lesson.program, again);
     }
     this.doors.show(lesson.tab);
     this.#show();
+  }
+
+  /** Opens the program of a lesson. Its swarm runs, with all inputs off, so that no step is done before it is begun. */
+  #open(lesson: Lesson, text: string, again: boolean): void {
+    const { program, swarm } = this.parts;
+    const isOpen = program.path.value === lessonPath(lesson);
+    if (!isOpen || again) {
+      swarm.setClock(null);
+      swarm.setInputs(swarm.inputs.value.replaceAll("1", "0"));
+    }
+    if (isOpen && again) {
+      swarm.reset();
+    }
+    if (isOpen && !prefersStillness()) {
+      swarm.play();
+    }
+    if (!isOpen) {
+      program.plays = !prefersStillness();
+      this.doors.open(lessonPath(lesson), text);
+    }
+  }
+
+  /** Brings back the program of the lesson, in a way that can be undone. */
+  #restore(lesson: Lesson, text: string): void {
+    if (this.parts.program.path.value === lessonPath(lesson)) {
+      this.doors.replace(text);
+    } else {
+      this.#open(lesson, text, false);
+    }
   }
 
   #leave(): void {
@@ -107,6 +147,16 @@ export class LearnPanel {
     );
   }
 
+  /** A program that was changed, or that is not open any more, can be had back. */
+  #offerRestoring(): void {
+    const lesson = this.#lesson;
+    const text = lesson?.program ?? null;
+    const { program } = this.parts;
+    this.#restoring.hidden =
+      lesson === null || text === null || (program.path.value === lessonPath(lesson) && program.text === text);
+    this.#onRestore = () => lesson !== null && text !== null && this.#restore(lesson, text);
+  }
+
   #showStrip(): void {
     const lesson = this.#lesson;
     this.strip.hidden = lesson === null;
@@ -116,6 +166,7 @@ export class LearnPanel {
     const done = this.#progress.done(lesson);
     const finished = this.#progress.isFinished(lesson);
     const next = LESSONS[LESSONS.indexOf(lesson) + 1];
+    this.#offerRestoring();
     this.strip.dataset["finished"] = String(finished);
     fill(
       this.strip,
@@ -132,6 +183,7 @@ export class LearnPanel {
         finished &&
           element("p", { class: "pass" }, next === undefined ? "Well done. That was the last lesson." : "Well done."),
       ),
+      this.#restoring,
       finished &&
         next !== undefined &&
         button(`Next: ${next.title}`, () => this.#begin(next), { class: "primary", "data-do": "next" }),

@@ -34,6 +34,8 @@ interface Parts {
 
 export function situationOf({ program, swarm, tests, robots }: Parts): Situation {
   const checked = program.checked.value;
+  // The log of another program's swarm says nothing about this one.
+  const isShown = program.shown === program.path.value;
   const states = [...tests.states.value.values()];
   return {
     path: program.path.value,
@@ -42,9 +44,9 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
     circuits: checked?.circuits.length ?? 0,
     tests: checked?.tests.length ?? 0,
     passed: states.filter(state => state.state === "done" && state.results.every(verdict => verdict.passed)).length,
-    now: swarm.playback.cycle,
+    now: isShown ? swarm.playback.cycle : 0,
     hold: swarm.definition.value?.hold ?? 4,
-    port: (name, cycle) => portValue(swarm, name, cycle),
+    port: (name, cycle) => (isShown ? portValue(swarm, name, cycle) : null),
     design: robots.designer.design.value,
     search: robots.evolution.search.value,
   };

@@ -62,7 +62,8 @@ export class Controls implements View {
       this.#cycle.textContent = this.#rate.textContent = "";
       return;
     }
-    if (this.#asked === frame.now || frame.running) {
+    // Frames of before the rewind do not move the slider back.
+    if (this.#asked === frame.now || this.swarm.running.value) {
       this.#asked = null;
     }
     this.#slider.min = String(frame.first);
@@ -77,8 +78,14 @@ export class Controls implements View {
   }
 
   #rewind(): void {
-    this.#asked = Number(this.#slider.value);
-    this.swarm.seek(this.#asked);
+    const cycle = Number(this.#slider.value);
+    this.#asked = cycle;
+    void this.swarm.seek(cycle).then(done => {
+      if (!done && this.#asked === cycle) {
+        this.#asked = null;
+        this.draw();
+      }
+    });
   }
 
   #speeds(): HTMLElement {

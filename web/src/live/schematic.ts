@@ -27,6 +27,8 @@ export class Schematic implements View {
   readonly host = element("div", { class: "schematic pane", tabindex: 0, "aria-label": "Schematic of the circuit" });
   readonly #tools: HTMLElement;
   #svg: SVGSVGElement | null = null;
+  /** The robots, of which one is reached by the tab key. */
+  #robots: SVGElement[] = [];
   #marked: Marked[] = [];
   #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
   #box: Box = this.#whole;
@@ -76,6 +78,7 @@ export class Schematic implements View {
 
   #load(text: string): void {
     this.#marked = [];
+    this.#robots = [];
     this.#svg = null;
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
     if (text === "" || !(parsed instanceof SVGSVGElement)) {
@@ -101,7 +104,9 @@ export class Schematic implements View {
         this.#marked.push({ element: part, source, shown: undefined });
       }
       if (kind === "cell") {
-        part.setAttribute("tabindex", "0");
+        // One robot for the tab key, and arrows for the others: a large circuit is passed as quickly as a small one.
+        part.setAttribute("tabindex", this.#robots.length === 0 ? "0" : "-1");
+        this.#robots.push(part);
         part.setAttribute("role", "button");
         part.setAttribute("aria-label", part.querySelector("title")?.textContent ?? `robot ${name}`);
       }
@@ -175,15 +180,36 @@ export class Schematic implements View {
     this.host.addEventListener("mouseover", point);
     this.host.addEventListener("focusin", point);
     this.host.addEventListener("mouseleave", () => selection.point(null));
-    this.host.addEventListener("keydown", event => {
-      const source = this.#sourceOf(event.target);
-      if ((event.key === "Enter" || event.key === " ") && source !== null && "robot" in source) {
-        event.preventDefault();
-        selection.follow(source.robot);
-      }
-    });
+    this.host.addEventListener("keydown", event => this.#press(event));
     this.host.addEventListener("wheel", event => this.#wheel(event), { passive: false });
     this.host.addEventListener("pointerdown", event => this.#drag(event));
+  }
+
+  /** Arrows go from robot to robot, Enter follows one, Escape follows all again. */
+  #press(event: KeyboardEvent): void {
+    const { selection } = this.swarm;
+    const source = this.#sourceOf(event.target);
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (step !== undefined) {
+      const at = this.#robots.findIndex(robot => robot.tabIndex === 0);
+      this.#reach(Math.min(this.#robots.length - 1, Math.max(0, at + step)));
+    } else if ((event.key === "Enter" || event.key === " ") && source !== null && "robot" in source) {
+      selection.follow(source.robot);
+    } else if (event.key === "Escape") {
+      selection.followed.set(null);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+
+  #reach(index: number): void {
+    this.#robots.forEach((robot, i) => (robot.tabIndex = i === index ? 0 : -1));
+    const robot = this.#robots[index];
+    robot?.focus();
+    if (robot instanceof SVGGraphicsElement && this.#box !== this.#whole) {
+      this.#center(robot, Math.max(READABLE, this.#scale()));
+    }
   }
 
   /** The wheel zooms with Ctrl, as pinching does; without, the page scrolls as everywhere. */

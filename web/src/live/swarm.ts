@@ -38,7 +38,8 @@ export class LiveSwarm {
   #orders = 0;
   #early: ArrayBuffer | null = null;
   #shown: number[] | null = null;
-  #adopt = false;
+  /** The cycle whose inputs become those of the next one, as soon as a frame says what they are; or any cycle. */
+  #adopted: number | "any" | null = null;
   #watched = true;
   #rests = false;
 
@@ -61,7 +62,7 @@ export class LiveSwarm {
     this.nets = netsOf(swarm);
     this.inputs.set(kept);
     this.definition.set(swarm);
-    this.#adopt = replayed;
+    this.#adopted = replayed ? "any" : null;
     this.setClock(replayed ? null : clock);
     if (!replayed) {
       this.connection.tell("inputs", { bits: kept });
@@ -78,6 +79,7 @@ export class LiveSwarm {
   }
 
   setInputs(bits: string): void {
+    this.#adopted = null;
     if (bits !== this.inputs.value) {
       this.inputs.set(bits);
       this.connection.tell("inputs", { bits });
@@ -98,7 +100,7 @@ export class LiveSwarm {
   play(): void {
     this.#rests = !this.#watched;
     if (this.#watched && this.definition.value !== null && this.stopped.value === null) {
-      this.#drive(true, "run", { speed: this.speed.value });
+      void this.#drive(true, "run", { speed: this.speed.value });
     }
   }
 
@@ -121,30 +123,36 @@ export class LiveSwarm {
 
   pause(): void {
     this.#rests = false;
-    this.#drive(false, "pause", {});
+    void this.#drive(false, "pause", {});
   }
 
   setSpeed(speed: number | null): void {
     this.speed.set(speed);
     if (this.running.value) {
-      this.#drive(true, "run", { speed });
+      void this.#drive(true, "run", { speed });
     }
   }
 
   step(cycles = 1): void {
-    this.#drive(false, "step", { cycles });
+    void this.#drive(false, "step", { cycles });
   }
 
   reset(): void {
     this.stopped.set(null);
-    this.#drive(false, "reset", {});
+    this.#adopted = null;
+    this.log.clear();
+    void this.#drive(false, "reset", {});
   }
 
-  /** Shows an earlier moment, whose inputs become those of the next cycle. */
-  seek(cycle: number): void {
+  /** Shows an earlier moment, whose inputs become those of the next cycle. The program takes them over, too. */
+  seek(cycle: number): Promise<boolean> {
     this.stopped.set(null);
-    this.#adopt = true;
-    this.#drive(false, "seek", { cycle });
+    const logged = this.log.at(cycle);
+    this.#adopted = logged === undefined && cycle > 0 ? cycle : null;
+    if (logged !== undefined) {
+      this.inputs.set([...logged.inputs].join(""));
+    }
+    return this.#drive(false, "seek", { cycle });
   }
 
   /** Asks for the poses of these robots only. */
@@ -199,19 +207,31 @@ export class LiveSwarm {
     this.frame.set(frame);
   }
 
-  #drive<V extends "run" | "pause" | "step" | "reset" | "seek">(running: boolean, verb: V, fields: Verbs[V][0]): void {
+  /** Whether the order was carried out. */
+  #drive<V extends "run" | "pause" | "step" | "reset" | "seek">(
+    running: boolean,
+    verb: V,
+    fields: Verbs[V][0],
+  ): Promise<boolean> {
     this.running.set(running);
     this.#rests &&= running;
     this.#orders++;
-    const done = (): void => void this.#orders--;
-    this.connection.request(verb, fields).then(done, done);
+    const ended = (done: boolean): boolean => {
+      this.#orders--;
+      return done;
+    };
+    return this.connection.request(verb, fields).then(
+      () => ended(true),
+      () => ended(false),
+    );
   }
 
   #adoptInputs(frame: Frame): void {
     const logged = this.log.at(frame.now);
-    if (this.#adopt && !frame.running && logged !== undefined) {
-      this.#adopt = false;
-      this.setInputs([...logged.inputs].join(""));
+    const awaited = this.#adopted === "any" || this.#adopted === frame.now;
+    if (awaited && !frame.running && logged !== undefined) {
+      this.#adopted = null;
+      this.inputs.set([...logged.inputs].join(""));
     }
   }
 

@@ -6,6 +6,8 @@ export type Body = readonly string[];
 
 export const LARGEST = 10;
 export const EMPTY = "0";
+/** A body with fewer muscles cannot walk. */
+const LEAST_MUSCLES = 3;
 
 export function emptyBody(width: number, height: number): Body {
   return Array.from({ length: height }, () => EMPTY.repeat(width));
@@ -66,9 +68,7 @@ export function countVoxels(body: Body): number {
 
 /** Whether all voxels hang together by their sides. */
 export function isConnected(body: Body): boolean {
-  const [width, height] = sizeOf(body);
-  const all = Array.from({ length: width * height }, (_, i): [number, number] => [i % width, Math.floor(i / width)]);
-  const start = all.find(([x, y]) => voxelAt(body, x, y) !== EMPTY);
+  const start = placesOf(body).find(([x, y]) => voxelAt(body, x, y) !== EMPTY);
   if (start === undefined) {
     return false;
   }
@@ -101,23 +101,36 @@ export function randomBody(width: number, height: number, palette: Paint[], rand
   const actuators = palette
     .filter(entry => /muscle|actuator/.test(entry.name + entry.about))
     .map(entry => String(entry.code));
-  const wanted = Math.ceil(width * height * (0.45 + 0.4 * random()));
+  const wanted = Math.max(LEAST_MUSCLES, Math.ceil(width * height * (0.45 + 0.4 * random())));
   let body = paint(
     emptyBody(width, height),
     Math.floor(width / 2),
     height - 1,
     pick(actuators.length > 0 ? actuators : codes),
   );
-  while (countVoxels(body) < wanted) {
+  while (countVoxels(body) < Math.min(wanted, width * height)) {
     body = paint(body, ...pick(border(body)), pick(codes));
+  }
+  return withMuscles(body, actuators, pick);
+}
+
+/** The body with enough of these materials, in place of others if need be. */
+function withMuscles(body: Body, muscles: string[], pick: <T>(list: readonly T[]) => T): Body {
+  const others = (): [number, number][] =>
+    placesOf(body).filter(([x, y]) => voxelAt(body, x, y) !== EMPTY && !muscles.includes(voxelAt(body, x, y)));
+  while (muscles.length > 0 && countVoxels(body) - others().length < LEAST_MUSCLES && others().length > 0) {
+    body = paint(body, ...pick(others()), pick(muscles));
   }
   return body;
 }
 
+function placesOf(body: Body): [number, number][] {
+  const [width, height] = sizeOf(body);
+  return Array.from({ length: width * height }, (_, i) => [i % width, Math.floor(i / width)]);
+}
+
 /** The empty places beside voxels. */
 function border(body: Body): [number, number][] {
-  const [width, height] = sizeOf(body);
-  const all = Array.from({ length: width * height }, (_, i): [number, number] => [i % width, Math.floor(i / width)]);
   const free = (x: number, y: number): boolean => voxelAt(body, x, y) === EMPTY;
-  return all.filter(([x, y]) => free(x, y) && neighbors(x, y).some(([a, b]) => !free(a, b)));
+  return placesOf(body).filter(([x, y]) => free(x, y) && neighbors(x, y).some(([a, b]) => !free(a, b)));
 }

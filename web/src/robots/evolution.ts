@@ -79,6 +79,7 @@ export class Evolution {
     const work = new AbortController();
     this.#work = work;
     this.#archive.clear();
+    this.search.set({ running: true, niches: [], chosen: null });
     this.#start.textContent = "Stop";
     this.#progress.hidden = false;
     this.#progress.removeAttribute("value");

@@ -1,6 +1,6 @@
 // Keeping the designed body as a robot file, and using it in the program.
 
-import type { Connection } from "../connection";
+import { CANCELLED, type Connection } from "../connection";
 import { button, element, fill } from "../element";
 import type { Program } from "../program";
 import { RequestError } from "../protocol";
@@ -20,6 +20,7 @@ export class Keeping {
     spellcheck: "false",
     "aria-label": "Name of the robot",
   });
+  readonly #button = button("Keep as a robot", () => void this.#keep(), { "data-do": "keep" });
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
 
   constructor(
@@ -33,7 +34,7 @@ export class Keeping {
       "div",
       { class: "keeping row" },
       element("label", {}, "name ", this.#name),
-      button("Keep as a robot", () => void this.#keep(), { "data-do": "keep" }),
+      this.#button,
       this.#status,
     );
   }
@@ -54,20 +55,57 @@ export class Keeping {
     return button(`Build ${circuit} with it`, build, { "data-do": "build", title: "Declare a swarm of this library" });
   }
 
-  async #keep(): Promise<void> {
+  async #keep(replace = false): Promise<void> {
+    const work = new AbortController();
+    const shows = this.#showWork(work);
+    this.#button.disabled = true;
+    const fields = {
+      path: this.program.path.value || null,
+      name: this.#name.value.trim(),
+      body: [...this.body()],
+      replace,
+    };
     try {
-      const { path, use } = await this.connection.request("keep", {
-        name: this.#name.value.trim(),
-        body: [...this.body()],
-      });
+      const { path, use } = await this.connection.request("keep", fields, { signal: work.signal });
       if (!this.program.text.includes(use)) {
         this.doors.declare(use);
       }
       fill(this.#status, `wrote ${path}; the program has a library with it. `, this.#offer(use));
       this.kept();
     } catch (error) {
-      this.#status.textContent =
-        error instanceof RequestError ? [error.message, error.help].filter(Boolean).join("; ") : String(error);
+      this.#fail(error);
+    } finally {
+      clearInterval(shows);
+      this.#button.disabled = false;
     }
+  }
+
+  /** Shows for how long the body has been measured, and a button that stops it. The result ends this. */
+  #showWork(work: AbortController): number {
+    const begun = Date.now();
+    const text = element("span", { "aria-live": "off" });
+    const tick = (): void => {
+      text.textContent = ` measuring it over 1,024 switches: ${Math.round((Date.now() - begun) / 1000)} s `;
+    };
+    tick();
+    fill(
+      this.#status,
+      element("progress", { "aria-label": "The robot is being measured" }),
+      text,
+      button("Stop", () => work.abort(), { "data-do": "stop-keep" }),
+    );
+    return window.setInterval(tick, 1000);
+  }
+
+  #fail(error: unknown): void {
+    if (!(error instanceof RequestError)) {
+      throw error;
+    }
+    const text = error.code === CANCELLED ? "nothing was kept" : [error.message, error.help].filter(Boolean).join("; ");
+    const replace = error.code === "exists" && [
+      " ",
+      button("Replace it", () => void this.#keep(true), { "data-do": "replace" }),
+    ];
+    fill(this.#status, text, ...(replace || []));
   }
 }

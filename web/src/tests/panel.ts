@@ -66,12 +66,33 @@ export class TestsPanel {
   }
 
   async #runAll(level: Level): Promise<void> {
-    for (const { index } of this.#tests()) {
-      await this.#run(index, level);
+    await this.#settle();
+    for (const test of this.#tests()) {
+      await this.#run(test, level);
     }
   }
 
-  async #run(index: number, level: Level): Promise<void> {
+  /** Waits for the check of an edit of just now, which would take all results away. */
+  async #settle(): Promise<void> {
+    this.#status.textContent = "checking the program …";
+    await this.program.settled();
+    this.#status.textContent = "";
+  }
+
+  /** Where a test is in the present text. */
+  #placeOf({ circuit, title, index }: TestEntry): number | undefined {
+    const tests = this.#tests();
+    const same = tests.filter(test => test.circuit === circuit && test.title === title);
+    return (same.find(test => test.index === index) ?? same[0] ?? tests[index])?.index;
+  }
+
+  async #run(test: TestEntry, level: Level): Promise<void> {
+    await this.#settle();
+    const index = this.#placeOf(test);
+    if (index === undefined) {
+      this.#status.textContent = "the program has no such test any more";
+      return;
+    }
     const work = new AbortController();
     const states = this.states.value;
     this.#set(index, { state: "running", done: 0, all: 0, work });
@@ -139,11 +160,11 @@ export class TestsPanel {
       element(
         "div",
         { class: "bar" },
-        button("Run in physics", () => void this.#run(test.index, "physics"), {
+        button("Run in physics", () => void this.#run(test, "physics"), {
           "data-do": "physics",
           disabled: state?.state === "running",
         }),
-        button("Run as logic", () => void this.#run(test.index, "logic"), {
+        button("Run as logic", () => void this.#run(test, "logic"), {
           "data-do": "logic",
           disabled: state?.state === "running",
         }),

@@ -1,0 +1,46 @@
+//! The connections of a server. Those that stay silent are closed, and the oldest make room for new ones.
+
+use std::collections::VecDeque;
+use std::convert::Infallible;
+use std::time::Duration;
+
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::task::AbortHandle;
+
+/// The most connections that carry requests. Sockets of pages are counted apart.
+const MOST: usize = 128;
+/// The time by which the head of a request must be complete.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// The time between two attempts while the system gives no more connections.
+const BREATH: Duration = Duration::from_millis(50);
+
+/// Answers all who connect.
+pub(super) async fn serve(listener: TcpListener, router: Router) -> Infallible {
+    let mut open: VecDeque<AbortHandle> = VecDeque::new();
+    loop {
+        let Ok((stream, _)) = listener.accept().await else {
+            tokio::time::sleep(BREATH).await;
+            continue;
+        };
+        open.retain(|connection| !connection.is_finished());
+        if open.len() == MOST
+            && let Some(oldest) = open.pop_front()
+        {
+            oldest.abort();
+        }
+        open.push_back(tokio::spawn(answer(stream, router.clone())).abort_handle());
+    }
+}
+
+/// Answers the requests of a connection until it is closed, silent for too long, or a socket of a page.
+async fn answer(stream: TcpStream, router: Router) {
+    let mut server = http1::Builder::new();
+    server.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
+    let connection = server.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router));
+    // Whoever breaks the protocol sees that the connection is closed.
+    let _ = connection.with_upgrades().await;
+}

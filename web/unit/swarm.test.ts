@@ -1,0 +1,129 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import type { Connection } from "../src/connection";
+import { situationOf } from "../src/learn/situation";
+import { LiveSwarm } from "../src/live/swarm";
+import { Observable } from "../src/observable";
+import type { Swarm } from "../src/protocol";
+import { encodeFrame } from "./encode";
+
+const SWARM = {
+  number: 1,
+  circuit: "c",
+  swarm: null,
+  inputs: [
+    { name: "a", width: 1 },
+    { name: "b", width: 1 },
+  ],
+  outputs: [],
+  robots: [],
+  shown: [],
+  looks: [],
+  schematic: "",
+  timing: "",
+  hold: 2,
+  start: 1,
+  frames: 12,
+} satisfies Swarm;
+
+/** A server that notes what it is asked, and answers when the test says so. */
+class Server {
+  readonly events = new Observable(null);
+  readonly asked: { verb: string; fields: Record<string, unknown>; answer: () => void }[] = [];
+  onframe: (buffer: ArrayBuffer) => void = () => {};
+
+  request(verb: string, fields: Record<string, unknown>): Promise<unknown> {
+    return new Promise(resolve => this.asked.push({ verb, fields, answer: () => resolve({}) }));
+  }
+
+  tell(verb: string, fields: Record<string, unknown>): void {
+    this.asked.push({ verb, fields, answer: () => {} });
+  }
+
+  /** A paused swarm that has done four cycles with the inputs 00, 10, 01 and 11. */
+  static withRun(): { server: Server; swarm: LiveSwarm } {
+    const server = new Server();
+    const swarm = new LiveSwarm(server as unknown as Connection);
+    swarm.begin(SWARM);
+    const log = ["00", "10", "01", "11"].map(bits => ({
+      inputs: [...bits].map(Number),
+      robots: [],
+      outputs: [],
+      places: [],
+    }));
+    server.onframe(encodeFrame({ now: 4, from: 1, log }));
+    server.asked.length = 0;
+    return { server, swarm };
+  }
+
+  /** The frame of a moment in the log. */
+  show(now: number): void {
+    this.onframe(encodeFrame({ now, last: 4, from: 5 }));
+  }
+
+  /** The inputs that the server was told to use since the run. */
+  told(): unknown[] {
+    return this.asked.filter(({ verb }) => verb === "inputs").map(({ fields }) => fields["bits"]);
+  }
+}
+
+test("a rewind takes over the inputs of its cycle, whatever frames are still on their way", () => {
+  for (const [sought, late] of [
+    [[2], [4, 2]],
+    [[3], [4, 4, 3]],
+    [
+      [1, 2, 3],
+      [4, 1, 2, 3],
+    ],
+    [
+      [3, 2],
+      [3, 2],
+    ],
+  ] as const) {
+    const { server, swarm } = Server.withRun();
+    sought.forEach(cycle => void swarm.seek(cycle));
+    late.forEach(now => server.show(now));
+    const expected = ["00", "10", "01", "11"][(sought.at(-1) ?? 0) - 1];
+    assert.equal(swarm.inputs.value, expected, `${sought.join()} with the frames ${late.join()}`);
+    // The server takes them over by itself.
+    assert.deepEqual(server.told(), []);
+  }
+});
+
+test("a switch that is flipped after a rewind stays flipped", () => {
+  const { server, swarm } = Server.withRun();
+  void swarm.seek(2);
+  swarm.setBit(1, 1);
+  server.show(2);
+  assert.equal(swarm.inputs.value, "11");
+  assert.deepEqual(server.told(), ["11"]);
+});
+
+test("a cycle that the page was not sent is taken over when it comes", () => {
+  const server = new Server();
+  const swarm = new LiveSwarm(server as unknown as Connection);
+  swarm.begin(SWARM);
+  server.onframe(encodeFrame({ now: 900, last: 900, from: 901 }));
+  void swarm.seek(7);
+  server.onframe(encodeFrame({ now: 900, last: 900, from: 901 }));
+  const log = [{ inputs: [1, 0], robots: [], outputs: [], places: [] }];
+  server.onframe(encodeFrame({ now: 7, last: 900, from: 7, log }));
+  assert.equal(swarm.inputs.value, "10");
+});
+
+test("a lesson learns nothing from the swarm of another program", () => {
+  const { swarm } = Server.withRun();
+  const design = { body: [], probe: null };
+  const search = { running: false, niches: [], chosen: null };
+  const parts = (shown: string): Parameters<typeof situationOf>[0] =>
+    ({
+      program: { path: { value: "lesson.nb" }, shown, text: "", checked: { value: null } },
+      swarm,
+      tests: { states: { value: new Map() } },
+      robots: { designer: { design: { value: design } }, evolution: { search: { value: search } } },
+    }) as unknown as Parameters<typeof situationOf>[0];
+  assert.equal(situationOf(parts("lesson.nb")).port("a", 4), 1);
+  assert.equal(situationOf(parts("other.nb")).port("a", 4), null);
+  assert.equal(situationOf(parts("other.nb")).now, 0);
+});
