@@ -50,6 +50,8 @@ mod redundant;
 mod runs;
 mod schemas;
 mod settling;
+#[cfg(target_os = "linux")]
+mod slow_yosys;
 mod speed;
 mod swarms;
 mod synth;

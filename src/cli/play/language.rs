@@ -21,7 +21,7 @@ pub(super) async fn serve(served: Arc<Served>, mut socket: WebSocket) {
     let (server, page) = Connection::memory();
     let world = served.world.clone();
     // A page that breaks the protocol is left alone: it sees that nothing is answered.
-    thread::spawn(move || _ = lsp::serve(&server, Arc::new(world)));
+    thread::spawn(move || _ = lsp::serve(server, world));
     let (outbox, mut outgoing) = mpsc::channel(WAITING);
     let answers = page.receiver;
     thread::spawn(move || answers.into_iter().try_for_each(|message| outbox.blocking_send(written(&message))));
@@ -49,12 +49,21 @@ fn read(text: &str, served: &Served) -> Option<Message> {
         && let Some(params) = value["params"].as_object_mut()
     {
         params.insert("rootUri".to_owned(), json!(served.root));
+        // The user has opened this folder with `nbc play`.
+        params.insert("initializationOptions".to_owned(), trusting(params.get("initializationOptions")));
         params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.root, "name": "play" }]));
     }
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return None;
     }
     serde_json::from_value(value).ok()
+}
+
+/// The options of a page, with trust in the Verilog of the folder.
+fn trusting(options: Option<&Value>) -> Value {
+    let mut options = options.filter(|options| options.is_object()).cloned().unwrap_or_else(|| json!({}));
+    options["verilog"] = json!({ "trusted": true });
+    options
 }
 
 fn written(message: &Message) -> String {

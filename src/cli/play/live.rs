@@ -8,7 +8,8 @@ use axum::extract::ws::{Utf8Bytes, WebSocket};
 use tokio::sync::mpsc;
 use tokio::time::interval;
 
-use crate::cli::play::outbox::outbox;
+use crate::circuit::CancelFlag;
+use crate::cli::play::outbox::{Outgoing, outbox};
 use crate::cli::play::served::Served;
 use crate::cli::play::socket::{Allowance, receive, send};
 use crate::cli::play::visit::Visit;
@@ -19,10 +20,18 @@ const WAITING: usize = 64;
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// Serves one page until it is gone.
-pub(super) async fn serve(served: Arc<Served>, mut socket: WebSocket) {
+pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (requests, waiting) = mpsc::channel(WAITING);
-    let (inbox, mut outgoing) = outbox();
-    thread::spawn(move || Visit::new(served, inbox).serve(waiting));
+    let (inbox, outgoing) = outbox();
+    let gone = CancelFlag::default();
+    let visit_ends = gone.clone();
+    thread::spawn(move || Visit::new(served, inbox, visit_ends).serve(waiting));
+    exchange(socket, requests, outgoing).await;
+    gone.raise();
+}
+
+/// Hands on requests and answers until the page is gone.
+async fn exchange(mut socket: WebSocket, requests: mpsc::Sender<Utf8Bytes>, mut outgoing: Outgoing) {
     let mut allowance = Allowance::new(Instant::now());
     let mut pause = interval(PAUSE);
     // A request for which the visit has no time yet. Meanwhile answers still go out, for which the visit may wait.

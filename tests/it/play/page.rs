@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
@@ -21,13 +21,13 @@ pub(super) struct Server {
 
 impl Server {
     pub(super) fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = program()
-            .args(["play", "--no-open"])
-            .args(arguments)
-            .current_dir(folder)
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
+        Self::of(program().current_dir(folder), arguments)
+    }
+
+    /// A server whose program and folder are those of a command.
+    pub(super) fn of(program: &mut Command, arguments: &[&str]) -> Self {
+        let command = program.args(["play", "--no-open"]).args(arguments).stdout(Stdio::piped());
+        let mut child = command.spawn().unwrap();
         let mut address = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
         Self { child, address: address.trim().to_owned() }
