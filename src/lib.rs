@@ -408,6 +408,15 @@ pub use source::{MemoryWorld, OverlayWorld, SourceWorld};
 #[cfg(feature = "disk")]
 pub use store::DiskWorld;
 
+/// ```
+/// let stop = nbc::CancelFlag::default();
+/// let mut session = nbc::Session::new(nbc::GuardedWorld::until(nbc::DiskWorld, stop.clone()));
+/// assert!(session.open("circuits/latch.nb").is_ok());
+/// stop.raise();
+/// ```
+#[cfg(feature = "disk")]
+pub use store::GuardedWorld;
+
 /// ```no_run
 /// use std::path::Path;
 /// let checkpoint = nbc::Checkpoint::open(Path::new("out/gates/seed-1/checkpoint.nbc")).unwrap().unwrap();

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, Level, MappingObjective, Room, RunReport, Session};
+use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, GuardedWorld, Level, MappingObjective, Room, RunReport, Session};
 use nbc::{TestOptions, TestRun};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -60,14 +60,15 @@ impl Program {
     /// Reads and checks a file of the disk, or `text` in its place.
     #[new]
     fn new(py: Python<'_>, path: &str, text: Option<String>, poses: bool) -> PyResult<Self> {
-        let mut session = Session::new(DiskWorld);
+        let watch = Watch::over(0);
+        let mut session = Session::new(GuardedWorld::until(DiskWorld, watch.cancel.clone()));
         if poses {
             session = session.with_poses(Room::SWARM);
         }
         if let Some(text) = text {
             session.update(path, 1, text);
         }
-        let opened = work::run(py, &Watch::over(0), None, {
+        let opened = work::run(py, &watch, None, {
             let path = path.to_owned();
             move |_| {
                 let opened = session.open(&path);

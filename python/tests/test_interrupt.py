@@ -194,3 +194,35 @@ def test_ctrl_c_ends_a_program(call):
     _, errors = process.communicate(timeout=LONGEST)
     assert process.returncode != 0 and ("KeyboardInterrupt" in errors or "Interrupted" in errors)
     assert "panicked" not in errors
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="it looks at the processes of Linux")
+def test_a_translation_of_verilog_ends_with_its_asker(tmp_path):
+    # A stand-in for Yosys that never ends.
+    stand_in = tmp_path / "bin" / "yosys"
+    stand_in.parent.mkdir()
+    number = tmp_path / "number"
+    stand_in.write_text(f"#!/bin/sh\necho $$ >'{number}.new' && mv '{number}.new' '{number}'\nexec sleep 3600\n")
+    stand_in.chmod(0o755)
+    (tmp_path / "m.v").write_text("module m(input a, output q);\n assign q = a;\nendmodule\n")
+    (tmp_path / "a.nb").write_text('use "m.v"\n')
+    out = run(f"""
+        import pathlib, time
+        os.environ["PATH"] = {str(stand_in.parent)!r} + os.pathsep + os.environ["PATH"]
+        number = pathlib.Path({str(number)!r})
+        def watch():
+            while not number.exists(): time.sleep(0.01)
+            interrupt()
+        threading.Thread(target=watch).start()
+        try:
+            nbc.load({str(tmp_path / "a.nb")!r})
+        except KeyboardInterrupt:
+            print("interrupted")
+        place = pathlib.Path("/proc") / number.read_text().strip() / "stat"
+        def runs():
+            try: return ") Z " not in place.read_text()
+            except OSError: return False
+        while runs(): time.sleep(0.01)
+        print("gone")
+    """)
+    assert out.splitlines() == ["interrupted", "gone"]

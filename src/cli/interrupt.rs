@@ -11,6 +11,7 @@ use crate::circuit::CancelFlag;
 use crate::cli::Status;
 use crate::cli::cancellable::Cancellable;
 use crate::session::Observer;
+use crate::store::{DiskWorld, GuardedWorld};
 
 /// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
 #[derive(Clone, Debug, Default)]
@@ -47,6 +48,11 @@ impl Interrupt {
     /// The same request, for the search of a compilation.
     pub fn cancel(&self) -> CancelFlag {
         CancelFlag::from(self.0.clone())
+    }
+
+    /// The files of the disk, whose translations end with this request.
+    pub fn world(&self) -> GuardedWorld<DiskWorld> {
+        GuardedWorld::until(DiskWorld, self.cancel())
     }
 
     /// An observer that hands on the progress, and stops the work when a signal arrives.

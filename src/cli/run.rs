@@ -19,7 +19,7 @@ use crate::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
 use crate::session::{self, Checked, CompileOptions, RUNS, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
-use crate::store::{self, DiskWorld, ResultPlace};
+use crate::store::{self, ResultPlace};
 use crate::swarm::{Level, Room};
 
 /// Run the tests and simulations of a file in physics, with pictures and a report
@@ -101,11 +101,14 @@ impl RunArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
-        let mut session = Session::new(DiskWorld).with_simulator(device.simulator());
+        let mut session = Session::new(interrupt.world()).with_simulator(device.simulator());
         if !self.no_report {
             session = session.with_poses(Room::SWARM);
         }
-        let file = session.open(&self.file.to_string_lossy())?;
+        let file = match session.open(&self.file.to_string_lossy()) {
+            Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
+            file => file?,
+        };
         let (tests, simulations) = self.chosen(&file)?;
         let folder = self.folder();
         folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;

@@ -9,6 +9,8 @@ pub enum Status {
     Done,
     /// A test failed: 1.
     TestFailed,
+    /// An editor ended its server without a request to shut down: 1, as the protocol says.
+    Abandoned,
     /// The input or the usage is at fault: 2.
     BadInput,
     /// A signal ended it in good order: 4.
@@ -20,7 +22,7 @@ impl Status {
     pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,
-            Self::TestFailed => 1,
+            Self::TestFailed | Self::Abandoned => 1,
             Self::BadInput => 2,
             Self::Interrupted => 4,
         }

@@ -13,7 +13,6 @@ use crate::cli::test::TestArguments;
 use crate::cli::{Context, Failure, Interrupt, Status};
 use crate::diag::counted;
 use crate::session::{Checked, Session};
-use crate::store::DiskWorld;
 
 /// The time between two looks at the files. Looking works for every editor and file system.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -69,11 +68,15 @@ impl WatchArguments {
     /// # Errors
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let (mut session, signal) = (Session::new(DiskWorld), Interrupt::watch()?);
+        let signal = Interrupt::watch()?;
+        let mut session = Session::new(signal.world());
         let mut stamps = Stamps::default();
         while !signal.is_raised() {
             context.clear()?;
             let checked = self.check(&mut session, &mut stamps);
+            if signal.is_raised() {
+                break;
+            }
             self.round(&session, &checked, (&stamps, &signal), context)?;
             context.flush()?;
             for path in wait(&mut stamps, &signal, context) {

@@ -13,6 +13,14 @@ impl Diagnostic {
                 Self::without_place(Code::Unreadable, format!("cannot read `{name}`: Verilog is not read here"))
                     .with_help("translate it to BLIF with Yosys, and use that")
             }
+            VerilogError::Untrusted => {
+                let message =
+                    format!("`{name}` is not translated: Yosys does not run in a workspace that is not trusted");
+                Self::without_place(Code::Unreadable, message).with_help(
+                    "if you trust these files, trust the workspace in the editor, or start the language server with \
+                     the option `verilog.trusted`: see docs/editors.md",
+                )
+            }
             VerilogError::NoYosys => {
                 Self::without_place(Code::Unreadable, "Verilog is read through Yosys, which is not installed")
                     .with_help("install it, on Debian with `apt-get install yosys`, or give a BLIF file")

@@ -1,6 +1,6 @@
 //! The sources of a session: the texts given to it, which hide those of its world, and the results for each.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -67,12 +67,21 @@ impl Documents {
         }
         let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
         let translations = RefCell::new(std::mem::take(&mut self.translations));
-        let asking = Asking { world: &self.world, asked: RefCell::default(), translations };
+        let asking =
+            Asking { world: &self.world, asked: RefCell::default(), translations, is_cancelled: Cell::default() };
         let checked = Arc::new(Checked::read(&asking, path, revision));
         self.translations = asking.translations.into_inner();
+        if asking.is_cancelled.get() {
+            return checked;
+        }
         let known = Known { checked: checked.clone(), asked: asking.asked.into_inner() };
         self.known.insert(path.to_owned(), known);
         checked
+    }
+
+    /// Whether a result for `path` is valid.
+    pub(super) fn is_known(&self, path: &str) -> bool {
+        self.known.contains_key(path)
     }
 
     /// The identities of the files and folders that the result for `path` depends on; those that are missing too.
@@ -93,6 +102,8 @@ struct Asking<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
     translations: RefCell<Translations>,
+    /// Whether a translation was cancelled.
+    is_cancelled: Cell<bool>,
 }
 
 impl Asking<'_> {
@@ -117,7 +128,9 @@ impl SourceWorld for Asking<'_> {
         if let Some((_, modules)) = known {
             return Ok(modules);
         }
-        let modules = self.world.translate_verilog(path, text)?;
+        let modules = self.world.translate_verilog(path, text);
+        self.is_cancelled.set(self.is_cancelled.get() || modules == Err(VerilogError::Cancelled));
+        let modules = modules?;
         if !text.contains(READING) {
             self.translations.borrow_mut().insert(path.to_owned(), (text.to_owned(), modules.clone()));
         }
@@ -221,6 +234,36 @@ mod tests {
         assert_eq!(check("f.v", "module f(input b, output q);"), 2);
         assert_eq!(check("f.v", "`include \"g.vh\""), 3);
         assert_eq!(check("a.nb", changed), 4);
+    }
+
+    /// A world whose first translation is cancelled.
+    struct Impatient(Translating);
+
+    impl SourceWorld for Impatient {
+        fn read(&self, path: &str) -> Result<String, FileError> {
+            self.0.read(path)
+        }
+
+        fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+            let modules = self.0.translate_verilog(path, text);
+            if self.0.1.load(Ordering::Relaxed) == 1 { Err(VerilogError::Cancelled) } else { modules }
+        }
+
+        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+            self.0.list(folder)
+        }
+    }
+
+    #[test]
+    fn a_source_is_checked_again_when_a_translation_was_cancelled() {
+        let mut world = MemoryWorld::default();
+        world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
+        world.insert("f.v", "module f(input a, output q);");
+        let mut documents = Documents::new(Box::new(Impatient(Translating(world, Arc::default()))));
+        assert!(documents.checked("a.nb").has_errors());
+        assert!(!documents.is_known("a.nb"));
+        assert_eq!(documents.checked("a.nb").diagnostics, []);
+        assert!(documents.is_known("a.nb"));
     }
 
     #[test]

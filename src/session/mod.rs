@@ -95,6 +95,12 @@ impl Session {
         self.documents.checked(path)
     }
 
+    /// Whether the source at `path` was checked, and its files have not changed since. A check whose translation was
+    /// cancelled does not count.
+    pub fn is_checked(&self, path: &str) -> bool {
+        self.documents.is_known(path)
+    }
+
     /// The files and folders that the source at `path` depends on, as far as it was checked: itself, files that it
     /// uses, and folders of robots, also those that are missing.
     pub fn dependencies(&self, path: &str) -> Vec<String> {

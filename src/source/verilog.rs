@@ -25,6 +25,8 @@ pub struct VerilogPlace {
 pub enum VerilogError {
     /// This world runs no other programs.
     NoTranslator,
+    /// The files are of a workspace that its user does not trust.
+    Untrusted,
     /// Yosys is not installed.
     NoYosys,
     /// Nobody waits for the translation any more.

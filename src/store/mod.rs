@@ -19,6 +19,8 @@ mod draft;
 mod first_checkpoint;
 #[cfg(feature = "disk")]
 mod folder;
+#[cfg(feature = "disk")]
+mod guarded;
 mod library;
 #[cfg(feature = "disk")]
 mod lock;
@@ -52,6 +54,8 @@ pub use disk::{MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, read, read_text};
 pub use disk_world::DiskWorld;
 #[cfg(feature = "disk")]
 pub use folder::FolderWorld;
+#[cfg(feature = "disk")]
+pub use guarded::GuardedWorld;
 pub use library::{best_first, read_library, shipped_library};
 #[cfg(feature = "disk")]
 pub use lock::{FolderLock, LockFault, lock_folder};

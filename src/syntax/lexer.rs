@@ -6,8 +6,10 @@ use std::ops::Range;
 /// The kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TokenKind {
-    /// A name, a keyword, digits, or any other run of letters and digits.
+    /// A name, a keyword, or any other run of letters and digits.
     Word,
+    /// Digits with what follows them without a space: a point and more digits, or the base and digits of a constant.
+    Number,
     /// A text in quotes, which ends with its line at the latest.
     Quoted,
     /// From `//` to the end of the line.
@@ -53,9 +55,20 @@ fn token(rest: &str) -> (TokenKind, usize) {
         _ if rest.starts_with("/*") => (TokenKind::ForeignComment, rest.find("*/").map_or(rest.len(), |end| end + 2)),
         '#' => (TokenKind::ForeignComment, line()),
         '"' => (TokenKind::Quoted, quoted(rest)),
+        c if c.is_ascii_digit() => (TokenKind::Number, number(rest)),
         c if is_word(c) => (TokenKind::Word, rest.find(|c| !is_word(c)).unwrap_or(rest.len())),
         _ if PAIRS.iter().any(|pair| rest.starts_with(pair)) => (TokenKind::Sign, 2),
         c => (TokenKind::Sign, c.len_utf8()),
+    }
+}
+
+/// The length of a number. A point between digits belongs to it, and those of a range do not.
+fn number(rest: &str) -> usize {
+    let whole = rest.find(|c| !is_word(c) && c != '\'').unwrap_or(rest.len());
+    let digits = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    match rest[whole..].strip_prefix('.').map(digits) {
+        Some(more) if more > 0 => whole + 1 + more,
+        _ => whole,
     }
 }
 
@@ -115,9 +128,7 @@ mod tests {
         let all = [
             "q",
             "=",
-            "4",
-            "'",
-            "b1",
+            "4'b1",
             "// é",
             "/* a\nb */",
             "{",
@@ -135,6 +146,17 @@ mod tests {
             "->",
         ];
         assert_eq!(words, all.map(|word| (word, first.contains(&word))));
+    }
+
+    #[test]
+    fn numbers_have_points_and_bases_but_no_ranges() {
+        let words = |text: &'static str| tokens(text).map(|token| &text[token.range]).collect::<Vec<_>>();
+        assert_eq!(
+            words("0.6..1.6 -> 4'b1_0 n'd(1)"),
+            ["0.6", "..", "1.6", "->", "4'b1_0", "n", "'", "d", "(", "1", ")"]
+        );
+        let kinds: Vec<_> = tokens("12 a12 é").map(|token| token.kind).collect();
+        assert_eq!(kinds, [TokenKind::Number, TokenKind::Word, TokenKind::Word]);
     }
 
     #[test]

@@ -19,5 +19,6 @@ pub mod tree;
 mod wording;
 
 pub use format::format;
+pub(crate) use lexer::{Token, TokenKind, tokens};
 pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse, parse_instance};
 pub use split::KEYWORDS;

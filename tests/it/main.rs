@@ -51,6 +51,8 @@ mod results;
 mod runs;
 mod schemas;
 mod settling;
+#[cfg(target_os = "linux")]
+mod slow_yosys;
 mod speed;
 mod swarms;
 mod synth;

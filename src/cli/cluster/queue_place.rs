@@ -53,6 +53,8 @@ pub struct QueuePlace {
     refused: BTreeSet<String>,
     /// Workers whose results were used without an evaluation here.
     used: BTreeSet<String>,
+    /// Messages that were not answers.
+    junk: u64,
     /// A worker whose results were used and that was wrong.
     unsound: Option<String>,
     looked: Instant,
@@ -97,6 +99,7 @@ impl QueuePlace {
             roster: Roster::default(),
             refused: BTreeSet::new(),
             used: BTreeSet::new(),
+            junk: 0,
             unsound: None,
             looked: Instant::now(),
             reported: None,
@@ -152,7 +155,7 @@ impl QueuePlace {
     }
 
     async fn take_answer(&mut self, message: Message) {
-        let Some(worker) = message.subject.rsplit('.').next().map(str::to_owned) else { return };
+        let worker = sender(&message);
         let reply =
             if self.refused.contains(&worker) { AnswerReply::Wrong } else { self.judge(&worker, &message.payload) };
         if let Some(inbox) = message.reply {
@@ -163,7 +166,7 @@ impl QueuePlace {
 
     fn judge(&mut self, worker: &str, payload: &[u8]) -> AnswerReply {
         let Ok(answer) = AnswerMessage::decode(payload) else {
-            self.refuse(worker, "its message cannot be read");
+            self.drop_junk(worker);
             return AnswerReply::Invalid;
         };
         let run = answer.key.run as usize;
@@ -232,7 +235,17 @@ impl QueuePlace {
 
     fn refuse(&mut self, worker: &str, reason: &str) {
         if self.refused.insert(worker.to_owned()) {
-            (self.log)(&format!("refused worker `{worker}`: {reason}\n"));
+            (self.log)(&format!("refused worker `{}`: {reason}\n", name_of(worker)));
+        }
+    }
+
+    /// Drops a message that is not an answer. Anybody can send one in the name of a worker, so it is no fault of that
+    /// worker. Many make few lines.
+    fn drop_junk(&mut self, worker: &str) {
+        self.junk += 1;
+        if self.junk < 8 || self.junk.is_power_of_two() {
+            let (name, count) = (name_of(worker), self.junk);
+            (self.log)(&format!("dropped a message in the name of `{name}` that is not an answer, {count} so far\n"));
         }
     }
 
@@ -289,6 +302,20 @@ impl QueuePlace {
     }
 }
 
+/// Who sent an answer: the name in its subject, and the connection to which the reply goes. Whoever sends in the name of
+/// another has another connection, and so is another worker.
+fn sender(message: &Message) -> String {
+    let name = message.subject.rsplit('.').next().unwrap_or_default();
+    // The inbox of a connection, without the number of the request. No part of a subject has a space.
+    let inbox: Vec<&str> = message.reply.as_deref().unwrap_or_default().split('.').take(2).collect();
+    format!("{name} {}", inbox.join("."))
+}
+
+/// The name of the worker that sent an answer.
+fn name_of(sender: &str) -> &str {
+    sender.split(' ').next().unwrap_or_default()
+}
+
 impl TaskPlace for QueuePlace {
     fn most_runs(&self) -> usize {
         MOST_RUNS
@@ -315,7 +342,7 @@ impl TaskPlace for QueuePlace {
             });
         }
         match self.unsound.take() {
-            Some(worker) => Err(ClusterError::Unsound { worker }.into()),
+            Some(worker) => Err(ClusterError::Unsound { worker: name_of(&worker).to_owned() }.into()),
             None => Ok(self.complete.pop_front()),
         }
     }

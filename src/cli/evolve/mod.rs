@@ -24,7 +24,7 @@ use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_gro
 use crate::session::{self, Session};
 use crate::sim::Simulator;
 use crate::source::Sources;
-use crate::store::{self, DiskWorld};
+use crate::store;
 use crate::swarm;
 
 pub(super) use arguments::EvolveArguments;
@@ -62,7 +62,10 @@ impl EvolveArguments {
     /// When the file has errors, a checkpoint is rejected, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
-        let declared = self.declared()?;
+        let declared = match self.declared(&interrupt) {
+            Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
+            declared => declared?,
+        };
         let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
         let mut place = self.place(&device, &declared, context)?;
         let mut results = Results::default();
@@ -167,8 +170,8 @@ impl Comparison {
 
 impl EvolveArguments {
     /// The evolutions to run, with the changes from the command line.
-    fn declared(&self) -> Result<Vec<Evolution>, Failure> {
-        let mut evolutions = self.chosen()?;
+    fn declared(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
+        let mut evolutions = self.chosen(interrupt)?;
         if self.quick {
             evolutions.truncate(1);
         }
@@ -203,10 +206,10 @@ impl EvolveArguments {
 
     /// The evolutions of the file itself, or of the prelude without a file, or the one given by name, which may be in a
     /// file that it uses.
-    fn chosen(&self) -> Result<Vec<Evolution>, Failure> {
+    fn chosen(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
         let program = match &self.file {
             None => session::prelude(),
-            Some(path) => Session::new(DiskWorld).open(&path.to_string_lossy())?.program.clone(),
+            Some(path) => Session::new(interrupt.world()).open(&path.to_string_lossy())?.program.clone(),
         };
         let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
         if let Some(name) = &self.run {

@@ -5,9 +5,9 @@ use gen_lsp_types::{SemanticToken, SemanticTokens, SemanticTokensLegend};
 use crate::check::{NameKind, NameUse};
 use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
-use crate::cli::lsp::tokens::{EditorToken, EditorTokenKind, tokens};
+use crate::cli::lsp::tokens::tokens;
 use crate::source::{FileId, Span};
-use crate::syntax::KEYWORDS;
+use crate::syntax::{KEYWORDS, Token, TokenKind};
 
 /// The types, in the order of their numbers.
 const TYPES: [&str; 13] = [
@@ -75,20 +75,20 @@ fn meaning(
     file: FileId,
     uses: &[NameUse],
     text: &str,
-    token: &EditorToken,
+    token: &Token,
     next: &str,
 ) -> Option<(&'static str, u32)> {
     let word = &text[token.range.clone()];
     match token.kind {
-        EditorTokenKind::Comment => Some(("comment", 0)),
-        EditorTokenKind::Quoted => Some(("string", 0)),
-        EditorTokenKind::Number => Some(("number", 0)),
-        EditorTokenKind::Sign => word.starts_with(|sign| "+-=<>!*/%|".contains(sign)).then_some(("operator", 0)),
-        EditorTokenKind::Word => {
+        TokenKind::Comment | TokenKind::ForeignComment => Some(("comment", 0)),
+        TokenKind::Quoted => Some(("string", 0)),
+        TokenKind::Number => Some(("number", 0)),
+        TokenKind::Sign => word.starts_with(|sign| "+-=<>!*/%|".contains(sign)).then_some(("operator", 0)),
+        TokenKind::Word => {
             let place = Span::new(file, token.range.start, token.range.end);
             match uses.binary_search_by_key(&place, |found| found.place) {
                 Ok(at) => Some(of_name(files, uses[at])),
-                Err(_) if word == "_" => None,
+                Err(_) if word == "_" || !word.is_ascii() => None,
                 Err(_) if next == ":" && word != "else" => Some(("property", 0)),
                 Err(_) if !is_word(word) => Some(("keyword", 0)),
                 Err(_) => (KEYWORDS.contains(&word) || WORDS.contains(&word)).then_some(("keyword", 0)),

@@ -8,13 +8,15 @@ use gen_lsp_types::{
     self as lsp, CodeLensRefreshRequest, InlayHintRefreshRequest, LspNotificationMethod, PublishDiagnosticsParams,
     Registration, RegistrationParams, RegistrationRequest, SemanticTokensRefreshRequest, Uri,
 };
-use lsp_server::{Connection, Message, Notification, ProtocolError, Request};
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
 
+use crate::cli::Status;
 use crate::cli::lsp::buffers::Buffers;
 use crate::cli::lsp::capabilities::{Abilities, Client};
 use crate::cli::lsp::compiler::{Compilation, Compiler};
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::later::WaitingHover;
+use crate::cli::lsp::pending::Pending;
 use crate::cli::lsp::position::Encoding;
 use crate::cli::lsp::runs::Runs;
 use crate::cli::lsp::settings::Settings;
@@ -26,6 +28,9 @@ use crate::source::SharedWorld;
 /// The server of one client.
 pub(super) struct Server<'c> {
     connection: &'c Connection,
+    pending: Pending,
+    /// Whether the client asked it to shut down.
+    is_shut: bool,
     pub(super) world: SharedWorld,
     pub(super) session: Session,
     pub(super) buffers: Buffers,
@@ -48,10 +53,12 @@ pub(super) struct Server<'c> {
 pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, String>;
 
 impl<'c> Server<'c> {
-    pub(super) fn new(connection: &'c Connection, client: Client, world: SharedWorld) -> Self {
-        let Client { encoding, settings, workspace, abilities } = client;
+    pub(super) fn new(connection: &'c Connection, client: Client, world: SharedWorld, pending: Pending) -> Self {
+        let Client { encoding, settings, workspace, abilities, trusts_verilog: _ } = client;
         Self {
             connection,
+            pending,
+            is_shut: false,
             session: Session::new(world.clone()),
             buffers: Buffers::default(),
             encoding,
@@ -69,17 +76,14 @@ impl<'c> Server<'c> {
     }
 
     /// Serves until the client says goodbye or vanishes.
-    ///
-    /// # Errors
-    /// When the client breaks the protocol.
-    pub(super) fn run(mut self) -> Result<(), ProtocolError> {
+    pub(super) fn run(mut self) -> Status {
         self.watch();
         loop {
             let patience = self.waiting.iter().map(WaitingHover::left).min();
             select! {
                 recv(self.connection.receiver) -> message => match message {
-                    Ok(message) => if self.message(message)? { return Ok(()) },
-                    Err(_) => return Ok(()),
+                    Ok(message) => if let Some(end) = self.message(message) { return end },
+                    Err(_) => return Status::Done,
                 },
                 recv(self.compiler.results()) -> done => self.compiled(done.ok()),
                 recv(self.runs.events()) -> event => event.into_iter().for_each(|event| self.told(event)),
@@ -87,29 +91,40 @@ impl<'c> Server<'c> {
             }
             self.answer_hovers();
             // What changes again at once need not be checked.
-            if self.connection.receiver.is_empty() {
+            if self.connection.receiver.is_empty() && !self.is_shut {
                 self.publish();
             }
         }
     }
 
-    /// Handles a message; whether it was the last.
-    fn message(&mut self, message: Message) -> Result<bool, ProtocolError> {
+    /// Handles a message; how the server ends, if it was the last.
+    fn message(&mut self, message: Message) -> Option<Status> {
+        self.pending.take(&message);
         match message {
+            Message::Notification(told) if told.method == "exit" => {
+                return Some(if self.is_shut { Status::Done } else { Status::Abandoned });
+            }
+            Message::Request(Request { id, method, .. }) if self.is_shut || method == "initialize" => {
+                let state = if self.is_shut { "is shut down" } else { "is initialized" };
+                let reason = format!("the server {state}, and does not answer `{method}`");
+                self.send(Response::new_err(id, ErrorCode::InvalidRequest as i32, reason).into());
+            }
+            Message::Request(Request { id, method, .. }) if method == "shutdown" => {
+                self.is_shut = true;
+                self.runs = Runs::new();
+                self.send(Response::new_ok(id, ()).into());
+            }
             Message::Request(request) => {
-                if self.connection.handle_shutdown(&request)? {
-                    return Ok(true);
-                }
                 // An answer comes after the diagnostics of the text that it is about.
                 self.publish();
                 if let Some(answer) = self.request(request) {
                     self.send(Message::Response(answer));
                 }
             }
-            Message::Notification(notification) => self.notice(notification),
-            Message::Response(_) => {}
+            Message::Notification(notification) if !self.is_shut => self.notice(notification),
+            Message::Notification(_) | Message::Response(_) => {}
         }
-        Ok(false)
+        None
     }
 
     fn compiled(&mut self, done: Option<Compilation>) {
@@ -236,7 +251,9 @@ impl<'c> Server<'c> {
         for (path, version) in open {
             let checked = self.session.checked(&path);
             let known = self.published.get(&path);
-            if known.is_some_and(|(known, _)| Arc::ptr_eq(known, &checked)) {
+            // A check that was cut short is done again soon. Until then the last diagnostics stay.
+            let is_whole = self.session.is_checked(&path);
+            if !is_whole || known.is_some_and(|(known, _)| Arc::ptr_eq(known, &checked)) {
                 continue;
             }
             let files = Files { checked: &checked, encoding: self.encoding };

@@ -4,7 +4,8 @@ use gen_lsp_types::{MarkupContent, MarkupKind, ParameterInformation, SignatureHe
 
 use crate::cli::lsp::interface::Interface;
 use crate::cli::lsp::spot::Spot;
-use crate::cli::lsp::tokens::{EditorToken, EditorTokenKind, tokens};
+use crate::cli::lsp::tokens::tokens;
+use crate::syntax::{Token, TokenKind};
 
 /// A call that is being written.
 struct Call<'t> {
@@ -44,8 +45,8 @@ pub(super) fn help(spot: &Spot<'_>) -> Option<SignatureHelp> {
 }
 
 /// The innermost call whose bracket is open at a byte.
-fn call<'t>(text: &'t str, tokens: &[EditorToken], offset: usize) -> Option<Call<'t>> {
-    let word = |token: &EditorToken| &text[token.range.clone()];
+fn call<'t>(text: &'t str, tokens: &[Token], offset: usize) -> Option<Call<'t>> {
+    let word = |token: &Token| &text[token.range.clone()];
     let before = tokens.partition_point(|token| token.range.end <= offset);
     let (mut depth, mut at, mut is_named) = (0, 0, false);
     for open in (0..before).rev() {
@@ -71,7 +72,7 @@ fn call<'t>(text: &'t str, tokens: &[EditorToken], offset: usize) -> Option<Call
 }
 
 /// The name before a bracket, perhaps with parameters between.
-fn callee<'t>(text: &'t str, before: &[EditorToken]) -> Option<&'t str> {
+fn callee<'t>(text: &'t str, before: &[Token]) -> Option<&'t str> {
     let last = before.last()?;
     let name = match &text[last.range.clone()] {
         "]" => {
@@ -80,7 +81,7 @@ fn callee<'t>(text: &'t str, before: &[EditorToken]) -> Option<&'t str> {
         }
         _ => last,
     };
-    (name.kind == EditorTokenKind::Word).then(|| &text[name.range.clone()])
+    (name.kind == TokenKind::Word).then(|| &text[name.range.clone()])
 }
 
 #[cfg(test)]

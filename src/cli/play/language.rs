@@ -27,7 +27,7 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (answer, answers) = bounded(ANSWERS);
     let world = served.world.clone();
     // A page that breaks the protocol is left alone: it sees that nothing is answered.
-    thread::spawn(move || _ = lsp::serve(&Connection { sender: answer, receiver }, Arc::new(world)));
+    thread::spawn(move || _ = lsp::serve(Connection { sender: answer, receiver }, world));
     let told = inbox.clone();
     thread::spawn(move || answers.into_iter().for_each(|message| told.send(written(&message))));
     let folder = served.clone();
@@ -64,6 +64,8 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
             return Err(refusal(&id, ErrorCode::InvalidParams, "the parameters of `initialize` must be an object"));
         };
         params.insert("rootUri".to_owned(), json!(served.root));
+        // The user has opened this folder with `nbc play`.
+        params.insert("initializationOptions".to_owned(), trusting(params.get("initializationOptions")));
         params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.root, "name": "play" }]));
     }
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
@@ -76,6 +78,13 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
 
 fn refusal(id: &Value, code: ErrorCode, message: &str) -> Value {
     json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
+}
+
+/// The options of a page, with trust in the Verilog of the folder.
+fn trusting(options: Option<&Value>) -> Value {
+    let mut options = options.filter(|options| options.is_object()).cloned().unwrap_or_else(|| json!({}));
+    options["verilog"] = json!({ "trusted": true });
+    options
 }
 
 fn written(message: &Message) -> String {

@@ -6,6 +6,7 @@ use std::thread;
 use axum::extract::ws::WebSocket;
 use tokio::sync::mpsc;
 
+use crate::circuit::CancelFlag;
 use crate::cli::play::outbox::outbox;
 use crate::cli::play::served::Served;
 use crate::cli::play::socket::{WAITING, pump};
@@ -15,7 +16,9 @@ use crate::cli::play::visit::Visit;
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (requests, waiting) = mpsc::channel(WAITING);
     let (inbox, outgoing) = outbox();
-    let visited = served.clone();
-    thread::spawn(move || Visit::new(visited, inbox).serve(waiting));
+    let gone = CancelFlag::default();
+    let (visited, visit_ends) = (served.clone(), gone.clone());
+    thread::spawn(move || Visit::new(visited, inbox, visit_ends).serve(waiting));
     pump(socket, requests, outgoing, &served.waiting).await;
+    gone.raise();
 }

@@ -8,6 +8,7 @@ use axum::extract::ws::Utf8Bytes;
 use serde_json::{Value, json};
 use tokio::sync::mpsc;
 
+use crate::circuit::CancelFlag;
 use crate::cli::play::files::{PageFiles, example, examples};
 use crate::cli::play::history::MEMORY;
 use crate::cli::play::jobs::{Job, JobEnd, Jobs};
@@ -18,6 +19,7 @@ use crate::cli::play::runner::{self, SwarmOrder};
 use crate::cli::play::served::{MOST_BYTES, Served};
 use crate::cli::play::{bodies, evolving, programs, taking};
 use crate::session::{Checked, Choice, Compiled, Session};
+use crate::store::GuardedWorld;
 use crate::swarm::Room;
 
 /// The time between two looks at the files that the page has read.
@@ -38,10 +40,11 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    pub(super) fn new(served: Arc<Served>, outbox: Outbox) -> Self {
+    /// A page that has come; `gone` is raised when it leaves.
+    pub(super) fn new(served: Arc<Served>, outbox: Outbox, gone: CancelFlag) -> Self {
         let world = served.world.clone();
         Self {
-            session: Session::new(world.clone()),
+            session: Session::new(GuardedWorld::until(world.clone(), gone)),
             revision: 0,
             files: PageFiles::new(world),
             jobs: Jobs::new(outbox.clone()),
@@ -235,4 +238,49 @@ type Work = Box<dyn FnOnce(&mut Job) -> JobEnd + Send>;
 
 fn boxed(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Work {
     Box::new(work)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
+    use super::*;
+    use crate::cli::play::outbox::outbox;
+    use crate::store::FolderWorld;
+
+    const VERBS: [&str; 16] = [
+        "hello", "files", "read", "save", "program", "inputs", "clock", "run", "pause", "step", "reset", "seek",
+        "view", "cancel", "robots", "nonsense",
+    ];
+    const TEXTS: [&str; 6] = ["a.nb", "../a", "", "circuit f(a) -> (q) { q = a }", "é\u{0}", "01"];
+
+    fn number() -> impl Strategy<Value = Value> {
+        select(vec![json!(0), json!(1), json!(-1), json!(1.5), json!(1e300), json!(u64::MAX), json!("x"), Value::Null])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn any_requests_are_answered_without_a_fault(
+            sent in prop::collection::vec((select(VERBS.to_vec()), select(TEXTS.to_vec()), number(), number()), 0..12),
+            broken in ".{0,30}",
+        ) {
+            let folder = tempfile::tempdir().unwrap();
+            let world = FolderWorld::new(folder.path()).unwrap();
+            let served = Arc::new(Served::new(world, String::new(), None, "secret".to_owned()));
+            let (inbox, outgoing) = outbox();
+            let mut visit = Visit::new(served, inbox, CancelFlag::default());
+            // Nobody reads the answers.
+            drop(outgoing);
+            visit.receive(&broken);
+            for (verb, text, one, two) in sent {
+                let request = json!({
+                    "id": one, "do": verb, "path": text, "text": text, "example": text, "stamp": null, "bits": text,
+                    "bit": two, "half": one, "speed": two, "cycles": one, "cycle": two, "robots": [one], "of": two,
+                });
+                visit.receive(&request.to_string());
+            }
+        }
+    }
 }

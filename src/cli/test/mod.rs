@@ -19,7 +19,6 @@ use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, wo
 use crate::diag::{Diagnostic, counted};
 use crate::report::{self, Schema};
 use crate::session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions, TestRun};
-use crate::store::DiskWorld;
 use crate::swarm::{Level, Task, TaskResult, TestVerdict};
 
 use worlds::WorldsArguments;
@@ -74,8 +73,12 @@ impl TestArguments {
     /// # Errors
     /// When a file has errors or declares no test; then no test runs.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let (mut session, interrupt) = (Session::new(DiskWorld), Interrupt::watch()?);
-        let files = self.files.iter().map(|file| load(&mut session, file)).collect::<Result<Vec<_>, _>>()?;
+        let interrupt = Interrupt::watch()?;
+        let mut session = Session::new(interrupt.world());
+        let files = match self.files.iter().map(|file| load(&mut session, file)).collect::<Result<Vec<_>, _>>() {
+            Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
+            files => files?,
+        };
         self.test(&session, &files, &interrupt, context)
     }
 

@@ -66,8 +66,43 @@ fn offended(offense: Offense, place: VerilogPlace) -> VerilogError {
 mod tests {
     use std::collections::BTreeMap;
 
+    use proptest::prelude::*;
+
     use super::*;
     use crate::source::{FileError, VerilogFault};
+
+    const WORDS: [&str; 30] = [
+        "module",
+        "endmodule",
+        "m",
+        "(",
+        ")",
+        "input",
+        ";",
+        "`define",
+        "`A",
+        "A",
+        "`include",
+        "`ifdef",
+        "`else",
+        "`endif",
+        "`undef",
+        "\"a\"",
+        "\"",
+        "//",
+        "/*",
+        "*/",
+        "\\",
+        "\\\n",
+        "4'b",
+        "1z",
+        "?",
+        "case",
+        "$readmemh",
+        "#",
+        "é",
+        "import",
+    ];
 
     fn listed(text: &str, files: &[(&str, &str)]) -> Result<VerilogListing, VerilogError> {
         let files: BTreeMap<_, _> = files.iter().copied().collect();
@@ -161,5 +196,19 @@ mod tests {
         let place = VerilogPlace { file: "d/a.v".to_owned(), line: 2 };
         let missing = VerilogError::Include { place, path: "no.vh".to_owned(), error: FileError::NotFound };
         assert_eq!(listed("\n`include \"no.vh\"", &included).err(), Some(missing));
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_is_listed_or_refused(
+            words in prop::collection::vec(prop::sample::select(WORDS.to_vec()), 0..60),
+            spaces in prop::sample::select(vec!["", " ", "\n"]),
+        ) {
+            let text = words.join(spaces);
+            let read = |_: &str| -> Result<String, FileError> { Ok("`include \"a\"\n`define A `A".to_owned()) };
+            if let Ok(listing) = VerilogListing::of("m.v", &text, &read) {
+                prop_assert!(listing.place(listing.text.lines().count() + 1).is_none());
+            }
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! asker has. When that closes, because nobody waits any more or the asker was killed, the shell ends Yosys and removes
 //! its folder.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
@@ -107,8 +108,19 @@ pub(super) fn run(
     limits: Limits,
     cancel: &CancelFlag,
 ) -> Result<Result<(), String>, VerilogError> {
+    run_found(std::env::var_os("PATH"), folder, script, limits, cancel)
+}
+
+/// The same with the Yosys that is found in the folders of `path`.
+fn run_found(
+    path: Option<OsString>,
+    folder: &Path,
+    script: &str,
+    limits: Limits,
+    cancel: &CancelFlag,
+) -> Result<Result<(), String>, VerilogError> {
     let mut command = command(script, limits);
-    command.env_clear().envs(std::env::var_os("PATH").map(|path| ("PATH", path)));
+    command.env_clear().envs(path.map(|path| ("PATH", path)));
     command.envs(["HOME", "TMPDIR"].map(|name| (name, folder))).env("LC_ALL", "C").current_dir(folder);
     let child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|_| VerilogError::NoYosys)?;
@@ -182,4 +194,52 @@ fn read(mut from: ChildStderr) -> String {
     let _ = (&mut from).take(MESSAGES).read_to_end(&mut said);
     let _ = io::copy(&mut from, &mut io::sink());
     String::from_utf8_lossy(&said).into_owned()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::PermissionsExt;
+
+    use super::*;
+
+    /// How a shell script ends in the place of Yosys.
+    fn ended(script: &str, limits: Limits, cancel: &CancelFlag) -> Result<Result<(), String>, VerilogError> {
+        let (programs, work) = (tempfile::tempdir().unwrap(), folder().unwrap());
+        let program = programs.path().join("yosys");
+        fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+        let others = std::env::var_os("PATH").unwrap_or_default();
+        let folders = [programs.path().to_owned()].into_iter().chain(std::env::split_paths(&others));
+        let path = std::env::join_paths(folders).unwrap();
+        run_found(Some(path), work.path(), "", limits, cancel)
+    }
+
+    #[test]
+    fn yosys_has_limits_of_time_and_memory() {
+        let cancel = CancelFlag::default();
+        let limits = Limits { seconds: 7, megabytes: 640 };
+        // The system sends this signal to a process at its limit of time.
+        let late = "[ \"$(ulimit -S -t)\" = 7 ] && kill -XCPU $$";
+        assert_eq!(ended(late, limits, &cancel), Err(VerilogError::TooLong { seconds: 7 }));
+        let large = "[ \"$(ulimit -v)\" = 655360 ] && echo 'ERROR: Out of memory' >&2; exit 1";
+        assert_eq!(ended(large, limits, &cancel), Err(VerilogError::TooLarge { megabytes: 640 }));
+        assert_eq!(ended("echo no >&2; exit 1", limits, &cancel), Ok(Err("no\n".to_owned())));
+        assert_eq!(ended("exit 0", limits, &cancel), Ok(Ok(())));
+    }
+
+    #[test]
+    fn a_translation_that_nobody_waits_for_ends() {
+        let cancel = CancelFlag::default();
+        cancel.raise();
+        // Whether it ends is the test. Without an end, it would last for an hour.
+        assert_eq!(ended("sleep 3600", Limits::default(), &cancel), Err(VerilogError::Cancelled));
+    }
+
+    #[test]
+    fn without_yosys_nothing_is_run() {
+        let work = folder().unwrap();
+        let nowhere = Some(work.path().as_os_str().to_owned());
+        let ended = run_found(nowhere, work.path(), "", Limits::default(), &CancelFlag::default());
+        assert_eq!(ended, Err(VerilogError::NoYosys));
+    }
 }

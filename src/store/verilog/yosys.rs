@@ -50,7 +50,7 @@ impl<W: VerilogFiles> Verilog<'_, W> {
     /// # Errors
     /// When Yosys is missing, or the text is refused.
     pub(in crate::store) fn flatten(&self) -> Result<String, VerilogError> {
-        result(&self.run(TOP, Limits::default())?, FLAT)
+        result(&self.run(TOP)?, FLAT)
     }
 
     /// All modules.
@@ -58,17 +58,17 @@ impl<W: VerilogFiles> Verilog<'_, W> {
     /// # Errors
     /// As [`Verilog::flatten`].
     pub(in crate::store) fn modules(&self) -> Result<VerilogModules, VerilogError> {
-        let folder = self.run(ALL, Limits::default())?;
+        let folder = self.run(ALL)?;
         Ok(VerilogModules { blif: result(&folder, FLAT)?, tops: tops(&result(&folder, WRITTEN)?) })
     }
 
     /// The folder in which Yosys ran the script.
-    fn run(&self, modules: &str, limits: Limits) -> Result<tempfile::TempDir, VerilogError> {
+    fn run(&self, modules: &str) -> Result<tempfile::TempDir, VerilogError> {
         let listing = VerilogListing::of(self.path, self.text, &|path| self.world.included(self.path, path))?;
         let folder = process::folder()?;
         let written = fs::write(folder.path().join(SOURCE), &listing.text);
         written.map_err(|error| VerilogError::NoFolder(io_words(&error)))?;
-        match process::run(folder.path(), &script(modules), limits, self.cancel)? {
+        match process::run(folder.path(), &script(modules), Limits::default(), self.cancel)? {
             Ok(()) => Ok(folder),
             Err(said) => {
                 let processed = result(&folder, PROCESSED).unwrap_or_default();
@@ -142,29 +142,8 @@ fn place(said: &str) -> Option<(usize, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, Instant};
-
     use super::*;
     use crate::source::VerilogPlace;
-
-    /// A world without files.
-    struct NoFiles;
-
-    impl SourceWorld for NoFiles {
-        fn read(&self, _: &str) -> Result<String, FileError> {
-            Err(FileError::NotFound)
-        }
-
-        fn list(&self, _: &str) -> Result<Vec<String>, FileError> {
-            Err(FileError::NotFound)
-        }
-    }
-
-    impl VerilogFiles for NoFiles {
-        fn included(&self, _: &str, _: &str) -> Result<String, FileError> {
-            Err(FileError::NotFound)
-        }
-    }
 
     fn listing(text: &str) -> VerilogListing {
         VerilogListing::of("my file.v", text, &|_| Err(FileError::NotFound)).unwrap()
@@ -184,37 +163,6 @@ mod tests {
         let reason = "syntax error, unexpected TOK_ENDMODULE".to_owned();
         let place = Some(VerilogPlace { file: "my file.v".to_owned(), line: 4 });
         assert_eq!(rejected(said, &listing("a\n\n\nb\n")), VerilogError::Rejected { reason, place });
-    }
-
-    /// What Yosys says to a module within limits.
-    fn limited(text: &str, limits: Limits, cancel: &CancelFlag) -> Option<VerilogError> {
-        Verilog { world: &NoFiles, path: "m.v", text, cancel }.run(ALL, limits).err()
-    }
-
-    const LOOP: &str = "module m(input x, output y);\n reg q;\n integer i;\n \
-        initial for (i = 0; i < 100000000; i = i + 1) q = i;\n assign y = x ^ q;\nendmodule\n";
-
-    #[test]
-    fn a_loop_ends_at_the_limits_of_time_and_memory() {
-        let limits = Limits { seconds: 1, megabytes: 2048 };
-        let late = limited(LOOP, limits, &CancelFlag::default());
-        assert!(matches!(late, Some(VerilogError::TooLong { seconds: 1 } | VerilogError::NoYosys)), "{late:?}");
-        let limits = Limits { seconds: 60, megabytes: 64 };
-        let large = limited(LOOP, limits, &CancelFlag::default());
-        assert!(matches!(large, Some(VerilogError::TooLarge { megabytes: 64 } | VerilogError::NoYosys)), "{large:?}");
-    }
-
-    #[test]
-    fn a_translation_that_nobody_waits_for_ends() {
-        let (cancel, started) = (CancelFlag::default(), Instant::now());
-        let raised = cancel.clone();
-        std::thread::spawn(move || {
-            std::thread::sleep(Duration::from_millis(200));
-            raised.raise();
-        });
-        let stopped = limited(LOOP, Limits::default(), &cancel);
-        assert!(matches!(stopped, Some(VerilogError::Cancelled | VerilogError::NoYosys)), "{stopped:?}");
-        assert!(started.elapsed() < Duration::from_secs(20));
     }
 
     #[test]

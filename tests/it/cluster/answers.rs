@@ -49,10 +49,11 @@ fn garbage_repeated_late_and_oversized_answers_change_nothing() {
     }
     let ran = search.end();
     assert_same(&bench, &ran);
+    for (worker, count) in [("garbage", 1), ("empty", 2), ("oversized", 3)] {
+        let line = format!("dropped a message in the name of `{worker}` that is not an answer, {count} so far");
+        assert!(ran.err.contains(&line), "{line}\n{}", ran.err);
+    }
     for (worker, reason) in [
-        ("garbage", "its message cannot be read"),
-        ("empty", "its message cannot be read"),
-        ("oversized", "its message cannot be read"),
         ("impossible", "its result cannot be right"),
         ("confused", "its result cannot be right"),
         ("foreign", "its physics is 0000000000000007 (version 9.9.9), expected "),
@@ -62,6 +63,37 @@ fn garbage_repeated_late_and_oversized_answers_change_nothing() {
     }
     assert!(!ran.err.contains("`good`") && !ran.err.contains("`echo`") && !ran.err.contains("`late`"), "{}", ran.err);
     good.kill();
+}
+
+#[test]
+fn junk_in_the_name_of_a_worker_is_dropped_and_the_worker_stays() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    let task = wire.wait_for(|message| is_task(message, 0, 0));
+    let subject = answer_subject(&task, "good");
+    for junk in [&[][..], &[1, 255, 255, 255], b"hello", &[0; 300]] {
+        wire.publish(&subject, junk);
+    }
+    // Answers that can be read, but are wrong, one of them with a reply to somebody else.
+    wire.publish(&subject, &[1, 0, 0, 0, 0, 1, 3, 0]);
+    wire.publish(&format!("{subject} nbc.v1.reply.wire"), &unstable(&task));
+    let good = worker(&bench, &server, "good");
+    for _ in 0..20 {
+        wire.wait_for(|message| message.is_answer_of("good"));
+        wire.publish(&subject, b"junk");
+    }
+    let ran = search.end();
+    assert_same(&bench, &ran);
+    assert!(ran.err.contains("in the name of `good` that is not an answer, 16 so far"), "{}", ran.err);
+    good.signal("TERM");
+    let left = good.end();
+    assert!(
+        left.status != 2 && !left.err.contains("reject") && !left.err.contains("its messages cannot be read"),
+        "{}",
+        left.err
+    );
 }
 
 #[test]

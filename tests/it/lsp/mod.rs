@@ -5,9 +5,12 @@ mod client;
 mod editors;
 mod hovers;
 mod latency;
+mod protocol;
 mod renaming;
 mod runs;
 mod typist;
+#[cfg(target_os = "linux")]
+mod verilog;
 mod views;
 mod writing;
 

@@ -5,5 +5,7 @@ mod page;
 mod robots;
 mod safety;
 mod swarm;
+#[cfg(target_os = "linux")]
+mod verilog;
 
 const LATCH: &str = include_str!("../../../circuits/latch.nb");

@@ -107,7 +107,8 @@ export class Server implements vscode.Disposable {
     return {
       documentSelector: [{ scheme: "file", language: "nb" }],
       synchronize: { fileEvents: this.watcher },
-      initializationOptions: settings(),
+      // A grant of trust starts the server again. Settings do not decide, because a workspace can have its own.
+      initializationOptions: { ...settings(), verilog: { trusted: vscode.workspace.isTrusted } },
       outputChannel: this.log,
       middleware: { executeCommand: (command, args) => this.perform(command, args) },
     };

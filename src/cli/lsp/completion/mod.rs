@@ -14,9 +14,9 @@ use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::interface::Interface;
 use crate::cli::lsp::spot::Spot;
-use crate::cli::lsp::tokens::{self, EditorToken, EditorTokenKind};
+use crate::cli::lsp::tokens;
 use crate::model::Function;
-use crate::syntax::KEYWORDS;
+use crate::syntax::{KEYWORDS, Token, TokenKind};
 
 use fields::Holds;
 use item::item;
@@ -70,22 +70,22 @@ pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem>
 }
 
 /// Whether a place is between the quotes of a token, of which the second may be missing.
-fn is_inside(token: &EditorToken, spot: &Spot<'_>) -> bool {
+fn is_inside(token: &Token, spot: &Spot<'_>) -> bool {
     let text = &spot.text()[token.range.clone()];
     let is_closed = text.len() > 1 && text.ends_with('"');
     let end = token.range.end - usize::from(is_closed);
-    token.kind == EditorTokenKind::Quoted && (token.range.start + 1..=end).contains(&spot.offset)
+    token.kind == TokenKind::Quoted && (token.range.start + 1..=end).contains(&spot.offset)
 }
 
 /// Whether a place is in a comment, which contains its end.
-fn is_comment(tokens: &[EditorToken], offset: usize) -> bool {
+fn is_comment(tokens: &[Token], offset: usize) -> bool {
     tokens
         .iter()
-        .any(|token| token.kind == EditorTokenKind::Comment && (token.range.start..=token.range.end).contains(&offset))
+        .any(|token| token.kind == TokenKind::Comment && (token.range.start..=token.range.end).contains(&offset))
 }
 
 /// The paths at a place after the quote at `quote`, if the text there is a path.
-fn path(spot: &Spot<'_>, tokens: &[EditorToken], quote: usize) -> Vec<CompletionItem> {
+fn path(spot: &Spot<'_>, tokens: &[Token], quote: usize) -> Vec<CompletionItem> {
     match Before::of(spot.text(), tokens, quote).place(quote) {
         Place::UsedFile => paths::items(spot, quote + 1, PathKind::Source),
         Place::Value("library", "from") => paths::items(spot, quote + 1, PathKind::Folder),
@@ -135,7 +135,7 @@ fn nets(before: &Before<'_>, files: &Files<'_>, wanted: NameKind) -> Vec<Complet
             wanted.map(|found| (checked.sources.text(found.place), found.kind.word())).collect()
         }
         None => {
-            let words = before.tokens.iter().skip(2).filter(|token| token.kind == EditorTokenKind::Word);
+            let words = before.tokens.iter().skip(2).filter(|token| token.kind == TokenKind::Word);
             let words = words.map(|token| &before.text[token.range.clone()]);
             let is_name = |word: &&str| is_word(word) && checked.program.circuit(word).is_none();
             words.filter(is_name).map(|word| (word, "name")).collect()

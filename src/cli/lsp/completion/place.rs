@@ -4,8 +4,7 @@
 use std::ops::Range;
 
 use crate::cli::lsp::completion::fields;
-use crate::cli::lsp::tokens::{EditorToken, EditorTokenKind};
-use crate::syntax::KEYWORDS;
+use crate::syntax::{KEYWORDS, Token, TokenKind};
 
 /// A place in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,16 +50,16 @@ pub(super) enum Place<'t> {
 pub(super) struct Before<'t> {
     pub(super) text: &'t str,
     /// From the keyword on; without the word that is being written.
-    pub(super) tokens: &'t [EditorToken],
+    pub(super) tokens: &'t [Token],
     /// The brackets that are open, as indices.
     open: Vec<usize>,
 }
 
 impl<'t> Before<'t> {
     /// The tokens before a byte.
-    pub(super) fn of(text: &'t str, tokens: &'t [EditorToken], offset: usize) -> Self {
-        let is_before = |token: &EditorToken| match token.kind {
-            EditorTokenKind::Word | EditorTokenKind::Number => token.range.end < offset,
+    pub(super) fn of(text: &'t str, tokens: &'t [Token], offset: usize) -> Self {
+        let is_before = |token: &Token| match token.kind {
+            TokenKind::Word | TokenKind::Number => token.range.end < offset,
             _ => token.range.end <= offset,
         };
         let end = tokens.iter().take_while(|token| is_before(token)).count();
@@ -92,7 +91,7 @@ impl<'t> Before<'t> {
 
     /// The place after these tokens, at this byte.
     pub(super) fn place(&self, offset: usize) -> Place<'t> {
-        let is_number = self.tokens.last().is_some_and(|token| token.kind == EditorTokenKind::Number);
+        let is_number = self.tokens.last().is_some_and(|token| token.kind == TokenKind::Number);
         match self.word(0) {
             "" => Place::Outside,
             _ if self.is_complete(offset) => Place::Outside,
@@ -141,8 +140,8 @@ impl<'t> Before<'t> {
     fn in_body(&self, offset: usize) -> Place<'t> {
         let last = self.last();
         let is_value = self.tokens.last().is_some_and(|token| match token.kind {
-            EditorTokenKind::Number => true,
-            EditorTokenKind::Word => !WORDS_BEFORE_VALUES.contains(&last),
+            TokenKind::Number => true,
+            TokenKind::Word => !WORDS_BEFORE_VALUES.contains(&last),
             _ => matches!(last, ")" | "]" | "}"),
         });
         match last {
@@ -172,7 +171,7 @@ impl<'t> Before<'t> {
             None if self.last() == "in" => Place::World,
             Some("{") if has("all") && has("inputs") => self.in_body(offset),
             Some("{") if has("|") && self.is_row(offset) => match self.tokens.last().map(|token| token.kind) {
-                Some(EditorTokenKind::Number) if self.last_word_before() == "for" => Place::Unit,
+                Some(TokenKind::Number) if self.last_word_before() == "for" => Place::Unit,
                 _ => Place::Row,
             },
             Some("{") => Place::Columns(self.word(1)),
@@ -228,7 +227,7 @@ impl<'t> Before<'t> {
 const WORDS_BEFORE_VALUES: [&str; 10] = ["and", "else", "if", "nand", "nor", "not", "or", "then", "xnor", "xor"];
 
 /// Whether a token is a keyword that begins a declaration: the first of its line, and not inside one that is complete.
-fn begins(text: &str, tokens: &[EditorToken], at: usize) -> bool {
+fn begins(text: &str, tokens: &[Token], at: usize) -> bool {
     let Range { start, .. } = tokens[at].range;
     KEYWORDS.contains(&&text[tokens[at].range.clone()]) && (start == 0 || text[..start].ends_with(['\n', '\r']))
 }

@@ -12,10 +12,11 @@ mod waves;
 use crate::check::{NameKind, NameUse};
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::spot::Spot;
-use crate::cli::lsp::tokens::{self, EditorTokenKind};
+use crate::cli::lsp::tokens;
 use crate::model::Operator;
 use crate::session::Session;
 use crate::source::Span;
+use crate::syntax::TokenKind;
 use crate::syntax::tree::DeclarationKind;
 
 /// What is shown about a place.
@@ -38,8 +39,8 @@ pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option
     let token = tokens::at(&tokens, spot.offset)?;
     let word = &text[token.range.clone()];
     let shown = match token.kind {
-        EditorTokenKind::Number => constant::text(word),
-        EditorTokenKind::Word => of_word(spot, word, session, pictures),
+        TokenKind::Number => constant::text(word),
+        TokenKind::Word => of_word(spot, word, session, pictures),
         _ => None,
     }?;
     let place = Span::new(spot.file, token.range.start, token.range.end);

@@ -1,0 +1,100 @@
+//! Messages that have arrived and are not handled yet, as far as they make stale what is being checked.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use gen_lsp_types::LspNotificationMethod;
+use lsp_server::Message;
+
+use crate::circuit::CancelFlag;
+
+/// Counts changes that wait to be handled, and ends translations meanwhile. Its copies are one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pending(Arc<Mutex<State>>);
+
+#[derive(Debug, Default)]
+struct State {
+    waiting: usize,
+    /// Whether no more messages will come.
+    is_over: bool,
+    /// Is raised while a change waits, and at the end.
+    cancel: CancelFlag,
+}
+
+impl Pending {
+    /// A message has arrived.
+    pub(super) fn add(&self, message: &Message) {
+        if is_change(message) {
+            let mut state = self.state();
+            state.waiting += 1;
+            state.cancel.raise();
+        }
+    }
+
+    /// A message that had arrived is handled now.
+    pub(super) fn take(&self, message: &Message) {
+        if is_change(message) {
+            let mut state = self.state();
+            state.waiting -= 1;
+            if state.waiting == 0 && !state.is_over {
+                state.cancel = CancelFlag::default();
+            }
+        }
+    }
+
+    /// The client is gone.
+    pub(super) fn end(&self) {
+        let mut state = self.state();
+        state.is_over = true;
+        state.cancel.raise();
+    }
+
+    /// What ends a translation that begins now.
+    pub(super) fn cancel(&self) -> CancelFlag {
+        self.state().cancel.clone()
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Whether a message changes what is checked, or ends the server.
+fn is_change(message: &Message) -> bool {
+    match message {
+        Message::Request(request) => request.method == "shutdown",
+        Message::Notification(told) => matches!(
+            LspNotificationMethod::from(told.method.as_str()),
+            LspNotificationMethod::TextDocumentDidChange
+                | LspNotificationMethod::TextDocumentDidClose
+                | LspNotificationMethod::WorkspaceDidChangeWatchedFiles
+                | LspNotificationMethod::Exit
+        ),
+        Message::Response(_) => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lsp_server::Notification;
+
+    #[test]
+    fn translations_end_while_changes_wait_and_when_the_client_is_gone() {
+        let pending = Pending::default();
+        let message = |method: &str| Message::Notification(Notification::new(method.to_owned(), ()));
+        let (change, other) = (message("textDocument/didChange"), message("initialized"));
+        let first = pending.cancel();
+        pending.add(&other);
+        assert!(!first.is_raised());
+        pending.add(&change);
+        pending.add(&change);
+        assert!(first.is_raised() && pending.cancel().is_raised());
+        pending.take(&change);
+        assert!(pending.cancel().is_raised(), "another change waits");
+        pending.take(&change);
+        let second = pending.cancel();
+        assert!(!second.is_raised());
+        pending.end();
+        assert!(second.is_raised() && pending.cancel().is_raised());
+    }
+}

@@ -1,0 +1,203 @@
+//! Messages over standard input and output: their lengths, their texts, and what is answered to those that are not
+//! messages.
+
+use std::io::{self, BufRead, Read, Write};
+use std::thread::{self, JoinHandle};
+
+use crossbeam_channel::{Sender, bounded};
+use lsp_server::{Connection, ErrorCode, Message};
+use serde_json::{Value, json};
+
+/// The most bytes of a message. A text of this length could not be checked anyway.
+const MOST: u64 = 64 << 20;
+/// The most bytes of a line before a message.
+const LINE: u64 = 4096;
+
+/// The threads that read and write.
+pub(super) struct Wire {
+    reader: JoinHandle<Result<(), String>>,
+    writer: JoinHandle<io::Result<()>>,
+}
+
+/// A connection over standard input and output.
+pub(super) fn open() -> (Connection, Wire) {
+    let (arriving, receiver) = bounded(0);
+    let (sender, leaving) = bounded::<Message>(0);
+    let reader = thread::spawn(move || read_all(&mut io::stdin().lock(), &arriving));
+    let writer =
+        thread::spawn(move || leaving.into_iter().try_for_each(|message| message.write(&mut io::stdout().lock())));
+    (Connection { sender, receiver }, Wire { reader, writer })
+}
+
+impl Wire {
+    /// Waits until all is written.
+    ///
+    /// # Errors
+    /// What the client has broken, or why nothing could be written.
+    pub(super) fn join(self) -> Result<(), String> {
+        self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()))?;
+        let written = self.writer.join().map_err(|_| "the writer failed".to_owned())?;
+        written.map_err(|error| crate::diag::io_words(&error))
+    }
+}
+
+/// Hands on all messages until `exit` or the end of the input.
+fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), String> {
+    loop {
+        let arrived = match read(input) {
+            Ok(Some(arrived)) => arrived,
+            Ok(None) => return Ok(()),
+            Err(reason) => {
+                refuse(Value::Null, ErrorCode::InvalidRequest, &reason);
+                return Err(reason);
+            }
+        };
+        let message = match arrived {
+            Arrived::Message(message) => message,
+            Arrived::Other { id, code, reason } => {
+                refuse(id, code, &reason);
+                continue;
+            }
+        };
+        let is_last = matches!(&message, Message::Notification(told) if told.method == "exit");
+        if messages.send(message).is_err() || is_last {
+            return Ok(());
+        }
+    }
+}
+
+/// Answers what is not a message. The protocol has no request for it, so there may be no number.
+fn refuse(id: Value, code: ErrorCode, reason: &str) {
+    let answer = json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": reason } }).to_string();
+    let mut output = io::stdout().lock();
+    // A client that does not read misses it.
+    let _ = write!(output, "Content-Length: {}\r\n\r\n{answer}", answer.len()).and_then(|()| output.flush());
+}
+
+/// A whole text from the client.
+#[derive(Debug)]
+enum Arrived {
+    Message(Message),
+    /// Not a message. The next one can still be read.
+    Other {
+        /// The number of the request, if there is one.
+        id: Value,
+        code: ErrorCode,
+        reason: String,
+    },
+}
+
+/// The next text; `None` at the end of the input.
+///
+/// # Errors
+/// When it is not known where the next text begins.
+fn read(input: &mut impl BufRead) -> Result<Option<Arrived>, String> {
+    let Some(length) = length(input)? else { return Ok(None) };
+    if length > MOST {
+        return Err(format!("a message has {length} bytes, expected at most {MOST}"));
+    }
+    let mut bytes = Vec::new();
+    // Room is made for what has come, not for what is announced.
+    let read = input.by_ref().take(length).read_to_end(&mut bytes).map_err(|error| crate::diag::io_words(&error))?;
+    if (read as u64) < length {
+        return Err(format!("a message has {length} bytes, and the input ends after {read}"));
+    }
+    Ok(Some(parse(&bytes)))
+}
+
+fn parse(bytes: &[u8]) -> Arrived {
+    let value: Value = match serde_json::from_slice(bytes) {
+        Ok(value) => value,
+        Err(error) => {
+            let reason = format!("the message is not JSON: {error}");
+            return Arrived::Other { id: Value::Null, code: ErrorCode::ParseError, reason };
+        }
+    };
+    let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned().unwrap_or_default();
+    match Some(value).filter(Value::is_object).and_then(|value| serde_json::from_value(value).ok()) {
+        // A notification has no number. One that seems to have one is a request with a number that is not possible.
+        Some(message) if id.is_null() || !matches!(message, Message::Notification(_)) => Arrived::Message(message),
+        _ => {
+            let reason = "expected a request, a notification or a response".to_owned();
+            Arrived::Other { id, code: ErrorCode::InvalidRequest, reason }
+        }
+    }
+}
+
+/// The length of the next text, which the lines before it tell; `None` at the end of the input.
+fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
+    let mut length = None;
+    loop {
+        let mut line = Vec::new();
+        let read =
+            input.by_ref().take(LINE).read_until(b'\n', &mut line).map_err(|error| crate::diag::io_words(&error))?;
+        if read == 0 {
+            return Ok(None);
+        }
+        let line = line.strip_suffix(b"\r\n").and_then(|line| str::from_utf8(line).ok());
+        let line = line.ok_or("expected a line such as `Content-Length: 2` that ends with CR LF")?;
+        if line.is_empty() {
+            return length.map(Some).ok_or_else(|| "expected `Content-Length` before a message".to_owned());
+        }
+        let (name, value) = line.split_once(':').ok_or_else(|| format!("expected a header, found `{line}`"))?;
+        if name.eq_ignore_ascii_case("Content-Length") {
+            let value = value.trim();
+            length = Some(value.parse().map_err(|_| format!("expected a length in bytes, found `{value}`"))?);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn first(text: &str) -> Result<Option<Arrived>, String> {
+        read(&mut text.as_bytes())
+    }
+
+    #[test]
+    fn messages_are_read_by_their_lengths() {
+        let text = "content-length: 16\r\nContent-Type: x\r\n\r\n{\"method\":\"ab\"}rest";
+        let read = first(text).unwrap().unwrap();
+        assert!(matches!(read, Arrived::Message(Message::Notification(told)) if told.method == "ab"));
+        assert!(first("").unwrap().is_none());
+    }
+
+    #[test]
+    fn a_length_beyond_the_limit_reserves_no_memory() {
+        let reason = |text: &str| first(text).unwrap_err();
+        assert!(reason("Content-Length: 10000000000000\r\n\r\n{}").contains("at most 67108864"));
+        assert!(reason("Content-Length: 99999999999999999999\r\n\r\n{}").contains("a length in bytes"));
+        assert!(reason("Content-Length: 60000000\r\n\r\n{}").contains("ends after 2"));
+        assert!(reason(&"x".repeat(10_000)).contains("ends with CR LF"));
+        assert!(reason("\r\n").contains("Content-Length"));
+    }
+
+    #[test]
+    fn a_text_that_is_not_a_message_has_an_answer_and_a_successor() {
+        for (text, expected, code) in [
+            ("{x}", Value::Null, ErrorCode::ParseError),
+            ("[]", Value::Null, ErrorCode::InvalidRequest),
+            ("[\"exit\"]", Value::Null, ErrorCode::InvalidRequest),
+            ("{\"id\":7}", json!(7), ErrorCode::InvalidRequest),
+            ("{\"id\":1.5,\"method\":\"shutdown\"}", json!(1.5), ErrorCode::InvalidRequest),
+        ] {
+            let framed = format!("Content-Length: {}\r\n\r\n{text}", text.len());
+            let Ok(Some(Arrived::Other { id, code: found, .. })) = first(&framed) else { panic!("{text}") };
+            assert_eq!((id, found as i32), (expected, code as i32), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_are_messages_or_faults(
+            length in "Content-Length: ([0-9]{1,20}|-1|x)\r\n(\r\n)?",
+            text in prop::collection::vec(any::<u8>(), 0..60),
+        ) {
+            let _ = read(&mut &[length.as_bytes(), &text].concat()[..]);
+            let _ = parse(&text);
+        }
+    }
+}

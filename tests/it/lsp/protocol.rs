@@ -1,0 +1,111 @@
+//! Clients that break the protocol, or say goodbye in their own way.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Command, Stdio};
+
+use lsp_server::ErrorCode;
+use serde_json::{Value, json};
+
+/// A frame with a message.
+fn frame(message: &Value) -> String {
+    let text = message.to_string();
+    format!("Content-Length: {}\r\n\r\n{text}", text.len())
+}
+
+fn request(id: i32, method: &str, params: &Value) -> String {
+    frame(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }))
+}
+
+fn told(method: &str) -> String {
+    frame(&json!({ "jsonrpc": "2.0", "method": method }))
+}
+
+/// The exit status of a server that is sent some bytes, and for each answer its number and the code of its error.
+fn talk(sent: &[String]) -> (Option<i32>, Vec<(Value, i64)>) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_nbc"));
+    let command = command.arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut server = command.spawn().unwrap();
+    // A server that has ended reads no more.
+    let _ = server.stdin.take().unwrap().write_all(sent.concat().as_bytes());
+    let ended = server.wait_with_output().unwrap();
+    let mut output = BufReader::new(&ended.stdout[..]);
+    let mut answers = Vec::new();
+    while let Some(text) = body(&mut output) {
+        answers.push((text["id"].clone(), text["error"]["code"].as_i64().unwrap_or(0)));
+    }
+    (ended.status.code(), answers)
+}
+
+/// The next message.
+fn body(output: &mut impl BufRead) -> Option<Value> {
+    let mut line = String::new();
+    output.read_line(&mut line).unwrap();
+    let length = line.trim().strip_prefix("Content-Length: ")?.parse().unwrap();
+    output.read_line(&mut line).unwrap();
+    let mut bytes = vec![0; length];
+    output.read_exact(&mut bytes).unwrap();
+    Some(serde_json::from_slice(&bytes).unwrap())
+}
+
+/// Answers in one order. Those to what is not a message do not wait for others.
+fn sorted(mut answers: Vec<(Value, i64)>) -> Vec<(Value, i64)> {
+    answers.sort_by_key(|(id, code)| (id.to_string(), *code));
+    answers
+}
+
+fn start() -> String {
+    request(1, "initialize", &json!({ "capabilities": {} })) + &told("initialized")
+}
+
+const OK: i64 = 0;
+const INVALID: i64 = ErrorCode::InvalidRequest as i64;
+
+#[test]
+fn a_length_that_no_machine_has_is_an_error_and_not_a_crash() {
+    for length in ["10000000000000", "67108865", "18446744073709551616", "-1"] {
+        let (status, answers) = talk(&[start(), format!("Content-Length: {length}\r\n\r\n{{}}")]);
+        assert_eq!(status, Some(2), "{length}");
+        assert_eq!(sorted(answers), sorted(vec![(json!(1), OK), (Value::Null, INVALID)]), "{length}");
+    }
+}
+
+#[test]
+fn what_is_not_a_message_is_answered_and_the_server_goes_on() {
+    let broken = |text: &str| format!("Content-Length: {}\r\n\r\n{text}", text.len());
+    let sent = [start(), broken("{x}"), broken("[]"), broken("{\"id\":3}"), request(4, "shutdown", &Value::Null)];
+    let (status, answers) = talk(&[&sent[..], &[told("exit")]].concat());
+    assert_eq!(status, Some(0));
+    let parse = ErrorCode::ParseError as i64;
+    let expected = [(Value::Null, parse), (Value::Null, INVALID), (json!(3), INVALID), (json!(1), OK), (json!(4), OK)];
+    assert_eq!(sorted(answers), sorted(expected.to_vec()));
+}
+
+#[test]
+fn nothing_is_answered_after_shutdown_and_exit_has_the_status_of_the_protocol() {
+    let hover = request(3, "textDocument/hover", &json!({}));
+    let shut = request(2, "shutdown", &Value::Null);
+    let (status, answers) = talk(&[start(), shut.clone(), hover.clone(), shut, told("exit"), hover]);
+    assert_eq!(status, Some(0));
+    assert_eq!(answers, [(json!(1), OK), (json!(2), OK), (json!(3), INVALID), (json!(2), INVALID)]);
+    assert_eq!(talk(&[start(), told("exit")]).0, Some(1));
+    assert_eq!(talk(&[told("exit")]).0, Some(1));
+}
+
+#[test]
+fn the_first_request_is_initialize_with_an_object() {
+    let early = ErrorCode::ServerNotInitialized as i64;
+    let wrong = ErrorCode::InvalidParams as i64;
+    let sent = [
+        request(5, "textDocument/hover", &json!({})),
+        told("textDocument/didChange"),
+        request(6, "initialize", &json!([])),
+        start(),
+        request(7, "initialize", &json!({})),
+        request(8, "shutdown", &Value::Null),
+        told("exit"),
+    ];
+    let (status, answers) = talk(&sent);
+    assert_eq!(status, Some(0));
+    let expected = [(5, early), (6, wrong), (1, OK), (7, INVALID), (8, OK)];
+    assert_eq!(answers, expected.map(|(id, code)| (json!(id), code)));
+}

@@ -1,0 +1,37 @@
+//! Verilog on the page: Yosys ends when the page leaves.
+
+use serde_json::json;
+use tungstenite::Message;
+
+use super::page::Server;
+use crate::slow_yosys::{SlowYosys, USER, ended};
+
+#[test]
+fn yosys_ends_when_the_page_leaves() {
+    let slow = SlowYosys::new();
+    let server = Server::run(slow.program().args(["play", "--no-open", "a.nb"]));
+    let mut page = server.page();
+    page.begin(json!({ "do": "program", "path": "a.nb", "text": USER }));
+    let yosys = slow.begun();
+    drop(page);
+    ended(yosys);
+}
+
+#[test]
+fn yosys_ends_when_the_editor_of_the_page_leaves() {
+    let slow = SlowYosys::new();
+    let server = Server::run(slow.program().args(["play", "--no-open", "a.nb"]));
+    let mut editor = server.socket("language", &format!("http://{}", server.host())).unwrap();
+    let uri = format!("file://{}", slow.bench.path().canonicalize().unwrap().join("a.nb").display());
+    let document = json!({ "uri": uri, "languageId": "nb", "version": 1, "text": USER });
+    for message in [
+        json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": { "capabilities": {} } }),
+        json!({ "jsonrpc": "2.0", "method": "initialized", "params": {} }),
+        json!({ "jsonrpc": "2.0", "method": "textDocument/didOpen", "params": { "textDocument": document } }),
+    ] {
+        editor.send(Message::text(message.to_string())).unwrap();
+    }
+    let yosys = slow.begun();
+    drop(editor);
+    ended(yosys);
+}

@@ -1,0 +1,105 @@
+//! A stand-in for Yosys that never ends, and the commands that wait for it. Who asked for it ends it.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::cli::{Bench, program};
+use crate::tools::signal;
+
+/// The time for something to happen on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A program that uses Verilog.
+pub const USER: &str = "use \"m.v\"\n\ncircuit f(a) -> (q) {\n    q = m(a)\n}\n\ntest f {\n    a | q\n    0 | 0\n}\n";
+/// The Verilog that it uses.
+pub const MODULE: &str = "module m(input a, output q);\n  assign q = a;\nendmodule\n";
+
+/// A folder with the program and a stand-in for Yosys.
+pub struct SlowYosys {
+    pub bench: Bench,
+    number: PathBuf,
+}
+
+impl SlowYosys {
+    pub fn new() -> Self {
+        let bench = Bench::new();
+        bench.file("a.nb", USER);
+        bench.file("m.v", MODULE);
+        let number = bench.path().join("number");
+        fs::create_dir(bench.path().join("bin")).unwrap();
+        let place = number.display();
+        let script = format!("#!/bin/sh\necho $$ >'{place}.new' && mv '{place}.new' '{place}'\nexec sleep 1000\n");
+        let path = bench.file("bin/yosys", script);
+        use std::os::unix::fs::PermissionsExt;
+        fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
+        Self { bench, number }
+    }
+
+    /// `PATH` with the stand-in before all others.
+    pub fn path(&self) -> OsString {
+        let others = std::env::var_os("PATH").unwrap_or_default();
+        let all = [self.bench.path().join("bin")].into_iter().chain(std::env::split_paths(&others));
+        std::env::join_paths(all).unwrap()
+    }
+
+    /// The program, with the stand-in.
+    pub fn program(&self) -> Command {
+        let mut command = program();
+        command.env("PATH", self.path()).current_dir(self.bench.path());
+        command
+    }
+
+    /// Whether it was ever started.
+    pub fn has_begun(&self) -> bool {
+        self.number.exists()
+    }
+
+    /// Waits until it runs; the number of its process.
+    #[track_caller]
+    pub fn begun(&self) -> u32 {
+        until("Yosys is not started", || self.has_begun());
+        let number = fs::read_to_string(&self.number).unwrap().trim().parse().unwrap();
+        fs::remove_file(&self.number).unwrap();
+        number
+    }
+}
+
+/// Waits until a process is gone.
+#[track_caller]
+pub fn ended(process: u32) {
+    let runs = || fs::read_to_string(format!("/proc/{process}/stat")).is_ok_and(|stat| !stat.contains(") Z "));
+    until("Yosys still runs", || !runs());
+}
+
+#[track_caller]
+fn until(fault: &str, holds: impl Fn() -> bool) {
+    let end = Instant::now() + PATIENCE;
+    while !holds() {
+        assert!(Instant::now() < end, "{fault}");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn a_signal_to_the_program_ends_yosys() {
+    // Those of which the program knows nothing, and those that it handles.
+    for (command, name, status) in [
+        ("check", "TERM", None),
+        ("check", "KILL", None),
+        ("test", "TERM", Some(4)),
+        ("test", "INT", Some(4)),
+        ("run", "TERM", Some(4)),
+        ("test", "KILL", None),
+    ] {
+        let slow = SlowYosys::new();
+        let mut child = slow.program().args([command, "a.nb"]).stderr(Stdio::null()).spawn().unwrap();
+        let yosys = slow.begun();
+        signal(name, child.id());
+        assert_eq!(child.wait().unwrap().code(), status, "{command} {name}");
+        ended(yosys);
+    }
+}
