@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, GuardedWorld, Level, MappingObjective, Room, RunReport, Session};
-use nbc::{TestOptions, TestRun};
+use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, GuardedWorld, Level, MappingObjective, Room, RunReport};
+use nbc::{Session, TestOptions, TestRun};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 

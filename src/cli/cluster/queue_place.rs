@@ -302,8 +302,8 @@ impl QueuePlace {
     }
 }
 
-/// Who sent an answer: the name in its subject, and the connection to which the reply goes. Whoever sends in the name of
-/// another has another connection, and so is another worker.
+/// Who sent an answer: the name in its subject, and the connection to which the reply goes. Whoever sends in the name
+/// of another has another connection, and so is another worker.
 fn sender(message: &Message) -> String {
     let name = message.subject.rsplit('.').next().unwrap_or_default();
     // The inbox of a connection, without the number of the request. No part of a subject has a space.
