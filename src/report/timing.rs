@@ -141,8 +141,8 @@ impl MemoryTimes {
     }
 }
 
-/// The hold and the slowest path, input first, as a line for people; for a netlist with rings, which never settles, their
-/// nets.
+/// The hold and the slowest path, input first, as a line for people; for a netlist with rings, which never settles,
+/// their nets.
 pub fn describe_settling(hold: u32, path: &[String], rings: &[String]) -> String {
     match rings {
         [] => format!("timing   settles within {}: {}\n", counted(hold as usize, "cycle"), describe_path(path)),
