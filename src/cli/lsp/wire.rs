@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn messages_are_read_by_their_lengths() {
-        let text = "content-length: 16\r\nContent-Type: x\r\n\r\n{\"method\":\"ab\"}rest";
+        let text = "content-length: 15\r\nContent-Type: x\r\n\r\n{\"method\":\"ab\"}rest";
         let read = first(text).unwrap().unwrap();
         assert!(matches!(read, Arrived::Message(Message::Notification(told)) if told.method == "ab"));
         assert!(first("").unwrap().is_none());

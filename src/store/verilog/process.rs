@@ -69,6 +69,8 @@ if [ $status -eq 143 ]; then
     /bin/rm -rf -- "$folder"
     kill -KILL 0
 fi
+# The shell would name the signal among the messages.
+exec 2>/dev/null
 kill -KILL $watch
 wait $watch
 exit $status

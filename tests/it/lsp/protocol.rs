@@ -1,6 +1,6 @@
 //! Clients that break the protocol, or say goodbye in their own way.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
 use lsp_server::ErrorCode;
