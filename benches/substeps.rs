@@ -7,8 +7,8 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use nbc::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
-use nbc::sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
+use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
+use nbc_sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
 
 fn substeps(criterion: &mut Criterion) {
     let setting = Setting::default();

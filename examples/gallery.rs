@@ -4,9 +4,8 @@
 //!     cargo run --release --example gallery
 //!     cargo run --release --example gallery docs/paper.md
 
-use std::ffi::OsString;
 use std::path::Path;
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -19,19 +18,16 @@ fn main() -> ExitCode {
     let page = std::fs::read_to_string(page.as_deref().unwrap_or("docs/pictures.md")).expect("the page is a text");
     for line in page.lines().filter_map(|line| line.strip_prefix("    nbc ")) {
         eprintln!("nbc {line}");
-        let ended = nbc::cli::run(words(&format!("nbc {line}")));
-        if ended != ExitCode::SUCCESS {
-            return ended;
+        let ended = Command::new(env!("CARGO")).args(["run", "--release", "--quiet", "--"]).args(words(line)).status();
+        if !ended.is_ok_and(|status| status.success()) {
+            return ExitCode::FAILURE;
         }
     }
     ExitCode::SUCCESS
 }
 
 /// The words of a command; a quoted text is one word.
-fn words(line: &str) -> Vec<OsString> {
+fn words(line: &str) -> Vec<&str> {
     let parts = line.split('\'').enumerate();
-    parts
-        .flat_map(|(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() })
-        .map(OsString::from)
-        .collect()
+    parts.flat_map(|(i, part)| if i % 2 == 1 { vec![part] } else { part.split_whitespace().collect() }).collect()
 }

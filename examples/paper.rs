@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use nbc::evolve::Champion;
-use nbc::model::{Behavior, Direction, Pattern};
-use nbc::report::{self, BehaviorGroup, GroupComparison, History, SeedRun};
-use nbc::store::Checkpoint;
+use nbc_base::model::{Behavior, Direction, Pattern};
+use nbc_session::report::{self, BehaviorGroup, GroupComparison, History, SeedRun};
+use nbc_session::store::Checkpoint;
+use nbc_swarm::evolve::Champion;
 use serde::Deserialize;
 
 type Fallible<T> = Result<T, Box<dyn Error>>;

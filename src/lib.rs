@@ -27,35 +27,6 @@
 //! A feature adds names and never changes results.
 #![deny(missing_docs)]
 
-// The project's program, tests and benches use the rooms themselves; other users have the names below.
-#[doc(hidden)]
-pub mod check;
-#[doc(hidden)]
-pub mod circuit;
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod cli;
-#[doc(hidden)]
-pub mod diag;
-#[doc(hidden)]
-pub mod evolve;
-#[doc(hidden)]
-pub mod model;
-#[doc(hidden)]
-pub mod report;
-#[doc(hidden)]
-pub mod session;
-#[doc(hidden)]
-pub mod sim;
-#[doc(hidden)]
-pub mod source;
-#[doc(hidden)]
-pub mod store;
-#[doc(hidden)]
-pub mod swarm;
-#[doc(hidden)]
-pub mod syntax;
-
 /// ```
 /// use nbc::{CancelFlag, CompileOptions};
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -68,14 +39,14 @@ pub mod syntax;
 /// assert_eq!(compiled.assembly.members.len(), 1);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use circuit::CancelFlag;
+pub use nbc_circuit::CancelFlag;
 
 /// ```
 /// use nbc::{CompileOptions, Effort, MappingObjective};
 /// let fast = CompileOptions { objective: MappingObjective::Delay, effort: Effort::High, ..CompileOptions::default() };
 /// assert_eq!(fast.runs, "out");
 /// ```
-pub use circuit::{Effort, MappingObjective};
+pub use nbc_circuit::{Effort, MappingObjective};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -87,7 +58,7 @@ pub use circuit::{Effort, MappingObjective};
 /// assert_eq!(cells.count(), 1);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use circuit::{Netlist, Node};
+pub use nbc_circuit::{Netlist, Node};
 
 /// ```
 /// use nbc::{MemoryWorld, Session, Severity};
@@ -96,7 +67,7 @@ pub use circuit::{Netlist, Node};
 /// let fault: &nbc::Diagnostic = &session.open("a.nb").unwrap_err().list[0];
 /// assert_eq!((fault.code.word(), fault.severity), ("unknown", Severity::Error));
 /// ```
-pub use diag::{Diagnostic, Severity};
+pub use nbc_base::diag::{Diagnostic, Severity};
 
 /// ```
 /// use nbc::{MemoryWorld, Session};
@@ -105,13 +76,13 @@ pub use diag::{Diagnostic, Severity};
 /// let found: nbc::Diagnostics = session.open("a.nb").unwrap_err();
 /// assert!(found.to_string().starts_with("a.nb:1:27: error[unknown]"), "{found}");
 /// ```
-pub use diag::Diagnostics;
+pub use nbc_base::diag::Diagnostics;
 
 /// ```
 /// assert_eq!(nbc::nearest("nnad", ["and", "nand", "or"]), Some("nand"));
 /// assert_eq!(nbc::nearest("register", ["and", "nand", "or"]), None);
 /// ```
-pub use diag::suggest::nearest;
+pub use nbc_base::diag::suggest::nearest;
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -124,7 +95,7 @@ pub use diag::suggest::nearest;
 /// assert!(elites.is_empty());
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use evolve::{Archive, Elite, Search};
+pub use nbc_swarm::evolve::{Archive, Elite, Search};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -139,7 +110,7 @@ pub use evolve::{Archive, Elite, Search};
 /// assert!(!search.archive().is_empty());
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use evolve::{Candidate, CandidateOutcome, Scores};
+pub use nbc_swarm::evolve::{Candidate, CandidateOutcome, Scores};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -151,14 +122,14 @@ pub use evolve::{Candidate, CandidateOutcome, Scores};
 /// assert_eq!(niche.0, [1, 0, 0, 7]);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use evolve::{Descriptor, NicheKey};
+pub use nbc_swarm::evolve::{Descriptor, NicheKey};
 
 /// ```
 /// let body = nbc::Body::parse(&["33"], &nbc::Palette::paper()).unwrap();
 /// let why: nbc::Undeveloped = nbc::validate(&body).unwrap_err();
 /// assert_eq!(why.to_string(), "the body has 2 actuators, expected at least 3");
 /// ```
-pub use evolve::{Undeveloped, validate};
+pub use nbc_swarm::evolve::{Undeveloped, validate};
 
 /// ```
 /// use std::sync::Arc;
@@ -169,7 +140,7 @@ pub use evolve::{Undeveloped, validate};
 /// let body = Body::parse(&["343", "563"], &paper).unwrap();
 /// assert_eq!((body.width(), body.height()), (3, 2));
 /// ```
-pub use model::{Body, Material, Palette};
+pub use nbc_base::model::{Body, Material, Palette};
 
 /// ```
 /// let session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -178,7 +149,7 @@ pub use model::{Body, Material, Palette};
 /// let character: &nbc::Character = &robot.character;
 /// assert!(character.clock >= 1);
 /// ```
-pub use model::{Character, Library, Robot};
+pub use nbc_base::model::{Character, Library, Robot};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -188,7 +159,7 @@ pub use model::{Character, Library, Robot};
 /// assert_eq!(evolution.generations, 2);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use model::Evolution;
+pub use nbc_base::model::Evolution;
 
 /// ```
 /// use nbc::{Body, Fault, Palette, Pattern, Schedule, Setting, Simulator, Trajectory, Trial};
@@ -198,12 +169,12 @@ pub use model::Evolution;
 /// let fault: Option<Fault> = trajectory.fault;
 /// assert_eq!((trajectory.com_x.len(), fault), (3, None));
 /// ```
-pub use model::{Fault, Pattern, Schedule, Setting, Trajectory, Trial};
+pub use nbc_base::model::{Fault, Pattern, Schedule, Setting, Trajectory, Trial};
 
 /// ```
 /// assert_eq!(nbc::CYCLE_STEPS, 84);
 /// ```
-pub use model::CYCLE_STEPS;
+pub use nbc_base::model::CYCLE_STEPS;
 
 /// ```
 /// use nbc::{Axis, Behavior, Count};
@@ -212,7 +183,7 @@ pub use model::CYCLE_STEPS;
 /// let axes = [Axis::Count { of: Count::Voxels, bins: 4 }, Axis::Behavior];
 /// assert_eq!(axes.len(), 2);
 /// ```
-pub use model::{Axis, Behavior, Count};
+pub use nbc_base::model::{Axis, Behavior, Count};
 
 /// ```
 /// use nbc::{Pattern, Schedule, Spell};
@@ -220,7 +191,7 @@ pub use model::{Axis, Behavior, Count};
 /// assert_eq!(nbc::read_schedule("schedule", "01*10")?, Schedule { spells });
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use model::Spell;
+pub use nbc_base::model::Spell;
 
 /// ```
 /// use nbc::{Body, Palette, Setting, SettingError};
@@ -228,7 +199,7 @@ pub use model::Spell;
 /// let narrow = Setting { world_width: 2, ..Setting::default() };
 /// assert_eq!(narrow.check(&body), Err(SettingError::NarrowWorld { width: 2, columns: 3 }));
 /// ```
-pub use model::SettingError;
+pub use nbc_base::model::SettingError;
 
 /// ```
 /// use nbc::{Body, Palette, Scheme, Svg};
@@ -236,7 +207,7 @@ pub use model::SettingError;
 /// let picture: Svg = nbc::draw_portrait("a body", &body, Scheme::Safe);
 /// assert!(picture.finish().starts_with("<svg"));
 /// ```
-pub use report::{Scheme, Svg, draw_portrait};
+pub use nbc_session::report::{Scheme, Svg, draw_portrait};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -250,7 +221,7 @@ pub use report::{Scheme, Svg, draw_portrait};
 /// assert!(nbc::draw_swarm(swarm.trace()).finish().starts_with("<svg"));
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use report::{SwarmTiming, draw_swarm};
+pub use nbc_session::report::{SwarmTiming, draw_swarm};
 
 /// ```
 /// use nbc::{Checked, MemoryWorld, Session};
@@ -259,7 +230,7 @@ pub use report::{SwarmTiming, draw_swarm};
 /// let checked: std::sync::Arc<Checked> = session.checked("a.nb");
 /// assert!(checked.diagnostics.is_empty() && checked.program.circuit("f").is_some());
 /// ```
-pub use session::Checked;
+pub use nbc_session::Checked;
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -269,7 +240,7 @@ pub use session::Checked;
 /// assert_eq!(last.to_string(), "f");
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use session::Choice;
+pub use nbc_session::Choice;
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -281,8 +252,8 @@ pub use session::Choice;
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use {
-    session::{CompileOptions, Compiled},
-    swarm::Member,
+    nbc_session::{CompileOptions, Compiled},
+    nbc_swarm::Member,
 };
 
 /// ```
@@ -297,7 +268,7 @@ pub use {
 ///     }
 /// }
 /// ```
-pub use session::Observer;
+pub use nbc_session::Observer;
 
 /// ```
 /// use nbc::{MemoryWorld, Session};
@@ -307,7 +278,7 @@ pub use session::Observer;
 /// session.update("a.nb", 2, "circuit f(a) -> (q) { q = not }");
 /// assert!(session.open("a.nb").is_err());
 /// ```
-pub use session::Session;
+pub use nbc_session::Session;
 
 /// ```
 /// use nbc::{Level, RowVerdict, TestOptions, TestRun};
@@ -321,8 +292,8 @@ pub use session::Session;
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use {
-    model::CircuitTest,
-    session::{TestOptions, TestRun},
+    nbc_base::model::CircuitTest,
+    nbc_session::{TestOptions, TestRun},
 };
 
 /// ```no_run
@@ -335,14 +306,14 @@ pub use {
 /// println!("{:?}", run.result.rows);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use session::SimulationRun;
+pub use nbc_session::SimulationRun;
 
 /// ```
 /// let schedule: nbc::Schedule = nbc::read_schedule("schedule", "00*10 01*56steps")?;
 /// assert_eq!(schedule.steps(), 896);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use session::read_schedule;
+pub use nbc_session::read_schedule;
 
 /// ```no_run
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -350,19 +321,19 @@ pub use session::read_schedule;
 /// report.assert_passed();
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use session::RunReport;
+pub use nbc_session::RunReport;
 
 /// ```no_run
 /// nbc::run_file("circuits/latch.nb", &nbc::CompileOptions::default())?.assert_passed();
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 #[cfg(feature = "disk")]
-pub use session::run_file;
+pub use nbc_session::run_file;
 
 /// ```
 /// let session = nbc::Session::new(nbc::MemoryWorld::default()).with_simulator(nbc::Simulator::default());
 /// ```
-pub use sim::Simulator;
+pub use nbc_sim::Simulator;
 
 /// ```
 /// use std::sync::Arc;
@@ -377,7 +348,7 @@ pub use sim::Simulator;
 /// let fault = simulator.run_trials(&Setting::default(), &[trial])[0].fault.unwrap();
 /// assert_eq!((fault.env_step, fault.kind), (1, FaultKind::Stopped));
 /// ```
-pub use {model::FaultKind, sim::Monitor};
+pub use {nbc_base::model::FaultKind, nbc_sim::Monitor};
 
 /// ```
 /// use nbc::{Body, Flock, Palette, Pattern, Setting, Simulator, Snapshot};
@@ -389,7 +360,7 @@ pub use {model::FaultKind, sim::Monitor};
 /// flock.restore(0, &start);
 /// assert_eq!(flock.center(0), start.center);
 /// ```
-pub use sim::{Flock, Snapshot};
+pub use nbc_sim::{Flock, Snapshot};
 
 /// ```
 /// use nbc::{MemoryWorld, OverlayWorld, SourceWorld};
@@ -399,14 +370,14 @@ pub use sim::{Flock, Snapshot};
 /// world.insert("a.nb", "circuit f(a) -> (q) { q = not a }");
 /// assert!(world.read("a.nb").unwrap().contains("not"));
 /// ```
-pub use source::{MemoryWorld, OverlayWorld, SourceWorld};
+pub use nbc_base::source::{MemoryWorld, OverlayWorld, SourceWorld};
 
 /// ```
 /// let mut session = nbc::Session::new(nbc::DiskWorld);
 /// assert!(session.open("circuits/latch.nb").is_ok());
 /// ```
 #[cfg(feature = "disk")]
-pub use store::DiskWorld;
+pub use nbc_session::store::DiskWorld;
 
 /// ```
 /// let stop = nbc::CancelFlag::default();
@@ -415,7 +386,7 @@ pub use store::DiskWorld;
 /// stop.raise();
 /// ```
 #[cfg(feature = "disk")]
-pub use store::GuardedWorld;
+pub use nbc_session::store::GuardedWorld;
 
 /// ```no_run
 /// use std::path::Path;
@@ -424,7 +395,7 @@ pub use store::GuardedWorld;
 /// nbc::write_file(Path::new("out/version.txt"), checkpoint.version.as_bytes()).unwrap();
 /// ```
 #[cfg(feature = "disk")]
-pub use store::{Checkpoint, write_file};
+pub use nbc_session::store::{Checkpoint, write_file};
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -438,7 +409,7 @@ pub use store::{Checkpoint, write_file};
 /// assert_eq!(swarm.step(&[true]).outputs, [false]);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use swarm::LiveSwarm;
+pub use nbc_swarm::LiveSwarm;
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -451,7 +422,7 @@ pub use swarm::LiveSwarm;
 /// assert_eq!(search.generation(), 2);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use swarm::evolve_generation;
+pub use nbc_swarm::evolve_generation;
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
@@ -467,15 +438,15 @@ pub use swarm::evolve_generation;
 /// assert_eq!((outcomes.len(), work.env_steps > 0), (17, true));
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use swarm::{Work, evaluate, evaluate_bodies};
+pub use nbc_swarm::{Work, evaluate, evaluate_bodies};
 
 /// ```
 /// let session = nbc::Session::new(nbc::MemoryWorld::default()).with_poses(nbc::Room::SWARM);
 /// ```
-pub use swarm::Room;
+pub use nbc_swarm::Room;
 
 /// ```
 /// use nbc::{Level, TestOptions};
 /// let in_physics = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
 /// ```
-pub use swarm::{Level, RowVerdict};
+pub use nbc_swarm::{Level, RowVerdict};

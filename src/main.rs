@@ -1,8 +1,10 @@
 //! The `nbc` program.
 #![deny(missing_docs)]
 
+mod cli;
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    nbc::cli::main()
+    cli::main()
 }

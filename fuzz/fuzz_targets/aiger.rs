@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nbc::circuit::formats::aiger;
+use nbc_circuit::formats::aiger;
 
 fuzz_target!(|bytes: &[u8]| {
     if let Ok(design) = aiger::read(bytes, None) {

@@ -2,9 +2,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nbc::circuit::formats::blif;
-use nbc::diag::render;
-use nbc::source::Sources;
+use nbc_circuit::formats::blif;
+use nbc_base::diag::render;
+use nbc_base::source::Sources;
 
 fuzz_target!(|text: &str| {
     let mut sources = Sources::default();

@@ -2,10 +2,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nbc::check;
-use nbc::circuit::elaborate;
-use nbc::diag::{json, render};
-use nbc::source::{MemoryWorld, Sources};
+use nbc_lang::check;
+use nbc_circuit::elaborate;
+use nbc_base::diag::{json, render};
+use nbc_base::source::{MemoryWorld, Sources};
 
 fuzz_target!(|text: &str| {
     let mut sources = Sources::default();

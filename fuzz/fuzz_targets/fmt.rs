@@ -2,8 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nbc::source::Sources;
-use nbc::syntax;
+use nbc_base::source::Sources;
+use nbc_lang::syntax;
 
 /// The canonical form; `None` if the text has syntax errors.
 fn formatted(text: &str) -> Option<String> {

@@ -2,9 +2,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nbc::diag::render;
-use nbc::source::Sources;
-use nbc::syntax;
+use nbc_base::diag::render;
+use nbc_base::source::Sources;
+use nbc_lang::syntax;
 
 fuzz_target!(|text: &str| {
     let mut sources = Sources::default();

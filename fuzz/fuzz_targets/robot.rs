@@ -2,8 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use nbc::source::Sources;
-use nbc::store;
+use nbc_base::source::Sources;
+use nbc_session::store;
 
 fuzz_target!(|text: &str| {
     let mut sources = Sources::default();

@@ -1,7 +1,7 @@
 //! Comparisons for several fuzz targets.
 
-use nbc::circuit::Logic;
-use nbc::circuit::formats::Design;
+use nbc_circuit::Logic;
+use nbc_circuit::formats::Design;
 
 /// Asserts that two designs have the same ports and registers, and the same outputs for a few patterns of inputs.
 pub fn same_design(one: &Design, two: &Design) {

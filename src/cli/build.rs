@@ -6,17 +6,17 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::circuit::formats::{Design, blif, dot, verilog};
-use crate::circuit::timing::{PulsedRegisters, fan_out};
-use crate::circuit::{CellLibrary, Delays, NetId, Netlist, Race, Timing, levels, races, rings};
 use crate::cli::mapping::MappingArguments;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::model::Column;
-use crate::report::{self, Document, MemoryTimes, PhaseTiming, Schema};
-use crate::session::{CompileOptions, Mapping, Session};
-use crate::store::{self, DiskWorld};
+use nbc_base::model::Column;
+use nbc_circuit::formats::{Design, blif, dot, verilog};
+use nbc_circuit::timing::{PulsedRegisters, fan_out};
+use nbc_circuit::{CellLibrary, Delays, NetId, Netlist, Race, Timing, levels, races, rings};
+use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema};
+use nbc_session::store::{self, DiskWorld};
+use nbc_session::{CompileOptions, Mapping, Session};
 
 const EXAMPLES: &str = "\
 Examples:

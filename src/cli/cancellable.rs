@@ -1,11 +1,9 @@
 //! Tests and simulations that a request to stop ends. What was not completed then has no result.
 
-use crate::circuit::CancelFlag;
-use crate::diag::Diagnostics;
-use crate::model::{CircuitTest, Simulation};
-use crate::session::{
-    Checked, CompileOptions, Observer, RunEnd, Session, SimulationRun, TestCase, TestOptions, TestRun,
-};
+use nbc_base::diag::Diagnostics;
+use nbc_base::model::{CircuitTest, Simulation};
+use nbc_circuit::CancelFlag;
+use nbc_session::{Checked, CompileOptions, Observer, RunEnd, Session, SimulationRun, TestCase, TestOptions, TestRun};
 
 /// An observer that hands on the progress, and stops the work when the flag is raised.
 pub(super) struct Cancellable<F> {
@@ -92,7 +90,7 @@ pub(super) fn complete_simulation(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::MemoryWorld;
+    use nbc_base::source::MemoryWorld;
 
     const TEXT: &str = "circuit f(a) -> (q) { q = not a }\nswarm one { circuit: f }\nswarm two { circuit: f }\n\
                         test f {\n a | q\n 0 | 1 for 3 cycles\n}\nsimulate one with schedule (a) { 0 for 3 cycles }\n";

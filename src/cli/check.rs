@@ -4,10 +4,10 @@ use clap::Args;
 use serde_json::Value;
 
 use crate::cli::{Context, Failure, OutputFormat, Status, standard_input};
-use crate::diag::{Severity, counted};
-use crate::report::Schema;
-use crate::session::{Checked, Session};
-use crate::store::DiskWorld;
+use nbc_base::diag::{Severity, counted};
+use nbc_session::report::Schema;
+use nbc_session::store::DiskWorld;
+use nbc_session::{Checked, Session};
 
 /// Check programs and print their errors
 #[derive(Args)]

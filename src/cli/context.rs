@@ -10,10 +10,10 @@ use serde_json::ser::Formatter;
 use crate::cli::Status;
 use crate::cli::failure::{Failure, unprintable};
 use crate::cli::output::Output;
-use crate::diag::{Diagnostic, is_hidden, render, visible};
-use crate::report::{Document, Schema};
-use crate::session::Checked;
-use crate::source::Sources;
+use nbc_base::diag::{Diagnostic, is_hidden, render, visible};
+use nbc_base::source::Sources;
+use nbc_session::Checked;
+use nbc_session::report::{Document, Schema};
 
 /// The format of the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

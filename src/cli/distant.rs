@@ -1,7 +1,7 @@
 //! A laboratory on other machines.
 
 use crate::cli::Failure;
-use crate::swarm::Laboratory;
+use nbc_swarm::Laboratory;
 
 /// A laboratory on other machines. After a signal or a failure, all work is stopped.
 pub trait DistantLaboratory: Laboratory {

@@ -4,11 +4,11 @@ use clap::Args;
 use include_dir::{Dir, include_dir};
 use serde_json::json;
 
-use crate::check::PRELUDE;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::{Code, Suggestion};
-use crate::report::Schema;
+use nbc_base::diag::{Code, Suggestion};
+use nbc_lang::check::PRELUDE;
+use nbc_session::report::Schema;
 
 /// The pages, one for each code.
 static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");

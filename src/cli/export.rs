@@ -8,9 +8,9 @@ use serde::Serialize;
 use crate::cli::draw::{is_run, read_run};
 use crate::cli::wording::{SubjectError, UsageError};
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
-use crate::model::Library;
-use crate::report::{Document, Elites, Schema, robots_csv};
-use crate::store::{self, RobotRecord};
+use nbc_base::model::Library;
+use nbc_session::report::{Document, Elites, Schema, robots_csv};
+use nbc_session::store::{self, RobotRecord};
 
 /// Export the elites of evolution runs, or the robots of a library, as CSV or JSON
 #[derive(Args)]

@@ -8,8 +8,8 @@ use crate::cli::wording::DeviceFailure;
 #[cfg(not(feature = "gpu"))]
 use crate::cli::wording::NoDevices;
 use crate::cli::wording::{ClusterError, DrawError, PlayError, ServerError, SubjectError, UsageError};
-use crate::diag::{Diagnostic, Diagnostics, io_words};
-use crate::source::Sources;
+use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
+use nbc_base::source::Sources;
 
 /// Why a command could not be carried out.
 #[derive(Debug)]

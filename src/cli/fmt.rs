@@ -8,9 +8,9 @@ use serde_json::json;
 use crate::cli::standard_input::{self, DASH};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::report::Schema;
-use crate::session::{Formatted, Session};
-use crate::store::{self, DiskWorld};
+use nbc_session::report::Schema;
+use nbc_session::store::{self, DiskWorld};
+use nbc_session::{Formatted, Session};
 
 /// Format programs
 #[derive(Args)]

@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use crate::circuit::CancelFlag;
 use crate::cli::Status;
 use crate::cli::cancellable::Cancellable;
-use crate::session::Observer;
-use crate::store::{DiskWorld, GuardedWorld};
+use nbc_circuit::CancelFlag;
+use nbc_session::Observer;
+use nbc_session::store::{DiskWorld, GuardedWorld};
 
 /// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
 #[derive(Clone, Debug, Default)]
@@ -58,10 +58,5 @@ impl Interrupt {
     /// An observer that hands on the progress, and stops the work when a signal arrives.
     pub fn observe<F: FnMut(u64, u64)>(&self, progress: F) -> impl Observer + use<F> {
         Cancellable { cancel: self.cancel(), progress }
-    }
-
-    /// The flag itself, for work that does not know the command line.
-    pub fn flag(&self) -> &AtomicBool {
-        &self.0
     }
 }

@@ -7,8 +7,8 @@ use crate::cli::distant::DistantLaboratory;
 use crate::cli::gpu::OpenDevice;
 use crate::cli::nats_access::QueueArguments;
 use crate::cli::{Context, Failure, Interrupt, Progress, cluster};
-use crate::sim::{LaneBackend, Simulator};
-use crate::swarm::Laboratory;
+use nbc_sim::{LaneBackend, Simulator};
+use nbc_swarm::Laboratory;
 
 /// The most tasks of other machines that are waited for at once: each has a thread here that waits.
 const MOST_WAITING: usize = 500;

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
 use crate::cli::wording::UsageError;
 use crate::cli::{Failure, robots};
-use crate::model::{Function, Library};
-use crate::session::CompileOptions;
-use crate::{store, swarm};
+use nbc_base::model::{Function, Library};
+use nbc_circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
+use nbc_session::CompileOptions;
+use nbc_session::store;
 
 /// The available cells and the options of mapping.
 #[derive(Args)]
@@ -55,7 +55,7 @@ impl MappingArguments {
     }
 
     fn cells_of(&self, robots: Library) -> CellLibrary {
-        swarm::cells(&swarm::prefer(robots, self.goal.options().objective))
+        nbc_swarm::cells(&nbc_swarm::prefer(robots, self.goal.options().objective))
     }
 
     /// The library that the user chose.

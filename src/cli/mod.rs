@@ -59,8 +59,8 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::diag::{is_hidden, render, visible};
-use crate::source::Sources;
+use nbc_base::diag::{is_hidden, render, visible};
+use nbc_base::source::Sources;
 
 #[cfg(not(feature = "cluster"))]
 use no_cluster as cluster;

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::circuit::formats::is_word;
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Status};
-use crate::store;
+use nbc_circuit::formats::is_word;
+use nbc_session::store;
 
 /// The program, with `NAME` for the circuit's name and `FILE` for the path.
 const STARTER: &str = "\

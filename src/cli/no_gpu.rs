@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 use crate::cli::device::DeviceChoice;
 use crate::cli::wording::NoDevices;
 use crate::cli::{Context, Failure, Status};
-use crate::sim::{LaneBackend, Simulator};
+use nbc_sim::{LaneBackend, Simulator};
 
 /// List the OpenCL devices that can simulate (not in this build)
 #[derive(Args)]

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use crate::cli::Failure;
 use crate::cli::gpu::OpenDevice;
-use crate::swarm::{Task, TaskResult, perform};
+use nbc_swarm::{Task, TaskResult, perform};
 
 /// The tasks of one generation of one run.
 pub struct TaskBatch {

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::session::{Choice, CompileOptions, RUNS};
+use nbc_session::{Choice, CompileOptions, RUNS};
 
 /// The choice of a circuit in a file.
 #[derive(Args)]

@@ -55,11 +55,6 @@ impl Progress {
         self.change(|state| state.done = done);
     }
 
-    /// Sets the total.
-    pub fn set_total(&self, total: u64) {
-        self.change(|state| state.total = total);
-    }
-
     /// Adds `more` to the amount done.
     pub fn add(&self, more: u64) {
         self.change(|state| state.done += more);

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
 use crate::cli::wording::UsageError;
-use crate::diag::suggest::nearest;
-use crate::diag::{Diagnostic, Suggestion};
-use crate::model::{Behavior, Body, Function, Library, Robot};
-use crate::source::{FileError, Sources};
-use crate::store::{self, DiskWorld};
+use nbc_base::diag::suggest::nearest;
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Behavior, Body, Function, Library, Robot};
+use nbc_base::source::{FileError, Sources};
+use nbc_session::store::{self, DiskWorld};
 
 /// The robot with that name in a folder of robot files; without a folder, in the built-in library. The name may be that
 /// of a robot file.

@@ -13,14 +13,14 @@ use crate::cli::program::RunsArguments;
 use crate::cli::timings::{Chore, Timings};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
-use crate::diag::Diagnostic;
-use crate::model::{CircuitTest, Simulation};
-use crate::report::{
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{CircuitTest, Simulation};
+use nbc_session::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
-use crate::session::{self, Checked, CompileOptions, RUNS, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
-use crate::store::{self, ResultPlace};
-use crate::swarm::{Level, Room};
+use nbc_session::store::{self, ResultPlace};
+use nbc_session::{Checked, CompileOptions, RUNS, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
+use nbc_swarm::{Level, Room};
 
 /// Run the tests and simulations of a file in physics, with pictures and a report
 #[derive(Args)]
@@ -295,7 +295,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// The page of a test or simulation that was run.
 pub(super) fn run_page(source: &str, ran: &Ran, scheme: Scheme) -> String {
-    session::run_page(source, &[(ran.outcome(), ran.swarm())], scheme)
+    nbc_session::run_page(source, &[(ran.outcome(), ran.swarm())], scheme)
 }
 
 fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {

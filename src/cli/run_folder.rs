@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
-use crate::diag::Diagnostic;
-use crate::source::FileError;
-use crate::store::{self, Checkpoint, MAX_PROGRESS_BYTES};
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::FileError;
+use nbc_session::store::{self, Checkpoint, MAX_PROGRESS_BYTES};
 
 /// The file in a run's folder that it is resumed from.
 pub(super) const CHECKPOINT: &str = "checkpoint.nbc";

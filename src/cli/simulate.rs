@@ -8,12 +8,12 @@ use crate::cli::gpu::OpenDevice;
 use crate::cli::robots::read_body;
 use crate::cli::wording::{RunWarning, UsageError};
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::{Diagnostic, counted};
-use crate::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
-use crate::report::{Align, Schema, TextTable};
-use crate::session::read_schedule;
-use crate::sim::LaneBackend;
-use crate::source::Sources;
+use nbc_base::diag::{Diagnostic, counted};
+use nbc_base::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
+use nbc_base::source::Sources;
+use nbc_session::read_schedule;
+use nbc_session::report::{Align, Schema, TextTable};
+use nbc_sim::LaneBackend;
 
 /// Simulate one robot under a schedule of stimuli
 #[derive(Args)]

@@ -1,8 +1,8 @@
 //! Standard input as a source file, which the command line calls `-`.
 
-use crate::session::Session;
-use crate::source::SourceWorld;
-use crate::store::DiskWorld;
+use nbc_base::source::SourceWorld;
+use nbc_session::Session;
+use nbc_session::store::DiskWorld;
 
 /// What the command line calls it.
 pub(super) const DASH: &str = "-";

@@ -7,16 +7,16 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::circuit::correspondence::{self, Removed};
-use crate::circuit::formats::Design;
-use crate::circuit::reachable::{self, Reachable, WhyEveryState};
-use crate::circuit::{self, CellLibrary, MapOptions, Netlist, levels, registers};
 use crate::cli::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::report::Schema;
-use crate::session::synthesize;
-use crate::store;
+use nbc_circuit::correspondence::{self, Removed};
+use nbc_circuit::formats::Design;
+use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
+use nbc_circuit::{CellLibrary, MapOptions, Netlist, levels, registers};
+use nbc_session::report::Schema;
+use nbc_session::store;
+use nbc_session::synthesize;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -187,7 +187,7 @@ impl SynthArguments {
         let (design, removed) = correspondence::reduce(&read);
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
-            None => target == Some(circuit::formats::CircuitFormat::Dot),
+            None => target == Some(nbc_circuit::formats::CircuitFormat::Dot),
         };
         let options = self.mapping.options();
         let whole = Made::of(design, expand, &library, &options)?;
@@ -203,7 +203,7 @@ impl SynthArguments {
         let mut report = Report { unreachable, ..Report::of(&design, removed, &result.logic, started) };
         for function in what_if {
             let mut more = library.clone();
-            more.insert(function, crate::circuit::CellKind::uniform(1, 1.0));
+            more.insert(function, nbc_circuit::CellKind::uniform(1, 1.0));
             let found = synthesize(source.clone(), &more, &options).map_err(Failure::plain)?;
             let cells = found.netlist.cells().count();
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
@@ -292,8 +292,8 @@ impl Report {
 }
 
 /// The format for a file's extension.
-fn format(path: &Path) -> Result<circuit::formats::CircuitFormat, Failure> {
+fn format(path: &Path) -> Result<nbc_circuit::formats::CircuitFormat, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    circuit::formats::CircuitFormat::of_ending(&ending)
+    nbc_circuit::formats::CircuitFormat::of_ending(&ending)
         .ok_or_else(|| UsageError::CircuitFormat { path: path.display().to_string() }.into())
 }

@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use crate::cli::Context;
-use crate::report::{Align, TextTable};
-use crate::sim::{LaneBackend, Meter, Part, Times};
+use nbc_session::report::{Align, TextTable};
+use nbc_sim::{LaneBackend, Meter, Part, Times};
 
 /// The option, for commands that simulate.
 #[derive(Args, Clone, Copy)]

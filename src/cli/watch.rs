@@ -11,8 +11,8 @@ use clap::Args;
 use crate::cli::check::describe;
 use crate::cli::test::TestArguments;
 use crate::cli::{Context, Failure, Interrupt, Status};
-use crate::diag::counted;
-use crate::session::{Checked, Session};
+use nbc_base::diag::counted;
+use nbc_session::{Checked, Session};
 
 /// The time between two looks at the files. Looking works for every editor and file system.
 const PAUSE: Duration = Duration::from_millis(100);

@@ -1,10 +1,10 @@
 //! What can be wrong with a command line, as data, and how it is worded.
 
-use crate::diag::suggest::alternatives;
-use crate::diag::{Code, Diagnostic, Severity, Suggestion, counted};
-use crate::model::{Behavior, SettingError};
+use nbc_base::diag::suggest::alternatives;
+use nbc_base::diag::{Code, Diagnostic, Severity, Suggestion, counted};
+use nbc_base::model::{Behavior, SettingError};
 #[cfg(feature = "gpu")]
-use crate::sim::DeviceError;
+use nbc_sim::DeviceError;
 
 /// A command line that is invalid, or output that cannot be written; `path` is as the user wrote it.
 #[derive(Clone, Debug, PartialEq, Eq)]

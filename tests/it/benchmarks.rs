@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use nbc::circuit::formats::{Design, aiger, bench, blif};
-use nbc::circuit::synth::reduce;
-use nbc::circuit::{CellKind, CellLibrary, Effort, MapOptions, map_with, prove};
-use nbc::model::Function;
-use nbc::source::FileId;
+use nbc_base::model::Function;
+use nbc_base::source::FileId;
+use nbc_circuit::formats::{Design, aiger, bench, blif};
+use nbc_circuit::synth::reduce;
+use nbc_circuit::{CellKind, CellLibrary, Effort, MapOptions, map_with, prove};
 
 use crate::circuit::sum_of_products;
 use crate::flows::fewest_of_abc;

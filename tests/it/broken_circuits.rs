@@ -1,11 +1,11 @@
 //! Broken circuit files: the message of each reader and its place.
 
-use nbc::circuit::formats::{bench, blif};
-use nbc::diag::Diagnostic;
-use nbc::source::Sources;
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::Sources;
+use nbc_circuit::formats::{bench, blif};
 
 /// The first error as `line:column text: message; label`.
-fn first(text: &str, read: impl FnOnce(&str, nbc::source::FileId) -> Result<(), Vec<Diagnostic>>) -> String {
+fn first(text: &str, read: impl FnOnce(&str, nbc_base::source::FileId) -> Result<(), Vec<Diagnostic>>) -> String {
     let mut sources = Sources::default();
     let id = sources.add("broken", text);
     let fault = read(&sources.file(id).text, id).expect_err("the file is broken").remove(0);

@@ -1,13 +1,13 @@
 //! Laws of the compiler: it finds the optimum of every small function, and no damaged file makes a reader panic.
 
-use nbc::circuit::formats::{Design, aiger, bench, blif};
-use nbc::circuit::network::Network;
-use nbc::circuit::synth::exact::{self, ExactResult};
-use nbc::circuit::synth::prices::Prices;
-use nbc::circuit::synth::reduce;
-use nbc::circuit::{CancelFlag, CellLibrary, MapOptions, Netlist};
-use nbc::model::Function;
-use nbc::source::FileId;
+use nbc_base::model::Function;
+use nbc_base::source::FileId;
+use nbc_circuit::formats::{Design, aiger, bench, blif};
+use nbc_circuit::network::Network;
+use nbc_circuit::synth::exact::{self, ExactResult};
+use nbc_circuit::synth::prices::Prices;
+use nbc_circuit::synth::reduce;
+use nbc_circuit::{CancelFlag, CellLibrary, MapOptions, Netlist};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

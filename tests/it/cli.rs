@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use nbc::model::CYCLE_STEPS;
-use nbc::sim::Constants;
+use nbc_base::model::CYCLE_STEPS;
+use nbc_sim::Constants;
 use serde_json::Value;
 
 /// A schedule with every pattern for one cycle.

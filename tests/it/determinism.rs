@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use nbc::model::{
+use nbc_base::model::{
     Body, Drive, Fault, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell,
     Trajectory, Trial,
 };
-use nbc::sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Monitor, Simulator};
+use nbc_sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Monitor, Simulator};
 use proptest::prelude::*;
 
 /// Every kernel of this processor.

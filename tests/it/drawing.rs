@@ -102,7 +102,7 @@ fn missing_pictures_of_a_run_are_reported() {
 #[test]
 fn a_library_is_drawn_robot_by_robot() {
     let bench = Bench::new();
-    let robots = nbc::store::shipped_library().robots.len();
+    let robots = nbc_session::store::shipped_library().robots.len();
     assert_eq!(ids(&svg(&bench, "shipped --as sprite"), "robot-"), robots);
     let best = svg(&bench, "shipped --behavior RRRL --as sprite");
     assert!(texts(&best)[0].contains("nand, RRRL"), "{:?}", texts(&best));

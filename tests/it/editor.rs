@@ -115,8 +115,8 @@ fn every_snippet_is_a_program_or_a_part_of_one() {
             "table" => format!("circuit f(a, b) -> (q) {{\n q = {text}\n}}"),
             _ => text,
         };
-        let mut sources = nbc::source::Sources::default();
+        let mut sources = nbc_base::source::Sources::default();
         let file = sources.add(name.clone(), program.clone());
-        assert_eq!(nbc::syntax::parse(&sources, file).errors, [], "{program}");
+        assert_eq!(nbc_lang::syntax::parse(&sources, file).errors, [], "{program}");
     }
 }

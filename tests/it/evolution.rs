@@ -6,12 +6,12 @@ use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
 use nbc::Session;
-use nbc::evolve::{Search, recodings};
-use nbc::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
-use nbc::sim::Simulator;
-use nbc::source::MemoryWorld;
-use nbc::store::lock_folder;
-use nbc::swarm::{evaluate, evaluate_bodies};
+use nbc_base::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
+use nbc_base::source::MemoryWorld;
+use nbc_session::store::lock_folder;
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::{Search, recodings};
+use nbc_swarm::{evaluate, evaluate_bodies};
 use proptest::prelude::*;
 
 use crate::cli::{Bench, SHORT};

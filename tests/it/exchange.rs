@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use nbc::circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, dot};
-use nbc::circuit::passes::{self, DissolveWires};
-use nbc::circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, elaborate, prove};
-use nbc::model::{Function, Instance};
-use nbc::source::FileId;
-use nbc::store::{self, DiskWorld};
+use nbc_base::model::{Function, Instance};
+use nbc_base::source::FileId;
+use nbc_circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, dot};
+use nbc_circuit::passes::{self, DissolveWires};
+use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, elaborate, prove};
+use nbc_session::store::{self, DiskWorld};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

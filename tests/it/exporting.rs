@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use nbc::store::shipped_library;
+use nbc_session::store::shipped_library;
 use serde_json::Value;
 
 use crate::cli::Bench;

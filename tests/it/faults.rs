@@ -1,9 +1,9 @@
 //! Several errors at once: an error in one declaration does not hide others, and JSON has the same messages as the
 //! text.
 
-use nbc::check;
-use nbc::diag::{Code, Diagnostic};
-use nbc::source::{MemoryWorld, Sources};
+use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_lang::check;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 

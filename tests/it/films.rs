@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-use nbc::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting, Spell};
-use nbc::report::{self, Color, FRAMES_PER_CYCLE, Film, Scheme, Stage};
+use nbc_base::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting, Spell};
+use nbc_session::report::{self, Color, FRAMES_PER_CYCLE, Film, Scheme, Stage};
 
 use crate::pictures::latch;
 

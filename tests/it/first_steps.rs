@@ -6,9 +6,9 @@ use std::process::{Child, Command, Stdio};
 #[cfg(target_os = "linux")]
 use std::time::Duration;
 
-use nbc::circuit::{Logic, Netlist, elaborate};
-use nbc::model::Instance;
-use nbc::store::DiskWorld;
+use nbc_base::model::Instance;
+use nbc_circuit::{Logic, Netlist, elaborate};
+use nbc_session::store::DiskWorld;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use nbc::circuit::formats::{Design, blif};
-use nbc::model::Function;
+use nbc_base::model::Function;
+use nbc_circuit::formats::{Design, blif};
 
 use crate::synth::abc;
 

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use nbc::check;
-use nbc::circuit::elaborate;
-use nbc::source::{MemoryWorld, Sources};
-use nbc::syntax;
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_circuit::elaborate;
+use nbc_lang::check;
+use nbc_lang::syntax;
 use proptest::prelude::*;
 
 use crate::language::programs;

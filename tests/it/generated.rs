@@ -1,8 +1,8 @@
 //! Generated control logic to measure the compiler with: priority encoders, arbiters, PLAs, routers, one-hot state
 //! machines and random control with planted redundancy. A generator with the same arguments gives the same circuit.
 
-use nbc::circuit::{NetId, Netlist};
-use nbc::model::Function;
+use nbc_base::model::Function;
+use nbc_circuit::{NetId, Netlist};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

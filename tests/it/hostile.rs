@@ -1,8 +1,8 @@
 //! Hostile input: a clear message, bounded work, never a panic.
 
-use nbc::check;
-use nbc::diag::{Code, Diagnostic, render};
-use nbc::source::{MemoryWorld, Sources};
+use nbc_base::diag::{Code, Diagnostic, render};
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_lang::check;
 
 use crate::cli::Bench;
 
@@ -62,7 +62,7 @@ const STACK: usize = 512 << 10;
 
 #[test]
 fn the_deepest_nesting_needs_a_small_stack() {
-    let depth = nbc::syntax::MAX_NESTING - 3;
+    let depth = nbc_lang::syntax::MAX_NESTING - 3;
     let within = |open: &str, close: &str| circuit(&format!("q = {}a{}", open.repeat(depth), close.repeat(depth)));
     let texts = [
         within("(", ")"),
@@ -79,8 +79,8 @@ fn the_deepest_nesting_needs_a_small_stack() {
             assert!(found(text.clone()).iter().all(|fault| fault.code != Code::Nesting), "{text}");
             let mut sources = Sources::default();
             let file = sources.add("a.nb", text);
-            let parsed = nbc::syntax::parse(&sources, file);
-            nbc::syntax::format(&sources, file, &parsed.tree);
+            let parsed = nbc_lang::syntax::parse(&sources, file);
+            nbc_lang::syntax::format(&sources, file, &parsed.tree);
         }
     };
     std::thread::Builder::new().stack_size(STACK).spawn(parse).unwrap().join().unwrap();

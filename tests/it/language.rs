@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use nbc::check::{self, Analysis};
-use nbc::circuit::{Logic, elaborate, elaborate_reference};
-use nbc::diag::render;
-use nbc::model::{CircuitTest, Palette, Program, Stimulation};
-use nbc::source::{MemoryWorld, Sources};
-use nbc::store::DiskWorld;
+use nbc_base::diag::render;
+use nbc_base::model::{CircuitTest, Palette, Program, Stimulation};
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_circuit::{Logic, elaborate, elaborate_reference};
+use nbc_lang::check::{self, Analysis};
+use nbc_session::store::DiskWorld;
 
 /// The repository.
 pub(crate) fn root() -> &'static Path {

@@ -1,8 +1,8 @@
 //! The built-in robots as gates.
 
-use nbc::model::{CYCLE_STEPS, Direction, Pattern, Robot, Schedule, Setting, Spell, Trial};
-use nbc::sim::Simulator;
-use nbc::store::shipped_library;
+use nbc_base::model::{CYCLE_STEPS, Direction, Pattern, Robot, Schedule, Setting, Spell, Trial};
+use nbc_session::store::shipped_library;
+use nbc_sim::Simulator;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

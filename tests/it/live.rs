@@ -1,7 +1,7 @@
 //! Sessions without the command line: sources in memory, swarms that are stepped, work that is cancelled.
 
-use nbc::session::RunEnd;
 use nbc::{CompileOptions, Level, MemoryWorld, Observer, Session, TestOptions, TestRun};
+use nbc_session::RunEnd;
 
 #[allow(dead_code, reason = "the example's own main reads the terminal")]
 #[path = "../../examples/live.rs"]

@@ -3,9 +3,9 @@
 
 use std::fs;
 
-use nbc::check;
-use nbc::diag::{Code, Diagnostic, Severity, render};
-use nbc::source::{MemoryWorld, Sources};
+use nbc_base::diag::{Code, Diagnostic, Severity, render};
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_lang::check;
 
 use crate::cli::Bench;
 use crate::language::{passes, root};

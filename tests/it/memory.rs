@@ -1,12 +1,12 @@
 //! Memory made of cells works for any data and any delays of its cells, also in physics.
 
-use nbc::check;
-use nbc::circuit::formats::{Design, blif};
-use nbc::circuit::passes::DissolveWires;
-use nbc::circuit::{CellLibrary, Delayed, Guarded, Logic, Loops, Netlist, Role, elaborate, map, prove};
-use nbc::model::{Function, Instance, Program};
-use nbc::source::{FileId, MemoryWorld, Sources};
-use nbc::store::DiskWorld;
+use nbc_base::model::{Function, Instance, Program};
+use nbc_base::source::{FileId, MemoryWorld, Sources};
+use nbc_circuit::formats::{Design, blif};
+use nbc_circuit::passes::DissolveWires;
+use nbc_circuit::{CellLibrary, Delayed, Guarded, Logic, Loops, Netlist, Role, elaborate, map, prove};
+use nbc_lang::check;
+use nbc_session::store::DiskWorld;
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -1,10 +1,10 @@
 //! Whether quick and slow robots in one swarm would help: measured, not tested.
 
-use nbc::circuit::{CellKind, Delays, MappingObjective, Timing};
-use nbc::model::{CircuitTest, Robot, Stimulation};
-use nbc::session::{CompileOptions, Compiled, Session};
-use nbc::store::DiskWorld;
-use nbc::swarm::{Assembly, Settling};
+use nbc_base::model::{CircuitTest, Robot, Stimulation};
+use nbc_circuit::{CellKind, Delays, MappingObjective, Timing};
+use nbc_session::store::DiskWorld;
+use nbc_session::{CompileOptions, Compiled, Session};
+use nbc_swarm::{Assembly, Settling};
 
 use crate::language::programs;
 

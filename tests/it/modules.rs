@@ -1,4 +1,4 @@
-//! The modules of `src/` and what each of them imports, read from the text of the source.
+//! The modules of all crates and what each of them imports, read from the text of the source.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,7 +8,7 @@ use regex::Regex;
 
 use crate::language::root;
 
-/// A path of modules and items, without `crate`.
+/// A path of modules and items, which begins with the crate.
 type Item = Vec<String>;
 
 /// A file of the source.
@@ -22,9 +22,15 @@ pub struct Module {
     pub code: String,
 }
 
-/// All files under `src/`, in order.
+/// The folders of sources: that of the program, then those of the other crates.
+fn sources() -> Vec<PathBuf> {
+    let crates = fs::read_dir(root().join("crates")).unwrap().map(|entry| entry.unwrap().path().join("src"));
+    std::iter::once(root().join("src")).chain(crates).collect()
+}
+
+/// All files of all crates, in order.
 pub fn modules() -> Vec<Module> {
-    let mut open = vec![root().join("src")];
+    let mut open = sources();
     let mut found = Vec::new();
     while let Some(folder) = open.pop() {
         for entry in fs::read_dir(folder).unwrap() {
@@ -47,16 +53,31 @@ impl Module {
         Self { name: module_name(&path), code: code_only(&product), product, path }
     }
 
-    /// The file without its folder, for messages.
+    /// The file in the repository, for messages.
     pub fn file(&self) -> String {
-        self.path.strip_prefix(root().join("src")).unwrap().display().to_string()
+        self.path.strip_prefix(root()).unwrap().display().to_string()
+    }
+}
+
+/// The name of a file's crate, and its path in the crate's folder of sources.
+pub fn place(path: &Path) -> (String, PathBuf) {
+    let inside = path.strip_prefix(root()).unwrap();
+    match inside.strip_prefix("crates") {
+        Ok(inside) => {
+            let name = inside.iter().next().unwrap().to_string_lossy().into_owned();
+            let file = inside.strip_prefix(&name).unwrap().strip_prefix("src").unwrap().to_owned();
+            (format!("nbc_{name}"), file)
+        }
+        Err(_) => ("nbc".to_owned(), inside.strip_prefix("src").unwrap().to_owned()),
     }
 }
 
 fn module_name(path: &Path) -> Item {
-    let inside = path.strip_prefix(root().join("src")).unwrap().with_extension("");
-    let mut name: Item = inside.iter().map(|part| part.to_string_lossy().into_owned()).collect();
-    if name.last().is_some_and(|last| last == "mod") || name == ["lib"] {
+    let (name, file) = place(path);
+    let inside = file.with_extension("");
+    let mut name: Item =
+        std::iter::once(name).chain(inside.iter().map(|part| part.to_string_lossy().into_owned())).collect();
+    if matches!(name.last().unwrap().as_str(), "mod" | "lib") {
         name.pop();
     }
     name
@@ -179,11 +200,12 @@ fn paths(code: &str) -> Vec<Item> {
     path.captures_iter(&code).map(|found| found[1].split("::").map(str::to_owned).collect()).collect()
 }
 
-/// A path from the root of the crate, if it names something of the crate.
+/// A path that begins with its crate, if it names something of these crates.
 fn absolute(item: &[String], module: &[String], index: &BTreeMap<&Item, usize>) -> Option<Item> {
     let supers = item.iter().take_while(|name| *name == "super").count();
     match item[0].as_str() {
-        "crate" => Some(item[1..].to_vec()),
+        "crate" => Some([&module[..1], &item[1..]].concat()),
+        name if name.starts_with("nbc_") => Some(item.to_vec()),
         "self" => Some([module, &item[1..]].concat()),
         "super" => Some([&module[..module.len().checked_sub(supers)?], &item[supers..]].concat()),
         first => {

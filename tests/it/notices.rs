@@ -60,7 +60,9 @@ fn crates() -> Vec<Crate> {
         license: text(&package["license"]),
         texts: license_texts(Path::new(package["manifest_path"].as_str().unwrap()).parent().unwrap()),
     };
-    packages.filter(|package| used.contains(package["id"].as_str().unwrap())).map(describe).collect()
+    let from_elsewhere =
+        |package: &&Value| !package["source"].is_null() && used.contains(package["id"].as_str().unwrap());
+    packages.filter(from_elsewhere).map(describe).collect()
 }
 
 /// The license texts in a package's folder: the short one if there is a choice, and the notices that must accompany it.
@@ -98,7 +100,7 @@ fn expected() -> String {
     sections.sort();
     let sections: String =
         sections.iter().map(|(crates, text)| format!("\n## {}\n\n```text\n{text}\n```\n", crates.join(", "))).collect();
-    let fonts = clean(&fs::read_to_string(root().join("assets/DejaVu-LICENSE.txt")).unwrap());
+    let fonts = clean(&fs::read_to_string(root().join("crates/session/assets/DejaVu-LICENSE.txt")).unwrap());
     format!(
         "# Third-party licenses\n\nThe crates of which `nbc` is built, with the licenses that their authors offer, \
          and the texts of those that \

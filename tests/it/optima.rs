@@ -1,9 +1,9 @@
 //! The fewest cells for functions of three inputs, found by a breadth-first search over sets of functions that shares
 //! no code with the compiler.
 
-use nbc::circuit::synth::reduce;
-use nbc::circuit::{CellLibrary, MapOptions};
-use nbc::model::Function;
+use nbc_base::model::Function;
+use nbc_circuit::synth::reduce;
+use nbc_circuit::{CellLibrary, MapOptions};
 
 use crate::circuit::sum_of_products;
 

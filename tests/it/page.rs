@@ -7,10 +7,12 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use nbc::model::{Base, Body, Character, CircuitTest, Function, PhysicsWorld, Provenance, Robot, Stimulation, TestRow};
-use nbc::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
-use nbc::source::{FileId, Span};
-use nbc::swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace, TestVerdict, judge_swarm};
+use nbc_base::model::{
+    Base, Body, Character, CircuitTest, Function, PhysicsWorld, Provenance, Robot, Stimulation, TestRow,
+};
+use nbc_base::source::{FileId, Span};
+use nbc_session::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
+use nbc_swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
 use crate::cli::Bench;
@@ -22,7 +24,7 @@ pub fn robot(name: &str, function: Function) -> Robot {
     Robot {
         name: name.to_owned(),
         behavior: function.into(),
-        body: Body::parse(&rows, &nbc::model::Palette::paper()).unwrap(),
+        body: Body::parse(&rows, &nbc_base::model::Palette::paper()).unwrap(),
         displacement: [1.0; 4],
         character: Character {
             clock: 4,

@@ -3,15 +3,14 @@
 use std::fs;
 use std::sync::Arc;
 
-use nbc::evolve::Elite;
-use nbc::model::{
+use nbc_base::model::{
     Body, CYCLE_STEPS, Column, Function, Material, MaterialKind, Palette, Pattern, PhysicsWorld, Robot, Schedule,
     Spell, Trial,
 };
-use nbc::session;
-use nbc::sim::Simulator;
-use nbc::store::{self, Checkpoint, DiskWorld};
-use nbc::swarm::{self, Assembly, Exposure, Member, StimulusSource};
+use nbc_session::store::{self, Checkpoint, DiskWorld};
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::Elite;
+use nbc_swarm::{Assembly, Exposure, Member, StimulusSource};
 
 use crate::cli::Bench;
 use crate::language::root;
@@ -228,7 +227,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         world: PhysicsWorld::default(),
     };
     let exposure = Exposure { inputs: vec![vec![true], vec![false]], window: 1, poses: None };
-    let trace = swarm::simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
+    let trace = nbc_swarm::simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
     let spells = [2, 0].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: CYCLE_STEPS }).to_vec();
     for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {
         let trial = Trial { body: body.clone(), schedule: Schedule { spells: spells.clone() } };
@@ -277,7 +276,7 @@ test inverter \"turns over\" {
 }
 ";
     let file = bench.file("two.nb", source);
-    let report = session::run_file(&file, &nbc::CompileOptions::default()).unwrap();
+    let report = nbc_session::run_file(&file, &nbc::CompileOptions::default()).unwrap();
     let traces: Vec<_> = report.tests.iter().map(|run| &run.swarm.as_ref().unwrap().trace.robots[0]).collect();
     let [of_paper, of_own] = traces[..] else { panic!("the test runs once for each swarm") };
     assert_eq!((of_paper.robot.as_str(), of_own.robot.as_str()), (not.name.as_str(), "own_not"));

@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use nbc::circuit::timing::ClockTimes;
-use nbc::circuit::{
+use nbc_base::model::{Function, Instance};
+use nbc_circuit::timing::ClockTimes;
+use nbc_circuit::{
     CellKind, CellLibrary, Delayed, Delays, Guarded, NetId, Netlist, Role, Timing, WhyUnphased, elaborate, map,
 };
-use nbc::model::{Function, Instance};
-use nbc::session::{CompileOptions, Session};
-use nbc::store::DiskWorld;
+use nbc_session::store::DiskWorld;
+use nbc_session::{CompileOptions, Session};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -62,7 +62,7 @@ fn works_at_the_least_times(elements: &[Element], netlist: &Netlist, random: &mu
     let Some(times) = all.iter().find(|times| times.clock == netlist.inputs()[CLOCK]) else { return };
     assert!(times.races.is_empty(), "an inverter of at most two cycles is no risk\n{netlist}");
     let is_data = |net: NetId| netlist.inputs()[..2].contains(&net);
-    let most = |of: fn(&nbc::circuit::timing::InputTimes) -> u32| {
+    let most = |of: fn(&nbc_circuit::timing::InputTimes) -> u32| {
         times.inputs.iter().filter(|input| is_data(input.input)).map(of).max().unwrap_or(0) as usize
     };
     let (setup, hold) = (most(|input| input.setup), most(|input| input.hold));

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use nbc::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
-use nbc::sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
+use nbc_base::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
+use nbc_sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
 use serde::Deserialize;
 
 /// Largest difference from a reference, in voxels (docs/physics.md 12).

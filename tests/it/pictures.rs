@@ -1,9 +1,9 @@
 //! Pictures by their content: what is drawn and where, and that the same input gives the same bytes.
 
-use nbc::circuit::{Cell, Netlist};
-use nbc::model::{Body, Column, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
-use nbc::report::{self, Scheme};
-use nbc::swarm::{CycleTrace, Recording, RobotTrace, StimulusSource, SwarmTrace};
+use nbc_base::model::{Body, Column, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
+use nbc_circuit::{Cell, Netlist};
+use nbc_session::report::{self, Scheme};
+use nbc_swarm::{CycleTrace, Recording, RobotTrace, StimulusSource, SwarmTrace};
 
 /// A port of one bit.
 pub fn port(name: &str) -> Column {
@@ -254,7 +254,7 @@ fn unusual_netlists_are_drawn() {
 
 #[test]
 fn a_sprite_has_a_square_for_each_voxel_in_its_materials_color() {
-    let body = Body::parse(&["00345", "33333"], &nbc::model::Palette::paper()).unwrap();
+    let body = Body::parse(&["00345", "33333"], &nbc_base::model::Palette::paper()).unwrap();
     for scheme in [Scheme::Paper, Scheme::Safe] {
         let svg = report::draw_portrait("walker", &body, scheme).finish();
         let document = roxmltree::Document::parse(&svg).unwrap();

@@ -1,10 +1,10 @@
 //! Plots of evolution: heat maps, progress, champions, comparisons.
 
 use nbc::Session;
-use nbc::evolve::{Archive, Champion, Elite, NicheKey};
-use nbc::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
-use nbc::report::{self, Champions, Course, Terrain};
-use nbc::source::MemoryWorld;
+use nbc_base::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
+use nbc_base::source::MemoryWorld;
+use nbc_session::report::{self, Champions, Course, Terrain};
+use nbc_swarm::evolve::{Archive, Champion, Elite, NicheKey};
 use roxmltree::{Document, Node};
 
 fn group<'a>(document: &'a Document<'a>, id: &str) -> Node<'a, 'a> {
@@ -24,7 +24,7 @@ fn elite(rows: &[&str], behavior: &str, fitness: f64) -> Elite {
         fitness: [fitness, fitness],
         behavior: behavior.parse().unwrap(),
         displacement: [1.0; 4],
-        body: Body::parse(rows, &nbc::model::Palette::paper()).unwrap(),
+        body: Body::parse(rows, &nbc_base::model::Palette::paper()).unwrap(),
         genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
         generation: 0,
         evaluations: 0,
@@ -38,7 +38,7 @@ fn axes() -> Vec<Axis> {
 
 #[test]
 fn a_heat_map_colors_the_niches_that_are_filled() {
-    let evolution = nbc::model::Evolution { descriptors: axes(), ..evolution() };
+    let evolution = nbc_base::model::Evolution { descriptors: axes(), ..evolution() };
     let mut archive = Archive::new(&evolution);
     archive.add(elite(&["333", "300", "000"], "RRRL", 1.0));
     archive.add(elite(&["333", "333", "333"], "RRRL", 5.0));
@@ -66,11 +66,11 @@ fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
     report::draw_heatmap("gates", &terrain, x, y).finish()
 }
 
-fn evolution() -> nbc::model::Evolution {
+fn evolution() -> nbc_base::model::Evolution {
     let mut world = MemoryWorld::default();
     world.insert("empty.nb", "");
     let paper = Session::new(world).checked("empty.nb").program.evolution("gates").unwrap().clone();
-    nbc::model::Evolution { width: 3, height: 3, descriptors: axes(), generations: 1, ..paper }
+    nbc_base::model::Evolution { width: 3, height: 3, descriptors: axes(), generations: 1, ..paper }
 }
 
 #[test]

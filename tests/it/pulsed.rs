@@ -1,10 +1,10 @@
 //! Pulsed latches: registers of four cells that a pulse opens, used where they are proved safe.
 
-use nbc::circuit::timing::{ClockTimes, Pulsed, WhyKept};
-use nbc::circuit::{CellKind, CellLibrary, Delayed, Delays, Netlist, Timing};
-use nbc::model::{Function, Stimulation};
-use nbc::session::{CompileOptions, Session};
-use nbc::store::DiskWorld;
+use nbc_base::model::{Function, Stimulation};
+use nbc_circuit::timing::{ClockTimes, Pulsed, WhyKept};
+use nbc_circuit::{CellKind, CellLibrary, Delayed, Delays, Netlist, Timing};
+use nbc_session::store::DiskWorld;
+use nbc_session::{CompileOptions, Session};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use nbc::circuit::formats::{Design, Register, RegisterKind, blif};
-use nbc::circuit::reachable::{WhyEveryState, simplify};
-use nbc::circuit::{CellLibrary, Effort, Logic, MapOptions, Netlist};
-use nbc::model::Function;
-use nbc::source::FileId;
+use nbc_base::model::Function;
+use nbc_base::source::FileId;
+use nbc_circuit::formats::{Design, Register, RegisterKind, blif};
+use nbc_circuit::reachable::{WhyEveryState, simplify};
+use nbc_circuit::{CellLibrary, Effort, Logic, MapOptions, Netlist};
 use proptest::prelude::*;
 
 use crate::cli::Bench;

@@ -1,10 +1,10 @@
 //! Registers that a design does not need are removed, and the outputs stay the same.
 
-use nbc::circuit::correspondence::reduce;
-use nbc::circuit::formats::{Design, Register, RegisterKind};
-use nbc::circuit::network::View;
-use nbc::circuit::{NetId, Netlist};
-use nbc::model::Function;
+use nbc_base::model::Function;
+use nbc_circuit::correspondence::reduce;
+use nbc_circuit::formats::{Design, Register, RegisterKind};
+use nbc_circuit::network::View;
+use nbc_circuit::{NetId, Netlist};
 use proptest::prelude::*;
 
 use crate::cli::Bench;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use nbc::report::Schema;
+use nbc_session::report::Schema;
 use serde_json::Value;
 
 use crate::cli::Bench;

@@ -1,10 +1,10 @@
 //! The holds of rows: no longer than needed, and long enough whatever robots do before they have settled.
 
-use nbc::circuit::{CellLibrary, Delays, Timing};
-use nbc::model::{Function, Library};
-use nbc::session::{Session, TestOptions};
-use nbc::store::DiskWorld;
-use nbc::swarm::{Assembly, Level, Settling, StimulusSource, assemble, cells};
+use nbc_base::model::{Function, Library};
+use nbc_circuit::{CellLibrary, Delays, Timing};
+use nbc_session::store::DiskWorld;
+use nbc_session::{Session, TestOptions};
+use nbc_swarm::{Assembly, Level, Settling, StimulusSource, assemble, cells};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

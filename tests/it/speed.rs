@@ -4,9 +4,9 @@
 use std::fs;
 use std::process::Command;
 
-use nbc::check;
-use nbc::circuit::elaborate;
-use nbc::source::{MemoryWorld, Sources};
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_circuit::elaborate;
+use nbc_lang::check;
 
 use crate::cli::Bench;
 use crate::language::programs;

@@ -2,15 +2,15 @@
 
 use std::fs;
 
-use nbc::circuit::formats::{Design, nb};
-use nbc::circuit::{Delays, MappingObjective, Netlist, Timing};
-use nbc::model::{Function, PhysicsWorld, Robot};
-use nbc::report::{Stage, describe_test};
-use nbc::session::SwarmRun;
-use nbc::sim::Simulator;
-use nbc::store::shipped_library;
-use nbc::swarm::{Assembly, Exposure, Member, Recording, Room, StimulusSource, SwarmTrace, simulate};
 use nbc::{CompileOptions, RunReport};
+use nbc_base::model::{Function, PhysicsWorld, Robot};
+use nbc_circuit::formats::{Design, nb};
+use nbc_circuit::{Delays, MappingObjective, Netlist, Timing};
+use nbc_session::SwarmRun;
+use nbc_session::report::{Stage, describe_test};
+use nbc_session::store::shipped_library;
+use nbc_sim::Simulator;
+use nbc_swarm::{Assembly, Exposure, Member, Recording, Room, StimulusSource, SwarmTrace, simulate};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -194,7 +194,7 @@ fn the_objective_chooses_among_robots_of_the_same_function() {
 fn measured_settle_times_are_within_the_clocks() {
     let report = nbc::run_file("circuits/half_adder.nb", &CompileOptions::default()).unwrap();
     let compiled = &swarm(&report).compiled;
-    let cells = nbc::swarm::cells(&shipped_library());
+    let cells = nbc_swarm::cells(&shipped_library());
     let measured = Timing::of(&compiled.mapping.netlist, &cells, Delays::Transition);
     assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);
 }

@@ -5,10 +5,10 @@
 use std::fs;
 use std::path::Path;
 
-use nbc::check;
-use nbc::diag::{Code, Diagnostic, render};
-use nbc::source::{MemoryWorld, Sources};
-use nbc::store::DiskWorld;
+use nbc_base::diag::{Code, Diagnostic, render};
+use nbc_base::source::{MemoryWorld, Sources};
+use nbc_lang::check;
+use nbc_session::store::DiskWorld;
 
 use crate::language::{programs, root};
 

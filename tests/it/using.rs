@@ -2,11 +2,11 @@
 
 use std::process::Output;
 
-use nbc::check;
-use nbc::circuit::elaborate;
-use nbc::circuit::formats::{CircuitFormat, aiger, blif};
-use nbc::model::{Instance, Program};
-use nbc::source::{FileId, MemoryWorld, Sources};
+use nbc_base::model::{Instance, Program};
+use nbc_base::source::{FileId, MemoryWorld, Sources};
+use nbc_circuit::elaborate;
+use nbc_circuit::formats::{CircuitFormat, aiger, blif};
+use nbc_lang::check;
 
 use crate::cli::Bench;
 use crate::tools::YOSYS;

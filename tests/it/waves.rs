@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use nbc::report;
+use nbc_session::report;
 use wellen::simple::{Waveform, read_from_reader};
 
 use crate::cli::Bench;
@@ -69,7 +69,7 @@ fn an_empty_trace_is_a_dump_too() {
 #[test]
 fn a_bus_is_a_vector_in_the_dump() {
     let mut trace = latch(&[(true, false), (false, true)], 2);
-    trace.inputs = vec![nbc::model::Column { name: "both".to_owned(), width: 2 }];
+    trace.inputs = vec![nbc_base::model::Column { name: "both".to_owned(), width: 2 }];
     (trace.outputs[0].name, trace.outputs[1].name) = ("q_".to_owned(), "__".to_owned());
     let mut waves = read_from_reader(Cursor::new(report::vcd(&trace).into_bytes())).unwrap();
     let told = changes(&mut waves, "d_latch.inputs.both");

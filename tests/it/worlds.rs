@@ -1,12 +1,12 @@
 //! Worlds other than the paper's: their physics, their noise, and where programs name them.
 
-use nbc::model::{PhysicsWorld, WorldFactors, WorldNoise};
-use nbc::report::Stage;
-use nbc::swarm::{Assembly, Exposure, Recording, Room, SwarmTrace, simulate};
 use nbc::{
     Body, CompileOptions, Level, MemoryWorld, Palette, Pattern, Schedule, Session, Setting, Simulator, TestOptions,
     TestRun, Trajectory, Trial,
 };
+use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
+use nbc_session::report::Stage;
+use nbc_swarm::{Assembly, Exposure, Recording, Room, SwarmTrace, simulate};
 
 use crate::cli::Bench;
 use crate::schemas::validate;

@@ -1,10 +1,11 @@
 //! Files written for other tools and in the language: valid unique names, formatted programs, the same function.
 
-use nbc::circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, buses};
-use nbc::circuit::{Logic, NetId, Netlist, elaborate, registers};
-use nbc::model::{Function, Instance};
-use nbc::source::{FileId, MemoryWorld, Sources};
-use nbc::{check, store, syntax};
+use nbc_base::model::{Function, Instance};
+use nbc_base::source::{FileId, MemoryWorld, Sources};
+use nbc_circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, buses};
+use nbc_circuit::{Logic, NetId, Netlist, elaborate, registers};
+use nbc_lang::{check, syntax};
+use nbc_session::store;
 use proptest::prelude::*;
 
 /// Names that some format cannot read, or that become equal when they are made valid.

@@ -12,8 +12,8 @@ use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::{DeviceFigures, OpenDevice};
 use crate::cli::timings::{meter, part_seconds};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
-use crate::report::{Align, Schema, TextTable};
-use crate::sim::{Kernel, LaneBackend, Part};
+use nbc_session::report::{Align, Schema, TextTable};
+use nbc_sim::{Kernel, LaneBackend, Part};
 
 use speed::{cycle_substeps, race};
 use swarm::SwarmFigures;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
-use crate::sim::{Constants, Kernel, LaneBackend, Meter, Simulator};
+use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
+use nbc_sim::{Constants, Kernel, LaneBackend, Meter, Simulator};
 
 /// The shortest measurement of a figure.
 const PATIENCE: Duration = Duration::from_millis(500);

@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use crate::cli::Failure;
 use crate::cli::bench::speed::{cycle_substeps, on_one_thread, per_second, processor_seconds, race};
-use crate::model::Column;
-use crate::session::{Choice, CompileOptions, Session};
-use crate::sim::{Kernel, LaneBackend, Simulator};
-use crate::source::MemoryWorld;
-use crate::swarm::{Assembly, LiveSwarm, Room};
+use nbc_base::model::Column;
+use nbc_base::source::MemoryWorld;
+use nbc_session::{Choice, CompileOptions, Session};
+use nbc_sim::{Kernel, LaneBackend, Simulator};
+use nbc_swarm::{Assembly, LiveSwarm, Room};
 
 /// A counter of three bits.
 const FILE: &str = "circuits/counter.nb";

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::cli::cluster::bits::{pack, unpack};
 use crate::cli::cluster::message::{MessageFault, TaskKey, decode, encode};
-use crate::evolve::{CandidateOutcome, Scores};
-use crate::model::{Behavior, Character, Fault, FaultKind, Transition};
-use crate::swarm::{Evaluated, Measurement, SwarmBits, TaskResult, Work};
+use nbc_base::model::{Behavior, Character, Fault, FaultKind, Transition};
+use nbc_swarm::evolve::{CandidateOutcome, Scores};
+use nbc_swarm::{Evaluated, Measurement, SwarmBits, TaskResult, Work};
 
 /// A task that was done.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,8 +172,8 @@ mod tests {
     use super::*;
     use crate::cli::cluster::message::VERSION;
     use crate::cli::cluster::task_message::tests::tasks;
-    use crate::sim::Simulator;
-    use crate::swarm::{Task, perform};
+    use nbc_sim::Simulator;
+    use nbc_swarm::{Task, perform};
 
     #[test]
     fn an_answer_is_read_as_it_was_written() {

@@ -7,8 +7,8 @@ use tokio::runtime::Handle;
 use tokio::task::JoinSet;
 
 use crate::cli::cluster::message::TaskKey;
-use crate::sim::Simulator;
-use crate::swarm::{Task, TaskResult, perform};
+use nbc_sim::Simulator;
+use nbc_swarm::{Task, TaskResult, perform};
 
 /// The share of the time that is spent on workers that have passed.
 const SHARE: f64 = 0.02;

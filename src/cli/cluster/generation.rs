@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::cli::cluster::answer_message::AnswerMessage;
 use crate::cli::cluster::message::TaskKey;
 use crate::cli::place::TaskBatch;
-use crate::swarm::{Task, TaskResult, is_plausible};
+use nbc_swarm::{Task, TaskResult, is_plausible};
 
 /// Tasks that workers do.
 pub struct Generation {
@@ -153,11 +153,11 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::evolve::tests::evolution;
-    use crate::evolve::{CandidateOutcome, Search};
-    use crate::model::{Fault, FaultKind};
-    use crate::sim::Simulator;
-    use crate::swarm::{Evaluated, EvaluationProtocol, EvaluationTask, perform};
+    use crate::cli::cluster::task_message::tests::evolution;
+    use nbc_base::model::{Fault, FaultKind};
+    use nbc_sim::Simulator;
+    use nbc_swarm::evolve::{CandidateOutcome, Search};
+    use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, perform};
 
     /// A generation of two tasks and its true answers.
     fn generation() -> (Generation, Vec<AnswerMessage>) {

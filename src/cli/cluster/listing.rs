@@ -12,7 +12,7 @@ use tokio::time;
 use crate::cli::cluster::connection::{Connection, NatsArguments, search_note_subject, worker_note_subject};
 use crate::cli::cluster::message::{SearchNote, WorkerNote};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use crate::report::{Align, Schema, TextTable};
+use nbc_session::report::{Align, Schema, TextTable};
 
 /// The time in which every worker and every search reports at least once.
 const WATCH: Duration = Duration::from_secs(3);

@@ -1,12 +1,12 @@
 //! The identity of a program's physics: machines that work for one search must have the same.
 
-use crate::evolve::Rivals;
-use crate::model::{Body, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
-use crate::sim::Simulator;
-use crate::swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
+use nbc_base::model::{Body, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::Rivals;
+use nbc_swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
 
 /// The version of this program.
-pub const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+pub const PROGRAM: &str = nbc_base::VERSION;
 /// Env steps of each pattern.
 const STEPS: u32 = 8;
 /// The bodies.
@@ -63,7 +63,7 @@ impl Hash {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::{Kernel, LaneBackend};
+    use nbc_sim::{Kernel, LaneBackend};
 
     #[test]
     fn every_kernel_has_the_same_physics() {

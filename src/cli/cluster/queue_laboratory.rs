@@ -14,8 +14,8 @@ use crate::cli::distant::DistantLaboratory;
 use crate::cli::place::{TaskBatch, TaskPlace};
 use crate::cli::wording::ClusterError;
 use crate::cli::{Failure, Interrupt};
-use crate::sim::Simulator;
-use crate::swarm::{Laboratory, Task, TaskResult};
+use nbc_sim::Simulator;
+use nbc_swarm::{Laboratory, Task, TaskResult};
 
 /// Bytes of a message besides its task or result, at most.
 const RESERVE: usize = 1024;

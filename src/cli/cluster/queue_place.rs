@@ -23,8 +23,8 @@ use crate::cli::cluster::task_message::{TOGETHER, TaskMessage};
 use crate::cli::cluster::task_sender::TaskSender;
 use crate::cli::place::{TaskBatch, TaskPlace};
 use crate::cli::wording::ClusterError;
-use crate::sim::Simulator;
-use crate::swarm::{Task, TaskResult};
+use nbc_sim::Simulator;
+use nbc_swarm::{Task, TaskResult};
 
 /// The most time that [`TaskPlace::next`] waits.
 const TURN: Duration = Duration::from_millis(500);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
 
 use crate::cli::cluster::message::WorkerNote;
-use crate::diag::counted;
+use nbc_base::diag::counted;
 
 /// A worker that has not reported for this time is gone.
 const GONE: Duration = Duration::from_secs(10);

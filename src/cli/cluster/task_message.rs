@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::cli::cluster::bits::{pack, unpack};
 use crate::cli::cluster::message::{MessageFault, TaskKey, decode, encode};
-use crate::evolve::{Rivals, validate};
-use crate::model::{
+use nbc_base::model::{
     Behavior, Body, CYCLE_STEPS, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds, Schedule, SearchObjective, Spell,
 };
-use crate::swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
+use nbc_swarm::evolve::{Rivals, validate};
+use nbc_swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
 
 /// The most env steps of one simulation.
 const MOST_STEPS: u64 = 100_000_000;
@@ -289,10 +289,19 @@ pub(super) mod tests {
 
     use super::*;
     use crate::cli::cluster::message::{MOST_BYTES, VERSION};
-    use crate::evolve::tests::evolution;
-    use crate::evolve::{Candidate, Search};
-    use crate::model::{Evolution, Symmetry, WorldFactors};
-    use crate::swarm::evolve_generation;
+    use nbc_base::model::{Evolution, Symmetry, WorldFactors};
+    use nbc_base::source::MemoryWorld;
+    use nbc_session::Session;
+    use nbc_swarm::evolve::{Candidate, Search};
+    use nbc_swarm::evolve_generation;
+
+    /// The evolution of the prelude, which is the paper's.
+    pub(in crate::cli::cluster) fn evolution() -> Evolution {
+        let mut session = Session::new(MemoryWorld::default());
+        session.update("a.nb", 1, "evolution paper { from: gates }");
+        let checked = session.open("a.nb").unwrap();
+        checked.program.evolution("paper").unwrap().clone()
+    }
 
     fn world() -> PhysicsWorld {
         let factors = WorldFactors { friction: 0.9, ..WorldFactors::default() };

@@ -15,8 +15,8 @@ use crate::cli::cluster::worker::Worker;
 use crate::cli::cluster::worker_thread::WorkerThread;
 use crate::cli::wording::ClusterError;
 use crate::cli::{Context, Failure, Interrupt, Status};
-use crate::diag::counted;
-use crate::sim::Simulator;
+use nbc_base::diag::counted;
+use nbc_sim::Simulator;
 
 /// Evaluate robots for searches on other machines
 #[derive(Args)]

@@ -17,8 +17,8 @@ use crate::cli::cluster::connection::{Connection, PATIENCE, SILENCE, search_of};
 use crate::cli::cluster::delivery::Delivery;
 use crate::cli::cluster::task_message::{TOGETHER, TaskMessage};
 use crate::cli::cluster::worker::Worker;
-use crate::sim::Simulator;
-use crate::swarm::{Task, perform};
+use nbc_sim::Simulator;
+use nbc_swarm::{Task, perform};
 
 /// The most time for which a thread asks for a task at once.
 const REQUEST: Duration = Duration::from_secs(5);

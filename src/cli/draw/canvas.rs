@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind};
 use crate::cli::wording::DrawError;
 use crate::cli::{Failure, Progress};
-use crate::report::{self, Film, Stage};
-use crate::store;
+use nbc_session::report::{self, Film, Stage};
+use nbc_session::store;
 
 /// The file to be written.
 pub(super) struct Canvas {

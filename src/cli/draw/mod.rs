@@ -15,8 +15,8 @@ mod several;
 use std::path::Path;
 
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
-use crate::report::Schema;
-use crate::store;
+use nbc_session::report::Schema;
+use nbc_session::store;
 
 use canvas::Canvas;
 use kind::Kind;

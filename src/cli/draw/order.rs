@@ -7,9 +7,9 @@ use crate::cli::Failure;
 use crate::cli::program::{CircuitArguments, RunsArguments};
 use crate::cli::robots::behavior;
 use crate::cli::wording::DrawError;
-use crate::model::{Behavior, CYCLE_STEPS, Schedule};
-use crate::report::{FRAMES_PER_CYCLE, Scheme};
-use crate::session::read_schedule;
+use nbc_base::model::{Behavior, CYCLE_STEPS, Schedule};
+use nbc_session::read_schedule;
+use nbc_session::report::{FRAMES_PER_CYCLE, Scheme};
 
 /// The default schedule of robots: every pattern as long as in the paper.
 const SCHEDULE: &str = "00*10 01*10 10*10 11*10";

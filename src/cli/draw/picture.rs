@@ -6,7 +6,7 @@ use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::run::best_champions;
 use crate::cli::draw::several::Several;
 use crate::cli::wording::DrawError;
-use crate::report::{EvolutionResults, Film, Stage, Svg};
+use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

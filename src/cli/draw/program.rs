@@ -1,14 +1,14 @@
 //! The circuit of a source file to be drawn, and the run of its swarm.
 
-use crate::circuit::is_same_instance;
 use crate::cli::draw::order::Order;
 use crate::cli::run::{Ran, names_of_tests, run_simulation, run_test};
 use crate::cli::wording::DrawError;
 use crate::cli::{Failure, Interrupt};
-use crate::model::{CircuitTest, Instance};
-use crate::session::{self, Checked, CompileOptions, Compiled, Session};
-use crate::store::DiskWorld;
-use crate::swarm::Room;
+use nbc_base::model::{CircuitTest, Instance};
+use nbc_circuit::is_same_instance;
+use nbc_session::store::DiskWorld;
+use nbc_session::{Checked, CompileOptions, Compiled, Session};
+use nbc_swarm::Room;
 
 impl Order {
     /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
@@ -45,7 +45,7 @@ impl Order {
         };
         let options = CompileOptions { swarm: choice.swarm.clone(), ..self.runs.options() };
         if let Some(test) = test {
-            let clear = session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
+            let clear = nbc_session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
             clear.map_err(Failure::plain)?;
             let runs = run_test(&session, &file, test, &options, &Interrupt::default())?;
             return Ok(Ran::Test(runs.into_iter().next().expect("nothing interrupts it")));

@@ -1,6 +1,6 @@
 //! One robot to be drawn.
 
-use crate::model::{Body, Robot};
+use nbc_base::model::{Body, Robot};
 
 /// A body with its title.
 pub(super) struct TitledBody {

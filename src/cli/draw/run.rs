@@ -8,10 +8,10 @@ use crate::cli::draw::several::{One, Several};
 use crate::cli::run_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
 use crate::cli::wording::{DrawError, RunWarning};
 use crate::cli::{Context, Failure};
-use crate::model::Behavior;
-use crate::report::{EvolutionResults, History, SeedRun};
-use crate::source::Sources;
-use crate::store::Declared;
+use nbc_base::model::Behavior;
+use nbc_base::source::Sources;
+use nbc_session::report::{EvolutionResults, History, SeedRun};
+use nbc_session::store::Declared;
 
 /// Whether a folder is that of a run: of one seed, or of several.
 pub(in crate::cli) fn is_run(folder: &Path) -> bool {

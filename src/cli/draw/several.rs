@@ -1,7 +1,7 @@
 //! Several robots to be drawn: those of a library or a swarm, or the champions of a run.
 
-use crate::model::{Behavior, Body, Library};
-use crate::swarm::Assembly;
+use nbc_base::model::{Behavior, Body, Library};
+use nbc_swarm::Assembly;
 
 /// Robots with a title.
 pub(super) struct Several {

@@ -7,8 +7,8 @@ use clap::Args;
 use crate::cli::device::DeviceArguments;
 use crate::cli::nats_access::QueueArguments;
 use crate::cli::timings::Timings;
-use crate::session::RUNS;
-use crate::store::ResultPlace;
+use nbc_session::RUNS;
+use nbc_session::store::ResultPlace;
 
 /// Evolve robots by the evolution declarations of a file
 #[derive(Args)]

@@ -7,8 +7,8 @@ use crate::cli::evolve::run::{Ended, EvolutionRun};
 use crate::cli::place::TaskPlace;
 use crate::cli::timings::Timer;
 use crate::cli::{Context, Failure, Interrupt, Progress};
-use crate::evolve::Champion;
-use crate::model::Evolution;
+use nbc_base::model::Evolution;
+use nbc_swarm::evolve::Champion;
 
 /// Makes runs.
 pub(super) struct Campaign<'a> {

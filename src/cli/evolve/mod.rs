@@ -17,15 +17,16 @@ use crate::cli::gpu::OpenDevice;
 use crate::cli::place::{LocalPlace, TaskPlace};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status, cluster};
-use crate::diag::counted;
-use crate::evolve::{Champion, Search};
-use crate::model::{Evolution, SearchObjective};
-use crate::report::{BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups};
-use crate::session::{self, Session};
-use crate::sim::Simulator;
-use crate::source::Sources;
-use crate::store;
-use crate::swarm;
+use nbc_base::diag::counted;
+use nbc_base::model::{Evolution, SearchObjective};
+use nbc_base::source::Sources;
+use nbc_session::Session;
+use nbc_session::report::{
+    BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups,
+};
+use nbc_session::store;
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::{Champion, Search};
 
 pub(super) use arguments::EvolveArguments;
 
@@ -208,7 +209,7 @@ impl EvolveArguments {
     /// file that it uses.
     fn chosen(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
         let program = match &self.file {
-            None => session::prelude(),
+            None => nbc_session::prelude(),
             Some(path) => Session::new(interrupt.world()).open(&path.to_string_lossy())?.program.clone(),
         };
         let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
@@ -238,7 +239,7 @@ fn seconds_each(evolution: &Evolution) -> f64 {
     let search = Search::new(evolution, 0);
     let candidates: Vec<_> = search.ask().into_iter().take(SAMPLE).collect();
     let started = Instant::now();
-    swarm::evaluate(&Simulator::default(), &search, &candidates);
+    nbc_swarm::evaluate(&Simulator::default(), &search, &candidates);
     started.elapsed().as_secs_f64() / candidates.len().max(1) as f64
 }
 

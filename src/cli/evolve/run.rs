@@ -14,12 +14,12 @@ use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progres
 use crate::cli::timings::{Chore, Timer};
 use crate::cli::wording::{RunWarning, SubjectError};
 use crate::cli::{Context, Failure};
-use crate::evolve::{ArchiveStats, Candidate, CandidateOutcome, Search};
-use crate::model::Evolution;
-use crate::report::{EvolutionLine, History, evolution_table};
-use crate::source::Sources;
-use crate::store::{self, Checkpoint, FolderLock, LockFault};
-use crate::swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Task, TaskResult, Work};
+use nbc_base::model::Evolution;
+use nbc_base::source::Sources;
+use nbc_session::report::{EvolutionLine, History, evolution_table};
+use nbc_session::store::{self, Checkpoint, FolderLock, LockFault};
+use nbc_swarm::evolve::{ArchiveStats, Candidate, CandidateOutcome, Search};
+use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Task, TaskResult, Work};
 
 /// How one run ended.
 #[derive(Serialize)]

@@ -4,8 +4,8 @@ use crate::cli::device::DeviceChoice;
 use crate::cli::gpu::speed::{DeviceFigures, measure};
 use crate::cli::wording::{DeviceFailure, DeviceWarning};
 use crate::cli::{Context, Failure};
-use crate::sim::{DeviceError, DeviceKind, LaneBackend, OpenClBackend, OpenClDevice, Simulator};
-use crate::source::Sources;
+use nbc_base::source::Sources;
+use nbc_sim::{DeviceError, DeviceKind, LaneBackend, OpenClBackend, OpenClDevice, Simulator};
 
 /// The chosen device.
 #[derive(Clone)]

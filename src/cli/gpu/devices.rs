@@ -5,9 +5,9 @@ use serde::Serialize;
 
 use crate::cli::wording::DeviceFailure;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
-use crate::diag::Diagnostic;
-use crate::report::{Align, Schema, TextTable};
-use crate::sim::{BoxComparison, LaneBackend, OpenClBackend, OpenClDevice, SelfTest};
+use nbc_base::diag::Diagnostic;
+use nbc_session::report::{Align, Schema, TextTable};
+use nbc_sim::{BoxComparison, LaneBackend, OpenClBackend, OpenClDevice, SelfTest};
 
 /// List the OpenCL devices that can simulate
 #[derive(Args)]

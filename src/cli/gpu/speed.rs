@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
-use crate::report::{Align, TextTable};
-use crate::sim::{Constants, OpenClBackend, Simulator};
+use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
+use nbc_session::report::{Align, TextTable};
+use nbc_sim::{Constants, OpenClBackend, Simulator};
 
 /// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];

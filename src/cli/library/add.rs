@@ -14,11 +14,11 @@ use crate::cli::robots::behavior;
 use crate::cli::run_folder::{CHECKPOINT, checkpoints, read_checkpoint};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
-use crate::evolve::Elite;
-use crate::model::{Behavior, Fault, FaultKind, Provenance, Robot};
-use crate::report::{Answer, Schema};
-use crate::store::{self, Checkpoint, ResultPlace};
-use crate::swarm::{Nominee, Selected, Selection};
+use nbc_base::model::{Behavior, Fault, FaultKind, Provenance, Robot};
+use nbc_session::report::{Answer, Schema};
+use nbc_session::store::{self, Checkpoint, ResultPlace};
+use nbc_swarm::evolve::Elite;
+use nbc_swarm::{Nominee, Selected, Selection};
 
 /// Measure the best gates of evolution runs and write them as robot files
 #[derive(Args)]
@@ -159,7 +159,7 @@ fn share(text: &str) -> Result<f64, String> {
 
 fn provenance(checkpoint: &Checkpoint, elite: &Elite) -> Provenance {
     Provenance {
-        program: env!("CARGO_PKG_NAME").to_owned(),
+        program: nbc_base::PROGRAM.to_owned(),
         version: checkpoint.version.clone(),
         evolution: checkpoint.declared.name.clone(),
         seed: checkpoint.state.seed,

@@ -13,9 +13,9 @@ use crate::cli::device::DeviceArguments;
 use crate::cli::nats_access::QueueArguments;
 use crate::cli::robots::{named, robots_of};
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::model::{Library, Robot};
-use crate::report::{self, Listing, Schema};
-use crate::store;
+use nbc_base::model::{Library, Robot};
+use nbc_session::report::{self, Listing, Schema};
+use nbc_session::store;
 
 /// List, show, verify, add and rewrite robots
 #[derive(Args)]

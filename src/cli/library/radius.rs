@@ -8,12 +8,12 @@ use serde::Serialize;
 
 use crate::cli::robots::{robot_paths, robots};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
-use crate::diag::counted;
-use crate::model::{Character, Library, Robot, SafeRadius, Variation};
-use crate::report::Schema;
-use crate::sim::Simulator;
-use crate::store;
-use crate::swarm::{self, WorldSample};
+use nbc_base::diag::counted;
+use nbc_base::model::{Character, Library, Robot, SafeRadius, Variation};
+use nbc_session::report::Schema;
+use nbc_session::store;
+use nbc_sim::Simulator;
+use nbc_swarm::WorldSample;
 
 /// The worlds in which robots are tried.
 #[derive(Args)]
@@ -73,7 +73,7 @@ impl RadiusArguments {
     ) -> Result<Status, Failure> {
         let (simulator, bar) = (Simulator::default(), Progress::new("trying", library.robots.len() as u64));
         let reach = |robot| {
-            let found = swarm::safe_radius(&simulator, robot, &sample, self.worlds);
+            let found = nbc_swarm::safe_radius(&simulator, robot, &sample, self.worlds);
             bar.add(1);
             Reach::of(robot, found)
         };

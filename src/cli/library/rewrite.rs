@@ -8,10 +8,10 @@ use serde::Serialize;
 use crate::cli::robots::robot_paths;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use crate::diag::Diagnostic;
-use crate::report::Schema;
-use crate::source::Sources;
-use crate::store::{self, DiskWorld};
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::Sources;
+use nbc_session::report::Schema;
+use nbc_session::store::{self, DiskWorld};
 
 /// Convert robot files to the newest format
 #[derive(Args)]

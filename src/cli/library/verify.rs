@@ -8,10 +8,10 @@ use crate::cli::device::DeviceArguments;
 use crate::cli::laboratory::OpenLaboratory;
 use crate::cli::nats_access::QueueArguments;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
-use crate::diag::counted;
-use crate::model::{Character, Library, Robot};
-use crate::report::Schema;
-use crate::swarm::{Laboratory, Measurement, Task};
+use nbc_base::diag::counted;
+use nbc_base::model::{Character, Library, Robot};
+use nbc_session::report::Schema;
+use nbc_swarm::{Laboratory, Measurement, Task};
 
 /// The result for one robot.
 #[derive(Serialize)]

@@ -11,8 +11,8 @@ use crate::cli::lsp::later::WaitingHover;
 use crate::cli::lsp::server::{Reply, Server};
 use crate::cli::lsp::spot::Spot;
 use crate::cli::lsp::{completion, hints, hover, problems, signature};
-use crate::session::Checked;
-use crate::source::Span;
+use nbc_base::source::Span;
+use nbc_session::Checked;
 
 impl Server<'_> {
     /// What is known of a place: at once, or as soon as it is compiled, but not later than a moment.

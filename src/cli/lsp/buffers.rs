@@ -6,7 +6,7 @@ use gen_lsp_types::{TextDocumentContentChangeEvent, Uri};
 
 use crate::cli::lsp::position::{Encoding, Lines};
 use crate::cli::lsp::uri;
-use crate::source::LineStarts;
+use nbc_base::source::LineStarts;
 
 /// An open text.
 #[derive(Clone, Debug)]

@@ -13,7 +13,7 @@ use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::lenses;
 use crate::cli::lsp::runs::{OrderError, RunEvent, RunOrder, RunOutcome};
 use crate::cli::lsp::server::{Reply, Server};
-use crate::session::Checked;
+use nbc_session::Checked;
 
 impl Server<'_> {
     pub(super) fn lenses(&mut self, asked: lsp::CodeLensParams) -> Reply<CodeLensRequest> {

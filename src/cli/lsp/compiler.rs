@@ -7,10 +7,10 @@ use std::thread;
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
-use crate::circuit::CancelFlag;
 use crate::cli::lsp::figures::{Figures, Subject};
-use crate::session::{Checked, Session};
-use crate::source::SharedWorld;
+use nbc_base::source::SharedWorld;
+use nbc_circuit::CancelFlag;
+use nbc_session::{Checked, Session};
 
 /// A subject of a source.
 type Key = (String, Subject);

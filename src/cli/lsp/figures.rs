@@ -1,10 +1,10 @@
 //! What only compiling tells of a circuit or of a net: robots, times, the slowest path.
 
-use crate::circuit::CancelFlag;
-use crate::diag::counted;
-use crate::model::Instance;
-use crate::session::{Checked, CompileOptions, Mapping, Session};
-use crate::source::Span;
+use nbc_base::diag::counted;
+use nbc_base::model::Instance;
+use nbc_base::source::Span;
+use nbc_circuit::CancelFlag;
+use nbc_session::{Checked, CompileOptions, Mapping, Session};
 
 /// What is to be compiled.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,12 +2,12 @@
 
 use gen_lsp_types::{Location, Range, Uri};
 
-use crate::check::PRELUDE;
 use crate::cli::lsp::position::{Encoding, Lines};
 use crate::cli::lsp::uri;
-use crate::session::Checked;
-use crate::source::{FileId, Span};
-use crate::store;
+use nbc_base::source::{FileId, Span};
+use nbc_lang::check::PRELUDE;
+use nbc_session::Checked;
+use nbc_session::store;
 
 /// A checked source and how its client counts characters.
 #[derive(Clone, Copy)]

@@ -2,13 +2,13 @@
 
 use gen_lsp_types::{InlayHint, InlayHintKind};
 
-use crate::check::NameKind;
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::settings::HintSettings;
-use crate::model::{Circuit, Net};
-use crate::source::{FileId, Span};
-use crate::syntax::tree::{
+use nbc_base::model::{Circuit, Net};
+use nbc_base::source::{FileId, Span};
+use nbc_lang::check::NameKind;
+use nbc_lang::syntax::tree::{
     BodySyntax, DeclarationKind, ExpressionSyntax, ExpressionSyntaxId, ExpressionSyntaxKind, TestKind,
 };
 

@@ -1,8 +1,8 @@
 //! The interface of a circuit, as written.
 
 use crate::cli::lsp::files::Files;
-use crate::model::{Circuit, Net};
-use crate::source::Span;
+use nbc_base::model::{Circuit, Net};
+use nbc_base::source::Span;
 
 /// A circuit's name, parameters and ports.
 pub(super) struct Interface {

@@ -5,9 +5,9 @@ use std::ops::Range;
 use gen_lsp_types::TextEdit;
 
 use crate::cli::lsp::position::Lines;
-use crate::session::Formatted;
-use crate::source::{Sources, Span};
-use crate::syntax;
+use nbc_base::source::{Sources, Span};
+use nbc_lang::syntax;
+use nbc_session::Formatted;
 
 /// The edits that bring the declarations in a part of a text into canonical form.
 pub(super) fn edits(lines: &Lines<'_>, formatted: &Formatted, part: Range<usize>) -> Vec<TextEdit> {

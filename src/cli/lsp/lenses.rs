@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::runs;
-use crate::model::Instance;
-use crate::source::{FileId, Span};
+use nbc_base::model::Instance;
+use nbc_base::source::{FileId, Span};
 
 /// The lenses of the tests and simulations of a file.
 pub(super) fn of_runs(files: &Files<'_>, file: FileId) -> Vec<CodeLens> {

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use gen_lsp_types::DocumentLink;
 
-use crate::check::beside;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::uri;
-use crate::source::{FileId, Span};
-use crate::syntax::tree::{DeclarationKind, RecordKeyword, ValueKind};
+use nbc_base::source::{FileId, Span};
+use nbc_lang::check::beside;
+use nbc_lang::syntax::tree::{DeclarationKind, RecordKeyword, ValueKind};
 
 /// The links of a file to others that exist.
 pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {

@@ -48,9 +48,9 @@ use lsp_server::{Connection, ErrorCode, Message, Request, Response};
 
 use crate::cli::wording::ServerError;
 use crate::cli::{Context, Failure, Status};
-use crate::source::VerilogError;
-use crate::store::{DiskWorld, GuardedWorld, VerilogFiles};
 use capabilities::{Client, capabilities};
+use nbc_base::source::VerilogError;
+use nbc_session::store::{DiskWorld, GuardedWorld, VerilogFiles};
 use pending::Pending;
 use server::Server;
 
@@ -148,7 +148,7 @@ fn greeted(connection: &Connection, pending: &Pending) -> Result<Option<Client>,
 }
 
 fn welcome(client: &Client) -> InitializeResult {
-    let name = ServerInfo { name: "nbc".to_owned(), version: Some(env!("CARGO_PKG_VERSION").to_owned()) };
+    let name = ServerInfo { name: "nbc".to_owned(), version: Some(nbc_base::VERSION.to_owned()) };
     InitializeResult { capabilities: capabilities(client.encoding), server_info: Some(name) }
 }
 

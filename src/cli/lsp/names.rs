@@ -8,12 +8,12 @@ use gen_lsp_types::{
     TextDocumentPositionParams, WorkspaceEdit, WorkspaceSymbolRequest,
 };
 
-use crate::check::NameUse;
 use crate::cli::lsp::navigation;
 use crate::cli::lsp::rename::Rename;
 use crate::cli::lsp::server::{Reply, Server};
 use crate::cli::lsp::uri;
-use crate::session::Checked;
+use nbc_lang::check::NameUse;
+use nbc_session::Checked;
 
 /// The most symbols of an answer.
 const MOST_SYMBOLS: usize = 1000;

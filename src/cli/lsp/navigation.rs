@@ -5,10 +5,10 @@ use gen_lsp_types::{
     WorkspaceEdit, WorkspaceSymbol,
 };
 
-use crate::check::{NameKind, NameUse};
-use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
-use crate::source::Span;
+use nbc_base::source::Span;
+use nbc_circuit::formats::is_word;
+use nbc_lang::check::{NameKind, NameUse};
 
 /// The places in the file of a name that mean the same.
 pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighlight> {

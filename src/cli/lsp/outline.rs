@@ -3,8 +3,8 @@
 use gen_lsp_types::{DocumentSymbol, FoldingRange, FoldingRangeKind, SymbolKind};
 
 use crate::cli::lsp::position::Lines;
-use crate::source::Span;
-use crate::syntax::tree::{CircuitSyntax, Declaration, DeclarationKind, NameSyntax, RecordKeyword, Tree};
+use nbc_base::source::Span;
+use nbc_lang::syntax::tree::{CircuitSyntax, Declaration, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 
 /// The declarations with names; circuits contain their ports.
 pub(super) fn symbols(tree: &Tree, lines: &Lines<'_>) -> Vec<DocumentSymbol> {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use gen_lsp_types::LspNotificationMethod;
 use lsp_server::Message;
 
-use crate::circuit::CancelFlag;
+use nbc_circuit::CancelFlag;
 
 /// Counts changes that wait to be handled, and ends translations meanwhile. Its copies are one.
 #[derive(Clone, Debug, Default)]

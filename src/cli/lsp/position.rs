@@ -2,7 +2,7 @@
 
 use gen_lsp_types::{Position, PositionEncodingKind, Range};
 
-use crate::source::LineStarts;
+use nbc_base::source::LineStarts;
 
 /// The unit in which a client counts characters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -7,11 +7,11 @@ use gen_lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Range, TextEdit, Uri, WorkspaceEdit,
 };
 
-use crate::check::{NameKind, NameUse};
 use crate::cli::explain;
 use crate::cli::lsp::files::{Files, readable};
 use crate::cli::lsp::uri;
-use crate::diag::{Code, Diagnostic, Fix, Severity};
+use nbc_base::diag::{Code, Diagnostic, Fix, Severity};
+use nbc_lang::check::{NameKind, NameUse};
 
 /// The diagnostics of a source, by the file that each is in.
 pub(super) fn by_file(files: &Files<'_>) -> BTreeMap<String, (Uri, Vec<Problem>)> {

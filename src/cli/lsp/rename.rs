@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use gen_lsp_types::{TextEdit, Uri, WorkspaceEdit};
 
-use crate::check::NameUse;
 use crate::cli::lsp::buffers::Buffers;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::navigation::workspace_edit;
 use crate::cli::lsp::position::Encoding;
 use crate::cli::lsp::uri;
-use crate::diag::Diagnostic;
-use crate::session::{Checked, Session};
-use crate::source::SharedWorld;
-use crate::source::Span;
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::SharedWorld;
+use nbc_base::source::Span;
+use nbc_lang::check::NameUse;
+use nbc_session::{Checked, Session};
 
 /// A new name for a declaration.
 pub(super) struct Rename<'a> {

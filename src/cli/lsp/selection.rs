@@ -4,8 +4,8 @@ use gen_lsp_types::SelectionRange;
 
 use crate::cli::lsp::spot::Spot;
 use crate::cli::lsp::tokens;
-use crate::source::Span;
-use crate::syntax::tree::{
+use nbc_base::source::Span;
+use nbc_lang::syntax::tree::{
     BodySyntax, Declaration, DeclarationKind, Field, RecordSyntax, StatementKind, StatementSyntax, Test, TestKind,
     ValueKind, ValueSyntax, With,
 };

@@ -2,12 +2,12 @@
 
 use gen_lsp_types::{SemanticToken, SemanticTokens, SemanticTokensLegend};
 
-use crate::check::{NameKind, NameUse};
-use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::tokens::tokens;
-use crate::source::{FileId, Span};
-use crate::syntax::{KEYWORDS, Token, TokenKind};
+use nbc_base::source::{FileId, Span};
+use nbc_circuit::formats::is_word;
+use nbc_lang::check::{NameKind, NameUse};
+use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
 /// The types, in the order of their numbers.
 const TYPES: [&str; 13] = [

@@ -22,8 +22,8 @@ use crate::cli::lsp::runs::Runs;
 use crate::cli::lsp::settings::Settings;
 use crate::cli::lsp::workspace::Workspace;
 use crate::cli::lsp::{problems, uri};
-use crate::session::{Checked, Session};
-use crate::source::SharedWorld;
+use nbc_base::source::SharedWorld;
+use nbc_session::{Checked, Session};
 
 /// The server of one client.
 pub(super) struct Server<'c> {

@@ -5,7 +5,7 @@ use gen_lsp_types::{MarkupContent, MarkupKind, ParameterInformation, SignatureHe
 use crate::cli::lsp::interface::Interface;
 use crate::cli::lsp::spot::Spot;
 use crate::cli::lsp::tokens::tokens;
-use crate::syntax::{Token, TokenKind};
+use nbc_lang::syntax::{Token, TokenKind};
 
 /// A call that is being written.
 struct Call<'t> {

@@ -2,10 +2,10 @@
 
 use gen_lsp_types::Position;
 
-use crate::check::NameUse;
 use crate::cli::lsp::files::Files;
-use crate::source::{FileId, Span};
-use crate::syntax::tree::Declaration;
+use nbc_base::source::{FileId, Span};
+use nbc_lang::check::NameUse;
+use nbc_lang::syntax::tree::Declaration;
 
 /// A byte of a file of a checked source.
 #[derive(Clone, Copy)]

@@ -9,8 +9,8 @@ use crate::cli::lsp::position::Lines;
 use crate::cli::lsp::server::{Reply, Server};
 use crate::cli::lsp::spot::Spot;
 use crate::cli::lsp::{layout, links, outline, selection, semantics};
-use crate::source::LineStarts;
-use crate::syntax::tree::Tree;
+use nbc_base::source::LineStarts;
+use nbc_lang::syntax::tree::Tree;
 
 impl Server<'_> {
     pub(super) fn symbols(&mut self, asked: lsp::DocumentSymbolParams) -> Reply<DocumentSymbolRequest> {

@@ -1,8 +1,8 @@
 //! The tokens of a text, for what editors ask about a place that the tree does not tell, such as one in a text that is
 //! not yet complete.
 
-use crate::syntax;
-use crate::syntax::{Token, TokenKind};
+use nbc_lang::syntax;
+use nbc_lang::syntax::{Token, TokenKind};
 
 /// The tokens of a text, in order.
 pub(super) fn tokens(text: &str) -> Vec<Token> {

@@ -37,7 +37,7 @@ impl Wire {
     pub(super) fn join(self) -> Result<(), String> {
         self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()))?;
         let written = self.writer.join().map_err(|_| "the writer failed".to_owned())?;
-        written.map_err(|error| crate::diag::io_words(&error))
+        written.map_err(|error| nbc_base::diag::io_words(&error))
     }
 }
 
@@ -98,7 +98,7 @@ fn read(input: &mut impl BufRead) -> Result<Option<Arrived>, String> {
     }
     let mut bytes = Vec::new();
     // Room is made for what has come, not for what is announced.
-    let read = input.by_ref().take(length).read_to_end(&mut bytes).map_err(|error| crate::diag::io_words(&error))?;
+    let read = input.by_ref().take(length).read_to_end(&mut bytes).map_err(|error| nbc_base::diag::io_words(&error))?;
     if (read as u64) < length {
         return Err(format!("a message has {length} bytes, and the input ends after {read}"));
     }
@@ -130,7 +130,7 @@ fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
     loop {
         let mut line = Vec::new();
         let read =
-            input.by_ref().take(LINE).read_until(b'\n', &mut line).map_err(|error| crate::diag::io_words(&error))?;
+            input.by_ref().take(LINE).read_until(b'\n', &mut line).map_err(|error| nbc_base::diag::io_words(&error))?;
         if read == 0 {
             return Ok(None);
         }

@@ -6,7 +6,7 @@ use gen_lsp_types::Uri;
 use serde_json::Value;
 
 use crate::cli::lsp::uri;
-use crate::store;
+use nbc_session::store;
 
 /// The folders that are open.
 #[derive(Clone, Debug, Default)]

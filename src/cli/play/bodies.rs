@@ -2,21 +2,21 @@
 
 use serde_json::{Value, json};
 
-use crate::circuit::formats::is_word;
 use crate::cli::play::SCHEME;
 use crate::cli::play::files::PageFiles;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::KeepRequest;
-use crate::evolve;
-use crate::model::{
+use nbc_base::model::{
     Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,
 };
-use crate::report::{self, Looks, Stage, describe_material};
-use crate::session::{Checked, CompileOptions, Session};
-use crate::store;
-use crate::swarm::{Recorded, measure, sketch, walk};
+use nbc_circuit::formats::is_word;
+use nbc_session::report::{self, Looks, Stage, describe_material};
+use nbc_session::store;
+use nbc_session::{Checked, CompileOptions, Session};
+use nbc_swarm::evolve;
+use nbc_swarm::{Recorded, measure, sketch, walk};
 
 /// The largest side of a body that is simulated for a page.
 const MOST_SIDE: usize = 20;
@@ -172,8 +172,8 @@ fn robot_file(name: &str, body: Body, job: &Job) -> Result<String, Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let measured = measure(&job.simulator(), &body).map_err(stopped)?;
     let provenance = Provenance {
-        program: env!("CARGO_PKG_NAME").to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
+        program: nbc_base::PROGRAM.to_owned(),
+        version: nbc_base::VERSION.to_owned(),
         evolution: "play".to_owned(),
         seed: 0,
         generation: 0,

@@ -8,13 +8,13 @@ use crate::cli::play::bodies;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::EvolveRequest;
-use crate::evolve::{Archive, CandidateOutcome, Elite, NicheKey, Scores, Search, neighbor, stream};
-use crate::model::{Axis, Behavior, Body, Evolution, Fault, Genotype};
-use crate::report::axis_word;
-use crate::session::{Observer, Session};
-use crate::sim::Simulator;
-use crate::source::MemoryWorld;
-use crate::swarm::{evaluate_bodies, walk};
+use nbc_base::model::{Axis, Behavior, Body, Evolution, Fault, Genotype};
+use nbc_base::source::MemoryWorld;
+use nbc_session::report::axis_word;
+use nbc_session::{Observer, Session};
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::{Archive, CandidateOutcome, Elite, NicheKey, Scores, Search, neighbor, stream};
+use nbc_swarm::{evaluate_bodies, walk};
 
 /// The largest and the smallest side of a box, and the most generations.
 const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
@@ -163,7 +163,7 @@ impl Tending {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Palette;
+    use nbc_base::model::Palette;
 
     #[test]
     fn a_start_without_gates_around_it_is_given_up() {

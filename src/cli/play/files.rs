@@ -9,8 +9,8 @@ use include_dir::{Dir, File, include_dir};
 use serde_json::{Value, json};
 
 use crate::cli::play::refusal::Refused;
-use crate::source::SourceWorld;
-use crate::store::{self, FolderWorld};
+use nbc_base::source::SourceWorld;
+use nbc_session::store::{self, FolderWorld};
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use crate::model::CYCLE_STEPS;
-use crate::swarm::{LiveSwarm, SwarmSnapshot};
+use nbc_base::model::CYCLE_STEPS;
+use nbc_swarm::{LiveSwarm, SwarmSnapshot};
 
 /// Cycles that can be gone back.
 pub(super) const MEMORY: u32 = 1000;
@@ -147,9 +147,9 @@ pub(super) const FRAMES: u32 = CYCLE_STEPS / 7;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::{Choice, CompileOptions, Session};
-    use crate::source::MemoryWorld;
-    use crate::swarm::Room;
+    use nbc_base::source::MemoryWorld;
+    use nbc_session::{Choice, CompileOptions, Session};
+    use nbc_swarm::Room;
 
     fn swarm() -> LiveSwarm {
         let mut session = Session::new(MemoryWorld::default()).with_poses(Room::LIVE);

@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::circuit::CancelFlag;
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::Refused;
-use crate::session::Observer;
-use crate::sim::{Monitor, Simulator};
+use nbc_circuit::CancelFlag;
+use nbc_session::Observer;
+use nbc_sim::{Monitor, Simulator};
 
 /// The most requests of a page that run at once.
 const MOST: usize = 4;

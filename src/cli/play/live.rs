@@ -6,11 +6,11 @@ use std::thread;
 use axum::extract::ws::WebSocket;
 use tokio::sync::mpsc;
 
-use crate::circuit::CancelFlag;
 use crate::cli::play::outbox::outbox;
 use crate::cli::play::served::Served;
 use crate::cli::play::socket::{WAITING, pump};
 use crate::cli::play::visit::Visit;
+use nbc_circuit::CancelFlag;
 
 /// Serves one page until it is gone.
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {

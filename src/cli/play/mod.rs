@@ -34,8 +34,8 @@ use tokio::runtime::Builder;
 use crate::cli::lsp;
 use crate::cli::wording::PlayError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use crate::report::{Schema, Scheme};
-use crate::store::{FolderWorld, PrivateFile};
+use nbc_session::report::{Schema, Scheme};
+use nbc_session::store::{FolderWorld, PrivateFile};
 use page::Page;
 use served::Served;
 
@@ -102,7 +102,7 @@ impl PlayArguments {
         let refused = |error: std::io::Error| PlayError::Address {
             host: self.host.clone(),
             port: self.port,
-            reason: crate::diag::io_words(&error),
+            reason: nbc_base::diag::io_words(&error),
         };
         let listener = TcpListener::bind((self.host.as_str(), self.port)).await.map_err(refused)?;
         let port = listener.local_addr()?.port();
@@ -171,7 +171,7 @@ fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), Failure> 
     let Some(file) = file else { return Ok((here, None)) };
     let missing = |error: std::io::Error| PlayError::File {
         path: file.display().to_string(),
-        reason: crate::diag::io_words(&error),
+        reason: nbc_base::diag::io_words(&error),
     };
     let whole = file.canonicalize().map_err(missing)?;
     let folder = match whole.parent() {

@@ -2,16 +2,16 @@
 
 use serde_json::{Value, json};
 
-use crate::circuit::Effort;
 use crate::cli::play::SCHEME;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::runner::LoadedSwarm;
-use crate::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
-use crate::report::{self, Looks};
-use crate::session::{Checked, Choice, CompileOptions, Compiled, RunEnd, Session, TestOptions};
-use crate::swarm::{Level, LiveSwarm};
+use nbc_base::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
+use nbc_circuit::Effort;
+use nbc_session::report::{self, Looks};
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunEnd, Session, TestOptions};
+use nbc_swarm::{Level, LiveSwarm};
 
 /// The most robots of a live swarm.
 pub(super) const MOST_ROBOTS: usize = 2000;

@@ -3,9 +3,9 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::diag::{Diagnostic, Diagnostics, io_words};
-use crate::model::{Fault, FaultKind};
-use crate::source::FileError;
+use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
+use nbc_base::model::{Fault, FaultKind};
+use nbc_base::source::FileError;
 
 /// The reason for which a request is refused.
 #[derive(Clone, Debug)]

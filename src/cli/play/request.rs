@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::cli::play::runner::Change;
-use crate::swarm::Level;
+use nbc_swarm::Level;
 
 /// A request with its number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::circuit::CancelFlag;
 use crate::cli::play::frame::SwarmFrame;
 use crate::cli::play::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory};
 use crate::cli::play::outbox::Outbox;
 use crate::cli::play::refusal::{Refusal, Refused};
-use crate::session::{Compiled, Excerpt, Session};
-use crate::swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
+use nbc_circuit::CancelFlag;
+use nbc_session::{Compiled, Excerpt, Session};
+use nbc_swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
 const FRAME_TIME: Duration = Duration::from_millis(15);

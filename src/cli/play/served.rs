@@ -10,7 +10,7 @@ use tokio::sync::Semaphore;
 
 use crate::cli::play::page::Page;
 use crate::cli::play::takes::Takes;
-use crate::store::FolderWorld;
+use nbc_session::store::FolderWorld;
 
 /// The largest message that a page may send, in bytes.
 pub(super) const MOST_BYTES: usize = 1 << 20;

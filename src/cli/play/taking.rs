@@ -6,9 +6,9 @@ use crate::cli::play::SCHEME;
 use crate::cli::play::jobs::Job;
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::TakeKind;
-use crate::model::CYCLE_STEPS;
-use crate::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
-use crate::session::{Excerpt, RunEnd, Session, SimulationRun, run_page};
+use nbc_base::model::CYCLE_STEPS;
+use nbc_session::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
+use nbc_session::{Excerpt, RunEnd, Session, SimulationRun, run_page};
 
 /// The most cycles that a file covers.
 const MOST_CYCLES: u32 = 200;

@@ -8,7 +8,6 @@ use axum::extract::ws::Utf8Bytes;
 use serde_json::{Value, json};
 use tokio::sync::mpsc;
 
-use crate::circuit::CancelFlag;
 use crate::cli::play::files::{PageFiles, example, examples};
 use crate::cli::play::history::MEMORY;
 use crate::cli::play::jobs::{Job, JobEnd, Jobs};
@@ -18,9 +17,10 @@ use crate::cli::play::request::{Request, TakeKind, Verb};
 use crate::cli::play::runner::{self, SwarmOrder};
 use crate::cli::play::served::{MOST_BYTES, Served};
 use crate::cli::play::{bodies, evolving, programs, taking};
-use crate::session::{Checked, Choice, Compiled, Session};
-use crate::store::GuardedWorld;
-use crate::swarm::Room;
+use nbc_circuit::CancelFlag;
+use nbc_session::store::GuardedWorld;
+use nbc_session::{Checked, Choice, Compiled, Session};
+use nbc_swarm::Room;
 
 /// The time between two looks at the files that the page has read.
 const LOOK: Duration = Duration::from_millis(500);
@@ -162,7 +162,7 @@ impl Visit {
     fn hello(&self) -> Value {
         let name = self.served.world.root().file_name().unwrap_or_default().to_string_lossy();
         json!({
-            "version": env!("CARGO_PKG_VERSION"),
+            "version": nbc_base::VERSION,
             "folder": name,
             "root": self.served.root,
             "file": self.served.file,
@@ -247,7 +247,7 @@ mod tests {
 
     use super::*;
     use crate::cli::play::outbox::outbox;
-    use crate::store::FolderWorld;
+    use nbc_session::store::FolderWorld;
 
     const VERBS: [&str; 16] = [
         "hello", "files", "read", "save", "program", "inputs", "clock", "run", "pause", "step", "reset", "seek",

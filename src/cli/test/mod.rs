@@ -16,10 +16,10 @@ use crate::cli::program::RunsArguments;
 use crate::cli::run::unknown_run;
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
-use crate::diag::{Diagnostic, counted};
-use crate::report::{self, Schema};
-use crate::session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions, TestRun};
-use crate::swarm::{Level, Task, TaskResult, TestVerdict};
+use nbc_base::diag::{Diagnostic, counted};
+use nbc_session::report::{self, Schema};
+use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions, TestRun};
+use nbc_swarm::{Level, Task, TaskResult, TestVerdict};
 
 use worlds::WorldsArguments;
 

@@ -6,11 +6,11 @@ use clap::Args;
 
 use crate::cli::wording::DrawError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
-use crate::model::Variation;
-use crate::report::{self, Schema, YieldCurve};
-use crate::session::{RunEnd, Session, TestCase};
-use crate::store;
-use crate::swarm::{Proportion, Robustness, TestVerdict, WorldSample, WorldTrial};
+use nbc_base::model::Variation;
+use nbc_session::report::{self, Schema, YieldCurve};
+use nbc_session::store;
+use nbc_session::{RunEnd, Session, TestCase};
+use nbc_swarm::{Proportion, Robustness, TestVerdict, WorldSample, WorldTrial};
 
 /// The number of worlds of a sample.
 const WORLDS: u32 = 100;
@@ -179,7 +179,7 @@ impl WorldsArguments {
     /// The test, and the quantities that vary if there are several choices.
     fn label(&self, one: &Robustness, curve: usize) -> String {
         let swarm = one.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
-        let robots = crate::diag::counted(one.robots, "robot");
+        let robots = nbc_base::diag::counted(one.robots, "robot");
         match self.vary.len() {
             1 => format!("{}{swarm}, {robots}", one.circuit),
             several => format!("{}{swarm}, {robots}: {}", one.circuit, self.vary[curve % several].quantities()),

@@ -5,14 +5,14 @@ mod program;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use nbc::model::{
+use nbc::{Search, evaluate, evaluate_bodies};
+use nbc_base::model::{
     Body, CYCLE_STEPS, Evolution, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial,
 };
-use nbc::sim::{
+use nbc_sim::{
     Constants, DeviceError, Flock, LaneBackend, Meter, Monitor, OpenClBackend, OpenClDevice, SelfTest, Simulator,
     Snapshot,
 };
-use nbc::{Search, evaluate, evaluate_bodies};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -1,9 +1,9 @@
 //! A netlist for Graphviz.
 
-use crate::circuit::formats::dot;
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use nbc_circuit::formats::dot;
 
 pub(super) struct DotPicture;
 

@@ -5,9 +5,9 @@ use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind, SubjectKind};
 use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::Several;
-use crate::model::{Body, Setting};
-use crate::report::{Film, Stage};
-use crate::session::SwarmRun;
+use nbc_base::model::{Body, Setting};
+use nbc_session::SwarmRun;
+use nbc_session::report::{Film, Stage};
 
 /// A film in a format.
 pub(super) struct FilmPicture(pub(super) FilmFormat);

@@ -4,8 +4,8 @@ use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::cli::wording::DrawError;
-use crate::evolve::NicheKey;
-use crate::report::{self, EvolutionResults, Terrain, axis_word};
+use nbc_session::report::{self, EvolutionResults, Terrain, axis_word};
+use nbc_swarm::evolve::NicheKey;
 
 pub(super) struct HeatmapPicture;
 

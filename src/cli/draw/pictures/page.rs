@@ -8,9 +8,9 @@ use crate::cli::draw::pictures::progress::progress;
 use crate::cli::draw::pictures::spacetime::champions;
 use crate::cli::draw::run::each_champion;
 use crate::cli::run::run_page as swarm_page;
-use crate::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
-use crate::report::{self, EvolutionResults, Plate, Scheme};
-use crate::swarm::Room;
+use nbc_base::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
+use nbc_session::report::{self, EvolutionResults, Plate, Scheme};
+use nbc_swarm::Room;
 
 pub(super) struct PagePicture;
 

@@ -9,11 +9,11 @@ use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::run::each_champion;
 use crate::cli::draw::several::{One, Several};
 use crate::cli::wording::DrawError;
-use crate::model::{CYCLE_STEPS, Schedule, Setting, Trial};
-use crate::report::{self, Champions, EvolutionResults, Svg};
-use crate::session::SwarmRun;
-use crate::sim::Simulator;
-use crate::swarm::SwarmTrace;
+use nbc_base::model::{CYCLE_STEPS, Schedule, Setting, Trial};
+use nbc_session::SwarmRun;
+use nbc_session::report::{self, Champions, EvolutionResults, Svg};
+use nbc_sim::Simulator;
+use nbc_swarm::SwarmTrace;
 
 pub(super) struct SpacetimePicture;
 

@@ -5,7 +5,7 @@ use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::cli::draw::robot::TitledBody;
 use crate::cli::draw::several::{One, Several, cast};
-use crate::report::{self, Portrait};
+use nbc_session::report::{self, Portrait};
 
 pub(super) struct SpritePicture;
 

@@ -4,7 +4,7 @@ use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::cli::draw::robot::TitledBody;
-use crate::report;
+use nbc_session::report;
 
 pub(super) struct StripPicture;
 

@@ -3,7 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::report;
+use nbc_session::report;
 
 pub(super) struct VcdPicture;
 

@@ -2,8 +2,8 @@
 
 use std::iter;
 
-use crate::check::NameKind;
-use crate::model::Variation;
+use nbc_base::model::Variation;
+use nbc_lang::check::NameKind;
 
 /// What a field may hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,8 +100,8 @@ const WORLD: [(&str, Holds); 12] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check;
-    use crate::source::{MemoryWorld, Sources};
+    use nbc_base::source::{MemoryWorld, Sources};
+    use nbc_lang::check;
 
     fn messages(text: &str) -> String {
         let mut sources = Sources::default();

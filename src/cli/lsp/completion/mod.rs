@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind, InsertTextFormat, MarkupContent, MarkupKind};
 
-use crate::check::NameKind;
-use crate::circuit::formats::is_word;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::interface::Interface;
 use crate::cli::lsp::spot::Spot;
 use crate::cli::lsp::tokens;
-use crate::model::Function;
-use crate::syntax::{KEYWORDS, Token, TokenKind};
+use nbc_base::model::Function;
+use nbc_circuit::formats::is_word;
+use nbc_lang::check::NameKind;
+use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
 use fields::Holds;
 use item::item;

@@ -4,10 +4,10 @@ use std::fs::{self, DirEntry};
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind, TextEdit};
 
-use crate::check::{beside, is_usable};
 use crate::cli::lsp::completion::item::item;
 use crate::cli::lsp::spot::Spot;
-use crate::source::Span;
+use nbc_base::source::Span;
+use nbc_lang::check::{beside, is_usable};
 
 /// What a path leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use crate::cli::lsp::completion::fields;
-use crate::syntax::{KEYWORDS, Token, TokenKind};
+use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
 /// A place in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::files::Files;
-use crate::diag::counted;
-use crate::model::{Circuit, Instance, Net};
-use crate::source::Span;
+use nbc_base::diag::counted;
+use nbc_base::model::{Circuit, Instance, Net};
+use nbc_base::source::Span;
 
 /// The ports and parameters of the circuit declared at a place.
 pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option<Subject>) {

@@ -1,7 +1,7 @@
 //! Constants in all bases.
 
-use crate::check::constant;
-use crate::diag::counted;
+use nbc_base::diag::counted;
+use nbc_lang::check::constant;
 
 /// A constant such as `4'b1010`, or digits, in all bases.
 pub(super) fn text(word: &str) -> Option<String> {

@@ -1,9 +1,9 @@
 //! The declaration of a name, as Markdown.
 
-use crate::check::{NameKind, NameUse};
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::interface::{comment, entry};
-use crate::source::Span;
+use nbc_base::source::Span;
+use nbc_lang::check::{NameKind, NameUse};
 
 /// The declaration of a name, with the comment above it.
 pub(super) fn text(files: &Files<'_>, found: NameUse) -> String {

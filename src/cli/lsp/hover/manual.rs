@@ -1,6 +1,6 @@
 //! The meaning of keywords and fields, from the manual of the language.
 
-use crate::syntax::tree::RecordKeyword;
+use nbc_lang::syntax::tree::RecordKeyword;
 
 const MANUAL: &str = include_str!("../../../../docs/language.md");
 
@@ -140,7 +140,7 @@ fn without_links(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::syntax;
+    use nbc_lang::syntax;
 
     #[test]
     fn every_keyword_has_its_meaning_and_an_example() {

@@ -9,15 +9,15 @@ mod picture;
 mod robots;
 mod waves;
 
-use crate::check::{NameKind, NameUse};
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::spot::Spot;
 use crate::cli::lsp::tokens;
-use crate::model::Operator;
-use crate::session::Session;
-use crate::source::Span;
-use crate::syntax::TokenKind;
-use crate::syntax::tree::DeclarationKind;
+use nbc_base::model::Operator;
+use nbc_base::source::Span;
+use nbc_lang::check::{NameKind, NameUse};
+use nbc_lang::syntax::TokenKind;
+use nbc_lang::syntax::tree::DeclarationKind;
+use nbc_session::Session;
 
 /// What is shown about a place.
 pub(super) struct Shown {

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::cli::lsp::figures::Subject;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::hover::circuit::{instance, width};
-use crate::model::{Block, Circuit, ExpressionId, ExpressionKind, NetSlot, Statement};
-use crate::source::Span;
+use nbc_base::model::{Block, Circuit, ExpressionId, ExpressionKind, NetSlot, Statement};
+use nbc_base::source::Span;
 
 /// What is known of the net declared at a place.
 pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option<Subject>) {

@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::report::Svg;
+use nbc_session::report::Svg;
 
 /// A picture as an image of Markdown that needs no file.
 pub(super) fn image(title: &str, svg: &Svg) -> String {

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::hover::picture::image;
 use crate::cli::lsp::spot::Spot;
-use crate::model::{Behavior, Function, Library, Robot};
-use crate::report::{self, Listing, Portrait, Scheme};
-use crate::session::{CompileOptions, Session};
-use crate::syntax::tree::{Declaration, DeclarationKind};
+use nbc_base::model::{Behavior, Function, Library, Robot};
+use nbc_lang::syntax::tree::{Declaration, DeclarationKind};
+use nbc_session::report::{self, Listing, Portrait, Scheme};
+use nbc_session::{CompileOptions, Session};
 
 /// The robots of a declared library: the best for each function.
 pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictures: bool) -> Option<String> {

@@ -2,7 +2,7 @@
 
 use crate::cli::lsp::files::Files;
 use crate::cli::lsp::hover::picture::image;
-use crate::report;
+use nbc_session::report;
 
 /// The response of a material.
 pub(super) fn material(files: &Files<'_>, name: &str, pictures: bool) -> Option<String> {

@@ -15,9 +15,9 @@ use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 use serde_json::Value;
 
-use crate::circuit::CancelFlag;
-use crate::session::Checked;
-use crate::source::SharedWorld;
+use nbc_base::source::SharedWorld;
+use nbc_circuit::CancelFlag;
+use nbc_session::Checked;
 
 pub(super) use command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
 pub(super) use order::{OrderError, RunOrder};

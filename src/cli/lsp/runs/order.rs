@@ -6,8 +6,8 @@ use gen_lsp_types::{ExecuteCommandParams, Uri};
 use serde_json::Value;
 
 use crate::cli::lsp::runs::command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
-use crate::session::{Checked, Choice};
-use crate::swarm::Level;
+use nbc_session::{Checked, Choice};
+use nbc_swarm::Level;
 
 /// What to do with a source.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use std::fs::{self, DirEntry};
 use std::io;
 use std::path::PathBuf;
 
-use crate::store::{self, FolderLock, lock_folder};
+use nbc_session::store::{self, FolderLock, lock_folder};
 
 /// The results of this server. The folder is made for the first of them.
 #[derive(Default)]

@@ -4,10 +4,10 @@ use crossbeam_channel::Sender;
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 
-use crate::circuit::CancelFlag;
 use crate::cli::cancellable::Cancellable;
 use crate::cli::lsp::runs::outcome::RunOutcome;
-use crate::session::Observer;
+use nbc_circuit::CancelFlag;
+use nbc_session::Observer;
 
 /// What a run tells.
 pub(in crate::cli::lsp) enum RunEvent {

@@ -6,15 +6,13 @@ use crate::cli::cancellable::{complete_simulation, complete_test};
 use crate::cli::lsp::runs::order::{RunOrder, RunTask};
 use crate::cli::lsp::runs::outcome::RunOutcome;
 use crate::cli::lsp::runs::watcher::Watcher;
-use crate::diag::Diagnostics;
-use crate::model::{CircuitTest, Simulation};
-use crate::report::{self, Scheme};
-use crate::session::{
-    Checked, Choice, CompileOptions, Compiled, RunReport, Session, SimulationRun, TestOptions, TestRun,
-};
-use crate::source::SharedWorld;
-use crate::store;
-use crate::swarm::{Level, Room};
+use nbc_base::diag::Diagnostics;
+use nbc_base::model::{CircuitTest, Simulation};
+use nbc_base::source::SharedWorld;
+use nbc_session::report::{self, Scheme};
+use nbc_session::store;
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunReport, Session, SimulationRun, TestOptions, TestRun};
+use nbc_swarm::{Level, Room};
 
 /// Does what is ordered; an error is a message for people.
 pub(super) fn perform(

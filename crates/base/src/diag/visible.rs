@@ -1,0 +1,61 @@
+//! Escapes users' text before it reaches a terminal: characters that would control it or change the reading order are
+//! shown as codes.
+
+use std::borrow::Cow;
+
+/// Whether a character has an effect other than its own glyph. Line breaks are excluded.
+pub fn is_hidden(c: char) -> bool {
+    let reorders = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let breaks = matches!(c, '\u{2028}' | '\u{2029}');
+    let empty = matches!(c, '\u{200b}' | '\u{2060}' | '\u{feff}');
+    c != '\n' && c.is_control() || reorders || breaks || empty
+}
+
+/// Text with its control characters, escape sequences and bidirectional controls written out, as in `\u{1b}`.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| if is_hidden(c) { c.escape_unicode().collect() } else { String::from(c) };
+    Cow::Owned(text.chars().map(shown).collect())
+}
+
+/// Like [`visible`], but the offset of every byte stays the same, for excerpts with places in them. A carriage return
+/// at the end of a line becomes a space or the line break itself.
+#[cfg(feature = "render")]
+pub(super) fn visible_in_place(text: &str) -> Cow<'_, str> {
+    if !text.contains(|c| is_hidden(c) && c != '\t') {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    let mut characters = text.chars().peekable();
+    while let Some(c) = characters.next() {
+        match c {
+            '\r' if characters.peek() == Some(&'\n') => shown.push(' '),
+            '\r' => shown.push('\n'),
+            _ if is_hidden(c) && c != '\t' => shown.push(['?', '·', '\u{fffd}'][c.len_utf8() - 1]),
+            _ => shown.push(c),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_are_escaped() {
+        assert_eq!(visible("gate \u{1b}[32mpass\u{7}\r\n"), "gate \\u{1b}[32mpass\\u{7}\\u{d}\n");
+        assert_eq!(visible("\u{9b}2J \u{202e}ssap"), "\\u{9b}2J \\u{202e}ssap");
+        assert!(matches!(visible("größe →\n"), Cow::Borrowed(_)));
+    }
+
+    #[test]
+    fn escaping_excerpts_keeps_byte_offsets() {
+        let text = "a\u{1b}b\u{9b}c\u{202e}d\te\r\nf\rg";
+        let shown = visible_in_place(text);
+        assert_eq!(shown, "a?b·c\u{fffd}d\te \nf\ng");
+        assert_eq!(shown.len(), text.len());
+    }
+}

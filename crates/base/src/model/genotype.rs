@@ -1,0 +1,62 @@
+//! Genotypes: compositional pattern-producing networks as plain data; `evolve` has the operations on them.
+
+use serde::{Deserialize, Serialize};
+
+/// The number of a node, unique within its genotype.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct NodeId(pub u32);
+
+/// A network from the position of a voxel to a score for each material code (paper, Methods; docs/physics.md 11).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Genotype {
+    /// The nodes: the inputs, an output for each code, then the hidden nodes, in order of their numbers. Of equal
+    /// scores, the first output wins.
+    pub nodes: Vec<(NodeId, NodeKind)>,
+    /// The links in order of insertion, which is the order of summation.
+    pub links: Vec<Link>,
+}
+
+/// The kind of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NodeKind {
+    /// An input: x, y, z, distance or bias, in this order.
+    Input(u8),
+    /// The score of a material code, with its activation.
+    Output(u8, Activation),
+    /// A hidden node with its activation.
+    Hidden(Activation),
+}
+
+/// A weighted link.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Link {
+    /// The node whose output it carries.
+    pub source: NodeId,
+    /// The node to which it adds.
+    pub target: NodeId,
+    /// The factor of the output.
+    pub weight: f64,
+}
+
+/// A node's activation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Activation {
+    /// sin u
+    Sine,
+    /// |u|
+    Abs,
+    /// -|u|
+    NegAbs,
+    /// u²
+    Square,
+    /// -u²
+    NegSquare,
+    /// sqrt |u|
+    SqrtAbs,
+    /// -sqrt |u|
+    NegSqrtAbs,
+    /// 2 / (1 + e^-u) - 1, the initial activation of outputs
+    Sigmoid,
+}

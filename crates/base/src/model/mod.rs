@@ -1,0 +1,52 @@
+//! The nouns of the field as plain data: materials, bodies, robots, circuits, tests. Operations of a single stage are
+//! in that stage.
+
+mod behavior;
+mod body;
+mod circuit;
+mod column;
+mod evolution;
+mod function;
+mod genotype;
+mod material;
+mod palette;
+mod program;
+mod robot;
+mod schedule;
+mod stimulus;
+mod test;
+mod trial;
+mod value;
+mod variation;
+mod wording;
+mod world;
+
+pub use behavior::{Behavior, Direction};
+pub use body::{Body, LEAST_ACTUATORS};
+pub use circuit::{
+    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, OutputValue,
+    Parameter, Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
+};
+pub use column::{Column, bit_parts};
+pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, Symmetry};
+pub use function::Function;
+pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
+pub use material::{Drive, Material, MaterialKind, Response};
+pub use palette::Palette;
+pub use program::{
+    Hold, InputSpell, LibrarySource, NamedSchedule, NamedWorld, Origin, Program, RegisterStyle, Simulation, Swarm,
+};
+pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
+pub use schedule::{Schedule, Spell};
+pub use stimulus::Pattern;
+pub use test::{CircuitTest, Reference, Stimulation, TestRow};
+pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
+pub use value::{Base, Value};
+pub use variation::Variation;
+pub use wording::{
+    BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
+};
+pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
+
+/// Env steps in one actuation cycle of the paper (docs/physics.md 10).
+pub const CYCLE_STEPS: u32 = 84;

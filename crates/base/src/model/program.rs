@@ -1,0 +1,175 @@
+//! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
+
+use super::{Base, Behavior, Circuit, CircuitTest, Column, Evolution, Instance, Material, PhysicsWorld, Schedule};
+use crate::source::Span;
+
+/// All declarations of a source file and the files it uses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The stimuli, in the order that numbers them.
+    pub stimuli: Vec<String>,
+    /// The materials, in the order of their numbers in bodies.
+    pub materials: Vec<Material>,
+    /// Declared worlds, those of the prelude first.
+    pub worlds: Vec<NamedWorld>,
+    /// The schedules of stimuli.
+    pub schedules: Vec<NamedSchedule>,
+    /// The evolution runs.
+    pub evolutions: Vec<Evolution>,
+    /// The names of the evolution runs of the file itself, not of files it uses.
+    pub own_evolutions: Vec<String>,
+    /// Declared circuits; a [`CircuitId`](crate::model::CircuitId) is an index.
+    pub circuits: Vec<Circuit>,
+    /// Declared libraries; the built-in one is not among them.
+    pub libraries: Vec<LibrarySource>,
+    /// Declared swarms, in the order of the source.
+    pub swarms: Vec<Swarm>,
+    /// The simulations of the file itself, not of files it uses.
+    pub simulations: Vec<Simulation>,
+    /// The tests; of the file itself, not of those it uses.
+    pub tests: Vec<CircuitTest>,
+}
+
+/// A schedule with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedSchedule {
+    /// What evolutions and simulations call it.
+    pub name: String,
+    /// Its stimuli, as indices of [`Program::stimuli`].
+    pub stimuli: Vec<usize>,
+    /// The spells.
+    pub schedule: Schedule,
+}
+
+/// A world with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedWorld {
+    /// What `world:` and `in` call it.
+    pub name: String,
+    /// How its physics differs from the paper's.
+    pub world: PhysicsWorld,
+}
+
+/// A declared library: the source of its robots, and the behaviors it is restricted to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LibrarySource {
+    /// What a swarm's `library:` calls it.
+    pub name: String,
+    /// The place of the declaration.
+    pub span: Span,
+    /// The source of the robots.
+    pub from: Origin,
+    /// The behaviors it is restricted to; `None` is all.
+    pub behaviors: Option<Vec<Behavior>>,
+}
+
+/// The source of a library's robots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The built-in library.
+    Shipped,
+    /// The archive of the evolution run of that name.
+    Evolution(String),
+    /// Robot files in a folder; the path starts from the same place as that of the source file which names it.
+    Folder(String),
+}
+
+/// A declared swarm: a circuit made of a library's robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swarm {
+    /// What `simulate` and `--swarm` call it.
+    pub name: String,
+    /// The place of the declaration.
+    pub span: Span,
+    /// The circuit that its robots compute, with parameters.
+    pub circuit: Instance,
+    /// The name of the library in [`Program::libraries`].
+    pub library: String,
+    /// The time for which each row of a test is held.
+    pub hold: Hold,
+    /// The number of cycles over which a robot's output is measured; the paper's is 1.
+    pub window: u32,
+    /// What its registers are made of.
+    pub registers: RegisterStyle,
+    /// The world in which it runs, unless a test or a simulation names another.
+    pub world: PhysicsWorld,
+}
+
+/// What registers are made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegisterStyle {
+    /// Two latches each, as written.
+    #[default]
+    MasterSlave,
+    /// One latch each, and a generator of pulses for all, where that is proved safe.
+    Pulsed,
+}
+
+/// The time for which inputs are held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hold {
+    /// Until every robot has settled, row by row.
+    #[default]
+    Auto,
+    /// That many cycles.
+    Cycles(u32),
+}
+
+/// A swarm under a schedule of its inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    /// The swarm's name in [`Program::swarms`].
+    pub swarm: String,
+    /// The place of the declaration.
+    pub span: Span,
+    /// The file in which it is declared.
+    pub file: String,
+    /// The line at which it is declared.
+    pub line: usize,
+    /// The input ports of the swarm's circuit.
+    pub inputs: Vec<Column>,
+    /// The spells in order of time.
+    pub spells: Vec<InputSpell>,
+    /// The world, if it is not the swarm's.
+    pub world: Option<PhysicsWorld>,
+}
+
+/// Inputs held for a while.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputSpell {
+    /// The input bits in order of the ports, the most significant bit of a port first.
+    pub inputs: Vec<bool>,
+    /// The notation of the values of the ports; empty if they come from a schedule of stimuli.
+    pub bases: Vec<Base>,
+    /// The duration in cycles.
+    pub cycles: u32,
+    /// The line in the source.
+    pub line: usize,
+}
+
+impl Program {
+    /// The circuit of that name.
+    pub fn circuit(&self, name: &str) -> Option<&Circuit> {
+        self.circuits.iter().find(|circuit| circuit.name == name)
+    }
+
+    /// The evolution run of that name.
+    pub fn evolution(&self, name: &str) -> Option<&Evolution> {
+        self.evolutions.iter().find(|evolution| evolution.name == name)
+    }
+
+    /// The library of that name.
+    pub fn library(&self, name: &str) -> Option<&LibrarySource> {
+        self.libraries.iter().find(|library| library.name == name)
+    }
+
+    /// The swarm of that name.
+    pub fn swarm(&self, name: &str) -> Option<&Swarm> {
+        self.swarms.iter().find(|swarm| swarm.name == name)
+    }
+
+    /// The schedule of that name.
+    pub fn schedule(&self, name: &str) -> Option<&NamedSchedule> {
+        self.schedules.iter().find(|schedule| schedule.name == name)
+    }
+}

@@ -1,0 +1,97 @@
+//! Tests of circuits: sequences of input rows with the outputs expected after each.
+
+use super::{Base, Circuit, Column, Instance, PhysicsWorld, Value};
+use crate::source::Span;
+
+/// A declared test, as bits. The source is needed for messages only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CircuitTest {
+    /// The tested circuit.
+    pub circuit: Instance,
+    /// The title; empty if there is none.
+    pub title: String,
+    /// The place of the declaration.
+    pub span: Span,
+    /// The file in which it is declared.
+    pub file: String,
+    /// The line at which it is declared.
+    pub line: usize,
+    /// The input ports in order of declaration, with their widths in bits.
+    pub inputs: Vec<Column>,
+    /// The output ports in order of declaration, with their widths in bits.
+    pub outputs: Vec<Column>,
+    /// The method of the test.
+    pub stimulation: Stimulation,
+    /// The world of its swarm, if the test names one.
+    pub world: Option<PhysicsWorld>,
+}
+
+/// The methods of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stimulation {
+    /// These rows one after another, without a reset between them.
+    Rows(Vec<TestRow>),
+    /// Every input pattern in counting order, against a circuit with the same ports.
+    All {
+        /// The reference circuit.
+        reference: Reference,
+    },
+}
+
+/// The circuit that a test compares with. A circuit written inside the test is not part of the program, because nothing
+/// else can name it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reference {
+    /// `against other`
+    Circuit(Instance),
+    /// `for all inputs { … }`, with the ports of the tested circuit.
+    Body(Box<Circuit>),
+}
+
+/// One row of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestRow {
+    /// The input bits in order of the ports, the most significant bit of a port first.
+    pub inputs: Vec<bool>,
+    /// The output bits likewise; `None` is not checked.
+    pub expected: Vec<Option<bool>>,
+    /// How the values of the input ports are written, then those of the output ports.
+    pub bases: Vec<Base>,
+    /// The hold of the row in cycles, if the row sets it.
+    pub hold: Option<u32>,
+    /// The place of the row.
+    pub span: Span,
+    /// The line of the row in its file, from 1.
+    pub line: usize,
+    /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
+    pub row: usize,
+}
+
+impl CircuitTest {
+    /// The names of the input bits in order: `e` for a port of one bit, `a[3]`, `a[2]`, … for a wider one.
+    pub fn input_bits(&self) -> Vec<String> {
+        self.inputs.iter().flat_map(Column::bits).collect()
+    }
+
+    /// The names of the output bits in order.
+    pub fn output_bits(&self) -> Vec<String> {
+        self.outputs.iter().flat_map(Column::bits).collect()
+    }
+}
+
+impl TestRow {
+    /// The values of the input ports.
+    pub fn input_values(&self, inputs: &[Column]) -> Vec<Value> {
+        Value::of_ports(inputs, self.inputs.iter().copied().map(Some), &self.bases)
+    }
+
+    /// The values of the output ports, in the notation of the row.
+    pub fn output_values(
+        &self,
+        inputs: &[Column],
+        outputs: &[Column],
+        bits: impl IntoIterator<Item = Option<bool>>,
+    ) -> Vec<Value> {
+        Value::of_ports(outputs, bits, self.bases.get(inputs.len()..).unwrap_or_default())
+    }
+}

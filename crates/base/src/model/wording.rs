@@ -1,0 +1,309 @@
+//! What can be wrong with bodies, materials and patterns, as data, and how it is worded.
+
+use std::error::Error;
+use std::fmt;
+
+/// The reason why rows of text are not a body.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BodyError {
+    /// No rows, or rows without columns.
+    Empty,
+    /// Rows of different width.
+    Ragged {
+        /// The row, from 1.
+        row: usize,
+        /// Its width.
+        found: usize,
+        /// The first row's width.
+        expected: usize,
+    },
+    /// A character that is not a material code of the palette.
+    UnknownCode {
+        /// The row, from 1.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The character found.
+        digit: char,
+        /// The highest valid code.
+        highest: char,
+    },
+    /// A number that is not a material code of the palette.
+    CodeRange {
+        /// The row, from 1.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The number found.
+        code: u8,
+        /// The highest valid code.
+        highest: u8,
+    },
+    /// More rows or columns than allowed.
+    TooLarge {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// The most rows or columns.
+        most: usize,
+    },
+}
+
+impl fmt::Display for BodyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => f.write_str("the body has no voxels"),
+            Self::Ragged { row, found, expected } => {
+                write!(f, "row {row} has {found} voxels, expected {expected} as in row 1")
+            }
+            Self::UnknownCode { row, column, digit, highest } => {
+                write!(f, "row {row}, column {column}: `{digit}` is not a material code; expected 0 to {highest}")
+            }
+            Self::CodeRange { row, column, code, highest } => {
+                write!(f, "row {row}, column {column}: {code} is not a material code; expected 0 to {highest}")
+            }
+            Self::TooLarge { width, height, most } => {
+                write!(f, "the body is {width} x {height}, expected at most {most} x {most}")
+            }
+        }
+    }
+}
+
+impl Error for BodyError {}
+
+/// The reason why materials are not a palette.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PaletteError {
+    /// No materials, or more than codes can name.
+    Size {
+        /// The number of materials.
+        found: usize,
+        /// The most materials.
+        most: usize,
+    },
+    /// Two materials of one name.
+    Twice(String),
+    /// A name that the language could not write.
+    Name(String),
+}
+
+impl fmt::Display for PaletteError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { found, most } => write!(f, "{found} materials, expected 1 to {most}"),
+            Self::Twice(name) => write!(f, "two materials are called `{name}`"),
+            Self::Name(name) => {
+                write!(f, "`{name}` is not the name of a material; expected a letter, then letters, digits and `_`")
+            }
+        }
+    }
+}
+
+impl Error for PaletteError {}
+
+/// The reason why fields are not a material.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialError {
+    /// A field that the kind needs is missing.
+    Missing {
+        /// The material's name.
+        material: String,
+        /// The field, as it is written in the language.
+        field: &'static str,
+    },
+    /// A field that this kind does not have.
+    Foreign {
+        /// The material's name.
+        material: String,
+        /// The field, as it is written in the language.
+        field: &'static str,
+    },
+    /// A number that a material cannot have.
+    OutOfRange {
+        /// The material's name.
+        material: String,
+        /// The field, as it is written in the language.
+        field: &'static str,
+        /// Its value.
+        found: String,
+        /// The valid values.
+        expected: MaterialNumber,
+    },
+}
+
+/// The valid values of a number of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaterialNumber {
+    /// A period in env steps.
+    Period {
+        /// The longest.
+        most: u32,
+    },
+    /// A phase in degrees.
+    Phase,
+    /// The smallest and the largest width.
+    Widths,
+    /// The number of a stimulus.
+    Stimulus {
+        /// The highest.
+        most: usize,
+    },
+    /// A width.
+    Width,
+}
+
+impl fmt::Display for MaterialNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Period { most } => write!(f, "1 to {most} env steps"),
+            Self::Phase => f.write_str("a finite number of degrees"),
+            Self::Widths => f.write_str("widths from 0.6 to 1.6, the smallest first"),
+            Self::Stimulus { most } => write!(f, "1 to {most}"),
+            Self::Width => f.write_str("a width from 0.6 to 1.6"),
+        }
+    }
+}
+
+impl fmt::Display for MaterialError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing { material, field } => write!(f, "the material `{material}` lacks the field `{field}`"),
+            Self::Foreign { material, field } => {
+                write!(f, "the material `{material}` cannot have the field `{field}`, because its kind has none")
+            }
+            Self::OutOfRange { material, field, found, expected } => {
+                write!(f, "the material `{material}` has `{field}: {found}`, expected {expected}")
+            }
+        }
+    }
+}
+
+impl Error for MaterialError {}
+
+/// A word that is not a behavior.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BehaviorError(pub(super) String);
+
+impl fmt::Display for BehaviorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` is not a behavior; expected four letters L or R such as `RRRL`", self.0)
+    }
+}
+
+impl Error for BehaviorError {}
+
+/// A text that is not a pattern.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PatternError {
+    /// Not a pattern of any number of stimuli.
+    Digits {
+        /// The text.
+        found: String,
+        /// The most stimuli.
+        most: usize,
+    },
+    /// Not a pattern of two stimuli.
+    Pair {
+        /// The text.
+        found: String,
+    },
+}
+
+impl fmt::Display for PatternError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Digits { found, most } => write!(
+                f,
+                "`{found}` is not a pattern; expected a digit 0 or 1 for each of at most {most} stimuli, such as `01`"
+            ),
+            Self::Pair { found } => write!(f, "`{found}` is not a pattern; expected 00, 01, 10 or 11"),
+        }
+    }
+}
+
+impl Error for PatternError {}
+
+/// The reason why a body cannot stand on a ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettingError {
+    /// A ground that is too wide.
+    WideWorld {
+        /// Its voxels.
+        width: usize,
+        /// The most voxels.
+        most: usize,
+    },
+    /// A ground narrower than the body.
+    NarrowWorld {
+        /// Its voxels.
+        width: usize,
+        /// The body's columns.
+        columns: usize,
+    },
+    /// A start beyond the ground.
+    OffGround {
+        /// The start column.
+        start: usize,
+        /// The last valid one.
+        most: usize,
+        /// The body's columns.
+        columns: usize,
+        /// The ground's voxels.
+        width: usize,
+    },
+}
+
+impl fmt::Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WideWorld { width, most } => {
+                write!(f, "the world width {width} is too large, expected at most {most}")
+            }
+            Self::NarrowWorld { width, columns } => {
+                write!(f, "the world width {width} is too small, expected at least the body's {columns}")
+            }
+            Self::OffGround { start, most, columns, width } => write!(
+                f,
+                "the start column {start} is off the ground, expected at most {most} for a body of width {columns} in \
+                 a world of {width}"
+            ),
+        }
+    }
+}
+
+impl Error for SettingError {}
+
+/// The reason why a text is not a variation of worlds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VariationError {
+    /// A part without `=`.
+    NoAmount(String),
+    /// A quantity that worlds do not have, and those that they have.
+    Unknown(String, &'static [&'static str]),
+    /// An amount that is not a number in its range.
+    Amount {
+        /// The quantity.
+        name: String,
+        /// The text.
+        found: String,
+        /// The largest amount.
+        most: f64,
+    },
+}
+
+impl fmt::Display for VariationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoAmount(part) => write!(f, "`{part}` has no amount; expected a change such as `friction=10%`"),
+            Self::Unknown(name, known) => {
+                write!(f, "`{name}` does not vary; expected `all`, `{}`", known.join("`, `"))
+            }
+            Self::Amount { name, found, most } => {
+                write!(f, "`{found}` is not an amount of `{name}`; expected a number from 0 to {most}, or percent")
+            }
+        }
+    }
+}
+
+impl Error for VariationError {}

@@ -1,0 +1,35 @@
+//! Places in the source.
+
+/// A file's number in [`super::Sources`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FileId(pub u32);
+
+/// A half-open range of bytes of one source file; twelve bytes, so that every node of a tree can carry one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// The file that has the bytes.
+    pub file: FileId,
+    /// The first byte.
+    pub start: u32,
+    /// The end: one past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The range `start..end` of `file`.
+    pub fn new(file: FileId, start: usize, end: usize) -> Self {
+        let narrow = |offset: usize| u32::try_from(offset).expect("source files are smaller than 4 GiB");
+        Self { file, start: narrow(start), end: narrow(end) }
+    }
+
+    /// The smallest span that covers `self` and `other`, which must be in the same file.
+    pub fn to(self, other: Self) -> Self {
+        assert_eq!(self.file, other.file, "a span covers one file only");
+        Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
+    }
+
+    /// The range of bytes, as an index of the file's text.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}

@@ -1,0 +1,186 @@
+//! Cell libraries: the functions for which there are robots, and the cost of each in robots and cycles.
+
+use std::collections::BTreeMap;
+
+use crate::{NetId, Netlist};
+use nbc_base::model::Function;
+
+/// The data of the robot that computes a function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellKind {
+    /// Its price; 1 counts robots.
+    pub cost: u32,
+    /// Cycles for which its inputs must be held so that its output is correct, for any earlier inputs.
+    pub clock: u32,
+    /// Cycles until the output is correct after a switch, `settle[from][to]`, with patterns numbered `2a + b`.
+    pub settle: [[u32; 4]; 4],
+    /// Smallest displacement in the correct direction at the end of a hold, in voxels per cycle.
+    pub margin: f64,
+    /// Whether its output may change for a while when its inputs switch, although it is to stay.
+    pub glitches: bool,
+}
+
+impl CellKind {
+    /// A kind without glitches whose output is correct `clock` cycles after every switch.
+    pub const fn uniform(clock: u32, margin: f64) -> Self {
+        Self { cost: 1, clock, settle: [[clock; 4]; 4], margin, glitches: false }
+    }
+
+    /// Cycles from a change of `pin` (0 or 1) to `value` until the output stays at `output`; none if that cannot
+    /// follow.
+    ///
+    /// The longest settle time of all transitions to this output, including those that start from it, because the
+    /// output may change in between.
+    pub fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
+        let bit = |pattern: usize| (if pin == 0 { pattern >> 1 } else { pattern }) & 1 == 1;
+        let ends = |to: usize| bit(to) == value && function.output(to >> 1 == 1, to & 1 == 1) == output;
+        let transitions = (0..4).flat_map(|from| (0..4).map(move |to| (from, to)));
+        transitions.filter(|&(from, to)| ends(to) && bit(from) != value).map(|(from, to)| self.settle[from][to]).max()
+    }
+}
+
+/// The available functions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CellLibrary {
+    kinds: BTreeMap<Function, CellKind>,
+}
+
+impl CellLibrary {
+    /// An empty library.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A library of these functions, every cell costing one robot and one cycle.
+    pub fn uniform(functions: impl IntoIterator<Item = Function>) -> Self {
+        functions.into_iter().map(|function| (function, CellKind::uniform(1, 1.0))).collect()
+    }
+
+    /// Adds or replaces the cell of a function.
+    pub fn insert(&mut self, function: Function, kind: CellKind) {
+        self.kinds.insert(function, kind);
+    }
+
+    /// The cell of a function.
+    pub fn get(&self, function: Function) -> Option<&CellKind> {
+        self.kinds.get(&function)
+    }
+
+    /// Whether there is a cell of that function.
+    pub fn contains(&self, function: Function) -> bool {
+        self.kinds.contains_key(&function)
+    }
+
+    /// The kind of each cell of a netlist; a cell of no kind takes one cycle.
+    pub fn kinds_of<'a>(&'a self, netlist: &'a Netlist) -> impl Fn(NetId) -> &'a CellKind {
+        const OTHER: CellKind = CellKind::uniform(1, 0.0);
+        move |id| netlist.cell(id).and_then(|cell| self.get(cell.function)).unwrap_or(&OTHER)
+    }
+
+    /// The functions in order of their bits.
+    pub fn functions(&self) -> impl Iterator<Item = Function> + '_ {
+        self.kinds.keys().copied()
+    }
+
+    /// The functions with their cells, in order of their bits.
+    pub fn kinds(&self) -> impl Iterator<Item = (Function, &CellKind)> {
+        self.kinds.iter().map(|(&function, kind)| (function, kind))
+    }
+
+    /// The cells whose margin is at least `margin`.
+    pub fn with_margin(&self, margin: f64) -> Self {
+        self.kinds().filter(|(_, kind)| kind.margin >= margin).map(|(f, kind)| (f, kind.clone())).collect()
+    }
+
+    /// Whether these cells and constants can make every boolean function.
+    pub fn is_complete(&self) -> bool {
+        self.reachable() == u16::MAX
+    }
+
+    /// The functions, each of which alone would make the library complete; empty if it is complete or one function is
+    /// not enough.
+    pub fn completions(&self) -> Vec<Function> {
+        if self.is_complete() {
+            return Vec::new();
+        }
+        let completes = |&function: &Function| {
+            let mut more = self.clone();
+            more.insert(function, CellKind::uniform(1, 1.0));
+            more.is_complete()
+        };
+        Function::all().filter(completes).collect()
+    }
+
+    /// The two-input functions that can be made, bit `f` for the function with bits `f`; constants are free stimuli.
+    pub fn reachable(&self) -> u16 {
+        let mut set = START;
+        loop {
+            let made = self.kinds.keys().fold(set, |set, &function| set | compositions(function, set));
+            if made == set {
+                return set;
+            }
+            set = made;
+        }
+    }
+}
+
+/// The functions at hand before any cell: both inputs and the constants.
+const START: u16 = 1 << 0b0000 | 1 << 0b1111 | 1 << 0b1100 | 1 << 0b1010;
+
+/// The function that one cell makes of two functions of a set.
+fn compositions(function: Function, set: u16) -> u16 {
+    let members = || (0..16u8).filter(move |f| set >> f & 1 == 1);
+    members().flat_map(|a| members().map(move |b| (a, b))).fold(0, |made, (a, b)| made | 1 << compose(function, a, b))
+}
+
+/// The bits of `function(a, b)`, for the bits `a` and `b` of two functions of the same inputs.
+pub fn compose(function: Function, a: u8, b: u8) -> u8 {
+    (0..4).fold(0, |bits, i| bits | u8::from(function.output(a >> i & 1 == 1, b >> i & 1 == 1)) << i)
+}
+
+impl FromIterator<(Function, CellKind)> for CellLibrary {
+    fn from_iter<I: IntoIterator<Item = (Function, CellKind)>>(kinds: I) -> Self {
+        Self { kinds: kinds.into_iter().collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn library(names: &str) -> CellLibrary {
+        CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
+    }
+
+    #[test]
+    fn completeness_counts_constants_as_free() {
+        assert!(library("nand").is_complete());
+        assert!(library("nor").is_complete());
+        assert!(library("a_and_notb").is_complete());
+        assert!(library("xor and").is_complete());
+        assert!(!library("xor xnor not").is_complete());
+        assert!(!library("and or").is_complete());
+        assert!(!library("not").is_complete());
+    }
+
+    #[test]
+    fn functions_that_complete_a_library_are_listed() {
+        let names = |cells| library(cells).completions().iter().map(|f| f.name()).collect::<Vec<_>>().join(" ");
+        assert_eq!(names("xor not"), "nor nota_and_b a_and_notb nand and nota_or_b a_or_notb or");
+        assert_eq!(
+            names("and or"),
+            "nor nota_and_b nota a_and_notb notb xor nand xnor nota_or_b a_or_notb".replace("nota ", "not ")
+        );
+        assert_eq!(names("nand"), "");
+    }
+
+    #[test]
+    fn settle_times_are_the_longest_of_all_transitions() {
+        let mut kind = CellKind::uniform(1, 1.0);
+        kind.settle[0b11][0b01] = 3;
+        // a falls, the output of a nand rises.
+        assert_eq!(kind.settle_time(Function::NAND, 0, false, true), Some(3));
+        assert_eq!(kind.settle_time(Function::NAND, 0, true, false), Some(1));
+        assert_eq!(kind.settle_time(Function::NAND, 0, false, false), None);
+    }
+}

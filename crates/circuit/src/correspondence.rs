@@ -1,0 +1,337 @@
+//! Registers that a design does not need: those that never change, those that always equal another, and those that no
+//! output depends on.
+//!
+//! Registers that agree in a simulation from the start form a class. Induction then proves the classes: if the
+//! registers of every class agree, so do their next values. A class for which this fails is split, until the proof
+//! holds. C. A. J. van Eijk, IEEE Transactions on Computer-Aided Design 19 (2000), 814-819.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::formats::{Design, RegisterKind};
+use crate::network::{Gate, Network, Signal, View};
+use crate::passes::{self, Pass, Sweep};
+use crate::proof::SatSweep;
+use crate::{NetId, Netlist, Node};
+
+/// Cycles of the simulation, of 64 runs at a time.
+const CYCLES: usize = 64;
+
+/// Counterexamples that split classes together.
+const LANES: usize = 64;
+
+/// The registers that a design does not need, by name.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Removed {
+    /// Registers that keep their start value, and that value.
+    pub constant: Vec<(String, bool)>,
+    /// Registers that always equal another, and that other.
+    pub equal: Vec<(String, String)>,
+    /// Registers that no output depends on.
+    pub unused: Vec<String>,
+}
+
+impl Removed {
+    /// Whether the design needs all its registers.
+    pub fn is_empty(&self) -> bool {
+        self.constant.is_empty() && self.equal.is_empty() && self.unused.is_empty()
+    }
+}
+
+/// The design without the registers that it does not need. A register without a start value starts at 0.
+///
+/// Registers that clock others stay, and so does every register of a design whose logic has feedback.
+pub fn reduce(design: &Design) -> (Design, Removed) {
+    let is_wire = |id| matches!(design.logic.node(id), Node::Wire { .. });
+    if design.registers.is_empty() || design.logic.ids().any(is_wire) {
+        return (design.clone(), Removed::default());
+    }
+    let Ok(view) = View::of(&design.logic, &[]) else { return (design.clone(), Removed::default()) };
+    let classes = Classes::of(design, &view.network);
+    let mut removed = classes.removed();
+    let mut reduced = classes.merged();
+    let simplify = |logic: &mut Netlist| passes::run(logic).expect("the view of the logic is complete");
+    simplify(&mut reduced.logic);
+    removed.unused = remove_unused(&mut reduced);
+    if removed.is_empty() {
+        return (design.clone(), removed);
+    }
+    simplify(&mut reduced.logic);
+    (reduced, removed)
+}
+
+/// Registers that agree.
+struct Classes<'d> {
+    design: &'d Design,
+    /// The logic of the design.
+    network: &'d Network,
+    /// The signal that represents each register: a constant, or the first register of its class.
+    leaders: Vec<Signal>,
+}
+
+/// What distinguishes registers: a constant or the leader before, the clock, and values.
+type Key<'d> = (Option<Signal>, Option<(u8, &'d str)>, Vec<u64>);
+
+impl<'d> Classes<'d> {
+    /// The classes for which the proof holds.
+    fn of(design: &'d Design, network: &'d Network) -> Self {
+        let mut classes = Self { design, network, leaders: Vec::new() };
+        let histories = classes.histories();
+        classes.split(|at| (None, histories[at].clone()));
+        loop {
+            let patterns = classes.counterexamples();
+            if patterns.is_empty() {
+                return classes;
+            }
+            let values = classes.next_values(&patterns);
+            let before = classes.leaders.clone();
+            classes.split(|at| (Some(before[at]), vec![values[at]]));
+        }
+    }
+
+    /// The signal of a register.
+    fn state(&self, at: usize) -> Signal {
+        self.network.input(self.design.inputs() + at)
+    }
+
+    /// The register that a signal shows, unless it is a constant.
+    fn register(&self, leader: Signal) -> Option<usize> {
+        (leader as usize).checked_sub(2 + self.design.inputs())
+    }
+
+    /// The signals of the next values in a network with the same outputs.
+    fn nexts<'n>(&self, network: &'n Network) -> &'n [Signal] {
+        &network.outputs[self.design.outputs()..]
+    }
+
+    /// The values of each register in a simulation from the start, 64 runs in a word.
+    fn histories(&self) -> Vec<Vec<u64>> {
+        let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_7461_7465);
+        let mut now: Vec<u64> = self.design.registers.iter().map(|register| filled(register.starts_at())).collect();
+        let mut histories: Vec<Vec<u64>> = now.iter().map(|&word| vec![word]).collect();
+        for _ in 0..CYCLES {
+            let mut ticks = BTreeMap::new();
+            let inputs: Vec<u64> = (0..self.design.inputs()).map(|_| random.next_u64()).chain(now.clone()).collect();
+            let values = self.network.simulate(&inputs);
+            for (at, register) in self.design.registers.iter().enumerate() {
+                let tick =
+                    *ticks.entry(event(register.kind, register.clock_name())).or_insert_with(|| random.next_u64());
+                let next = values[self.nexts(self.network)[at] as usize];
+                now[at] = next & tick | now[at] & !tick;
+                histories[at].push(now[at]);
+            }
+        }
+        histories
+    }
+
+    /// Puts registers into classes by what distinguishes them. Registers that keep one value in all words need not have
+    /// the same clock; registers that clock others are alone.
+    fn split(&mut self, keys: impl Fn(usize) -> (Option<Signal>, Vec<u64>)) {
+        let clocks: BTreeSet<&str> = self.design.registers.iter().map(|register| register.clock_name()).collect();
+        let mut known: BTreeMap<Key, Signal> = BTreeMap::new();
+        let mut leaders = Vec::new();
+        for (at, register) in self.design.registers.iter().enumerate() {
+            let (before, words) = keys(at);
+            let own = self.state(at);
+            let constant = [false, true].into_iter().find(|&value| words.iter().all(|&word| word == filled(value)));
+            let constant = constant.map(Signal::from).filter(|&signal| before.is_none_or(|before| before == signal));
+            leaders.push(match constant {
+                _ if clocks.contains(register.name.as_str()) => own,
+                Some(constant) => constant,
+                None => *known.entry((before, Some(event(register.kind, register.clock_name())), words)).or_insert(own),
+            });
+        }
+        self.leaders = leaders;
+    }
+
+    /// The logic if each register equals its leader.
+    fn assumed(&self) -> Network {
+        let first = self.network.input(0) as usize + self.design.inputs();
+        let leader = |signal: Signal| match (signal as usize).checked_sub(first) {
+            Some(at) if at < self.leaders.len() => self.leaders[at],
+            _ => signal,
+        };
+        let gate = |gate: &Gate| Gate { function: gate.function, pins: gate.pins.map(leader) };
+        Network {
+            inputs: self.network.inputs,
+            gates: self.network.gates.iter().map(gate).collect(),
+            outputs: self.network.outputs.iter().map(|&output| leader(output)).collect(),
+        }
+    }
+
+    /// Inputs and states in which registers equal their leaders, but some do not in the next cycle.
+    fn counterexamples(&self) -> Vec<Vec<bool>> {
+        let network = self.assumed();
+        let mut sweep = SatSweep::new(network.inputs);
+        let signals = sweep.add(&network);
+        let nexts = self.nexts(&network);
+        let followers = (0..self.leaders.len()).filter(|&at| self.leaders[at] != self.state(at));
+        let mut difference = |at: usize| {
+            let expected = self.register(self.leaders[at]).map_or(self.leaders[at], |leader| nexts[leader]);
+            sweep.difference(signals[expected as usize], signals[nexts[at] as usize])
+        };
+        followers.filter_map(&mut difference).take(LANES).collect()
+    }
+
+    /// The next value of each register in these patterns, one bit for each; the first pattern fills the bits left over.
+    fn next_values(&self, patterns: &[Vec<bool>]) -> Vec<u64> {
+        let network = self.assumed();
+        let lane = |lane: usize| patterns.get(lane).unwrap_or(&patterns[0]);
+        let word = |input: usize| (0..LANES).fold(0, |word, at| word | u64::from(lane(at)[input]) << at);
+        let values = network.simulate(&(0..network.inputs).map(word).collect::<Vec<_>>());
+        self.nexts(&network).iter().map(|&next| values[next as usize]).collect()
+    }
+
+    fn removed(&self) -> Removed {
+        let mut removed = Removed::default();
+        for (at, register) in self.design.registers.iter().enumerate() {
+            let name = register.name.clone();
+            match self.register(self.leaders[at]) {
+                None => removed.constant.push((name, self.leaders[at] == 1)),
+                Some(leader) if leader != at => {
+                    removed.equal.push((name, self.design.registers[leader].name.clone()));
+                }
+                Some(_) => {}
+            }
+        }
+        removed
+    }
+
+    /// The design in which leaders stand for their classes.
+    fn merged(&self) -> Design {
+        let mut design = self.design.clone();
+        let states = self.design.logic.inputs()[self.design.inputs()..].to_vec();
+        for (at, &state) in states.iter().enumerate().filter(|&(at, _)| self.leaders[at] != self.state(at)) {
+            let leader = match self.register(self.leaders[at]) {
+                None => design.logic.add_constant(self.leaders[at] == 1),
+                Some(leader) => {
+                    let start = design.registers[at].start;
+                    let leading = &mut design.registers[leader];
+                    leading.start = leading.start.or(start);
+                    states[leader]
+                }
+            };
+            for (listener, pin) in design.logic.fanout(state) {
+                design.logic.drive(listener, pin, leader);
+            }
+        }
+        let leads = |at: usize| self.leaders[at] == self.state(at);
+        keep(&mut design, &(0..states.len()).map(leads).collect::<Vec<_>>());
+        design
+    }
+}
+
+/// Removes the registers that no output and no clock depends on, and returns their names.
+fn remove_unused(design: &mut Design) -> Vec<String> {
+    let states = design.logic.inputs()[design.inputs()..].to_vec();
+    let nexts = design.logic.outputs()[design.outputs()..].to_vec();
+    let register_of: BTreeMap<NetId, usize> = states.iter().enumerate().map(|(at, &state)| (state, at)).collect();
+    let clocks: BTreeSet<&str> = design.registers.iter().map(|register| register.clock_name()).collect();
+    let is_clock = |at: &usize| clocks.contains(design.registers[*at].name.as_str());
+    let mut pending: Vec<NetId> = design.logic.outputs()[..design.outputs()].to_vec();
+    pending.extend((0..states.len()).filter(is_clock).map(|at| states[at]));
+    let mut used: BTreeSet<NetId> = pending.iter().copied().collect();
+    while let Some(id) = pending.pop() {
+        let next = register_of.get(&id).map(|&at| nexts[at]);
+        pending.extend(design.logic.pins(id).into_iter().chain(next).filter(|&pin| used.insert(pin)));
+    }
+    let kept: Vec<bool> = states.iter().map(|state| used.contains(state)).collect();
+    let names = design.registers.iter().zip(&kept).filter(|(_, kept)| !**kept);
+    let unused = names.map(|(register, _)| register.name.clone()).collect();
+    keep(design, &kept);
+    unused
+}
+
+/// Removes the other registers, whose values only their own next values depend on.
+fn keep(design: &mut Design, kept: &[bool]) {
+    let states = design.logic.inputs()[design.inputs()..].to_vec();
+    let nexts = design.logic.outputs()[design.outputs()..].to_vec();
+    let others = || (0..kept.len()).filter(|&at| !kept[at]);
+    others().for_each(|at| design.logic.remove(nexts[at]));
+    Sweep.run(&mut design.logic).expect("sweeping only removes");
+    others().for_each(|at| design.logic.remove(states[at]));
+    let mut at = 0..;
+    design.registers.retain(|_| at.next().is_some_and(|at| kept[at]));
+}
+
+/// When a register takes its next value.
+fn event(kind: RegisterKind, clock: &str) -> (u8, &str) {
+    (kind as u8, clock)
+}
+
+fn filled(value: bool) -> u64 {
+    if value { !0 } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::Register;
+    use nbc_base::model::Function;
+
+    /// A design with a register for each of these next values, functions of the input `d` or of an earlier or later
+    /// register; the output shows the last register.
+    fn machine(registers: &[(&str, Function, &str)]) -> Design {
+        let mut logic = Netlist::new("machine");
+        let input = logic.add_input("d");
+        let states: Vec<NetId> = registers.iter().map(|(name, ..)| logic.add_input(*name)).collect();
+        let place = |name: &str| registers.iter().position(|(known, ..)| *known == name);
+        let nexts: Vec<NetId> = registers
+            .iter()
+            .map(|(_, function, other)| {
+                let other = place(other).map_or(input, |at| states[at]);
+                logic.add_gate(*function, &[other, input])
+            })
+            .collect();
+        logic.add_output("q", *states.last().unwrap());
+        let register = |(name, ..): &(&str, Function, &str)| Register {
+            name: (*name).to_owned(),
+            kind: RegisterKind::Rising,
+            clock: None,
+            start: Some(false),
+        };
+        nexts.iter().for_each(|&next| _ = logic.add_output("next", next));
+        Design { logic, registers: registers.iter().map(register).collect() }
+    }
+
+    #[test]
+    fn registers_that_keep_their_value_are_constant() {
+        // Each is 0 while the other is.
+        let design = machine(&[("a", Function::AND, "b"), ("b", Function::AND, "a")]);
+        let (reduced, removed) = reduce(&design);
+        assert_eq!(removed.constant, [("a".to_owned(), false), ("b".to_owned(), false)]);
+        assert!(reduced.registers.is_empty() && reduced.logic.inputs().len() == 1);
+    }
+
+    #[test]
+    fn registers_that_agree_merge_though_each_reads_itself() {
+        let design = machine(&[("a", Function::XOR, "a"), ("b", Function::XOR, "b"), ("q", Function::XOR, "b")]);
+        let (reduced, removed) = reduce(&design);
+        let others = ["b", "q"].map(|name| (name.to_owned(), "a".to_owned()));
+        assert_eq!(removed.equal, others);
+        assert_eq!(reduced.registers.len(), 1);
+    }
+
+    #[test]
+    fn different_starts_clocks_and_edges_are_kept_apart() {
+        let mut design = machine(&[("a", Function::XOR, "a"), ("q", Function::XOR, "a")]);
+        design.registers[1].start = Some(true);
+        assert_eq!(reduce(&design).1, Removed::default());
+        design.registers[1].start = Some(false);
+        design.registers[1].kind = RegisterKind::Falling;
+        assert_eq!(reduce(&design).1, Removed::default());
+        design.registers[1].kind = RegisterKind::Rising;
+        design.registers[1].clock = Some("other".to_owned());
+        assert_eq!(reduce(&design).1, Removed::default());
+    }
+
+    #[test]
+    fn a_register_that_nothing_shows_is_unused_unless_it_clocks_another() {
+        let mut design = machine(&[("a", Function::XOR, "a"), ("q", Function::OR, "q")]);
+        assert_eq!(reduce(&design).1.unused, ["a"]);
+        design.registers[1].clock = Some("a".to_owned());
+        assert_eq!(reduce(&design).1, Removed::default());
+    }
+}

@@ -1,0 +1,99 @@
+//! A netlist whose cells each answer after their own number of cycles, as robots do: [`crate::Logic`] with
+//! delays.
+
+use std::collections::VecDeque;
+
+use crate::{Logic, NetId, Netlist, Node};
+use nbc_base::model::Function;
+
+/// A netlist without wires on its way through time.
+#[derive(Clone, Debug)]
+pub struct Delayed {
+    inputs: Vec<usize>,
+    outputs: Vec<usize>,
+    cells: Vec<DelayedCell>,
+    /// The values of all nets by slot in the last cycles, the latest first.
+    past: VecDeque<Vec<bool>>,
+}
+
+/// A cell with the slots of its pins; of one pin, both are that.
+#[derive(Clone, Copy, Debug)]
+struct DelayedCell {
+    function: Function,
+    pins: [usize; 2],
+    slot: usize,
+    delay: usize,
+}
+
+impl Delayed {
+    /// A netlist before its first cycle, in the same state as [`Logic::new`]; `delay` gives the cycles after which each
+    /// cell reacts.
+    ///
+    /// # Panics
+    /// When a delay is 0, or the netlist has wires.
+    pub fn new(netlist: &Netlist, mut delay: impl FnMut(NetId) -> usize) -> Self {
+        let before = Logic::new(netlist);
+        let slots = netlist.ids().map(|id| id.index() + 1).max().unwrap_or(0);
+        let mut start = vec![false; slots];
+        let mut cells = Vec::new();
+        for id in netlist.ids() {
+            match netlist.node(id) {
+                Node::Output(_) => {}
+                Node::Wire { name, .. } => panic!("wire `{name}` should have been dissolved"),
+                Node::Input(_) | Node::Constant(_) => start[id.index()] = before.value(id),
+                Node::Cell(cell) => {
+                    start[id.index()] = before.value(id);
+                    let pins = netlist.pins(id);
+                    let pins = [pins[0], pins[pins.len() - 1]].map(|pin| pin.index());
+                    cells.push(DelayedCell { function: cell.function, pins, slot: id.index(), delay: delay(id) });
+                }
+            }
+        }
+        let longest = cells.iter().map(|cell| cell.delay).max().unwrap_or(1);
+        assert!(cells.iter().all(|cell| cell.delay > 0), "a cell takes one cycle at least");
+        Self {
+            inputs: netlist.inputs().iter().map(|id| id.index()).collect(),
+            outputs: netlist.outputs().iter().map(|&id| netlist.pins(id)[0].index()).collect(),
+            cells,
+            past: std::iter::repeat_n(start, longest).collect(),
+        }
+    }
+
+    /// Holds the inputs, in order of the ports, for some cycles, and returns the outputs after them.
+    ///
+    /// # Panics
+    /// When there are not as many values as inputs.
+    pub fn run(&mut self, inputs: &[bool], cycles: usize) -> Vec<bool> {
+        assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
+        for _ in 0..cycles {
+            let mut now = self.past[0].clone();
+            self.inputs.iter().zip(inputs).for_each(|(&slot, &value)| now[slot] = value);
+            for cell in &self.cells {
+                let heard = &self.past[cell.delay - 1];
+                now[cell.slot] = cell.function.output(heard[cell.pins[0]], heard[cell.pins[1]]);
+            }
+            self.past.pop_back();
+            self.past.push_front(now);
+        }
+        self.outputs.iter().map(|&slot| self.past[0][slot]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_cell_switches_after_its_own_delay() {
+        let mut netlist = Netlist::new("two");
+        let a = netlist.add_input("a");
+        let slow = netlist.add_gate(Function::NOT, &[a]);
+        let fast = netlist.add_gate(Function::NOT, &[a]);
+        let both = netlist.add_gate(Function::XOR, &[slow, fast]);
+        netlist.add_output("q", both);
+        let mut delayed = Delayed::new(&netlist, |id| if id == slow { 3 } else { 1 });
+        // The fast inverter switches after one cycle, the slow one after three, and the output follows one cycle later.
+        let seen: Vec<_> = (0..6).map(|_| delayed.run(&[true], 1)[0]).collect();
+        assert_eq!(seen, [false, false, true, true, false, false]);
+    }
+}

@@ -1,0 +1,326 @@
+//! Builds modules, each once for each choice of parameters.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::elaborate::frame::{Item, Scope};
+use crate::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModuleSignal, NONE};
+use crate::elaborate::wording::{ElaborateError, shown_at, unknown_circuit};
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
+use nbc_base::source::Span;
+
+/// Everything built so far.
+pub(super) struct Builder<'a> {
+    pub(super) program: &'a Program,
+    /// References of tests, which are numbered after the program's circuits.
+    references: Vec<&'a Circuit>,
+    pub(super) modules: Vec<Module>,
+    /// The module of each circuit and its parameters; `None` if it is invalid or under construction.
+    known: BTreeMap<(CircuitId, Vec<i64>), Option<ModuleId>>,
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// The same as a set, to find duplicates quickly.
+    noted: BTreeSet<Diagnostic>,
+    depth: usize,
+    /// The modules whose loops were checked.
+    pub(super) inspected: Vec<bool>,
+}
+
+impl<'a> Builder<'a> {
+    pub(super) fn new(program: &'a Program) -> Self {
+        Self {
+            program,
+            references: Vec::new(),
+            modules: Vec::new(),
+            known: BTreeMap::new(),
+            diagnostics: Vec::new(),
+            noted: BTreeSet::new(),
+            depth: 0,
+            inspected: Vec::new(),
+        }
+    }
+
+    pub(super) fn module(&self, id: ModuleId) -> &Module {
+        &self.modules[id.0 as usize]
+    }
+
+    pub(super) fn circuit(&self, id: CircuitId) -> &'a Circuit {
+        let at = id.0 as usize;
+        self.program.circuits.get(at).unwrap_or_else(|| self.references[at - self.program.circuits.len()])
+    }
+
+    /// The module of a test's reference.
+    pub(super) fn reference(&mut self, circuit: &'a Circuit) -> Option<ModuleId> {
+        self.references.push(circuit);
+        self.with_defaults(CircuitId((self.program.circuits.len() + self.references.len() - 1) as u32))
+    }
+
+    /// Adds an error, unless it is a duplicate.
+    pub(super) fn fault(&mut self, fault: Diagnostic) {
+        if self.noted.insert(fault.clone()) {
+            self.diagnostics.push(fault);
+        }
+    }
+
+    /// Moves errors found since then in another file to `place`, where the circuit is used, because the user may not
+    /// know the file that declares it.
+    pub(super) fn show_at(&mut self, place: Span, known: usize) {
+        for fault in &mut self.diagnostics[known..] {
+            if fault.labels.first().is_some_and(|label| label.span.file != place.file) {
+                shown_at(fault, place);
+            }
+        }
+    }
+
+    /// The module of a circuit that is named from outside.
+    pub(super) fn instance(&mut self, instance: &Instance) -> Option<ModuleId> {
+        let Some(at) = self.program.circuits.iter().position(|circuit| circuit.name == instance.circuit) else {
+            self.fault(unknown(self.program, instance));
+            return None;
+        };
+        let circuit = CircuitId(at as u32);
+        self.with_arguments(circuit, &instance.arguments, self.circuit(circuit).span)
+    }
+
+    /// The module of a circuit with numbers for its first parameters; it is named at `place`.
+    pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<ModuleId> {
+        let mut given: Vec<_> = arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
+        given.resize(self.circuit(circuit).parameters.len(), None);
+        let arguments = self.arguments(circuit, given, &[], place)?;
+        self.build(circuit, arguments)
+    }
+
+    /// The module of a circuit whose parameters all have defaults.
+    pub(super) fn with_defaults(&mut self, circuit: CircuitId) -> Option<ModuleId> {
+        let parameters = &self.circuit(circuit).parameters;
+        if parameters.iter().any(|parameter| parameter.default.is_none()) {
+            return None;
+        }
+        let arguments = self.arguments(circuit, vec![None; parameters.len()], &[], self.circuit(circuit).span)?;
+        self.build(circuit, arguments)
+    }
+
+    /// The module of a circuit with these parameters.
+    pub(super) fn build(&mut self, circuit: CircuitId, arguments: Vec<i64>) -> Option<ModuleId> {
+        let key = (circuit, arguments);
+        if let Some(known) = self.known.get(&key) {
+            return *known;
+        }
+        if self.depth >= MAX_HIERARCHY {
+            self.fault(ElaborateError::TooDeep { most: MAX_HIERARCHY }.at(self.circuit(circuit).span));
+            return None;
+        }
+        self.known.insert(key.clone(), None);
+        self.depth += 1;
+        let module = ModuleBuilder::new(self, circuit).run(key.1.clone());
+        self.depth -= 1;
+        let id = module.map(|module| {
+            self.modules.push(module);
+            self.inspected.push(false);
+            ModuleId::new(self.modules.len() - 1)
+        });
+        self.known.insert(key, id);
+        id
+    }
+
+    /// The circuits of the program that were built, in the order of the program.
+    pub(super) fn instances(&self) -> impl Iterator<Item = Instance> + '_ {
+        let built = self
+            .known
+            .iter()
+            .filter(|((circuit, _), module)| module.is_some() && (circuit.0 as usize) < self.program.circuits.len());
+        built.filter_map(|((circuit, arguments), _)| {
+            let arguments = arguments.iter().map(|&value| u64::try_from(value).ok()).collect::<Option<_>>()?;
+            Some(Instance { circuit: self.circuit(*circuit).name.clone(), arguments })
+        })
+    }
+
+    /// The ports of a module, as columns of a test.
+    pub(super) fn columns(&self, id: ModuleId) -> (Vec<Column>, Vec<Column>) {
+        let module = self.module(id);
+        let circuit = self.circuit(module.circuit);
+        let column =
+            |(net, &width): (usize, &u32)| Column { name: circuit.nets[net].name.clone(), width: width as usize };
+        let inputs = module.inputs.iter().enumerate().map(column).collect();
+        let outputs =
+            module.outputs.iter().enumerate().map(|(at, width)| column((circuit.inputs + at, width))).collect();
+        (inputs, outputs)
+    }
+}
+
+/// A module that is being built.
+pub(super) struct ModuleBuilder<'a, 'b> {
+    pub(super) builder: &'b mut Builder<'a>,
+    pub(super) circuit: &'a Circuit,
+    pub(super) module: Module,
+    pub(super) frames: Vec<Scope>,
+    pub(super) items: Vec<Item<'a>>,
+    /// The constants 0 and 1, if they exist already.
+    pub(super) constants: [Bit; 2],
+    /// Circuits inside that have no name of their own.
+    pub(super) unnamed: usize,
+    /// Whether the module has an error and cannot be used.
+    pub(super) failed: bool,
+}
+
+impl<'a, 'b> ModuleBuilder<'a, 'b> {
+    fn new(builder: &'b mut Builder<'a>, id: CircuitId) -> Self {
+        let circuit = builder.circuit(id);
+        let module = Module {
+            circuit: id,
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            signals: Vec::new(),
+            nets: Vec::new(),
+            sites: Vec::new(),
+            starts: Vec::new(),
+            output_bits: Vec::new(),
+            cells: 0,
+            size: 0,
+        };
+        let (frames, items) = (Vec::new(), Vec::new());
+        Self { builder, circuit, module, frames, items, constants: [NONE; 2], unnamed: 0, failed: false }
+    }
+
+    fn run(mut self, arguments: Vec<i64>) -> Option<Module> {
+        self.unroll(arguments);
+        if self.failed {
+            return None;
+        }
+        self.ports()?;
+        self.infer_widths();
+        if self.failed {
+            return None;
+        }
+        for at in 0..self.items.len() {
+            self.item(at as u32);
+        }
+        self.undriven();
+        self.contradicting_starts();
+        self.total();
+        (!self.failed).then_some(self.module)
+    }
+
+    pub(super) fn fault(&mut self, fault: Diagnostic) {
+        self.failed |= fault.is_error();
+        self.builder.fault(fault);
+    }
+
+    fn ports(&mut self) -> Option<()> {
+        let ports = self.circuit.inputs + self.circuit.outputs;
+        let mut input = 0;
+        for net in 0..ports {
+            let width = match self.circuit.nets[net].width {
+                Some(size) => self.width(size, 0)?,
+                None => 1,
+            };
+            self.give_width(net, width);
+            let bits = self.module.nets[net].first..self.module.nets[net].first + width;
+            if net < self.circuit.inputs {
+                self.module.inputs.push(width);
+                for bit in bits {
+                    self.module.signals[bit as usize] = ModuleSignal::Input(input);
+                    input += 1;
+                }
+            } else {
+                self.module.outputs.push(width);
+                self.module.output_bits.extend(bits);
+            }
+        }
+        Some(())
+    }
+
+    /// Adds a net of this width.
+    pub(super) fn give_width(&mut self, net: usize, width: u32) {
+        let first = self.module.signals.len() as u32;
+        if u64::from(first) + u64::from(width) > MAX_NETS {
+            let span = self.module.nets[net].span;
+            self.fault(ElaborateError::TooManyNets.at(span));
+            return;
+        }
+        self.module.nets[net].width = Some(width);
+        self.module.nets[net].first = first;
+        let signal = |bit| ModuleSignal::Net { net: net as u32, bit, driver: NONE, by: 0 };
+        self.module.signals.extend((0..width).map(signal));
+    }
+
+    /// Declared widths of the nets inside, for each turn of each loop.
+    pub(super) fn declared_width(&mut self, slot: NetSlot, frame: u32) -> Option<u32> {
+        let size = self.circuit.nets[slot.0 as usize].width?;
+        self.width(size, frame)
+    }
+
+    fn undriven(&mut self) {
+        if self.failed {
+            // The error may be in the drivers.
+            return;
+        }
+        for net in self.circuit.inputs..self.module.nets.len() {
+            let ModuleNet { first, width, name, span } = &self.module.nets[net];
+            let bits = *first..first + width.unwrap_or(0);
+            let missing: Vec<_> = bits.filter(|&bit| !self.is_driven(bit)).map(|bit| bit - first).collect();
+            let span = *span;
+            if let Some(bits) = undriven_bits(name, &missing, width.unwrap_or(0)) {
+                self.fault(ElaborateError::Undriven { bits }.at(span));
+            }
+        }
+    }
+
+    fn is_driven(&self, bit: Bit) -> bool {
+        !matches!(self.module.signals[bit as usize], ModuleSignal::Net { driver: NONE, .. })
+    }
+
+    fn total(&mut self) {
+        let gates =
+            self.module.signals.iter().filter(|signal| matches!(signal, ModuleSignal::Gate { .. })).count() as u64;
+        let inside = |count: fn(&Module) -> u64| {
+            self.module.sites.iter().fold(0u64, |sum, site| sum.saturating_add(count(self.builder.module(site.module))))
+        };
+        let cells = gates.saturating_add(inside(|module| module.cells));
+        let size = (self.module.signals.len() as u64).saturating_add(inside(|module| module.size));
+        (self.module.cells, self.module.size) = (cells, size);
+        for (count, what, most) in [(cells, "cells", MAX_CELLS), (size, "nets", MAX_NETS)] {
+            if count > most {
+                let circuit = self.circuit.name.clone();
+                self.fault(ElaborateError::TooLarge { circuit, count, what, most }.at(self.circuit.span));
+                break;
+            }
+        }
+    }
+
+    /// The span of an expression.
+    pub(super) fn span(&self, expression: nbc_base::model::ExpressionId) -> Span {
+        self.circuit.expressions[expression.0 as usize].span
+    }
+}
+
+/// The bits that are missing of a net, as the user would write the first run of them.
+fn undriven_bits(name: &str, missing: &[u32], width: u32) -> Option<String> {
+    let (&first, rest) = missing.split_first()?;
+    let run = rest.iter().zip(first + 1..).take_while(|(bit, next)| *bit == next).count() as u32;
+    Some(match (first, run) {
+        (0, run) if run + 1 == width => name.to_owned(),
+        (bit, 0) => format!("{name}[{bit}]"),
+        (low, run) => format!("{name}[{}..{low}]", low + run),
+    })
+}
+
+/// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
+fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
+    let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
+    unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_bits_are_written_as_a_slice() {
+        assert_eq!(undriven_bits("a", &[], 4), None);
+        assert_eq!(undriven_bits("a", &[0], 1).unwrap(), "a");
+        assert_eq!(undriven_bits("a", &[0, 1, 2, 3], 4).unwrap(), "a");
+        assert_eq!(undriven_bits("a", &[2], 4).unwrap(), "a[2]");
+        assert_eq!(undriven_bits("a", &[1, 2, 5], 8).unwrap(), "a[2..1]");
+    }
+}

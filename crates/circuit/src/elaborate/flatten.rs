@@ -1,0 +1,193 @@
+//! Flattens a module: everything inside it becomes cells of one netlist, with names and start values.
+
+use crate::elaborate::build::Builder;
+use crate::elaborate::module::{ModuleId, ModuleSignal, NONE};
+use crate::elaborate::wording::ElaborateError;
+use crate::{Cell, NetId, Netlist};
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::Span;
+
+/// An instance of a module: the offset of its signals, and its name.
+struct Place {
+    module: ModuleId,
+    base: u32,
+    /// The signals that drive its inputs.
+    inputs: Vec<u32>,
+    prefix: String,
+}
+
+/// A signal that is an alias of another.
+const SELF: u32 = u32::MAX;
+
+/// The netlist of a module.
+pub(super) fn flatten(builder: &Builder<'_>, top: ModuleId, name: &str) -> Result<Netlist, Diagnostic> {
+    let places = places(builder, top);
+    let mut same = aliases(builder, &places);
+    resolve(&mut same).map_err(|at| self_driven(builder, &places, at))?;
+    let mut netlist = Netlist::new(name);
+    let mut nets = vec![None; same.len()];
+    add_inputs(builder, top, &mut netlist, &mut nets);
+    add_cells(builder, &places, &same, &mut netlist, &mut nets);
+    connect(builder, &places, &same, &mut netlist, &nets);
+    name_cells(builder, &places, &same, &mut netlist, &nets);
+    add_outputs(builder, top, &same, &mut netlist, &nets);
+    Ok(netlist)
+}
+
+/// The module and everything inside it, outer modules first.
+fn places(builder: &Builder<'_>, top: ModuleId) -> Vec<Place> {
+    let mut places = vec![Place { module: top, base: 0, inputs: Vec::new(), prefix: String::new() }];
+    let mut next = builder.module(top).signals.len() as u32;
+    let mut at = 0;
+    while at < places.len() {
+        let (module, base) = (builder.module(places[at].module), places[at].base);
+        for site in &module.sites {
+            let inputs = site.inputs.iter().map(|bit| base + bit).collect();
+            let prefix = format!("{}{}/", places[at].prefix, site.name);
+            places.push(Place { module: site.module, base: next, inputs, prefix });
+            next += builder.module(site.module).signals.len() as u32;
+        }
+        at += 1;
+    }
+    places
+}
+
+/// For each signal, the one it is an alias of, if any.
+fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<u32> {
+    let mut same = Vec::new();
+    // The instances inside an instance are adjacent, after those inside earlier instances.
+    let mut inside = 1;
+    for (at, place) in places.iter().enumerate() {
+        let module = builder.module(place.module);
+        same.extend(module.signals.iter().map(|signal| match *signal {
+            ModuleSignal::Input(_) if at == 0 => SELF,
+            ModuleSignal::Input(bit) => place.inputs[bit as usize],
+            ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => SELF,
+            ModuleSignal::Net { driver, .. } => place.base + driver,
+            ModuleSignal::Output { site, bit } => {
+                let inner = &places[inside + site as usize];
+                inner.base + builder.module(inner.module).output_bits[bit as usize]
+            }
+        }));
+        inside += module.sites.len();
+    }
+    same
+}
+
+/// Makes each signal point to its final driver, or returns one that drives itself.
+fn resolve(same: &mut [u32]) -> Result<(), usize> {
+    for start in 0..same.len() {
+        let mut end = start;
+        let mut steps = 0;
+        while same[end] != SELF {
+            end = same[end] as usize;
+            steps += 1;
+            if steps > same.len() {
+                return Err(start);
+            }
+        }
+        let mut at = start;
+        while at != end {
+            at = std::mem::replace(&mut same[at], end as u32) as usize;
+        }
+    }
+    for (at, end) in same.iter_mut().enumerate() {
+        if *end == SELF {
+            *end = at as u32;
+        }
+    }
+    Ok(())
+}
+
+/// The nets of the signals of a place that are named.
+fn named<'a>(builder: &'a Builder<'_>, place: &'a Place) -> impl Iterator<Item = (u32, String, Span)> + 'a {
+    let module = builder.module(place.module);
+    module.signals.iter().enumerate().filter_map(move |(at, signal)| {
+        let ModuleSignal::Net { net, bit, .. } = *signal else { return None };
+        let net = &module.nets[net as usize];
+        let bit = if net.width == Some(1) { String::new() } else { format!("[{bit}]") };
+        Some((place.base + at as u32, format!("{}{}{bit}", place.prefix, net.name), net.span))
+    })
+}
+
+fn self_driven(builder: &Builder<'_>, places: &[Place], at: usize) -> Diagnostic {
+    let place = places.iter().rev().find(|place| place.base as usize <= at).expect("every signal has its place");
+    // A signal that ends in a loop of names need not have a name itself; then the place's first net will do.
+    let nets: Vec<_> = named(builder, place).collect();
+    let (_, name, span) =
+        nets.iter().find(|net| net.0 as usize == at).or(nets.first()).expect("only nets drive themselves");
+    ElaborateError::DrivenByItself { net: name.clone() }.at(*span)
+}
+
+fn add_inputs(builder: &Builder<'_>, top: ModuleId, netlist: &mut Netlist, nets: &mut [Option<NetId>]) {
+    let module = builder.module(top);
+    let mut first = 0;
+    for (column, &width) in builder.columns(top).0.iter().zip(&module.inputs) {
+        for (name, bit) in column.bits().into_iter().zip((0..width).rev()) {
+            nets[(first + bit) as usize] = Some(netlist.add_input(name));
+        }
+        first += width;
+    }
+}
+
+fn add_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut Netlist, nets: &mut [Option<NetId>]) {
+    let mut constants = [None; 2];
+    for place in places {
+        for (signal, at) in builder.module(place.module).signals.iter().zip(place.base as usize..) {
+            if same[at] as usize != at {
+                continue;
+            }
+            nets[at] = match *signal {
+                ModuleSignal::Gate { function, span, .. } => {
+                    Some(netlist.add_loose_cell(Cell { function, name: None, start: None, span: Some(span) }))
+                }
+                ModuleSignal::Constant(value) => {
+                    Some(*constants[usize::from(value)].get_or_insert_with(|| netlist.add_constant(value)))
+                }
+                _ => nets[at],
+            };
+        }
+    }
+}
+
+fn connect(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
+    let driver = |bit: u32| nets[same[bit as usize] as usize].expect("every signal ends in a net");
+    for place in places {
+        for (signal, at) in builder.module(place.module).signals.iter().zip(place.base as usize..) {
+            let ModuleSignal::Gate { pins, .. } = *signal else { continue };
+            let cell = nets[at].expect("every gate is a cell");
+            for (pin, bit) in pins.into_iter().enumerate().filter(|(_, bit)| *bit != NONE) {
+                netlist.connect(cell, pin as u8, driver(place.base + bit));
+            }
+        }
+    }
+}
+
+/// Cells are called as the outermost net that they drive, and begin with its start value.
+fn name_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
+    let net = |signal: u32| nets[same[signal as usize] as usize].expect("every signal ends in a net");
+    for place in places {
+        for (signal, name, _) in named(builder, place) {
+            if let Some(cell) = netlist.cell_mut(net(signal)) {
+                cell.name.get_or_insert(name);
+            }
+        }
+        for &(bit, start) in &builder.module(place.module).starts {
+            if let Some(cell) = netlist.cell_mut(net(place.base + bit)) {
+                cell.start.get_or_insert(start);
+            }
+        }
+    }
+}
+
+fn add_outputs(builder: &Builder<'_>, top: ModuleId, same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
+    let module = builder.module(top);
+    let mut first = 0;
+    for (column, &width) in builder.columns(top).1.iter().zip(&module.outputs) {
+        for (name, bit) in column.bits().into_iter().zip((0..width).rev()) {
+            let signal = module.output_bits[(first + bit) as usize];
+            netlist.add_output(name, nets[same[signal as usize] as usize].expect("every signal ends in a net"));
+        }
+        first += width;
+    }
+}

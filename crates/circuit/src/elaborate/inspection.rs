@@ -1,0 +1,48 @@
+//! What is known of circuits that were built.
+
+use crate::elaborate::build::Builder;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::Instance;
+use nbc_base::source::Span;
+
+/// What building circuits found.
+#[derive(Clone, Debug, Default)]
+pub struct Inspection {
+    /// Everything that is wrong, once each.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The widths of the nets of each circuit that was built.
+    pub widths: NetWidths,
+    /// The circuits that were built without errors, with the values of their parameters.
+    pub instances: Vec<Instance>,
+}
+
+impl Inspection {
+    pub(super) fn of(builder: Builder<'_>) -> Self {
+        let nets = builder.modules.iter().flat_map(|module| &module.nets);
+        let widths = NetWidths::new(nets.filter_map(|net| Some((net.span, net.width?))));
+        let instances = builder.instances().collect();
+        Self { diagnostics: builder.diagnostics, widths, instances }
+    }
+}
+
+/// The widths of nets, by the places of their declarations. A net of a circuit with parameters may have several.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NetWidths {
+    /// In order of place.
+    list: Vec<(Span, u32)>,
+}
+
+impl NetWidths {
+    fn new(widths: impl Iterator<Item = (Span, u32)>) -> Self {
+        let mut list: Vec<_> = widths.collect();
+        list.sort_unstable();
+        list.dedup();
+        Self { list }
+    }
+
+    /// The widths of a net, in order; none if its circuit was not built.
+    pub fn of(&self, declared: Span) -> impl Iterator<Item = u32> + '_ {
+        let start = self.list.partition_point(|(place, _)| *place < declared);
+        self.list[start..].iter().take_while(move |(place, _)| *place == declared).map(|(_, width)| *width)
+    }
+}

@@ -1,0 +1,65 @@
+//! Parameters of a call: given, inferred from the widths of the operands, or by default.
+
+use crate::elaborate::build::Builder;
+use crate::elaborate::size;
+use crate::elaborate::wording::ElaborateError;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Circuit, CircuitId, SizeKind};
+use nbc_base::source::Span;
+
+impl Builder<'_> {
+    /// A value for each parameter; reports an error.
+    pub(super) fn arguments(
+        &mut self,
+        circuit: CircuitId,
+        given: Vec<Option<i64>>,
+        operands: &[Option<u32>],
+        span: Span,
+    ) -> Option<Vec<i64>> {
+        match arguments(self.circuit(circuit), given, operands, span) {
+            Ok(arguments) => Some(arguments),
+            Err(fault) => {
+                self.fault(fault);
+                None
+            }
+        }
+    }
+}
+
+/// A value for each parameter.
+pub(super) fn arguments(
+    circuit: &Circuit,
+    mut given: Vec<Option<i64>>,
+    operands: &[Option<u32>],
+    span: Span,
+) -> Result<Vec<i64>, Diagnostic> {
+    for (net, width) in circuit.nets.iter().zip(operands) {
+        let kind = net.width.map(|size| circuit.sizes[size.0 as usize].kind);
+        if let (Some(SizeKind::Variable(slot)), Some(width)) = (kind, width) {
+            given[slot as usize].get_or_insert(i64::from(*width));
+        }
+    }
+    let mut values = Vec::new();
+    for (parameter, given) in circuit.parameters.iter().zip(given) {
+        let value = match (given, parameter.default) {
+            (Some(value), _) => value,
+            (None, Some(default)) => size::value(&circuit.sizes, default, &values)?,
+            (None, None) => {
+                let (circuit, parameter) = (circuit.name.clone(), parameter.name.clone());
+                return Err(ElaborateError::UnknownParameter { circuit, parameter }.at(span));
+            }
+        };
+        values.push(value);
+    }
+    Ok(values)
+}
+
+/// The widths of the output ports of a circuit with these parameters.
+pub(super) fn output_widths(circuit: &Circuit, arguments: &[i64]) -> Option<Vec<u32>> {
+    let ports = &circuit.nets[circuit.inputs..circuit.inputs + circuit.outputs];
+    let width = |net: &nbc_base::model::Net| match net.width {
+        Some(width) => size::value(&circuit.sizes, width, arguments).ok().and_then(|width| u32::try_from(width).ok()),
+        None => Some(1),
+    };
+    ports.iter().map(width).collect()
+}

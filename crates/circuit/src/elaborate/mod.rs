@@ -1,0 +1,142 @@
+//! Elaboration: from a checked circuit to a netlist. Each circuit is built once for each choice of its parameters, as a
+//! [`Module`]; a netlist is a flattened module. The structure of the source is kept: a `not` is a cell, and a loop
+//! stays as it is.
+//!
+//! Widths, bits and parameters are computed here, so their errors are found here too; [`inspect`] only finds errors.
+
+mod build;
+mod dense;
+mod emit;
+mod flatten;
+mod frame;
+mod inspection;
+mod instance;
+mod limits;
+mod loops;
+mod module;
+mod size;
+mod starts;
+mod table;
+mod unroll;
+mod width;
+mod wording;
+
+pub use inspection::{Inspection, NetWidths};
+pub use limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, MAX_STATEMENTS, MAX_WIDTH};
+
+use crate::Netlist;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Circuit, CircuitId, Column, Instance, Program, Reference};
+use nbc_base::source::Span;
+
+use build::Builder;
+use module::ModuleId;
+
+/// The netlist of a circuit.
+///
+/// # Errors
+/// The errors of the circuit and of those it contains: widths, bits, drivers, size.
+pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
+    let mut builder = Builder::new(program);
+    let module = builder.instance(instance);
+    finish(builder, module, &instance.to_string())
+}
+
+/// The part of a circuit's netlist that drives a net: its outputs are the bits of the net declared at `net`, in every
+/// iteration of the loops around it. The rest is there too, without a listener.
+///
+/// # Errors
+/// As [`elaborate`].
+pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Result<Netlist, Vec<Diagnostic>> {
+    let mut builder = Builder::new(program);
+    let module = builder.instance(instance);
+    if let Some(ModuleId(at)) = module {
+        builder.modules[at as usize].show(net);
+    }
+    finish(builder, module, &instance.to_string())
+}
+
+/// The netlist of a test's reference.
+///
+/// # Errors
+/// As [`elaborate`].
+pub fn elaborate_reference(program: &Program, reference: &Reference) -> Result<Netlist, Vec<Diagnostic>> {
+    let circuit = match reference {
+        Reference::Circuit(instance) => return elaborate(program, instance),
+        Reference::Body(circuit) => circuit,
+    };
+    let mut builder = Builder::new(program);
+    let module = builder.reference(circuit);
+    finish(builder, module, &circuit.name)
+}
+
+/// Whether two instances are the same circuit with the same parameters, given or by default.
+pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> bool {
+    let complete = |instance: &Instance| {
+        let circuit = program.circuit(&instance.circuit)?;
+        let mut given: Vec<_> = instance.arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
+        given.resize(circuit.parameters.len(), None);
+        instance::arguments(circuit, given, &[], circuit.span).ok()
+    };
+    one == other || (one.circuit == other.circuit && complete(one).is_some_and(|all| Some(all) == complete(other)))
+}
+
+/// The netlist of a module, if it has no errors.
+fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Result<Netlist, Vec<Diagnostic>> {
+    let netlist = module.and_then(|module| match flatten::flatten(&builder, module, name) {
+        Ok(netlist) => Some(netlist),
+        Err(fault) => {
+            builder.diagnostics.push(fault);
+            None
+        }
+    });
+    match netlist {
+        Some(netlist) if builder.diagnostics.iter().all(|diagnostic| !diagnostic.is_error()) => Ok(netlist),
+        _ => Err(builder.diagnostics.into_iter().filter(Diagnostic::is_error).collect()),
+    }
+}
+
+/// Builds circuits only to find their errors.
+pub struct Inspector<'a>(Builder<'a>);
+
+impl<'a> Inspector<'a> {
+    /// No circuit checked yet.
+    pub fn new(program: &'a Program) -> Self {
+        Self(Builder::new(program))
+    }
+
+    /// Checks a circuit without parameters, or with their defaults.
+    pub fn inspect(&mut self, circuit: CircuitId) {
+        if let Some(module) = self.0.with_defaults(circuit) {
+            self.0.look_for_loops(module);
+        }
+    }
+
+    /// Looks at the reference of a test.
+    pub fn inspect_body(&mut self, circuit: &'a Circuit) {
+        if let Some(module) = self.0.reference(circuit) {
+            self.0.look_for_loops(module);
+        }
+    }
+
+    /// The input and output ports of a circuit with numbers for its first parameters, if it can be built; it is named
+    /// at `place`.
+    pub fn ports(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<(Vec<Column>, Vec<Column>)> {
+        let known = self.0.diagnostics.len();
+        let module = self.0.with_arguments(circuit, arguments, place);
+        self.0.show_at(place, known);
+        let module = module?;
+        self.0.look_for_loops(module);
+        Some(self.0.columns(module))
+    }
+
+    /// Whether a circuit with numbers for its first parameters has memory, if it can be built.
+    pub fn has_memory(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> bool {
+        self.0.with_arguments(circuit, arguments, place).is_some_and(|module| self.0.has_memory(module))
+    }
+
+    /// Everything found.
+    pub fn finish(self) -> Inspection {
+        Inspection::of(self.0)
+    }
+}

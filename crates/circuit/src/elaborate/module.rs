@@ -1,0 +1,92 @@
+//! A circuit with values for its parameters, built: bits with their drivers, and the circuits inside it.
+
+use nbc_base::model::{CircuitId, Function};
+use nbc_base::source::Span;
+
+/// The place of a module in the builder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct ModuleId(pub(super) u32);
+
+impl ModuleId {
+    /// The identity of the module at this index.
+    pub(super) fn new(at: usize) -> Self {
+        Self(u32::try_from(at).expect("fewer than 2^32 modules"))
+    }
+}
+
+/// One bit inside a module: the place of its signal.
+pub(super) type Bit = u32;
+
+/// No bit.
+pub(super) const NONE: Bit = Bit::MAX;
+
+/// The source of a bit.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ModuleSignal {
+    /// An input bit of the module, counted over the ports in order, the lowest bit of a port first.
+    Input(u32),
+    /// Always the same.
+    Constant(bool),
+    /// A gate; of one input, the second pin is [`NONE`].
+    Gate { function: Function, pins: [Bit; 2], span: Span },
+    /// A bit of a net, driven by another bit: [`NONE`] until the statement `by` drives it.
+    Net { net: u32, bit: u32, driver: Bit, by: u32 },
+    /// An output bit of a circuit inside.
+    Output { site: u32, bit: u32 },
+}
+
+/// A circuit inside a module.
+#[derive(Clone, Debug)]
+pub(super) struct Site {
+    pub(super) module: ModuleId,
+    /// Its input bits, as [`ModuleSignal::Input`] counts them.
+    pub(super) inputs: Vec<Bit>,
+    pub(super) name: String,
+}
+
+/// A net of a module.
+#[derive(Clone, Debug)]
+pub(super) struct ModuleNet {
+    pub(super) name: String,
+    pub(super) span: Span,
+    /// Its bits; `None` until its width is known.
+    pub(super) width: Option<u32>,
+    /// The signal of its lowest bit.
+    pub(super) first: Bit,
+}
+
+/// A circuit with values for its parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Module {
+    pub(super) circuit: CircuitId,
+    pub(super) inputs: Vec<u32>,
+    pub(super) outputs: Vec<u32>,
+    pub(super) signals: Vec<ModuleSignal>,
+    /// The nets: input ports, output ports, others.
+    pub(super) nets: Vec<ModuleNet>,
+    pub(super) sites: Vec<Site>,
+    /// Values before the first cycle, in order of the bits.
+    pub(super) starts: Vec<(Bit, bool)>,
+    /// The output bits, over the ports in order, the lowest bit of a port first.
+    pub(super) output_bits: Vec<Bit>,
+    /// Gates, including those of the circuits inside.
+    pub(super) cells: u64,
+    /// Signals, including those of the circuits inside.
+    pub(super) size: u64,
+}
+
+impl Module {
+    /// The value of a bit before the first cycle, if it is given.
+    pub(super) fn start(&self, bit: Bit) -> Option<bool> {
+        let at = self.starts.binary_search_by_key(&bit, |(bit, _)| *bit).ok()?;
+        Some(self.starts[at].1)
+    }
+
+    /// Makes the nets declared at a place its output.
+    pub(super) fn show(&mut self, declared: Span) {
+        let shown = self.nets.iter().filter(|net| net.span == declared);
+        let bits = shown.flat_map(|net| net.first..net.first + net.width.unwrap_or_default());
+        self.output_bits = bits.collect();
+        self.outputs = vec![self.output_bits.len() as u32];
+    }
+}

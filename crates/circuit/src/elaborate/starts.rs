@@ -1,0 +1,72 @@
+//! Start values: which modules have memory, and nets whose start value is not that of the memory that drives them.
+
+use crate::elaborate::build::{Builder, ModuleBuilder};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleSignal, NONE};
+use crate::elaborate::wording::ElaborateError;
+
+impl Builder<'_> {
+    /// Whether a module or a circuit inside it has a start value.
+    pub(super) fn has_memory(&self, top: ModuleId) -> bool {
+        let mut seen = vec![false; self.modules.len()];
+        let mut open = vec![top];
+        while let Some(id) = open.pop() {
+            let module = self.module(id);
+            if !module.starts.is_empty() {
+                return true;
+            }
+            if !std::mem::replace(&mut seen[id.0 as usize], true) {
+                open.extend(module.sites.iter().map(|site| site.module));
+            }
+        }
+        false
+    }
+
+    /// The start value of the net that a bit of a module stands for, through nets and outputs of circuits inside.
+    fn start_of(&self, module: &Module, bit: Bit) -> Option<bool> {
+        let (mut module, mut at, mut nets) = (module, bit, 0);
+        // A net that is driven by itself has an error of its own.
+        while nets <= module.signals.len() {
+            nets += 1;
+            match module.signals[at as usize] {
+                ModuleSignal::Net { driver, .. } => match module.start(at) {
+                    Some(start) => return Some(start),
+                    None if driver == NONE => return None,
+                    None => at = driver,
+                },
+                ModuleSignal::Output { site, bit } => {
+                    module = self.module(module.sites[site as usize].module);
+                    (at, nets) = (module.output_bits[bit as usize], 0);
+                }
+                ModuleSignal::Input(_) | ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => return None,
+            }
+        }
+        None
+    }
+}
+
+impl ModuleBuilder<'_, '_> {
+    /// Reports nets with another start value than the memory that drives them: they cannot have both.
+    pub(super) fn contradicting_starts(&mut self) {
+        self.module.starts.sort_unstable();
+        let contradicts = |&&(bit, start): &&(Bit, bool)| match self.module.signals[bit as usize] {
+            ModuleSignal::Net { driver, .. } if driver != NONE => {
+                self.builder.start_of(&self.module, driver).is_some_and(|own| own != start)
+            }
+            _ => false,
+        };
+        let mut items: Vec<u32> = Vec::new();
+        for &(bit, _) in self.module.starts.iter().filter(contradicts) {
+            if let ModuleSignal::Net { by, .. } = self.module.signals[bit as usize] {
+                items.push(by);
+            }
+        }
+        items.dedup();
+        for item in items {
+            let target = self.items[item as usize].targets.iter().find(|target| target.start.is_some());
+            if let Some((target, net)) = target.and_then(|target| Some((target, target.net?))) {
+                let net = self.circuit.nets[net.0 as usize].name.clone();
+                self.fault(ElaborateError::OtherStart { net }.at(target.span));
+            }
+        }
+    }
+}

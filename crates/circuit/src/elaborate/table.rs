@@ -1,0 +1,159 @@
+//! Truth tables to gates.
+
+use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::dense::{Dense, Shape};
+use crate::elaborate::module::{Bit, NONE};
+use crate::elaborate::wording::{ElaborateError, OperandText, WidthError};
+use nbc_base::model::{ExpressionId, Function, OutputValue, Table, TableOutput, TableRow};
+use nbc_base::source::Span;
+
+/// Tables with more input bits are built row by row, not decomposed.
+const MAX_DENSE_BITS: usize = 12;
+
+/// One bit of an output.
+#[derive(Clone, Copy)]
+enum OutputBit {
+    /// A value, or a bit that the compiler chooses.
+    Fixed(Option<bool>),
+    /// A net.
+    Net(Bit),
+}
+
+impl OutputBit {
+    fn fixed(self) -> Option<Option<bool>> {
+        match self {
+            Self::Fixed(value) => Some(value),
+            Self::Net(_) => None,
+        }
+    }
+}
+
+/// The outputs of a table that are expressions, and their values.
+#[derive(Clone, Copy)]
+pub(super) struct TableValues<'a> {
+    pub(super) expressions: &'a [ExpressionId],
+    pub(super) bits: &'a [Vec<Bit>],
+}
+
+impl ModuleBuilder<'_, '_> {
+    /// The outputs of a table for these input bits, the lowest first.
+    pub(super) fn table(&mut self, table: &Table, inputs: &[Bit], values: TableValues) -> Option<Vec<Bit>> {
+        if let Some(row) = table.rows.iter().find(|row| row.pattern.len() != inputs.len()) {
+            let error = ElaborateError::PatternWidth { found: row.pattern.len(), expected: inputs.len() };
+            self.fault(error.at(row.span));
+            return None;
+        }
+        let outputs: Vec<Vec<OutputBit>> = table.outputs().map(|output| self.output_bits(output, values)).collect();
+        let width = outputs.first()?.len();
+        if let Some(at) = outputs.iter().position(|output| output.len() != width) {
+            let mut texts = table.outputs().zip(&outputs).map(|(output, bits)| self.output_text(output, bits, values));
+            let (first, second) = (texts.next()?, texts.nth(at - 1)?);
+            self.fault(WidthError::Outputs { first, second }.into());
+            return None;
+        }
+        let column = |bit: usize| outputs.iter().map(|output| output[bit]).collect::<Vec<_>>();
+        let columns: Vec<_> = (0..width).map(column).collect();
+        Some(columns.iter().map(|column| self.table_bit(table, inputs, column)).collect())
+    }
+
+    /// The bits of an output, the lowest first.
+    fn output_bits(&self, output: &TableOutput, values: TableValues) -> Vec<OutputBit> {
+        let value = |bit| match [false, true].into_iter().find(|&value| self.is_constant(bit, value)) {
+            Some(value) => OutputBit::Fixed(Some(value)),
+            None => OutputBit::Net(bit),
+        };
+        match &output.value {
+            OutputValue::Bits(bits) => bits.iter().rev().map(|&bit| OutputBit::Fixed(bit)).collect(),
+            OutputValue::Expression(index) => values.bits[*index].iter().map(|&bit| value(bit)).collect(),
+        }
+    }
+
+    /// An output for a message about its width.
+    fn output_text(&self, output: &TableOutput, bits: &[OutputBit], values: TableValues) -> OperandText {
+        match output.value {
+            OutputValue::Bits(_) => {
+                OperandText { width: bits.len() as u32, span: output.span, net: None, constant: None }
+            }
+            OutputValue::Expression(index) => self.operand(values.expressions[index], &values.bits[index]),
+        }
+    }
+
+    /// One bit of the outputs: in each row, and for the other patterns if there is an `else`.
+    fn table_bit(&mut self, table: &Table, inputs: &[Bit], column: &[OutputBit]) -> Bit {
+        let (rows, otherwise) = column.split_at(table.rows.len());
+        let otherwise = otherwise.first().copied().unwrap_or(OutputBit::Fixed(None));
+        let fixed: Option<Vec<_>> = rows.iter().map(|bit| bit.fixed()).collect();
+        if let (Some(rows), Some(otherwise), true) = (fixed, otherwise.fixed(), inputs.len() <= MAX_DENSE_BITS) {
+            let dense = Dense::of(table, inputs.len(), &rows, otherwise);
+            return self.shape(&dense.shape(), inputs, table.span);
+        }
+        let mut terms = Vec::new();
+        for (row, &bit) in table.rows.iter().zip(rows) {
+            terms.extend(self.row_bit(bit, |builder| builder.term(row, inputs, table.span), table.span));
+        }
+        terms.extend(self.row_bit(otherwise, |builder| builder.no_row(table, inputs), table.span));
+        self.join(Function::OR, terms, false, table.span)
+    }
+
+    /// An output bit if the inputs match, else 0; `None` if it is always 0.
+    fn row_bit(&mut self, bit: OutputBit, matches: impl FnOnce(&mut Self) -> Bit, span: Span) -> Option<Bit> {
+        match bit {
+            OutputBit::Fixed(Some(true)) => Some(matches(self)),
+            OutputBit::Fixed(_) => None,
+            OutputBit::Net(bit) => {
+                let matched = matches(self);
+                Some(self.gate(Function::AND, [matched, bit], span))
+            }
+        }
+    }
+
+    /// Whether the inputs match no row.
+    fn no_row(&mut self, table: &Table, inputs: &[Bit]) -> Bit {
+        let terms = table.rows.iter().map(|row| self.term(row, inputs, table.span)).collect();
+        let any = self.join(Function::OR, terms, false, table.span);
+        self.gate(Function::NOT, [any, NONE], table.span)
+    }
+
+    /// Whether the inputs match a row.
+    fn term(&mut self, row: &TableRow, inputs: &[Bit], span: Span) -> Bit {
+        let mut literals = Vec::new();
+        for (value, &input) in row.pattern.iter().rev().zip(inputs) {
+            match value {
+                Some(true) => literals.push(input),
+                Some(false) => literals.push(self.gate(Function::NOT, [input, NONE], span)),
+                None => {}
+            }
+        }
+        self.join(Function::AND, literals, true, span)
+    }
+
+    /// Combines all of them by one function, in a balanced tree; `empty` if there are none.
+    fn join(&mut self, function: Function, mut bits: Vec<Bit>, empty: bool, span: Span) -> Bit {
+        while bits.len() > 1 {
+            let pair = |pair: &[Bit]| match *pair {
+                [a, b] => self.gate(function, [a, b], span),
+                _ => pair[0],
+            };
+            bits = bits.chunks(2).map(pair).collect();
+        }
+        bits.first().copied().unwrap_or_else(|| self.constant(empty))
+    }
+
+    /// The gates of a decomposed function; a part that occurs twice is built once.
+    fn shape(&mut self, shape: &[Shape], inputs: &[Bit], span: Span) -> Bit {
+        let mut built: Vec<Bit> = Vec::new();
+        for part in shape {
+            let bit = match *part {
+                Shape::Constant(value) => self.constant(value),
+                Shape::Input(input) => inputs[input],
+                Shape::Not(part) => self.gate(Function::NOT, [built[part], NONE], span),
+                Shape::Gate(function, a, b) => self.gate(function, [built[a], built[b]], span),
+                Shape::Select(condition, then, otherwise) => {
+                    self.select(built[condition], built[then], built[otherwise], span)
+                }
+            };
+            built.push(bit);
+        }
+        *built.last().expect("a function has a part")
+    }
+}

@@ -1,0 +1,133 @@
+//! Unrolls loops: one frame for each iteration, with its nets and statements.
+
+use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::frame::{Item, Scope};
+use crate::elaborate::limits::{MAX_STATEMENTS, MAX_WIDTH};
+use crate::elaborate::module::{ModuleNet, NONE};
+use crate::elaborate::size;
+use crate::elaborate::wording::{ElaborateError, RangeError};
+use nbc_base::model::{Block, NetSlot, SizeId, SizeKind, Statement};
+use nbc_base::source::Span;
+
+impl<'a> ModuleBuilder<'a, '_> {
+    /// Unrolls loops: fills the list of statements to build.
+    pub(super) fn unroll(&mut self, variables: Vec<i64>) {
+        let body = &self.circuit.body;
+        let root = self.open_frame(u32::MAX, body, variables);
+        self.unroll_block(root, body);
+    }
+
+    fn open_frame(&mut self, parent: u32, block: &Block, variables: Vec<i64>) -> u32 {
+        let first_net = self.module.nets.len() as u32;
+        let turn = self.turn(&variables);
+        for slot in block.nets.clone() {
+            let net = &self.circuit.nets[slot as usize];
+            let name = if parent == u32::MAX { net.name.clone() } else { format!("{}{turn}", net.name) };
+            self.module.nets.push(ModuleNet { name, span: net.span, width: None, first: NONE });
+        }
+        self.frames.push(Scope {
+            parent,
+            first_slot: block.nets.start,
+            first_net,
+            nets: block.nets.len() as u32,
+            variables,
+        });
+        self.frames.len() as u32 - 1
+    }
+
+    /// The loop variables as a suffix of names.
+    fn turn(&self, variables: &[i64]) -> String {
+        variables.iter().skip(self.circuit.parameters.len()).map(|value| format!(".{value}")).collect()
+    }
+
+    fn unroll_block(&mut self, frame: u32, block: &'a Block) {
+        for statement in &block.statements {
+            match statement {
+                Statement::Drive { targets, value } => self.items.push(Item { frame, targets, value: *value }),
+                Statement::For { variable, from, to, span, body } => {
+                    self.unroll_loop(frame, *variable, (*from, *to), *span, body)
+                }
+            }
+            if self.failed {
+                return;
+            }
+        }
+    }
+
+    fn unroll_loop(&mut self, frame: u32, variable: u32, range: (SizeId, SizeId), span: Span, body: &'a Block) {
+        let (Some(from), Some(to)) = (self.size(range.0, frame), self.size(range.1, frame)) else {
+            self.failed = true;
+            return;
+        };
+        let turns = to.saturating_sub(from).max(0) as usize;
+        let statements = turns.saturating_mul(body.statements.len().max(1));
+        if statements.saturating_add(self.items.len()) > MAX_STATEMENTS || self.frames.len() + turns > MAX_STATEMENTS {
+            self.fault(ElaborateError::TooManyTurns { statements, most: MAX_STATEMENTS }.at(span));
+            self.failed = true;
+            return;
+        }
+        for value in from..to {
+            let mut variables = self.frames[frame as usize].variables.clone();
+            variables.truncate(variable as usize);
+            variables.resize(variable as usize + 1, 0);
+            variables[variable as usize] = value;
+            let inner = self.open_frame(frame, body, variables);
+            self.unroll_block(inner, body);
+            if self.failed {
+                return;
+            }
+        }
+    }
+
+    /// The net that a slot is in a frame.
+    pub(super) fn net(&self, slot: NetSlot, frame: u32) -> usize {
+        let mut frame = &self.frames[frame as usize];
+        loop {
+            if (frame.first_slot..frame.first_slot + frame.nets).contains(&slot.0) {
+                return (frame.first_net + slot.0 - frame.first_slot) as usize;
+            }
+            assert!(frame.parent != u32::MAX, "every net belongs to a block around its use");
+            frame = &self.frames[frame.parent as usize];
+        }
+    }
+
+    /// The value of a size in a frame; reports an error.
+    pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i64> {
+        match size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables) {
+            Ok(value) => Some(value),
+            Err(fault) => {
+                self.fault(fault);
+                None
+            }
+        }
+    }
+
+    /// A width: a size from 1 to the most bits of a net.
+    pub(super) fn width(&mut self, size: SizeId, frame: u32) -> Option<u32> {
+        let value = self.size(size, frame)?;
+        if (1..=MAX_WIDTH).contains(&value) {
+            return Some(value as u32);
+        }
+        let error = RangeError::NetWidth { width: value, most: MAX_WIDTH };
+        self.fault(error.at(self.circuit.sizes[size.0 as usize].span));
+        None
+    }
+
+    /// The lowest bit and the number of bits of a slice of a net that wide.
+    pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<(u32, u32)> {
+        let (high, low) = (self.size(bits.0, frame)?, self.size(bits.1, frame)?);
+        let ends = [bits.0, bits.1].map(|end| self.circuit.sizes[end.0 as usize]);
+        let (span, net) = (ends[0].span.to(ends[1].span), name.to_owned());
+        if high < low {
+            let is_literal = ends.iter().all(|end| matches!(end.kind, SizeKind::Literal(_)));
+            self.fault(RangeError::AscendingSlice { net, ends: [high, low], is_literal }.at(span));
+            return None;
+        }
+        if low < 0 || high >= i64::from(width) {
+            let bit = if low < 0 { low } else { high };
+            self.fault(RangeError::NoSuchBit { net, bit, width }.at(span));
+            return None;
+        }
+        Some((low as u32, (high - low + 1) as u32))
+    }
+}

@@ -1,0 +1,51 @@
+//! Netlists and networks that the tests of this folder share.
+
+use crate::Netlist;
+use crate::network::{Network, Signal};
+use nbc_base::model::Function;
+
+/// The paper's D latch as elaboration writes it: two wires for the feedback.
+pub fn latch() -> Netlist {
+    let mut netlist = Netlist::new("d_latch");
+    let d = netlist.add_input("d");
+    let e = netlist.add_input("e");
+    let q = netlist.add_wire("q", Some(false), None);
+    let nq = netlist.add_wire("nq", Some(true), None);
+    let set = netlist.add_gate(Function::NAND, &[d, e]);
+    let not_d = netlist.add_gate(Function::NOT, &[d]);
+    let reset = netlist.add_gate(Function::NAND, &[not_d, e]);
+    let q_cell = netlist.add_gate(Function::NAND, &[set, nq]);
+    let nq_cell = netlist.add_gate(Function::NAND, &[reset, q]);
+    netlist.drive(q, 0, q_cell);
+    netlist.drive(nq, 0, nq_cell);
+    netlist.add_output("q", q);
+    netlist.add_output("nq", nq);
+    netlist
+}
+
+/// A full adder as a textbook writes it.
+pub fn full_adder() -> Netlist {
+    let mut netlist = Netlist::new("full_adder");
+    let [a, b, c] = ["a", "b", "cin"].map(|name| netlist.add_input(name));
+    let half = netlist.add_gate(Function::XOR, &[a, b]);
+    let sum = netlist.add_gate(Function::XOR, &[half, c]);
+    let both = netlist.add_gate(Function::AND, &[a, b]);
+    let carried = netlist.add_gate(Function::AND, &[half, c]);
+    let carry = netlist.add_gate(Function::OR, &[both, carried]);
+    netlist.add_output("sum", sum);
+    netlist.add_output("carry", carry);
+    netlist
+}
+
+/// A network of six inputs whose gates have the functions of these bits and listen to any earlier signals; the outputs
+/// show its last six signals.
+pub fn network(gates: &[(u8, u16, u16)]) -> Network {
+    let mut network = Network::new(6);
+    for &(bits, a, b) in gates {
+        let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
+        network.add(Function::new(bits % 16), pins);
+    }
+    let signals = network.signals() as Signal;
+    network.outputs = (signals - 6..signals).collect();
+    network
+}

@@ -1,0 +1,560 @@
+//! BLIF, the Berkeley logic interchange format: hierarchical in, flat out.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use crate::formats::design::{Design, Register, RegisterKind};
+use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES, NetName};
+use crate::formats::model_gate::{ModelCover, gate};
+use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
+use crate::formats::starts::starts;
+use crate::formats::wording::{BlifError, ModelError, TextError};
+use crate::{NetId, Netlist, Node};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::Function;
+use nbc_base::source::{FileId, Span};
+
+/// Reads the first model of a file and expands the models it instantiates.
+///
+/// # Errors
+/// The errors of the text, with their places.
+pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
+    read_model(text, file, clock, None)
+}
+
+/// Reads a model by its name, or the first, and expands the models it instantiates.
+///
+/// # Errors
+/// As [`read`], and if there is no such model.
+pub fn read_model(
+    text: &str,
+    file: FileId,
+    clock: Option<&str>,
+    model: Option<&str>,
+) -> Result<Design, Vec<Diagnostic>> {
+    let mut models = Models { all: Vec::new(), by_name: BTreeMap::new(), errors: Vec::new() };
+    models.read(text, file);
+    if !models.errors.is_empty() {
+        return Err(models.errors);
+    }
+    if models.all.is_empty() {
+        return Err(vec![BlifError::NoModel.at(Span::new(file, 0, 0))]);
+    }
+    let top = match model {
+        None => 0,
+        Some(name) => *models
+            .by_name
+            .get(name)
+            .ok_or_else(|| vec![ModelError::MissingModel { model: name.to_owned() }.at(Span::new(file, 0, 0))])?,
+    };
+    let mut extents = vec![None; models.all.len()];
+    if let Err((error, span)) = models.extent(top, 0, &mut extents) {
+        return Err(vec![error.at(span)]);
+    }
+    let mut draft = Draft::titled(models.all[top].name);
+    let mut flat = Flat { models: &models, draft: &mut draft, clock, path: Vec::new() };
+    flat.instantiate(top, "", &BTreeMap::new());
+    draft.finish()
+}
+
+/// How deep models may instantiate models.
+const MOST_DEPTH: usize = 200;
+
+/// The most bytes, roughly, that the expanded models may take.
+const MOST_BYTES: usize = 1 << 29;
+
+/// A logical line: its words with their places.
+type Words<'t> = Vec<(&'t str, Span)>;
+
+/// A statement of a model.
+enum Statement<'t> {
+    Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool, start: Option<bool> },
+    Latch(Words<'t>),
+    Subcircuit { words: Words<'t>, start: Option<bool> },
+}
+
+impl Statement<'_> {
+    /// The bytes that an instance of it takes, roughly.
+    fn size(&self) -> usize {
+        const NET: usize = 100;
+        match self {
+            Self::Names { signals, cubes, .. } => NET * signals.len() + cubes.iter().map(Vec::len).sum::<usize>(),
+            Self::Latch(words) | Self::Subcircuit { words, .. } => NET * words.len(),
+        }
+    }
+}
+
+/// A model as written.
+struct Model<'t> {
+    name: &'t str,
+    inputs: Words<'t>,
+    outputs: Words<'t>,
+    clocks: Words<'t>,
+    statements: Vec<(Statement<'t>, Span)>,
+}
+
+impl Model<'_> {
+    /// Its function, if it is a gate: it has one output, one or two inputs and no state.
+    fn gate(&self) -> Option<Function> {
+        let [(output, _)] = self.outputs[..] else { return None };
+        let covers = self.statements.iter().map(|(statement, _)| match statement {
+            Statement::Names { signals, cubes, value, .. } => {
+                let (&(output, _), pins) = signals.split_last()?;
+                Some(ModelCover { pins: pins.iter().map(|&(pin, _)| pin).collect(), output, cubes, value: *value })
+            }
+            Statement::Latch(_) | Statement::Subcircuit { .. } => None,
+        });
+        let inputs: Vec<&str> = self.inputs.iter().map(|&(input, _)| input).collect();
+        let is_small = matches!(inputs.len(), 1 | 2) && self.statements.len() <= MOST_GATE_STATEMENTS;
+        if !is_small || inputs.contains(&output) {
+            return None;
+        }
+        gate(&inputs, output, covers.collect::<Option<_>>()?)
+    }
+}
+
+/// The most statements of a model that is looked at as a gate.
+const MOST_GATE_STATEMENTS: usize = 16;
+
+struct Models<'t> {
+    all: Vec<Model<'t>>,
+    by_name: BTreeMap<&'t str, usize>,
+    errors: Vec<Diagnostic>,
+}
+
+/// Directives without logic.
+const IGNORED: &[&str] = &[
+    ".area",
+    ".cname",
+    ".default_input_arrival",
+    ".default_input_drive",
+    ".default_max_input_load",
+    ".default_output_load",
+    ".default_output_required",
+    ".delay",
+    ".input_arrival",
+    ".input_drive",
+    ".input_required",
+    ".max_input_load",
+    ".output_load",
+    ".output_required",
+    ".param",
+    ".wire_load_slope",
+    ".wire",
+    ".wire_arrival",
+];
+
+/// The size of a model with everything it instantiates.
+#[derive(Clone, Copy, Debug, Default)]
+struct Extent {
+    /// The depth of nesting.
+    depth: usize,
+    statements: usize,
+    /// The bytes that an instance takes, roughly.
+    bytes: usize,
+}
+
+impl<'t> Models<'t> {
+    /// Measures a model at `depth`, each model once, or returns the place at which the limit is exceeded.
+    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (ModelError, Span)> {
+        // A model that contains itself is reported at the place of the instance.
+        known[model] = Some(Extent::default());
+        let mut extent = Extent::default();
+        for (statement, span) in &self.all[model].statements {
+            extent.statements = extent.statements.saturating_add(1);
+            extent.bytes = extent.bytes.saturating_add(statement.size());
+            let Statement::Subcircuit { words, .. } = statement else { continue };
+            let Some(&inner) = self.by_name.get(words[0].0) else { continue };
+            let nested = match known[inner] {
+                Some(nested) => nested,
+                None if depth < MOST_DEPTH => self.extent(inner, depth + 1, known)?,
+                None => Extent { depth: MOST_DEPTH, ..Extent::default() },
+            };
+            // The name of an instance comes before those of its nets.
+            let names = nested.statements.saturating_mul(words[0].0.len() + 10);
+            extent.depth = extent.depth.max(nested.depth + 1);
+            extent.statements = extent.statements.saturating_add(nested.statements);
+            extent.bytes = extent.bytes.saturating_add(nested.bytes).saturating_add(names);
+            if extent.depth > MOST_DEPTH {
+                return Err((ModelError::ModelDepth { most: MOST_DEPTH }, *span));
+            }
+            if extent.bytes > MOST_BYTES {
+                return Err((ModelError::ModelSize, *span));
+            }
+        }
+        known[model] = Some(extent);
+        Ok(extent)
+    }
+
+    fn fault(&mut self, error: impl Into<TextError>, span: Span) {
+        if self.errors.len() < MOST_ERRORS {
+            self.errors.push(error.into().at(span));
+        }
+    }
+
+    fn read(&mut self, text: &'t str, file: FileId) {
+        for words in lines(text, file) {
+            let (first, span) = words[0];
+            let row = !first.starts_with('.');
+            if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && word.len() > MOST_NAME_BYTES) {
+                let start = Span { end: span.start + 20, ..span };
+                let bytes = (span.end - span.start) as usize;
+                self.fault(TextError::LongName { bytes, most: MOST_NAME_BYTES }, start);
+                return;
+            }
+            if first.starts_with('.') {
+                if first == ".exdc" {
+                    self.fault(BlifError::DontCares, span);
+                    return;
+                }
+                self.directive(words);
+            } else {
+                self.cube(&words);
+            }
+        }
+    }
+
+    fn directive(&mut self, words: Words<'t>) {
+        let (first, span) = words[0];
+        let rest = words[1..].to_vec();
+        if first == ".model" {
+            let name = rest.first().map_or("", |&(name, _)| name);
+            if self.by_name.insert(name, self.all.len()).is_some() {
+                self.fault(BlifError::ModelTwice { model: name.to_owned() }, span);
+            }
+            let model = Model { name, inputs: vec![], outputs: vec![], clocks: vec![], statements: vec![] };
+            self.all.push(model);
+            return;
+        }
+        if first == ".end" || IGNORED.contains(&first) {
+            return;
+        }
+        let Some(model) = self.all.last_mut() else {
+            self.fault(BlifError::BeforeModel { directive: first.to_owned() }, span);
+            return;
+        };
+        match first {
+            ".inputs" => model.inputs.extend(rest),
+            ".outputs" => model.outputs.extend(rest),
+            ".clock" => model.clocks.extend(rest),
+            ".names" if rest.is_empty() => self.incomplete(".names", "expected the name of a net", span),
+            ".names" => {
+                let names = Statement::Names { signals: rest, cubes: Vec::new(), value: true, start: None };
+                model.statements.push((names, span));
+            }
+            ".attr" => self.attribute(&rest),
+            ".latch" if rest.len() < 2 => self.incomplete(".latch", "expected an input and an output", span),
+            ".latch" => model.statements.push((Statement::Latch(rest), span)),
+            ".subckt" if rest.is_empty() => self.incomplete(".subckt", "expected the name of a model", span),
+            ".subckt" => {
+                let instance = Statement::Subcircuit { words: rest, start: None };
+                model.statements.push((instance, span));
+            }
+            ".gate" | ".mlatch" => self.fault(BlifError::LibraryCell { directive: first.to_owned() }, span),
+            _ => self.fault(BlifError::UnknownDirective { directive: first.to_owned() }, span),
+        }
+    }
+
+    fn incomplete(&mut self, directive: &'static str, expected: &'static str, span: Span) {
+        self.fault(BlifError::Incomplete { directive, expected }, span);
+    }
+
+    /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
+    fn attribute(&mut self, words: &Words<'t>) {
+        let &[("init", _), (value, span)] = &words[..] else { return };
+        let statement = self.all.last_mut().and_then(|model| model.statements.last_mut());
+        let Some((Statement::Names { start, .. } | Statement::Subcircuit { start, .. }, _)) = statement else { return };
+        match value {
+            "0" | "1" => *start = Some(value == "1"),
+            _ => self.fault(BlifError::NetStart { found: value.to_owned() }, span),
+        }
+    }
+
+    fn cube(&mut self, words: &Words<'t>) {
+        let span = words[0].1.to(words[words.len() - 1].1);
+        let Some((Statement::Names { signals, cubes, value, .. }, _)) =
+            self.all.last_mut().and_then(|model| model.statements.last_mut())
+        else {
+            return self.fault(BlifError::NotADirective { found: words[0].0.to_owned() }, span);
+        };
+        let wanted = signals.len() - 1;
+        let (inputs, output) = match words[..] {
+            [(output, _)] if wanted == 0 => ("", output),
+            [(inputs, _), (output, _)] => (inputs, output),
+            _ => return self.fault(BlifError::MalformedRow, span),
+        };
+        if inputs.len() != wanted || !inputs.bytes().all(|digit| b"01-".contains(&digit)) {
+            return self.fault(BlifError::RowWidth { expected: wanted, found: inputs.to_owned() }, span);
+        }
+        let is = match output {
+            "1" => true,
+            "0" => false,
+            _ => return self.fault(BlifError::RowOutput { found: output.to_owned() }, span),
+        };
+        if !cubes.is_empty() && *value != is {
+            return self.fault(BlifError::MixedRows, span);
+        }
+        *value = is;
+        cubes.push(inputs.bytes().collect());
+    }
+}
+
+/// The logical lines: without comments and empty lines, and with continuation lines joined.
+fn lines(text: &str, file: FileId) -> impl Iterator<Item = Words<'_>> {
+    let mut rest = text.split_inclusive('\n').scan(0, |start, line| {
+        *start += line.len();
+        Some((*start - line.len(), line))
+    });
+    std::iter::from_fn(move || {
+        let mut words: Words<'_> = Vec::new();
+        for (start, line) in rest.by_ref() {
+            let line = line.split('#').next().unwrap_or("").trim_end();
+            let (line, continued) = line.strip_suffix('\\').map_or((line, false), |line| (line, true));
+            words.extend(line.split_whitespace().map(|word| {
+                let at = start + (word.as_ptr() as usize - line.as_ptr() as usize);
+                (word, Span::new(file, at, at + word.len()))
+            }));
+            if !continued && !words.is_empty() {
+                return Some(words);
+            }
+        }
+        (!words.is_empty()).then_some(words)
+    })
+}
+
+/// The flattening of models into one draft.
+struct Flat<'m, 't> {
+    models: &'m Models<'t>,
+    draft: &'m mut Draft,
+    clock: Option<&'m str>,
+    path: Vec<usize>,
+}
+
+impl<'m, 't> Flat<'m, 't> {
+    /// Expands a model; `ports` gives the nets of its ports.
+    fn instantiate(&mut self, model: usize, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+        self.path.push(model);
+        let models = self.models;
+        let model = &models.all[model];
+        if self.path.len() == 1 {
+            for &(name, span) in model.inputs.iter() {
+                let number = self.draft.name(name);
+                self.draft.inputs.push((number, span));
+            }
+            for &(name, span) in &model.outputs {
+                let number = self.draft.name(name);
+                self.draft.outputs.push((number, span));
+            }
+        }
+        for (statement, span) in &model.statements {
+            match statement {
+                Statement::Names { signals, cubes, value, start } => {
+                    let output = self.names(signals, cubes, *value, prefix, ports);
+                    start.iter().for_each(|&start| self.draft.start(output, start));
+                }
+                Statement::Latch(words) => self.latch(model, words, *span, prefix, ports),
+                Statement::Subcircuit { words, start } => self.subcircuit(words, *start, prefix, ports),
+            }
+        }
+        self.path.pop();
+    }
+
+    fn net(&mut self, name: &str, prefix: &str, ports: &BTreeMap<&'t str, String>) -> u32 {
+        match ports.get(name) {
+            Some(outside) => self.draft.name(outside),
+            None if prefix.is_empty() => self.draft.name(name),
+            None => self.draft.name(&format!("{prefix}{name}")),
+        }
+    }
+
+    fn names(
+        &mut self,
+        signals: &Words<'t>,
+        cubes: &[Vec<u8>],
+        value: bool,
+        prefix: &str,
+        ports: &BTreeMap<&'t str, String>,
+    ) -> u32 {
+        let mut nets: Vec<_> = signals.iter().map(|(name, _)| self.net(name, prefix, ports)).collect();
+        let output = nets.pop().expect("`.names` has an output");
+        let span = signals[0].1.to(signals[signals.len() - 1].1);
+        self.draft.define(output, Definition::Cover { pins: nets, cubes: cubes.to_vec(), value }, span);
+        output
+    }
+
+    fn latch(
+        &mut self,
+        model: &Model<'t>,
+        words: &Words<'t>,
+        span: Span,
+        prefix: &str,
+        ports: &BTreeMap<&'t str, String>,
+    ) {
+        let (next, output) = (self.net(words[0].0, prefix, ports), self.net(words[1].0, prefix, ports));
+        let start = match words.last().filter(|_| words.len() % 2 == 1) {
+            None | Some(("2" | "3", _)) => None,
+            Some(("0", _)) => Some(false),
+            Some(("1", _)) => Some(true),
+            Some(&(word, span)) => {
+                return self.draft.fault(ModelError::LatchStart { found: word.to_owned() }, span);
+            }
+        };
+        let (kind, clock) = match (words.get(2), words.get(3)) {
+            (Some(&(kind, span)), Some((clock, _))) => {
+                let kind = match kind {
+                    "re" => RegisterKind::Rising,
+                    "fe" => RegisterKind::Falling,
+                    "ah" => RegisterKind::High,
+                    "al" => RegisterKind::Low,
+                    _ => return self.draft.fault(ModelError::LatchKind { found: (*kind).to_owned() }, span),
+                };
+                let number = self.net(clock, prefix, ports);
+                (kind, (*clock != "NIL").then(|| self.draft.text(number).to_owned()))
+            }
+            _ => (RegisterKind::Rising, None),
+        };
+        let one_clock = match model.clocks[..] {
+            [(clock, _)] => Some(clock.to_owned()),
+            _ => None,
+        };
+        let clock = clock.or(one_clock).or_else(|| self.clock.map(str::to_owned));
+        let name = self.draft.text(output).to_owned();
+        if clock.is_none() {
+            let (latch, input) = (name.clone(), words[0].0.to_owned());
+            self.draft.fault(ModelError::NoClock { latch, input }, span);
+        }
+        let register = Register { name, kind, clock, start };
+        self.draft.registers.push(DraftRegister { register, output, next, span });
+    }
+
+    fn subcircuit(&mut self, words: &Words<'t>, start: Option<bool>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+        let (name, span) = words[0];
+        let Some(&model) = self.models.by_name.get(name) else {
+            return self.draft.fault(ModelError::MissingModel { model: name.to_owned() }, span);
+        };
+        if self.path.contains(&model) {
+            return self.draft.fault(ModelError::RecursiveModel { model: name.to_owned() }, span);
+        }
+        let mut inner: BTreeMap<&str, String> = BTreeMap::new();
+        for &(word, at) in &words[1..] {
+            let Some((formal, actual)) = word.split_once('=') else {
+                return self.draft.fault(ModelError::NotAConnection { found: word.to_owned() }, at);
+            };
+            let known = &self.models.all[model];
+            let ports_of_model = known.inputs.iter().chain(&known.outputs).chain(&known.clocks);
+            if !ports_of_model.map(|&(name, _)| name).any(|name| name == formal) {
+                let (model, port) = (name.to_owned(), formal.to_owned());
+                return self.draft.fault(ModelError::UnknownPort { model, port }, at);
+            }
+            let number = self.net(actual, prefix, ports);
+            if inner.insert(formal, self.draft.text(number).to_owned()).is_some() {
+                return self.draft.fault(ModelError::ConnectedTwice { port: formal.to_owned() }, at);
+            }
+        }
+        let open = self.models.all[model].inputs.iter().find(|(port, _)| !inner.contains_key(port));
+        if let Some((port, _)) = open {
+            let (model, port) = (name.to_owned(), (*port).to_owned());
+            return self.draft.fault(ModelError::Unconnected { model, port }, span);
+        }
+        match self.cell(model, &inner, span) {
+            Some(output) => start.iter().for_each(|&start| self.draft.start(output, start)),
+            None => self.instantiate(model, &format!("{prefix}{name}@{}.", span.start), &inner),
+        }
+    }
+
+    /// Defines the net of an instance whose model computes a function of one or two inputs. It becomes one cell,
+    /// however many gates the model has.
+    fn cell(&mut self, model: usize, ports: &BTreeMap<&'t str, String>, span: Span) -> Option<NetName> {
+        let model = &self.models.all[model];
+        let function = model.gate()?;
+        let (output, _) = model.outputs[0];
+        let output = self.draft.name(ports.get(output)?);
+        let pins: Vec<_> = model.inputs.iter().map(|(input, _)| self.draft.name(&ports[input])).collect();
+        let digit = |value: bool| if value { b'1' } else { b'0' };
+        let rows = (0..1 << pins.len()).map(|row| [row >> (pins.len() - 1) & 1 == 1, row & 1 == 1]);
+        let on = rows.filter(|&[a, b]| function.output(a, b));
+        let cubes = on.map(|row| row[..pins.len()].iter().map(|&value| digit(value)).collect()).collect();
+        self.draft.define(output, Definition::Cover { pins, cubes, value: true }, span);
+        Some(output)
+    }
+}
+
+/// Writes a design.
+pub fn write(design: &Design) -> String {
+    let netlist = &design.logic;
+    let legal = |name: &str| visible(name, &['#', '\\', '=']);
+    let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], legal);
+    let starts = starts(netlist);
+    let mut stand_ins = stand_ins(netlist, design.registers.len());
+    // A memory element keeps its own name, by which it is compared.
+    stand_ins.retain(|cell, output| !starts.contains_key(cell) || netlist.net_name(*cell) == netlist.net_name(*output));
+    let name = |id: NetId| match netlist.node(id) {
+        Node::Constant(value) => constant(*value),
+        _ => names.net(*stand_ins.get(&id).unwrap_or(&id)),
+    };
+    let list = |ids: &[NetId]| ids.iter().map(|id| format!(" {}", names.net(*id))).collect::<String>();
+    let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
+    let (inputs, states) = netlist.inputs().split_at(design.inputs());
+    let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
+    let mut text = format!(".model {title}\n.inputs{}\n.outputs{}\n", list(inputs), list(outputs));
+    for clock in names.own_clocks() {
+        let _ = writeln!(text, ".clock {clock}");
+    }
+    for ((register, state), next) in design.registers.iter().zip(states).zip(nexts) {
+        let kind = match register.kind {
+            RegisterKind::Rising => "re",
+            RegisterKind::Falling => "fe",
+            RegisterKind::High => "ah",
+            RegisterKind::Low => "al",
+        };
+        let clock = match names.clock(register) {
+            Some(ClockName::Net(id)) => format!(" {kind} {}", name(id)),
+            Some(ClockName::Own(clock)) => format!(" {kind} {clock}"),
+            None => String::new(),
+        };
+        let start = register.start.map_or(2, u8::from);
+        let _ = writeln!(text, ".latch {} {}{clock} {start}", names.net(*next), name(*state));
+    }
+    for id in cells_in_order(netlist) {
+        write_cell(&mut text, netlist, id, &name);
+        if let Some(&start) = starts.get(&id) {
+            let _ = writeln!(text, ".attr init {}", u8::from(start));
+        }
+    }
+    for value in [false, true] {
+        let used = |id: NetId| *netlist.node(id) == Node::Constant(value) && !netlist.fanout(id).is_empty();
+        if netlist.ids().any(used) {
+            let _ = writeln!(text, ".names {}{}", constant(value), if value { "\n1" } else { "" });
+        }
+    }
+    for &output in netlist.outputs() {
+        let driver = netlist.pins(output)[0];
+        if stand_ins.get(&driver) != Some(&output) {
+            let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names.net(output));
+        }
+    }
+    text.push_str(".end\n");
+    text
+}
+
+/// A cell as the rows at which it is 1.
+fn write_cell<'n>(text: &mut String, netlist: &Netlist, id: NetId, name: &impl Fn(NetId) -> &'n str) {
+    let function = netlist.cell(id).expect("the order holds cells").function;
+    let pins = netlist.pins(id);
+    let list: String = pins.iter().map(|&pin| format!(" {}", name(pin))).collect();
+    let _ = writeln!(text, ".names{list} {}", name(id));
+    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        if function.output(a == 1, b == 1) {
+            let _ = match pins.len() {
+                2 => writeln!(text, "{a}{b} 1"),
+                _ if b == 0 => writeln!(text, "{a} 1"),
+                _ => Ok(()),
+            };
+        }
+    }
+}
+
+/// The name of a constant net.
+fn constant(value: bool) -> &'static str {
+    if value { "$true" } else { "$false" }
+}

@@ -1,0 +1,318 @@
+//! Drafts: named nets with their definitions in any order, as in the text formats, before they become a design.
+
+use std::collections::BTreeMap;
+
+use crate::formats::design::{Design, Register};
+use crate::formats::wording::TextError;
+use crate::{NetId, Netlist};
+use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::model::Function;
+use nbc_base::source::Span;
+
+/// A net's number in a draft.
+pub type NetName = u32;
+
+/// The definition of a net.
+#[derive(Clone, Debug)]
+pub enum Definition {
+    /// A gate of any number of pins, maybe inverted in the end.
+    Gate(Function, bool, Vec<NetName>),
+    /// A sum of cubes, each with a digit `0`, `1` or `-` per pin; the net is `value` if one of them matches.
+    Cover { pins: Vec<NetName>, cubes: Vec<Vec<u8>>, value: bool },
+}
+
+impl Definition {
+    fn pins(&self) -> &[NetName] {
+        match self {
+            Self::Gate(_, _, pins) | Self::Cover { pins, .. } => pins,
+        }
+    }
+
+    /// The number of pins of its gates.
+    fn size(&self) -> usize {
+        match self {
+            Self::Gate(_, _, pins) => pins.len(),
+            Self::Cover { pins, cubes, .. } => pins.len() * cubes.len().max(1),
+        }
+    }
+}
+
+/// A register of a draft.
+#[derive(Clone, Debug)]
+pub struct DraftRegister {
+    /// Its result in the design.
+    pub register: Register,
+    /// The net that shows its value.
+    pub output: NetName,
+    /// The net of its next value.
+    pub next: NetName,
+    /// The place.
+    pub span: Span,
+}
+
+/// Nets by name, with their definitions.
+#[derive(Clone, Debug, Default)]
+pub struct Draft {
+    /// The circuit's name.
+    pub title: String,
+    /// Input ports.
+    pub inputs: Vec<(NetName, Span)>,
+    /// Output ports.
+    pub outputs: Vec<(NetName, Span)>,
+    pub registers: Vec<DraftRegister>,
+    names: Vec<String>,
+    numbers: BTreeMap<String, NetName>,
+    definitions: Vec<Option<(Definition, Span)>>,
+    /// The nets with a start value: feedback may pass through them.
+    starts: BTreeMap<NetName, bool>,
+    pub errors: Vec<Diagnostic>,
+    /// The nets and the pins of definitions so far.
+    size: usize,
+}
+
+/// The most nets and pins of gates together.
+pub const MOST_PINS: usize = 16_000_000;
+
+/// The longest name of a net, in bytes.
+pub const MOST_NAME_BYTES: usize = 1_000;
+
+/// The most errors that are reported.
+pub const MOST_ERRORS: usize = 20;
+
+impl Draft {
+    /// An empty draft.
+    pub fn titled(title: &str) -> Self {
+        Self { title: title.to_owned(), ..Self::default() }
+    }
+
+    /// The number of a name.
+    pub fn name(&mut self, name: &str) -> NetName {
+        if let Some(&number) = self.numbers.get(name) {
+            return number;
+        }
+        let number = self.names.len() as NetName;
+        self.names.push(name.to_owned());
+        self.definitions.push(None);
+        self.numbers.insert(name.to_owned(), number);
+        number
+    }
+
+    /// The name with a number.
+    pub fn text(&self, name: NetName) -> &str {
+        &self.names[name as usize]
+    }
+
+    /// Reports an error.
+    pub fn fault(&mut self, error: impl Into<TextError>, span: Span) {
+        if self.errors.len() < MOST_ERRORS {
+            self.errors.push(error.into().at(span));
+        }
+    }
+
+    /// Defines a net, or reports its second definition.
+    pub fn define(&mut self, name: NetName, definition: Definition, span: Span) {
+        self.size += 1 + definition.size();
+        if self.size > MOST_PINS {
+            if self.errors.last().is_none_or(|fault| fault.code != Code::TooLarge) {
+                self.errors.push(TextError::TooLarge { most: MOST_PINS }.at(span));
+            }
+            return;
+        }
+        if let Some((_, first)) = self.definitions[name as usize] {
+            self.fault(TextError::DefinedTwice { net: self.text(name).to_owned(), first }, span);
+        } else {
+            self.definitions[name as usize] = Some((definition, span));
+        }
+    }
+
+    /// Sets a net's value before the first cycle, which a feedback loop needs.
+    pub fn start(&mut self, name: NetName, value: bool) {
+        self.starts.insert(name, value);
+    }
+
+    /// The net behind wires: `name` itself, or the net that it copies.
+    fn source(&self, name: NetName) -> NetName {
+        let mut at = name;
+        for _ in 0..self.names.len() {
+            match &self.definitions[at as usize] {
+                Some((Definition::Cover { pins, cubes, value: true }, _)) if pins.len() == 1 && *cubes == [b"1"] => {
+                    at = pins[0];
+                }
+                _ => break,
+            }
+        }
+        at
+    }
+
+    /// Registers must be clocked by inputs or registers: logic between them would be lost when registers are kept.
+    fn resolve_clocks(&mut self) {
+        for at in 0..self.registers.len() {
+            let DraftRegister { register, span, .. } = self.registers[at].clone();
+            let Some(&number) = register.clock.as_ref().and_then(|clock| self.numbers.get(clock)) else { continue };
+            let source = self.source(number);
+            if self.definitions[source as usize].is_some() {
+                let clock = self.text(number).to_owned();
+                self.fault(TextError::LogicClock { clock, register: register.name }, span);
+            } else {
+                self.registers[at].register.clock = Some(self.text(source).to_owned());
+            }
+        }
+    }
+
+    /// The design, if the draft is sound.
+    ///
+    /// # Errors
+    /// Nets that are used and not defined, defined twice, or that depend on themselves.
+    pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
+        if self.size > MOST_PINS {
+            return Err(self.errors);
+        }
+        self.resolve_clocks();
+        let mut logic = Netlist::new(self.title.clone());
+        let mut nets: Vec<Option<NetId>> = vec![None; self.names.len()];
+        let sources: Vec<_> = self
+            .inputs
+            .iter()
+            .copied()
+            .chain(self.registers.iter().map(|register| (register.output, register.span)))
+            .collect();
+        for (name, span) in sources {
+            if nets[name as usize].is_some() || self.definitions[name as usize].is_some() {
+                self.fault(TextError::DrivenTwice { net: self.text(name).to_owned() }, span);
+                continue;
+            }
+            nets[name as usize] = Some(logic.add_input(self.text(name)));
+        }
+        let sinks: Vec<_> = self
+            .outputs
+            .iter()
+            .copied()
+            .chain(self.registers.iter().map(|register| (register.next, register.span)))
+            .collect();
+        let sinks_count = self.outputs.len();
+        let feedback = self.feedback(&mut logic, &mut nets);
+        for &(name, span) in &sinks {
+            self.build(name, span, &mut logic, &mut nets);
+        }
+        for (name, wire) in feedback {
+            let (definition, span) = self.definitions[name as usize].clone().expect("feedback is defined");
+            definition.pins().iter().for_each(|&pin| self.build(pin, span, &mut logic, &mut nets));
+            let driver = add(&mut logic, &definition, &nets);
+            logic.drive(wire, 0, driver);
+        }
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        for (i, &(name, _)) in sinks.iter().enumerate() {
+            let label = match i.checked_sub(sinks_count) {
+                None => self.text(name).to_owned(),
+                Some(register) => format!("{}_next", self.registers[register].register.name),
+            };
+            logic.add_output(label, nets[name as usize].expect("every output was built"));
+        }
+        Ok(Design { logic, registers: self.registers.into_iter().map(|register| register.register).collect() })
+    }
+
+    /// A wire for each net with a start value, to be driven when all is built.
+    fn feedback(&self, logic: &mut Netlist, nets: &mut [Option<NetId>]) -> Vec<(NetName, NetId)> {
+        let mut wires = Vec::new();
+        for (&name, &start) in &self.starts {
+            if nets[name as usize].is_none() && self.definitions[name as usize].is_some() {
+                let wire = logic.add_wire(self.text(name), Some(start), None);
+                nets[name as usize] = Some(wire);
+                wires.push((name, wire));
+            }
+        }
+        wires
+    }
+
+    /// Builds a net and all it depends on, without recursion.
+    fn build(&mut self, root: NetName, used: Span, logic: &mut Netlist, nets: &mut [Option<NetId>]) {
+        let mut open = vec![(root, used, 0usize)];
+        let mut on_path = std::collections::BTreeSet::from([root]);
+        while let Some((name, used, pin)) = open.last_mut().map(|top| {
+            top.2 += 1;
+            (top.0, top.1, top.2 - 1)
+        }) {
+            if nets[name as usize].is_some() {
+                open.pop();
+                on_path.remove(&name);
+                continue;
+            }
+            let Some((definition, span)) = &self.definitions[name as usize] else {
+                self.fault(TextError::Undefined { net: self.text(name).to_owned() }, used);
+                nets[name as usize] = Some(logic.add_constant(false));
+                continue;
+            };
+            let span = *span;
+            match definition.pins().get(pin).copied() {
+                Some(next) if nets[next as usize].is_some() => {}
+                Some(next) if on_path.insert(next) => open.push((next, span, 0)),
+                Some(next) => {
+                    self.fault(TextError::Loop { net: self.text(next).to_owned() }, span);
+                    nets[next as usize] = Some(logic.add_constant(false));
+                }
+                None => {
+                    let net = add(logic, definition, nets);
+                    nets[name as usize] = Some(net);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the gates of a definition whose pins are all built.
+fn add(logic: &mut Netlist, definition: &Definition, nets: &[Option<NetId>]) -> NetId {
+    let net = |name: &NetName| nets[*name as usize].expect("pins are built first");
+    match definition {
+        Definition::Gate(function, inverted, pins) => {
+            let pins = pins.iter().map(net).collect();
+            gate(logic, *function, *inverted, pins)
+        }
+        Definition::Cover { pins, cubes, value } => {
+            let pins: Vec<_> = pins.iter().map(net).collect();
+            cover(logic, &pins, cubes, *value)
+        }
+    }
+}
+
+/// A balanced tree of gates of an associative function, with the last gate inverted if requested.
+fn gate(logic: &mut Netlist, function: Function, inverted: bool, mut nets: Vec<NetId>) -> NetId {
+    let last = |inverted: bool| if inverted { function.inverted() } else { function };
+    while nets.len() > 2 {
+        nets =
+            nets.chunks(2).map(|pair| if pair.len() == 2 { logic.add_gate(function, pair) } else { pair[0] }).collect();
+    }
+    match nets[..] {
+        [] => logic.add_constant((function == Function::AND) != inverted),
+        [one] if inverted => logic.add_gate(Function::NOT, &[one]),
+        [one] => one,
+        _ => logic.add_gate(last(inverted), &nets),
+    }
+}
+
+/// A sum of cubes; of two pins, one gate.
+fn cover(logic: &mut Netlist, pins: &[NetId], cubes: &[Vec<u8>], value: bool) -> NetId {
+    if pins.len() == 2 {
+        let holds = |cube: &[u8], x: u8, y: u8| (cube[0] == b'-' || cube[0] == x) && (cube[1] == b'-' || cube[1] == y);
+        let bits = [(b'0', b'0'), (b'0', b'1'), (b'1', b'0'), (b'1', b'1')]
+            .into_iter()
+            .enumerate()
+            .fold(0, |bits, (i, (x, y))| bits | u8::from(cubes.iter().any(|cube| holds(cube, x, y)) == value) << i);
+        return logic.add_gate(Function::new(bits), pins);
+    }
+    let terms: Vec<_> = cubes.iter().map(|cube| product(logic, pins, cube)).collect();
+    gate(logic, Function::OR, !value, terms)
+}
+
+fn product(logic: &mut Netlist, pins: &[NetId], cube: &[u8]) -> NetId {
+    let mut literals = Vec::new();
+    for (&net, digit) in pins.iter().zip(cube) {
+        match digit {
+            b'1' => literals.push(net),
+            b'0' => literals.push(logic.add_gate(Function::NOT, &[net])),
+            _ => {}
+        }
+    }
+    gate(logic, Function::AND, false, literals)
+}

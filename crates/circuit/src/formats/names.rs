@@ -1,0 +1,122 @@
+//! Names of nets in files: unique, and valid in the format.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::formats::Register;
+use crate::{NetId, Netlist, Node};
+
+/// The names of a design's nets and clocks in one file.
+#[derive(Clone, Debug)]
+pub struct FileNames {
+    nets: BTreeMap<NetId, String>,
+    /// The nets that clock registers, by the names that the registers have for them.
+    clocked: BTreeMap<String, NetId>,
+    /// The same for clocks that are not nets of the design.
+    clocks: BTreeMap<String, String>,
+}
+
+/// The source of a register's clock.
+pub enum ClockName<'n> {
+    /// From an input or a register's value.
+    Net(NetId),
+    /// From outside: the name that it has in the file.
+    Own(&'n str),
+}
+
+impl FileNames {
+    /// A name for every input, output, cell and clock. `legal` turns a name into a valid one of the format, and `kept`
+    /// are reserved words.
+    ///
+    /// Names are assigned first to ports, then to clocks that are not ports, then to the values and next values of
+    /// registers (the last inputs and outputs), then to cells.
+    pub fn new(netlist: &Netlist, registers: &[Register], kept: &[&str], legal: impl Fn(&str) -> String) -> Self {
+        let mut taken: BTreeSet<String> = kept.iter().map(|&word| word.to_owned()).collect();
+        let mut nets = BTreeMap::new();
+        let (inputs, states) = netlist.inputs().split_at(netlist.inputs().len() - registers.len());
+        let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - registers.len());
+        for &id in inputs.iter().chain(outputs) {
+            nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
+        }
+        let wanted: BTreeSet<&String> = registers.iter().filter_map(|register| register.clock.as_ref()).collect();
+        let sources = || inputs.iter().chain(states);
+        let source = |clock: &&String| sources().copied().find(|&id| netlist.net_name(id) == **clock);
+        let clocked = wanted.iter().filter_map(|clock| Some(((*clock).clone(), source(clock)?))).collect();
+        let own = wanted.iter().filter(|clock| source(clock).is_none());
+        let clocks = own.map(|clock| ((*clock).clone(), free(&mut taken, legal(clock)))).collect();
+        let others = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. }));
+        for id in states.iter().chain(nexts).copied().chain(others) {
+            nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
+        }
+        Self { nets, clocked, clocks }
+    }
+
+    /// The name of a net.
+    pub fn net(&self, id: NetId) -> &str {
+        &self.nets[&id]
+    }
+
+    /// The clocks that are not nets of the design, in order.
+    pub fn own_clocks(&self) -> impl Iterator<Item = &str> {
+        self.clocks.values().map(String::as_str)
+    }
+
+    /// The clock of a register, if it has one.
+    pub fn clock(&self, register: &Register) -> Option<ClockName<'_>> {
+        let clock = register.clock.as_ref()?;
+        let net = self.clocked.get(clock).map(|&id| ClockName::Net(id));
+        net.or_else(|| self.clocks.get(clock).map(|name| ClockName::Own(name)))
+    }
+}
+
+/// The name itself, or with the first free number appended.
+pub(super) fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
+    let numbered = (1..).map(|i| format!("{wish}_{i}"));
+    let name = std::iter::once(wish.clone()).chain(numbered).find(|name| !taken.contains(name));
+    let name = name.expect("there are more numbers than nets");
+    taken.insert(name.clone());
+    name
+}
+
+/// A name in visible ASCII characters, with invalid ones replaced.
+pub fn visible(name: &str, unreadable: &[char]) -> String {
+    let readable = |c: char| c.is_ascii_graphic() && !unreadable.contains(&c);
+    let visible: String = name.chars().map(|c| if readable(c) { c } else { '_' }).collect();
+    if visible.is_empty() { "_".to_owned() } else { visible }
+}
+
+/// For each cell or register value that drives outputs, the output that names it: the first.
+pub fn stand_ins(netlist: &Netlist, registers: usize) -> BTreeMap<NetId, NetId> {
+    let mut stand_ins = BTreeMap::new();
+    let states = &netlist.inputs()[netlist.inputs().len() - registers..];
+    for &output in netlist.outputs() {
+        let driver = netlist.pins(output)[0];
+        if matches!(netlist.node(driver), Node::Cell(_)) || states.contains(&driver) {
+            stand_ins.entry(driver).or_insert(output);
+        }
+    }
+    stand_ins
+}
+
+/// The cells; drivers first, except on loops.
+pub fn cells_in_order(netlist: &Netlist) -> Vec<NetId> {
+    let loops = crate::Loops::of(netlist);
+    loops.order().iter().copied().filter(|&id| matches!(netlist.node(id), Node::Cell(_))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Function;
+
+    #[test]
+    fn equal_names_are_numbered() {
+        let mut netlist = Netlist::new("m");
+        let a = netlist.add_input("a b");
+        let b = netlist.add_input("a_b");
+        let gate = netlist.add_gate(Function::AND, &[a, b]);
+        netlist.rename(gate, "a\u{1b}b");
+        let output = netlist.add_output("", gate);
+        let names = FileNames::new(&netlist, &[], &["_"], |name| visible(name, &[]));
+        assert_eq!([a, b, gate, output].map(|id| names.net(id)), ["a_b", "a_b_1", "a_b_2", "__1"]);
+    }
+}

@@ -1,0 +1,197 @@
+//! Names of nets in the project's own language: unique, legal, and bits of buses where the file has them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::formats::Design;
+use crate::formats::buses::{Bus, buses};
+use crate::formats::names::{free, stand_ins};
+use crate::{NetId, Netlist, Node};
+
+/// Reserved words of the language.
+const RESERVED: &[&str] = &[
+    "and",
+    "circuit",
+    "else",
+    "evolution",
+    "for",
+    "if",
+    "import",
+    "in",
+    "init",
+    "latch",
+    "library",
+    "log2",
+    "material",
+    "nand",
+    "net",
+    "nor",
+    "not",
+    "or",
+    "register",
+    "schedule",
+    "simulate",
+    "stimulus",
+    "swarm",
+    "table",
+    "test",
+    "then",
+    "use",
+    "world",
+    "xnor",
+    "xor",
+];
+
+/// A bit of a net in the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct NamedBit {
+    net: String,
+    bit: usize,
+    width: usize,
+}
+
+impl NamedBit {
+    fn alone(net: String) -> Self {
+        Self { net, bit: 0, width: 1 }
+    }
+
+    /// The bit in an expression.
+    pub(super) fn text(&self) -> String {
+        if self.width == 1 { self.net.clone() } else { format!("{}[{}]", self.net, self.bit) }
+    }
+
+    /// Bits as one expression, the highest first.
+    pub(super) fn joined(bits: &[Self]) -> String {
+        let [first, .., last] = bits else { return bits[0].text() };
+        let next = |high: &Self, low: &Self| high.width > 1 && high.net == low.net && high.bit == low.bit + 1;
+        if !bits.is_sorted_by(next) {
+            let parts: Vec<_> = bits.iter().map(Self::text).collect();
+            return format!("{{{}}}", parts.join(", "));
+        }
+        if bits.len() == first.width {
+            first.net.clone()
+        } else {
+            format!("{}[{}..{}]", first.net, first.bit, last.bit)
+        }
+    }
+}
+
+/// A net that the text declares: a port, or a register with its next values.
+#[derive(Clone, Debug)]
+pub(super) struct NamedNet {
+    pub(super) name: String,
+    /// Its bits, the lowest first.
+    pub(super) bits: Vec<NetId>,
+}
+
+impl NamedNet {
+    /// The net with its width.
+    pub(super) fn declared(&self) -> String {
+        if self.bits.len() == 1 { self.name.clone() } else { format!("{}[{}]", self.name, self.bits.len()) }
+    }
+}
+
+/// The names of a design in a text of the language.
+pub(super) struct NbNames {
+    pub(super) inputs: Vec<NamedNet>,
+    pub(super) outputs: Vec<NamedNet>,
+    /// The values of registers that no output shows, then the next values that cells compute.
+    pub(super) states: Vec<NamedNet>,
+    pub(super) nexts: Vec<NamedNet>,
+    /// The clocks that are not nets of the design.
+    pub(super) clocks: BTreeMap<String, String>,
+    /// The output that stands in for a net, if one does.
+    pub(super) stand_ins: BTreeMap<NetId, NetId>,
+    bits: BTreeMap<NetId, NamedBit>,
+    taken: BTreeSet<String>,
+}
+
+impl NbNames {
+    pub(super) fn new(design: &Design) -> Self {
+        let logic = &design.logic;
+        let (inputs, states) = logic.inputs().split_at(design.inputs());
+        let (outputs, nexts) = logic.outputs().split_at(design.outputs());
+        let mut stand_ins = stand_ins(logic, states.len());
+        // A register is not named by the next value of another.
+        stand_ins.retain(|driver, output| outputs.contains(output) || !states.contains(driver));
+        let mut names = Self {
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            states: Vec::new(),
+            nexts: Vec::new(),
+            clocks: BTreeMap::new(),
+            stand_ins,
+            bits: BTreeMap::new(),
+            taken: BTreeSet::new(),
+        };
+        names.inputs = names.nets(inputs, |id| logic.net_name(id));
+        names.outputs = names.nets(outputs, |id| logic.net_name(id));
+        names.own_clocks(design);
+        let hidden: Vec<_> = states.iter().copied().filter(|id| !names.stand_ins.contains_key(id)).collect();
+        names.states = names.nets(&hidden, |id| logic.net_name(id));
+        let computed: BTreeSet<_> = names.stand_ins.values().copied().collect();
+        let computed: Vec<_> = nexts.iter().copied().filter(|id| computed.contains(id)).collect();
+        names.nexts = names.nets(&computed, |id| next_name(&logic.net_name(id)));
+        names.others(logic);
+        names
+    }
+
+    /// Names nets by their buses.
+    fn nets(&mut self, ids: &[NetId], name: impl Fn(NetId) -> String) -> Vec<NamedNet> {
+        let names: Vec<String> = ids.iter().map(|&id| name(id)).collect();
+        let mut net = |Bus { name, bits }: Bus| {
+            let name = free(&mut self.taken, word(&name));
+            let bits: Vec<_> = bits.into_iter().map(|place| ids[place]).collect();
+            for (bit, &id) in bits.iter().enumerate() {
+                self.bits.insert(id, NamedBit { net: name.clone(), bit, width: bits.len() });
+            }
+            NamedNet { name, bits }
+        };
+        buses(&names).into_iter().map(&mut net).collect()
+    }
+
+    fn own_clocks(&mut self, design: &Design) {
+        let known: BTreeSet<String> = design.logic.inputs().iter().map(|&id| design.logic.net_name(id)).collect();
+        let clocks: BTreeSet<&str> = design.registers.iter().map(|register| register.clock_name()).collect();
+        for clock in clocks.into_iter().filter(|&clock| !known.contains(clock)) {
+            self.clocks.insert(clock.to_owned(), free(&mut self.taken, word(clock)));
+        }
+    }
+
+    fn others(&mut self, logic: &Netlist) {
+        for id in logic.ids().filter(|&id| matches!(logic.node(id), Node::Cell(_) | Node::Wire { .. })) {
+            if !self.stand_ins.contains_key(&id) {
+                let name = free(&mut self.taken, word(&logic.net_name(id)));
+                self.bits.insert(id, NamedBit::alone(name));
+            }
+        }
+    }
+
+    /// The name of a net, or of the output that stands in for it.
+    pub(super) fn bit(&self, logic: &Netlist, id: NetId) -> NamedBit {
+        match logic.node(id) {
+            Node::Constant(value) => NamedBit::alone(u8::from(*value).to_string()),
+            _ => self.bits[self.stand_ins.get(&id).unwrap_or(&id)].clone(),
+        }
+    }
+}
+
+/// The name of a register's next value: the next values of a bus are a bus.
+fn next_name(name: &str) -> String {
+    let bit = name.strip_suffix("_next").and_then(|state| state.strip_suffix(']')?.rsplit_once('['));
+    bit.map_or_else(|| name.to_owned(), |(bus, bit)| format!("{bus}_next[{bit}]"))
+}
+
+/// Whether the language allows a name: letters, digits and underscores, and not a reserved word.
+pub fn is_word(name: &str) -> bool {
+    word(name) == name
+}
+
+/// A name made legal in the language.
+pub(super) fn word(name: &str) -> String {
+    let mut word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    let nameless = word.chars().all(|c| c == '_');
+    if nameless || word.starts_with(|c: char| c.is_ascii_digit()) || RESERVED.contains(&word.as_str()) {
+        word.insert_str(0, "n_");
+    }
+    word
+}

@@ -1,0 +1,228 @@
+//! Structural Verilog: an `assign` a cell, an `always` block a register.
+//!
+//! The cells that stay as written (docs/compiler.md, "What stays as written") are instances of modules, which other
+//! tools do not dissolve. An attribute of the instance is the start value of a cell on a loop.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use crate::formats::design::{Design, Register, RegisterKind};
+use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, visible};
+use crate::formats::starts::starts;
+use crate::formats::verilog_names::escaped;
+use crate::guarded::Guarded;
+use crate::{NetId, Netlist, Node};
+use nbc_base::model::Function;
+
+/// Writes a design.
+pub fn write(design: &Design) -> String {
+    let mut writer = Writer::new(design);
+    let mut text = writer.head();
+    writer.declarations(&mut text);
+    for id in cells_in_order(&design.logic) {
+        writer.cell(&mut text, id);
+    }
+    writer.outputs(&mut text);
+    writer.registers(&mut text);
+    text.push_str("endmodule\n");
+    for (function, (module, pins)) in &writer.modules {
+        text.push_str(&cell_module(*function, module, *pins));
+    }
+    text
+}
+
+struct Writer<'d> {
+    design: &'d Design,
+    /// The names of nets before they are escaped: a number appended to an escaped name would be outside of it.
+    names: FileNames,
+    /// The names that no instance may have.
+    taken: BTreeSet<String>,
+    title: String,
+    /// The values before the first cycle of the cells on loops.
+    starts: BTreeMap<NetId, bool>,
+    guarded: Guarded,
+    /// For each cell on a loop that drives outputs, the output whose name it has.
+    stand_ins: BTreeMap<NetId, NetId>,
+    /// The modules of cells that stay as written, and the numbers of their inputs.
+    modules: BTreeMap<Function, (String, usize)>,
+}
+
+impl<'d> Writer<'d> {
+    fn new(design: &'d Design) -> Self {
+        let netlist = &design.logic;
+        let names = FileNames::new(netlist, &design.registers, &[], |name| visible(name, &[]));
+        let title = if netlist.name.is_empty() { "circuit".to_owned() } else { visible(&netlist.name, &[]) };
+        let mut taken: BTreeSet<String> = names.own_clocks().map(str::to_owned).collect();
+        taken.extend(netlist.ids().filter(|&id| !is_constant(netlist, id)).map(|id| names.net(id).to_owned()));
+        let starts = starts(netlist);
+        let mut stand_ins = stand_ins(netlist, design.registers.len());
+        stand_ins.retain(|cell, _| starts.contains_key(cell));
+        let guarded = Guarded::of(netlist);
+        let mut writer = Self { design, names, taken, title, starts, guarded, stand_ins, modules: BTreeMap::new() };
+        writer.name_modules();
+        writer
+    }
+
+    /// Names a module for each function of the cells that stay as written.
+    fn name_modules(&mut self) {
+        let netlist = &self.design.logic;
+        let mut taken = BTreeSet::from([self.title.clone()]);
+        for id in netlist.ids().filter(|&id| self.guarded.role(id).is_some()) {
+            let function = netlist.cell(id).expect("only cells have roles").function;
+            let module = || (free(&mut taken, format!("cell_{}", function.name())), netlist.pins(id).len());
+            self.modules.entry(function).or_insert_with(module);
+        }
+    }
+
+    fn name(&self, id: NetId) -> String {
+        match self.design.logic.node(id) {
+            Node::Constant(value) => format!("1'b{}", u8::from(*value)),
+            _ => escaped(self.names.net(*self.stand_ins.get(&id).unwrap_or(&id))),
+        }
+    }
+
+    fn head(&self) -> String {
+        let logic = &self.design.logic;
+        let clocks = self.names.own_clocks().map(escaped);
+        let inputs = clocks.chain(logic.inputs()[..self.design.inputs()].iter().map(|&id| self.name(id)));
+        let ports = inputs.map(|name| format!("input {name}"));
+        let outputs = logic.outputs()[..self.design.outputs()].iter().map(|&id| format!("output {}", self.name(id)));
+        format!("module {}({});\n", escaped(&self.title), ports.chain(outputs).collect::<Vec<_>>().join(", "))
+    }
+
+    fn declarations(&self, text: &mut String) {
+        let logic = &self.design.logic;
+        let states = &logic.inputs()[self.design.inputs()..];
+        for (state, register) in states.iter().zip(&self.design.registers) {
+            let start = register.start.map_or(String::new(), |start| format!(" = 1'b{}", u8::from(start)));
+            let _ = writeln!(text, "    reg {}{start};", self.name(*state));
+        }
+        let cells = cells_in_order(logic).into_iter().filter(|id| !self.stand_ins.contains_key(id));
+        for id in cells.chain(logic.outputs()[self.design.outputs()..].iter().copied()) {
+            let _ = writeln!(text, "    wire {};", self.name(id));
+        }
+    }
+
+    fn cell(&mut self, text: &mut String, id: NetId) {
+        let logic = &self.design.logic;
+        let function = logic.cell(id).expect("the order holds cells").function;
+        let pins: Vec<String> = logic.pins(id).into_iter().map(|pin| self.name(pin)).collect();
+        let net = self.name(id);
+        let (a, b) = (&pins[0], pins.last().expect("a cell has a pin"));
+        if self.guarded.role(id).is_none() {
+            let _ = writeln!(text, "    assign {net} = {};", expression(function, a, b));
+            return;
+        }
+        let start =
+            self.starts.get(&id).map_or(String::new(), |&start| format!("(* init = 1'b{} *) ", u8::from(start)));
+        let module = &self.modules[&function].0;
+        let instance = escaped(&free(&mut self.taken, format!("{}_cell", self.names.net(id))));
+        let b = if pins.len() > 1 { format!(", .b({b})") } else { String::new() };
+        let _ = writeln!(text, "    {start}{module} {instance}(.a({a}){b}, .y({net}));");
+    }
+
+    fn outputs(&self, text: &mut String) {
+        let logic = &self.design.logic;
+        for &id in logic.outputs() {
+            let driver = logic.pins(id)[0];
+            if self.stand_ins.get(&driver) != Some(&id) {
+                let _ = writeln!(text, "    assign {} = {};", self.name(id), self.name(driver));
+            }
+        }
+    }
+
+    fn registers(&self, text: &mut String) {
+        let logic = &self.design.logic;
+        let states = &logic.inputs()[self.design.inputs()..];
+        let nexts = &logic.outputs()[self.design.outputs()..];
+        for ((register, state), next) in self.design.registers.iter().zip(states).zip(nexts) {
+            let clock = self.clock(register);
+            let (state, next) = (self.name(*state), self.name(*next));
+            let _ = match register.kind {
+                RegisterKind::Rising => writeln!(text, "    always @(posedge {clock}) {state} <= {next};"),
+                RegisterKind::Falling => writeln!(text, "    always @(negedge {clock}) {state} <= {next};"),
+                RegisterKind::High => writeln!(text, "    always @* if ({clock}) {state} = {next};"),
+                RegisterKind::Low => writeln!(text, "    always @* if (!{clock}) {state} = {next};"),
+            };
+        }
+    }
+
+    fn clock(&self, register: &Register) -> String {
+        match self.names.clock(register) {
+            Some(ClockName::Net(id)) => self.name(id),
+            Some(ClockName::Own(clock)) => escaped(clock),
+            None => "clk".to_owned(),
+        }
+    }
+}
+
+fn is_constant(netlist: &Netlist, id: NetId) -> bool {
+    matches!(netlist.node(id), Node::Constant(_))
+}
+
+/// The module of a function, which Yosys keeps as a module of its own.
+fn cell_module(function: Function, module: &str, pins: usize) -> String {
+    let (ports, b) = if pins > 1 { ("input a, input b", "b") } else { ("input a", "a") };
+    let logic = expression(function, "a", b);
+    format!("\n(* keep_hierarchy *)\nmodule {module}({ports}, output y);\n    assign y = {logic};\nendmodule\n")
+}
+
+fn expression(function: Function, a: &str, b: &str) -> String {
+    match function.bits() {
+        0b0000 => "1'b0".to_owned(),
+        0b1111 => "1'b1".to_owned(),
+        0b0011 => format!("~{a}"),
+        0b0101 => format!("~{b}"),
+        0b1100 => a.to_owned(),
+        0b1010 => b.to_owned(),
+        0b0110 => format!("{a} ^ {b}"),
+        0b1001 => format!("~({a} ^ {b})"),
+        0b1000 => format!("{a} & {b}"),
+        0b0111 => format!("~({a} & {b})"),
+        0b1110 => format!("{a} | {b}"),
+        0b0001 => format!("~({a} | {b})"),
+        0b0100 => format!("{a} & ~{b}"),
+        0b0010 => format!("~{a} & {b}"),
+        0b1101 => format!("{a} | ~{b}"),
+        _ => format!("~{a} | {b}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::{full_adder, latch};
+    use crate::passes::DissolveWires;
+
+    #[test]
+    fn a_full_adder_is_readable() {
+        let text = write(&Design { logic: full_adder(), registers: Vec::new() });
+        assert!(
+            text.starts_with("module full_adder(input a, input b, input cin, output sum, output carry);\n"),
+            "{text}"
+        );
+        assert!(text.contains(" ^ cin;"), "{text}");
+    }
+
+    #[test]
+    fn the_number_of_a_shared_name_is_inside_its_escape() {
+        let mut netlist = Netlist::new("one");
+        let a = netlist.add_input("q[0]");
+        netlist.add_output("q[0]", a);
+        let text = write(&Design { logic: netlist, registers: Vec::new() });
+        assert!(text.starts_with("module one(input \\q[0] , output \\q[0]_1 );\n"), "{text}");
+    }
+
+    #[test]
+    fn cells_of_a_loop_are_instances_with_start_values() {
+        let mut logic = latch();
+        DissolveWires.run_on(&mut logic).unwrap();
+        let text = write(&Design { logic, registers: Vec::new() });
+        let instances: Vec<_> = text.lines().filter(|line| line.contains("init")).collect();
+        assert_eq!(instances.len(), 2, "{text}");
+        assert!(instances[0].starts_with("    (* init = 1'b0 *) cell_nand "), "{text}");
+        assert!(instances[1].starts_with("    (* init = 1'b1 *) cell_nand "), "{text}");
+        assert_eq!(text.matches("(* keep_hierarchy *)").count(), 1, "{text}");
+        assert_eq!(text.matches("cell_nand ").count(), 4, "two cells and two guards:\n{text}");
+    }
+}

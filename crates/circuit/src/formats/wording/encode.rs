@@ -1,0 +1,46 @@
+//! Designs that a format cannot represent.
+
+use crate::formats::RegisterKind;
+use nbc_base::diag::{Code, Diagnostic};
+
+/// A design that cannot be written in the requested format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum EncodeError {
+    /// A feedback loop, in AIGER.
+    AigerLoop,
+    /// A register other than a flip-flop of the rising edge, in AIGER.
+    AigerRegister { register: String, kind: RegisterKind },
+    /// Registers of several clocks, in AIGER.
+    AigerClocks { clocks: Vec<String> },
+    /// A circuit without outputs, in the project's own language.
+    NbNoOutputs { circuit: String },
+}
+
+impl From<EncodeError> for Diagnostic {
+    fn from(error: EncodeError) -> Self {
+        let other_format = "write BLIF or Verilog, which keep every register";
+        let (message, help) = match error {
+            EncodeError::AigerLoop => {
+                let help = "keep the registers with `--registers keep`, or write BLIF or Verilog";
+                ("AIGER has no feedback loops".to_owned(), help)
+            }
+            EncodeError::AigerRegister { register, kind } => {
+                let kind = match kind {
+                    RegisterKind::Rising => "a flip-flop of the rising edge",
+                    RegisterKind::Falling => "a flip-flop of the falling edge",
+                    RegisterKind::High | RegisterKind::Low => "a level-sensitive latch",
+                };
+                (format!("AIGER only has flip-flops of the rising edge, but `{register}` is {kind}"), other_format)
+            }
+            EncodeError::AigerClocks { clocks } => {
+                let clocks: Vec<_> = clocks.iter().map(|clock| format!("`{clock}`")).collect();
+                (format!("AIGER has one clock, but the registers have {}", clocks.join(", ")), other_format)
+            }
+            EncodeError::NbNoOutputs { circuit } => (
+                format!("`{circuit}` has no outputs, but a circuit of a .nb file needs one"),
+                "give the model an output",
+            ),
+        };
+        Self::without_place(Code::BadValue, message).with_help(help)
+    }
+}

@@ -1,0 +1,175 @@
+//! Guarded memory: the cells that stay as written in every pass and in mapping, because their transitions between two
+//! states decide what is stored (docs/compiler.md, "What stays as written").
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::loops::Loops;
+use crate::{NetId, Netlist, Node};
+
+/// Why a cell stays as written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// It stores a bit, together with others on its loop.
+    Memory,
+    /// It drives a memory element: a glitch on it can flip the state, even if some of its pins are constant.
+    Guard,
+    /// It computes an enable or a clock, which closes several guards at once. The order of two enables decides whether
+    /// a register stores one bit or lets two pass, so they stay derived from each other as written.
+    Control,
+}
+
+/// The cells of a netlist without wires that stay as written.
+#[derive(Clone, Debug)]
+pub struct Guarded {
+    loops: Loops,
+    roles: BTreeMap<NetId, Role>,
+}
+
+impl Guarded {
+    /// Finds them.
+    pub fn of(netlist: &Netlist) -> Self {
+        let loops = Loops::memory(netlist);
+        let is_cell = |id: &NetId| netlist.cell(*id).is_some();
+        let mut guarded = Self { loops, roles: BTreeMap::new() };
+        let cores = guarded.loops.cores().to_vec();
+        guarded.roles.extend(cores.iter().flatten().filter(|id| is_cell(id)).map(|&id| (id, Role::Memory)));
+        let mut controls = Vec::new();
+        for element in cores.iter().flat_map(|core| elements(netlist, core)) {
+            let outside = element.iter().flat_map(|&id| netlist.pins(id)).filter(|pin| !guarded.loops.contains(*pin));
+            let guards: BTreeSet<NetId> = outside.filter(is_cell).collect();
+            controls.extend(controls_of(netlist, &element, &guards));
+            guarded.roles.extend(guards.into_iter().map(|id| (id, Role::Guard)));
+        }
+        guarded.add_control_cone(netlist, controls);
+        guarded
+    }
+
+    /// The reason why a cell stays as written; `None` if it may be changed.
+    pub fn role(&self, id: NetId) -> Option<Role> {
+        self.roles.get(&id).copied()
+    }
+
+    /// Moves the role of a cell to its replacement.
+    pub fn replace(&mut self, old: NetId, new: NetId) {
+        if let Some(role) = self.roles.remove(&old) {
+            self.roles.insert(new, role);
+        }
+    }
+
+    /// The memory elements.
+    pub fn memory(&self) -> &Loops {
+        &self.loops
+    }
+
+    /// The cells that stay as written; drivers first, except on loops.
+    pub fn cells(&self) -> impl Iterator<Item = NetId> + '_ {
+        self.loops.order().iter().copied().filter(|id| self.roles.contains_key(id))
+    }
+
+    /// Marks all cells that compute control nets, back to inputs and memory.
+    fn add_control_cone(&mut self, netlist: &Netlist, mut pending: Vec<NetId>) {
+        while let Some(id) = pending.pop() {
+            if netlist.cell(id).is_some() && !self.roles.contains_key(&id) {
+                self.roles.insert(id, Role::Control);
+                pending.extend(netlist.pins(id));
+            }
+        }
+    }
+}
+
+/// The parts of a loop's memory that are connected among themselves: a state machine has one for each of its registers'
+/// latches.
+pub(crate) fn elements(netlist: &Netlist, core: &[NetId]) -> Vec<Vec<NetId>> {
+    let mut rest: BTreeSet<NetId> = core.iter().copied().collect();
+    let mut elements = Vec::new();
+    while let Some(first) = rest.pop_first() {
+        let mut element = vec![first];
+        let mut at = 0;
+        while at < element.len() {
+            let own = element[at];
+            let near = netlist.pins(own).into_iter().filter(|&pin| netlist.pins(pin).contains(&own));
+            element.extend(near.filter(|pin| rest.remove(pin)));
+            at += 1;
+        }
+        elements.push(element);
+    }
+    elements
+}
+
+/// The nets that close an element: one value of such a net fixes every guard or cell of the element that reads it, and
+/// there are at least two of these.
+fn controls_of(netlist: &Netlist, element: &[NetId], guards: &BTreeSet<NetId>) -> Vec<NetId> {
+    let mut fixing: BTreeMap<NetId, (usize, [bool; 2])> = BTreeMap::new();
+    for &listener in element.iter().chain(guards) {
+        let mut pins = netlist.pins(listener);
+        pins.dedup();
+        for &net in pins.iter().filter(|pin| !element.contains(pin) && !guards.contains(pin)) {
+            let (count, fixed) = fixing.entry(net).or_insert((0, [true; 2]));
+            *count += 1;
+            fixed
+                .iter_mut()
+                .zip([false, true])
+                .for_each(|(fixed, value)| *fixed &= fixes(netlist, listener, net, value));
+        }
+    }
+    fixing.into_iter().filter(|(_, (count, fixed))| *count > 1 && fixed.contains(&true)).map(|(net, _)| net).collect()
+}
+
+/// Whether a net with this value fixes a cell's output for all values of its other pin.
+fn fixes(netlist: &Netlist, id: NetId, net: NetId, value: bool) -> bool {
+    let Node::Cell(cell) = netlist.node(id) else { return false };
+    let function = cell.function;
+    let pins = netlist.pins(id);
+    let ends = |pin: usize| if pins[pin.min(pins.len() - 1)] == net { vec![value] } else { vec![false, true] };
+    let outputs: BTreeSet<bool> =
+        ends(0).into_iter().flat_map(|a| ends(1).into_iter().map(move |b| function.output(a, b))).collect();
+    outputs.len() == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::latch;
+    use crate::passes::DissolveWires;
+    use crate::registers;
+    use nbc_base::model::Function;
+
+    /// The names of the cells with each role, in order of numbers.
+    fn check(netlist: &Netlist, memory: usize, guards: usize, controls: usize) {
+        let guarded = Guarded::of(netlist);
+        let count = |role| netlist.ids().filter(|&id| guarded.role(id) == Some(role)).count();
+        assert_eq!([Role::Memory, Role::Guard, Role::Control].map(count), [memory, guards, controls], "{netlist}");
+        assert_eq!(guarded.cells().count(), memory + guards + controls);
+    }
+
+    #[test]
+    fn a_latch_is_two_cells_and_two_guards_and_its_data_is_free() {
+        let mut netlist = latch();
+        DissolveWires.run_on(&mut netlist).unwrap();
+        check(&netlist, 2, 2, 0);
+    }
+
+    #[test]
+    fn clock_inverters_and_enable_logic_stay_as_written() {
+        let mut netlist = Netlist::new("gated");
+        let [a, b, clock] = ["a", "b", "clk"].map(|name| netlist.add_input(name));
+        let data = netlist.add_gate(Function::XOR, &[a, b]);
+        let wanted = netlist.add_gate(Function::OR, &[a, b]);
+        let enable = netlist.add_gate(Function::AND, &[clock, wanted]);
+        let q = registers::flip_flop(&mut netlist, "q", data, enable, false);
+        netlist.add_output("q", q);
+        check(&netlist, 4, 4, 3);
+    }
+
+    #[test]
+    fn roles_do_not_depend_on_constant_or_shared_data() {
+        let mut netlist = Netlist::new("constant");
+        let clock = netlist.add_input("clk");
+        let one = netlist.add_constant(true);
+        for (name, data) in [("p", one), ("q", clock)] {
+            let q = registers::flip_flop(&mut netlist, name, data, clock, false);
+            netlist.add_output(name, q);
+        }
+        check(&netlist, 8, 8, 2);
+    }
+}

@@ -1,0 +1,192 @@
+//! Simulation of a netlist at the level of logic: every cell takes one time step, and inputs are held until nothing
+//! changes.
+
+use crate::Oscillation;
+use crate::netlist::{NetId, Netlist, Node};
+use nbc_base::model::Function;
+
+/// A netlist being evaluated.
+pub struct Logic {
+    inputs: Vec<u32>,
+    outputs: Vec<u32>,
+    cells: Vec<Gate>,
+    /// Values of all nets by slot: the inputs, the constants, then the cells.
+    values: Vec<bool>,
+    next: Vec<bool>,
+}
+
+/// A cell with the slots of its pins; of one pin, both are that.
+struct Gate {
+    function: Function,
+    pins: [u32; 2],
+    slot: u32,
+}
+
+impl Logic {
+    /// A netlist before its first cycle. Cells with a start value have it. The others have the values that follow from
+    /// inputs of 0, if these settle.
+    ///
+    /// # Panics
+    /// When the netlist is not well formed: a pin without a driver, or a wire that drives itself.
+    pub fn new(netlist: &Netlist) -> Self {
+        let slots = netlist.graph().node_indices().map(|id| id.index() as u32 + 1).max().unwrap_or(0);
+        let mut logic = Self {
+            inputs: netlist.inputs().iter().map(|id| id.index() as u32).collect(),
+            outputs: netlist.outputs().iter().map(|&id| driver(netlist, netlist.pins(id)[0])).collect(),
+            cells: Vec::new(),
+            values: vec![false; slots as usize],
+            next: Vec::new(),
+        };
+        let mut held = Vec::new();
+        for id in netlist.ids() {
+            match netlist.node(id) {
+                Node::Constant(value) => logic.values[id.index()] = *value,
+                Node::Cell(cell) => {
+                    let pins = netlist.pins(id);
+                    let pins = [pins[0], pins[pins.len() - 1]].map(|pin| driver(netlist, pin));
+                    logic.cells.push(Gate { function: cell.function, pins, slot: id.index() as u32 });
+                    held.extend(start(netlist, id).map(|start| (id.index(), start)));
+                }
+                _ => {}
+            }
+        }
+        logic.begin(&held);
+        logic
+    }
+
+    /// Lets the cells without a start value settle while the others are held.
+    fn begin(&mut self, held: &[(usize, bool)]) {
+        for _ in 0..self.cells.len() + 2 {
+            for &(slot, start) in held {
+                self.values[slot] = start;
+            }
+            let changed = self.step();
+            let moved = held.iter().any(|&(slot, start)| self.values[slot] != start);
+            if !changed || (moved && held.len() == self.cells.len()) {
+                break;
+            }
+        }
+        for &(slot, start) in held {
+            self.values[slot] = start;
+        }
+    }
+
+    /// The value of an input, a constant or a cell.
+    pub fn value(&self, net: NetId) -> bool {
+        self.values[net.index()]
+    }
+
+    /// One time step of every cell; whether any output changed.
+    fn step(&mut self) -> bool {
+        self.next.clear();
+        let value = |slot: u32| self.values[slot as usize];
+        self.next.extend(self.cells.iter().map(|gate| gate.function.output(value(gate.pins[0]), value(gate.pins[1]))));
+        let mut changed = false;
+        for (gate, &next) in self.cells.iter().zip(&self.next) {
+            changed |= std::mem::replace(&mut self.values[gate.slot as usize], next) != next;
+        }
+        changed
+    }
+
+    /// Holds the inputs, in order of the ports, until nothing changes, and returns the outputs.
+    ///
+    /// # Errors
+    /// When the circuit does not settle. It then has run for as many steps as any circuit of this size that settles
+    /// needs.
+    ///
+    /// # Panics
+    /// When there are not as many values as inputs.
+    pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Oscillation> {
+        assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
+        for (&slot, &value) in self.inputs.iter().zip(inputs) {
+            self.values[slot as usize] = value;
+        }
+        let rests = (0..self.limit()).any(|_| !self.step());
+        if rests { Ok(self.outputs()) } else { Err(Oscillation) }
+    }
+
+    /// The number of steps after which a circuit of this size has settled, if it ever does. Without loops the longest
+    /// path is the limit; loops that settle do so within a few rounds.
+    fn limit(&self) -> usize {
+        16 * self.cells.len() + 16
+    }
+
+    /// The outputs as they are.
+    pub fn outputs(&self) -> Vec<bool> {
+        self.outputs.iter().map(|&slot| self.values[slot as usize]).collect()
+    }
+
+    /// For each output, whether it is constant while the inputs are held. A circuit that does not settle may have
+    /// constant outputs.
+    pub fn steady_outputs(&mut self) -> Vec<bool> {
+        let before = self.outputs();
+        let mut steady = vec![true; before.len()];
+        for _ in 0..self.limit() {
+            self.step();
+            for ((steady, &slot), before) in steady.iter_mut().zip(&self.outputs).zip(&before) {
+                *steady &= self.values[slot as usize] == *before;
+            }
+        }
+        steady
+    }
+}
+
+/// The slot of the cell, input or constant behind wires.
+fn driver(netlist: &Netlist, id: NetId) -> u32 {
+    let mut at = id;
+    let mut steps = 0;
+    while let Node::Wire { .. } = netlist.node(at) {
+        at = netlist.pins(at)[0];
+        steps += 1;
+        assert!(steps <= netlist.graph().node_count(), "a wire does not drive itself");
+    }
+    at.index() as u32
+}
+
+/// The start value of a cell: its own, or that of a wire it drives.
+fn start(netlist: &Netlist, id: NetId) -> Option<bool> {
+    let own = netlist.cell(id).and_then(|cell| cell.start);
+    own.or_else(|| {
+        netlist.fanout(id).into_iter().find_map(|(listener, _)| match netlist.node(listener) {
+            Node::Wire { start, .. } => *start,
+            _ => None,
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set_reset() -> Netlist {
+        let mut netlist = Netlist::new("latch");
+        let set = netlist.add_input("s");
+        let reset = netlist.add_input("r");
+        let wire = netlist.add_wire("nq", Some(true), None);
+        let q = netlist.add_gate(Function::NAND, &[set, wire]);
+        let nq = netlist.add_gate(Function::NAND, &[reset, q]);
+        netlist.drive(wire, 0, nq);
+        netlist.add_output("q", q);
+        netlist
+    }
+
+    #[test]
+    fn a_latch_remembers() {
+        let mut logic = Logic::new(&set_reset());
+        let reset = ([true, false], false);
+        let rows = [reset, ([true, true], false), ([false, true], true), ([true, true], true), reset];
+        for (inputs, expected) in rows {
+            assert_eq!(logic.settle(&inputs), Ok(vec![expected]), "after {inputs:?}");
+        }
+    }
+
+    #[test]
+    fn a_ring_oscillates() {
+        let mut netlist = Netlist::new("ring");
+        let wire = netlist.add_wire("q", Some(false), None);
+        let gate = netlist.add_gate(Function::NOT, &[wire]);
+        netlist.drive(wire, 0, gate);
+        netlist.add_output("q", gate);
+        assert_eq!(Logic::new(&netlist).settle(&[]), Err(Oscillation));
+    }
+}

@@ -1,0 +1,325 @@
+//! Technology mapping: makes a netlist in which every cell computes a function of the library.
+
+use std::collections::BTreeMap;
+
+use crate::cells::CellLibrary;
+use crate::elaborate::MAX_CELLS;
+use crate::guarded::Guarded;
+use crate::loops::Loops;
+use crate::network::{Network, Signal, View};
+use crate::options::{MapOptions, MappingObjective};
+use crate::passes::{self, DissolveWires, Pass, Sweep};
+use crate::proof::core_names;
+use crate::recipes::{Operand, Recipe, Recipes};
+use crate::synth::reduce;
+use crate::{MapError, NetId, Netlist, Node};
+use nbc_base::model::Function;
+
+/// Maps a netlist onto a library for few robots, at normal effort.
+///
+/// # Errors
+/// As [`map_with`].
+pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError> {
+    map_with(netlist, library, &MapOptions::default())
+}
+
+/// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by
+/// function; the logic around them is synthesized.
+///
+/// # Errors
+/// When the netlist is not well formed or the library cannot make a function of the circuit.
+pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
+    let cells = netlist.cells().count();
+    if cells as u64 > MAX_CELLS {
+        return Err(MapError::TooLarge { cells, most: MAX_CELLS });
+    }
+    let mut source = netlist.clone();
+    passes::run(&mut source)?;
+    if options.objective == MappingObjective::Margin {
+        return map_widest(&source, library, options);
+    }
+    let mut mapped = Mapper::new(&source, library).map(options)?;
+    DissolveWires.run_on(&mut mapped)?;
+    Sweep.run(&mut mapped)?;
+    name_outputs(&mut mapped);
+    Ok(mapped)
+}
+
+/// Maps with the robots of the widest margins that suffice for this circuit.
+fn map_widest(source: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
+    let mut margins: Vec<f64> = library.kinds().map(|(_, kind)| kind.margin).collect();
+    margins.sort_by(f64::total_cmp);
+    let options = &MapOptions { objective: MappingObjective::Area, ..options.clone() };
+    let wide = margins.into_iter().rev().map(|margin| library.with_margin(margin));
+    let mapped = wide.map(|wide| map_with(source, &wide, options)).find(Result::is_ok);
+    mapped.unwrap_or_else(|| map_with(source, library, options))
+}
+
+/// The mapping of one netlist.
+struct Mapper<'a> {
+    source: &'a Netlist,
+    library: &'a CellLibrary,
+    guarded: Guarded,
+    recipes: Recipes,
+    mapped: Netlist,
+    /// The cells that stay as written, in order.
+    kept: Vec<NetId>,
+    /// The nets of the mapped netlist that correspond to the inputs of the logic.
+    net: BTreeMap<NetId, NetId>,
+}
+
+impl<'a> Mapper<'a> {
+    fn new(source: &'a Netlist, library: &'a CellLibrary) -> Self {
+        let guarded = Guarded::of(source);
+        Self {
+            source,
+            library,
+            kept: guarded.cells().collect(),
+            guarded,
+            recipes: Recipes::of(library),
+            mapped: Netlist::new(&source.name),
+            net: BTreeMap::new(),
+        }
+    }
+
+    fn map(mut self, options: &MapOptions) -> Result<Netlist, MapError> {
+        for &id in self.source.inputs() {
+            let net = self.mapped.add_input(self.source.net_name(id));
+            self.net.insert(id, net);
+        }
+        let memory = self.guarded.memory();
+        let names = core_names(self.source, memory);
+        for &id in &self.kept {
+            // A guard has a wire without a name, which leaves no trace; a core cell keeps its name and start value.
+            let name = names.get(&id).cloned().unwrap_or_default();
+            let start = self.source.cell(id).and_then(|cell| cell.start).filter(|_| memory.contains(id));
+            let wire = self.mapped.add_wire(name, start, None);
+            self.net.insert(id, wire);
+        }
+        let view = View::of(self.source, &self.kept).expect("every loop passes through cells that are kept");
+        let (network, sinks) = self.logic(&view);
+        let reduced =
+            reduce(&network, &self.stages(), self.library, options).map_err(|missing| self.missing(missing))?;
+        let nets = self.copy(&reduced);
+        let shown: BTreeMap<NetId, NetId> = sinks.into_iter().zip(nets).collect();
+        for &id in &self.kept.clone() {
+            let pins: Vec<_> = self.source.pins(id).iter().map(|pin| shown[pin]).collect();
+            let net = self.split(id, &pins)?;
+            self.mapped.drive(self.net[&id], 0, net);
+        }
+        for &id in self.source.outputs() {
+            self.mapped.add_output(self.source.net_name(id), shown[&self.source.pins(id)[0]]);
+        }
+        Ok(self.mapped)
+    }
+
+    /// The logic between ports and kept cells, and the nets of the source that its outputs are.
+    fn logic(&self, view: &View) -> (Network, Vec<NetId>) {
+        let sinks = self.source.outputs().iter().chain(&self.kept);
+        let mut sinks: Vec<_> = sinks.flat_map(|&id| self.source.pins(id)).collect();
+        sinks.sort_unstable();
+        sinks.dedup();
+        let mut network = view.network.clone();
+        network.outputs = sinks.iter().map(|sink| view.signal[sink]).collect();
+        (network, sinks)
+    }
+
+    /// For each input of the logic, the number of kept cells before it: no cell may start to depend on a later one.
+    fn stages(&self) -> Vec<u32> {
+        let mut stages: BTreeMap<NetId, u32> = BTreeMap::new();
+        let loops = Loops::of(self.source);
+        for &id in loops.order() {
+            let members = loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &loops.cores()[core]);
+            let pins = members.iter().flat_map(|&member| self.source.pins(member)).filter(|pin| !members.contains(pin));
+            let latest = pins.map(|pin| stages.get(&pin).copied().unwrap_or(0)).max().unwrap_or(0);
+            stages.insert(id, latest + u32::from(self.guarded.role(id).is_some()));
+        }
+        self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
+    }
+
+    /// Adds the gates of a network whose inputs are the ports and the kept nets; returns the nets of its outputs.
+    fn copy(&mut self, network: &Network) -> Vec<NetId> {
+        let mut constants = [None; 2];
+        let mut nets: Vec<Option<NetId>> = vec![None, None];
+        nets.extend(self.source.inputs().iter().chain(&self.kept).map(|id| Some(self.net[id])));
+        let mapped = &mut self.mapped;
+        let mut net = |mapped: &mut Netlist, nets: &[Option<NetId>], signal: Signal| {
+            nets[signal as usize]
+                .unwrap_or_else(|| *constants[signal as usize].get_or_insert_with(|| mapped.add_constant(signal == 1)))
+        };
+        for gate in &network.gates {
+            let pins = gate.pins.map(|pin| net(mapped, &nets, pin));
+            let used = if gate.function.depends_on(1) { 2 } else { 1 };
+            nets.push(Some(mapped.add_gate(gate.function, &pins[..used])));
+        }
+        network.outputs.iter().map(|&output| net(mapped, &nets, output)).collect()
+    }
+
+    /// Splits a kept cell into cells of the library.
+    fn split(&mut self, id: NetId, pins: &[NetId]) -> Result<NetId, MapError> {
+        let cell = self.source.cell(id).expect("kept cells are cells");
+        let missing = || self.missing(cell.function);
+        let Recipe { steps, result, .. } = self.recipes.get(cell.function).cloned().ok_or_else(missing)?;
+        let mut nets: Vec<NetId> = Vec::with_capacity(steps.len());
+        for step in &steps {
+            let pins = step.pins.map(|operand| self.operand(operand, pins, &nets));
+            let used = if step.function.depends_on(1) { 2 } else { 1 };
+            nets.push(self.mapped.add_gate(step.function, &pins[..used]));
+        }
+        let net = self.operand(result, pins, &nets);
+        if let (Node::Cell(made), Operand::Step(_)) = (self.mapped.node_mut(net), result) {
+            made.span = cell.span;
+        }
+        Ok(net)
+    }
+
+    fn missing(&self, function: Function) -> MapError {
+        let known = self.library.functions().collect();
+        MapError::Incomplete { missing: function, known, completions: self.library.completions() }
+    }
+
+    fn operand(&mut self, operand: Operand, pins: &[NetId], nets: &[NetId]) -> NetId {
+        match operand {
+            Operand::Input(pin) => pins[usize::from(pin).min(pins.len() - 1)],
+            Operand::Step(i) => nets[usize::from(i)],
+            Operand::Constant(value) => self.mapped.add_constant(value),
+        }
+    }
+}
+
+/// A cell without a name that drives an output takes the output's name.
+pub fn name_outputs(netlist: &mut Netlist) {
+    let mut taken: std::collections::BTreeSet<_> = netlist.cells().filter_map(|(_, cell)| cell.name.clone()).collect();
+    for output in netlist.outputs().to_vec() {
+        let driver = netlist.pins(output)[0];
+        let name = netlist.net_name(output);
+        if let Node::Cell(cell) = netlist.node_mut(driver)
+            && cell.name.is_none()
+            && taken.insert(name.clone())
+        {
+            cell.name = Some(name);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CellKind;
+    use crate::example::{full_adder, latch};
+    use crate::proof::{Method, prove};
+
+    fn library(names: &str) -> CellLibrary {
+        CellLibrary::uniform(
+            names.split(' ').filter(|name| !name.is_empty()).map(|name| Function::parse(name).unwrap()),
+        )
+    }
+
+    fn count(netlist: &Netlist, function: Function) -> usize {
+        netlist.cells().filter(|(_, cell)| cell.function == function).count()
+    }
+
+    #[test]
+    fn the_papers_latch_is_four_nand_and_one_not() {
+        let mapped = map(&latch(), &library("nand not and or xor")).unwrap();
+        assert_eq!(count(&mapped, Function::NAND), 4);
+        assert_eq!(count(&mapped, Function::NOT), 1);
+        assert_eq!(mapped.cells().count(), 5);
+        let starts: Vec<_> =
+            mapped.cells().filter_map(|(_, cell)| Some((cell.name.as_deref()?, cell.start?))).collect();
+        assert_eq!(starts, [("q", false), ("nq", true)]);
+    }
+
+    #[test]
+    fn every_cell_is_in_the_library() {
+        for cells in ["nand", "nor", "nand not", "xor and", "a_or_notb", "nota_and_b not", "and not", "or xnor"] {
+            let library = library(cells);
+            for netlist in [latch(), full_adder()] {
+                let mapped = map(&netlist, &library).unwrap();
+                assert!(mapped.cells().all(|(_, cell)| library.contains(cell.function)), "{cells}\n{mapped}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_incomplete_library_reports_missing_functions_and_suggestions() {
+        let error = map(&full_adder(), &library("xor not")).unwrap_err();
+        assert_eq!(error.to_string(), "`and` cannot be made of `not` and `xor`");
+        assert_eq!(
+            error.help().unwrap(),
+            "any one of `nor`, `nota_and_b`, `a_and_notb`, `nand`, `and`, `nota_or_b`, `a_or_notb` or `or` would \
+             complete the library"
+        );
+        assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made without cells");
+    }
+
+    /// A chain of exclusive ors with twenty inputs in turn.
+    fn chain(cells: usize) -> Netlist {
+        let mut netlist = Netlist::new("chain");
+        let inputs: Vec<_> = (0..20).map(|i| netlist.add_input(format!("i{i}"))).collect();
+        let sum = |sum, i| netlist.add_gate(Function::XOR, &[sum, inputs[1 + i % 19]]);
+        let last = (0..cells).fold(inputs[0], sum);
+        netlist.add_output("q", last);
+        netlist
+    }
+
+    #[test]
+    fn a_long_chain_is_mapped_and_proved_without_recursion() {
+        let source = chain(50_000);
+        let mapped = map(&source, &library("nand not")).unwrap();
+        assert_eq!(mapped.cells().count(), 200_000);
+        assert_eq!(prove(&source, &mapped).unwrap().method, Method::Structural);
+    }
+
+    #[test]
+    fn too_many_cells_are_rejected_with_their_number() {
+        let error = map(&chain(1_000_001), &library("nand")).unwrap_err();
+        assert_eq!(error.to_string(), "the circuit has 1000001 cells, expected at most 1000000");
+    }
+
+    #[test]
+    fn the_margin_objective_accepts_more_robots() {
+        let mut library = library("nand and or not");
+        library.insert(Function::XOR, CellKind::uniform(1, 0.1));
+        library.insert(Function::NAND, CellKind::uniform(1, 2.0));
+        let cells = |objective| {
+            let mapped = map_with(&full_adder(), &library, &MapOptions { objective, ..MapOptions::default() }).unwrap();
+            let margins = mapped.cells().map(|(_, cell)| library.get(cell.function).unwrap().margin);
+            (mapped.cells().count(), margins.fold(f64::INFINITY, f64::min))
+        };
+        assert_eq!(cells(MappingObjective::Area), (5, 0.1));
+        assert_eq!(cells(MappingObjective::Margin), (9, 2.0));
+    }
+
+    #[test]
+    fn the_delay_objective_accepts_more_robots() {
+        let chain = |netlist: &mut Netlist| {
+            let inputs: Vec<_> = (0..8).map(|i| netlist.add_input(format!("i{i}"))).collect();
+            inputs[1..].iter().fold(inputs[0], |sum, &input| netlist.add_gate(Function::XOR, &[sum, input]))
+        };
+        let mut netlist = Netlist::new("parity");
+        let sum = chain(&mut netlist);
+        netlist.add_output("y", sum);
+        let library = library("nand not");
+        let hold = |objective| {
+            let mapped = map_with(&netlist, &library, &MapOptions { objective, ..MapOptions::default() }).unwrap();
+            crate::Timing::of(&mapped, &library, crate::Delays::Clock).hold
+        };
+        let (area, delay) = (hold(MappingObjective::Area), hold(MappingObjective::Delay));
+        assert!(delay < area, "{delay} cycles by delay, {area} by area");
+    }
+
+    #[test]
+    fn a_constant_output_needs_no_cell() {
+        let mut netlist = Netlist::new("one");
+        let a = netlist.add_input("a");
+        let gate = netlist.add_gate(Function::XNOR, &[a, a]);
+        let both = netlist.add_gate(Function::OR, &[a, gate]);
+        netlist.add_output("q", both);
+        netlist.add_output("p", a);
+        let mapped = map(&netlist, &library("nand")).unwrap();
+        let driver = mapped.pins(mapped.outputs()[0])[0];
+        assert_eq!(mapped.node(driver), &Node::Constant(true));
+        assert_eq!(mapped.cells().count(), 0);
+    }
+}

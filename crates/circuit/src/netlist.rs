@@ -1,0 +1,281 @@
+//! The netlist: a directed graph of ports, constants and cells, feedback included. A net is known by the node that
+//! drives it.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use petgraph::Direction::Incoming;
+use petgraph::stable_graph::{NodeIndex, StableDiGraph};
+use petgraph::visit::EdgeRef;
+
+use nbc_base::model::Function;
+use nbc_base::source::Span;
+
+/// A net, named by its driver.
+pub type NetId = NodeIndex;
+
+/// A gate instance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// Its function of pins 0 and 1; a function of one input reads pin 0 only, and has no pin 1.
+    pub function: Function,
+    /// The name of the net it drives, if the source has one.
+    pub name: Option<String>,
+    /// The output before the first cycle; only cells on a feedback loop need one.
+    pub start: Option<bool>,
+    /// Its place in the source.
+    pub span: Option<Span>,
+}
+
+/// A node of the graph.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// An input port.
+    Input(String),
+    /// An output port; its one pin is the net it shows.
+    Output(String),
+    /// A net that never changes.
+    Constant(bool),
+    /// A name for a net that is driven elsewhere, perhaps later: this makes feedback possible. Its one pin is the
+    /// driver.
+    Wire {
+        /// As in the source; [`NetId`]s refer to the node, not to the name.
+        name: String,
+        /// The start value declared with `init`.
+        start: Option<bool>,
+        /// The place of the declaration.
+        span: Option<Span>,
+    },
+    /// A gate.
+    Cell(Cell),
+}
+
+/// The graph of a netlist: the weight of an edge is the listener's pin.
+pub type NetGraph = StableDiGraph<Node, u8, u32>;
+
+/// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.
+#[derive(Clone, Debug, Default)]
+pub struct Netlist {
+    /// The circuit's name.
+    pub name: String,
+    graph: NetGraph,
+    inputs: Vec<NetId>,
+    outputs: Vec<NetId>,
+}
+
+impl Netlist {
+    /// An empty netlist.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..Self::default() }
+    }
+
+    /// Adds an input port after the others.
+    pub fn add_input(&mut self, name: impl Into<String>) -> NetId {
+        let id = self.graph.add_node(Node::Input(name.into()));
+        self.inputs.push(id);
+        id
+    }
+
+    /// Adds an output port after the others, showing `net`.
+    pub fn add_output(&mut self, name: impl Into<String>, net: NetId) -> NetId {
+        let id = self.graph.add_node(Node::Output(name.into()));
+        self.graph.add_edge(net, id, 0);
+        self.outputs.push(id);
+        id
+    }
+
+    /// Adds a constant net.
+    pub fn add_constant(&mut self, value: bool) -> NetId {
+        self.graph.add_node(Node::Constant(value))
+    }
+
+    /// Adds a wire without a driver; [`Netlist::drive`] sets the driver.
+    pub fn add_wire(&mut self, name: impl Into<String>, start: Option<bool>, span: Option<Span>) -> NetId {
+        self.graph.add_node(Node::Wire { name: name.into(), start, span })
+    }
+
+    /// Adds a cell whose pins 0, 1, … listen to `pins`.
+    ///
+    /// # Panics
+    /// When the number of pins is not one or two.
+    pub fn add_cell(&mut self, cell: Cell, pins: &[NetId]) -> NetId {
+        assert!(matches!(pins.len(), 1 | 2), "a cell has one pin or two");
+        let id = self.graph.add_node(Node::Cell(cell));
+        for (pin, &net) in pins.iter().enumerate() {
+            self.graph.add_edge(net, id, pin as u8);
+        }
+        id
+    }
+
+    /// Adds a gate instance without drivers of its pins; [`Netlist::connect`] sets them.
+    pub fn add_loose_cell(&mut self, cell: Cell) -> NetId {
+        self.graph.add_node(Node::Cell(cell))
+    }
+
+    /// Connects an unconnected pin to `net`.
+    pub fn connect(&mut self, listener: NetId, pin: u8, net: NetId) {
+        self.graph.add_edge(net, listener, pin);
+    }
+
+    /// Adds an unnamed gate.
+    pub fn add_gate(&mut self, function: Function, pins: &[NetId]) -> NetId {
+        self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
+    }
+
+    /// Connects pin `pin` of `listener` to `net` only.
+    pub fn drive(&mut self, listener: NetId, pin: u8, net: NetId) {
+        let old =
+            self.graph.edges_directed(listener, Incoming).find(|edge| *edge.weight() == pin).map(|edge| edge.id());
+        if let Some(old) = old {
+            self.graph.remove_edge(old);
+        }
+        self.graph.add_edge(net, listener, pin);
+    }
+
+    /// Takes a node out, with its edges.
+    pub fn remove(&mut self, id: NetId) {
+        self.graph.remove_node(id);
+        self.inputs.retain(|&input| input != id);
+        self.outputs.retain(|&output| output != id);
+    }
+
+    /// The node.
+    pub fn node(&self, id: NetId) -> &Node {
+        &self.graph[id]
+    }
+
+    /// Renames a port, a wire or a cell.
+    pub fn rename(&mut self, id: NetId, new: &str) {
+        match self.node_mut(id) {
+            Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => *name = new.to_owned(),
+            Node::Cell(cell) => cell.name = Some(new.to_owned()),
+            Node::Constant(_) => {}
+        }
+    }
+
+    /// The node, to be changed.
+    pub fn node_mut(&mut self, id: NetId) -> &mut Node {
+        &mut self.graph[id]
+    }
+
+    /// The cell at a node, if it is one.
+    pub fn cell(&self, id: NetId) -> Option<&Cell> {
+        match self.node(id) {
+            Node::Cell(cell) => Some(cell),
+            _ => None,
+        }
+    }
+
+    /// The cell at a node, if it is one, to be changed.
+    pub fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
+        match self.node_mut(id) {
+            Node::Cell(cell) => Some(cell),
+            _ => None,
+        }
+    }
+
+    /// The drivers of a node's pins, pin 0 first.
+    pub fn pins(&self, id: NetId) -> Vec<NetId> {
+        let mut pins: Vec<_> =
+            self.graph.edges_directed(id, Incoming).map(|edge| (*edge.weight(), edge.source())).collect();
+        pins.sort_unstable();
+        pins.into_iter().map(|(_, net)| net).collect()
+    }
+
+    /// The listeners of a net with their pins, in order of their numbers.
+    pub fn fanout(&self, id: NetId) -> Vec<(NetId, u8)> {
+        let mut listeners: Vec<_> = self.graph.edges(id).map(|edge| (edge.target(), *edge.weight())).collect();
+        listeners.sort_unstable();
+        listeners
+    }
+
+    /// The input ports in order.
+    pub fn inputs(&self) -> &[NetId] {
+        &self.inputs
+    }
+
+    /// The output ports in order.
+    pub fn outputs(&self) -> &[NetId] {
+        &self.outputs
+    }
+
+    /// Every node, in order of numbers.
+    pub fn ids(&self) -> impl Iterator<Item = NetId> + '_ {
+        self.graph.node_indices()
+    }
+
+    /// The cells, in order of numbers.
+    pub fn cells(&self) -> impl Iterator<Item = (NetId, &Cell)> {
+        self.ids().filter_map(|id| Some((id, self.cell(id)?)))
+    }
+
+    /// The number of cells of each function, by name.
+    pub fn by_function(&self) -> BTreeMap<&'static str, usize> {
+        let mut counts = BTreeMap::new();
+        for (_, cell) in self.cells() {
+            *counts.entry(cell.function.name()).or_insert(0) += 1;
+        }
+        counts
+    }
+
+    /// The graph itself, for petgraph's algorithms: an edge's weight is the listener's pin.
+    pub fn graph(&self) -> &NetGraph {
+        &self.graph
+    }
+
+    /// The displayed name of a net: that of the port, wire or cell, else `n` and its number.
+    pub fn net_name(&self, id: NetId) -> String {
+        match self.node(id) {
+            Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => name.clone(),
+            Node::Constant(value) => u8::from(*value).to_string(),
+            Node::Cell(Cell { name: Some(name), .. }) => name.clone(),
+            Node::Cell(_) => format!("n{}", id.index()),
+        }
+    }
+}
+
+impl fmt::Display for Netlist {
+    /// The netlist as text: ports, then a line for each cell or wire in order of numbers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = |ids: &[NetId]| ids.iter().map(|&id| self.net_name(id)).collect::<Vec<_>>().join(", ");
+        writeln!(f, "netlist {}({}) -> ({}) {{", self.name, names(&self.inputs), names(&self.outputs))?;
+        for id in self.ids() {
+            let (operator, start) = match self.node(id) {
+                Node::Input(_) | Node::Constant(_) => continue,
+                Node::Output(_) => ("output".to_owned(), None),
+                Node::Wire { start, .. } => ("wire".to_owned(), *start),
+                Node::Cell(cell) => (cell.function.to_string(), cell.start),
+            };
+            let start = start.map_or(String::new(), |start| format!(" init {}", u8::from(start)));
+            writeln!(f, "    {} = {operator}({}){start}", self.net_name(id), names(&self.pins(id)))?;
+        }
+        writeln!(f, "}}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_netlist_prints_as_text() {
+        let mut netlist = Netlist::new("half");
+        let a = netlist.add_input("a");
+        let b = netlist.add_input("b");
+        let sum = netlist.add_gate(Function::XOR, &[a, b]);
+        netlist.add_output("s", sum);
+        assert_eq!(netlist.to_string(), "netlist half(a, b) -> (s) {\n    n2 = xor(a, b)\n    s = output(n2)\n}\n");
+    }
+
+    #[test]
+    fn driving_a_pin_again_replaces_its_driver() {
+        let mut netlist = Netlist::new("loop");
+        let a = netlist.add_input("a");
+        let wire = netlist.add_wire("q", Some(false), None);
+        let gate = netlist.add_gate(Function::NAND, &[a, wire]);
+        netlist.drive(wire, 0, a);
+        netlist.drive(wire, 0, gate);
+        assert_eq!(netlist.pins(wire), [gate]);
+        assert_eq!(netlist.fanout(a), [(gate, 0)]);
+    }
+}

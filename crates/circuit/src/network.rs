@@ -1,0 +1,225 @@
+//! Networks: the combinational part of a netlist as a flat list of gates, made for fast simulation and search.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::{NetId, Netlist, Node};
+use nbc_base::model::Function;
+
+/// A signal: 0 and 1 are the constants, then the inputs, then the gates.
+pub type Signal = u32;
+
+/// A two-input gate; a function of one input has the same signal on both pins or ignores pin 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Gate {
+    /// What the gate computes from its pins.
+    pub function: Function,
+    /// The signals of its pins.
+    pub pins: [Signal; 2],
+}
+
+/// Gates in topological order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Network {
+    /// The number of inputs.
+    pub inputs: usize,
+    /// The gates; each listens to earlier signals only.
+    pub gates: Vec<Gate>,
+    /// The signals shown.
+    pub outputs: Vec<Signal>,
+}
+
+impl Network {
+    /// A network of inputs alone.
+    pub fn new(inputs: usize) -> Self {
+        Self { inputs, gates: Vec::new(), outputs: Vec::new() }
+    }
+
+    /// The signal of input `i`.
+    pub fn input(&self, i: usize) -> Signal {
+        assert!(i < self.inputs, "the input exists");
+        i as Signal + 2
+    }
+
+    /// Adds a gate and returns its signal.
+    pub fn add(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
+        let signal = self.signals() as Signal;
+        assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
+        self.gates.push(Gate { function, pins });
+        signal
+    }
+
+    /// The number of signals, including constants and inputs.
+    pub fn signals(&self) -> usize {
+        2 + self.inputs + self.gates.len()
+    }
+
+    /// The gate that drives a signal, if it is one.
+    pub fn gate(&self, signal: Signal) -> Option<&Gate> {
+        (signal as usize).checked_sub(2 + self.inputs).map(|i| &self.gates[i])
+    }
+
+    /// The values of all signals in 64 patterns at a time, `inputs[i]` being those of input `i`.
+    pub fn simulate(&self, inputs: &[u64]) -> Vec<u64> {
+        let mut values = Vec::with_capacity(self.signals());
+        values.extend([0, !0]);
+        values.extend(inputs);
+        for gate in &self.gates {
+            let [a, b] = gate.pins.map(|pin| values[pin as usize]);
+            values.push(word(gate.function, a, b));
+        }
+        values
+    }
+
+    /// The gates that the outputs depend on, the others left out.
+    pub fn swept(&self) -> Self {
+        let mut used = vec![false; self.signals()];
+        self.outputs.iter().for_each(|&output| used[output as usize] = true);
+        let first = 2 + self.inputs;
+        for (i, gate) in self.gates.iter().enumerate().rev() {
+            if used[first + i] {
+                (0..2)
+                    .filter(|&pin| gate.function.depends_on(pin))
+                    .for_each(|pin| used[gate.pins[pin] as usize] = true);
+            }
+        }
+        let mut swept = Self::new(self.inputs);
+        let mut signal: Vec<Signal> = (0..first as Signal).collect();
+        for (i, gate) in self.gates.iter().enumerate() {
+            let pin =
+                |pin: usize| signal[gate.pins[if gate.function.depends_on(pin) { pin } else { 1 - pin }] as usize];
+            let made = if used[first + i] && gate.function.arity() > 0 {
+                swept.add(gate.function, [pin(0), pin(1)])
+            } else {
+                constant(gate.function)
+            };
+            signal.push(made);
+        }
+        swept.outputs = self.outputs.iter().map(|&output| signal[output as usize]).collect();
+        swept
+    }
+}
+
+fn constant(function: Function) -> Signal {
+    Signal::from(function == Function::ONE)
+}
+
+/// A two-input function of 64 patterns at a time.
+pub fn word(function: Function, a: u64, b: u64) -> u64 {
+    let bits = function.bits();
+    let pick = |bit: u8, minterm: u64| if bits >> bit & 1 == 1 { minterm } else { 0 };
+    pick(0, !a & !b) | pick(1, !a & b) | pick(2, a & !b) | pick(3, a & b)
+}
+
+/// The values of input `i` over all patterns, counted up, in the 64 patterns from `64 * block` on.
+pub fn counting_word(i: usize, block: usize) -> u64 {
+    const LOW: [u64; 6] = [
+        0xaaaa_aaaa_aaaa_aaaa,
+        0xcccc_cccc_cccc_cccc,
+        0xf0f0_f0f0_f0f0_f0f0,
+        0xff00_ff00_ff00_ff00,
+        0xffff_0000_ffff_0000,
+        0xffff_ffff_0000_0000,
+    ];
+    match LOW.get(i) {
+        Some(&word) => word,
+        None if block >> (i - 6) & 1 == 1 => !0,
+        None => 0,
+    }
+}
+
+/// The combinational view of a netlist whose loops are cut open at some nets.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// The gates of a netlist. The inputs are the ports and then the cuts; the outputs are the ports and then the
+    /// drivers of the cuts.
+    pub network: Network,
+    /// The signal of each net as its listeners see it: a cut net is an input.
+    pub signal: BTreeMap<NetId, Signal>,
+}
+
+impl View {
+    /// Cuts a netlist without wires open at `cuts`; fails with a net that still lies on a loop.
+    ///
+    /// # Errors
+    /// A net on a loop without a cut.
+    pub fn of(netlist: &Netlist, cuts: &[NetId]) -> Result<Self, NetId> {
+        let mut network = Network::new(netlist.inputs().len() + cuts.len());
+        let mut signal = BTreeMap::new();
+        for (i, &id) in netlist.inputs().iter().chain(cuts).enumerate() {
+            signal.insert(id, network.input(i));
+        }
+        let cut: BTreeSet<_> = cuts.iter().copied().collect();
+        let mut next = BTreeMap::new();
+        for id in order(netlist, &cut)? {
+            if let Some(made) = add(netlist, &mut network, &signal, id) {
+                if cut.contains(&id) {
+                    next.insert(id, made);
+                } else {
+                    signal.insert(id, made);
+                }
+            }
+        }
+        let outputs = netlist.outputs().iter().map(|&id| signal[&netlist.pins(id)[0]]);
+        network.outputs = outputs.chain(cuts.iter().map(|cut| next[cut])).collect();
+        Ok(Self { network, signal })
+    }
+}
+
+fn add(netlist: &Netlist, network: &mut Network, signal: &BTreeMap<NetId, Signal>, id: NetId) -> Option<Signal> {
+    match netlist.node(id) {
+        Node::Constant(value) => Some(Signal::from(*value)),
+        Node::Cell(cell) => {
+            let pins = netlist.pins(id);
+            let pin = |pin: usize| signal[&pins[pin.min(pins.len() - 1)]];
+            Some(network.add(cell.function, [pin(0), pin(1)]))
+        }
+        Node::Input(_) | Node::Output(_) | Node::Wire { .. } => None,
+    }
+}
+
+/// All nodes, each after the drivers of its pins, ignoring edges that start at cuts.
+fn order(netlist: &Netlist, cuts: &BTreeSet<NetId>) -> Result<Vec<NetId>, NetId> {
+    let mut waiting = BTreeMap::new();
+    let mut ready = Vec::new();
+    for id in netlist.ids() {
+        let count = netlist.pins(id).iter().filter(|pin| !cuts.contains(pin)).count();
+        waiting.insert(id, count);
+        if count == 0 {
+            ready.push(id);
+        }
+    }
+    let mut order = Vec::with_capacity(waiting.len());
+    ready.reverse();
+    while let Some(id) = ready.pop() {
+        waiting.remove(&id);
+        order.push(id);
+        if cuts.contains(&id) {
+            continue;
+        }
+        for (listener, _) in netlist.fanout(id) {
+            let count = waiting.get_mut(&listener).expect("a listener waits for its drivers");
+            *count -= 1;
+            if *count == 0 {
+                ready.push(listener);
+            }
+        }
+    }
+    waiting.keys().next().map_or(Ok(order), |&id| Err(id))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::full_adder;
+
+    #[test]
+    fn a_full_adder_counts() {
+        let view = View::of(&full_adder(), &[]).unwrap();
+        let inputs: Vec<_> = (0..3).map(|i| counting_word(i, 0)).collect();
+        let values = view.network.simulate(&inputs);
+        let [sum, carry] = [0, 1].map(|i| values[view.network.outputs[i] as usize]);
+        for pattern in 0..8u64 {
+            assert_eq!(u64::from(pattern.count_ones()), (sum >> pattern & 1) + 2 * (carry >> pattern & 1));
+        }
+    }
+}

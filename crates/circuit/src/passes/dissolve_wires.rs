@@ -1,0 +1,131 @@
+//! Replaces wires by their drivers.
+
+use std::collections::BTreeMap;
+
+use crate::passes::Pass;
+use crate::{NetId, Netlist, NetlistError, Node};
+
+/// Connects the receivers of wires to their drivers; names and start values of wires move to the driving cells.
+#[derive(Clone, Copy, Debug)]
+pub struct DissolveWires;
+
+impl Pass for DissolveWires {
+    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
+        self.run_on(netlist)
+    }
+}
+
+impl DissolveWires {
+    /// Changes the netlist.
+    ///
+    /// # Errors
+    /// A pin without a driver, or wires that only drive each other.
+    pub fn run_on(self, netlist: &mut Netlist) -> Result<(), NetlistError> {
+        check_drivers(netlist)?;
+        let wires: Vec<_> = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Wire { .. })).collect();
+        let drivers: BTreeMap<_, _> =
+            wires.iter().map(|&wire| Ok((wire, driver(netlist, wire)?))).collect::<Result<_, NetlistError>>()?;
+        for &wire in &wires {
+            let driver = drivers[&wire];
+            for (listener, pin) in netlist.fanout(wire) {
+                if !drivers.contains_key(&listener) {
+                    netlist.drive(listener, pin, driver);
+                }
+            }
+            inherit(netlist, wire, driver);
+        }
+        wires.into_iter().for_each(|wire| netlist.remove(wire));
+        Ok(())
+    }
+}
+
+/// Every pin that its node needs must have a driver.
+fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
+    for id in netlist.ids() {
+        let wanted = match netlist.node(id) {
+            Node::Input(_) | Node::Constant(_) => 0,
+            Node::Output(_) | Node::Wire { .. } => 1,
+            Node::Cell(cell) => 1 + usize::from(cell.function.depends_on(1)),
+        };
+        if netlist.pins(id).len() < wanted {
+            return Err(NetlistError::Undriven(netlist.net_name(id)));
+        }
+    }
+    Ok(())
+}
+
+/// The final driver of a wire.
+fn driver(netlist: &Netlist, wire: NetId) -> Result<NetId, NetlistError> {
+    let mut id = wire;
+    for _ in 0..netlist.graph().node_count() {
+        id = netlist.pins(id)[0];
+        if !matches!(netlist.node(id), Node::Wire { .. }) {
+            return Ok(id);
+        }
+    }
+    Err(NetlistError::WireLoop(netlist.net_name(wire)))
+}
+
+/// Moves a wire's name and start value onto its driver, if that is a cell that has none.
+fn inherit(netlist: &mut Netlist, wire: NetId, driver: NetId) {
+    let Node::Wire { name, start, span } = netlist.node(wire).clone() else {
+        return;
+    };
+    if let Node::Cell(cell) = netlist.node_mut(driver) {
+        if !name.is_empty() {
+            cell.name.get_or_insert(name);
+        }
+        cell.start = cell.start.or(start);
+        cell.span = cell.span.or(span);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::latch;
+    use nbc_base::model::Function;
+
+    #[test]
+    fn a_latch_loses_its_wires_and_keeps_its_names_and_start_values() {
+        let mut netlist = latch();
+        DissolveWires.run_on(&mut netlist).unwrap();
+        let named: Vec<_> = netlist.cells().filter_map(|(_, cell)| Some((cell.name.clone()?, cell.start))).collect();
+        assert_eq!(named, [("q".to_owned(), Some(false)), ("nq".to_owned(), Some(true))]);
+        assert!(netlist.ids().all(|id| !matches!(netlist.node(id), Node::Wire { .. })));
+    }
+
+    #[test]
+    fn undriven_wires_are_errors() {
+        let mut netlist = Netlist::new("open");
+        let wire = netlist.add_wire("w", None, None);
+        netlist.add_output("q", wire);
+        assert_eq!(DissolveWires.run_on(&mut netlist), Err(NetlistError::Undriven("w".to_owned())));
+    }
+
+    #[test]
+    fn wires_that_drive_each_other_are_errors() {
+        let mut netlist = Netlist::new("idle");
+        let one = netlist.add_wire("one", None, None);
+        let two = netlist.add_wire("two", None, None);
+        netlist.drive(one, 0, two);
+        netlist.drive(two, 0, one);
+        let listener = netlist.add_wire("listener", None, None);
+        netlist.drive(listener, 0, one);
+        assert!(matches!(DissolveWires.run_on(&mut netlist), Err(NetlistError::WireLoop(_))));
+    }
+
+    #[test]
+    fn chains_of_wires_end_at_a_cell() {
+        let mut netlist = Netlist::new("chain");
+        let a = netlist.add_input("a");
+        let first = netlist.add_wire("first", None, None);
+        let second = netlist.add_wire("second", None, None);
+        netlist.drive(first, 0, second);
+        netlist.drive(second, 0, a);
+        let gate = netlist.add_gate(Function::NOT, &[first]);
+        netlist.add_output("q", gate);
+        DissolveWires.run_on(&mut netlist).unwrap();
+        assert_eq!(netlist.pins(gate), [a]);
+    }
+}

@@ -1,0 +1,88 @@
+//! Merges cells that compute the same function of the same nets.
+
+use std::collections::BTreeMap;
+
+use crate::loops::Loops;
+use crate::passes::Pass;
+use crate::{NetId, Netlist, NetlistError, Node};
+use nbc_base::model::Function;
+
+/// Structural hashing outside memory elements.
+#[derive(Clone, Copy, Debug)]
+pub struct Share;
+
+impl Pass for Share {
+    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
+        let loops = Loops::memory(netlist);
+        let mut known = BTreeMap::new();
+        for &id in loops.order() {
+            let Some(key) = key(netlist, id).filter(|_| !loops.contains(id)) else {
+                continue;
+            };
+            let first = *known.entry(key).or_insert(id);
+            if first != id {
+                merge(netlist, id, first);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The function of a constant or cell and the nets it reads, with the pins of a cell in order of their numbers.
+fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
+    function(netlist, id).map(|function| ordered(function, netlist.pins(id)))
+}
+
+/// The function of a constant or a cell.
+pub(super) fn function(netlist: &Netlist, id: NetId) -> Option<Function> {
+    match netlist.node(id) {
+        Node::Constant(value) => Some(if *value { Function::ONE } else { Function::ZERO }),
+        Node::Cell(cell) => Some(cell.function),
+        _ => None,
+    }
+}
+
+/// A function with its pins in ascending order.
+pub(super) fn ordered<T: Ord>(function: Function, mut pins: Vec<T>) -> (Function, Vec<T>) {
+    match pins[..] {
+        [ref a, ref b] if b < a => {
+            pins.reverse();
+            (function.swapped(), pins)
+        }
+        _ => (function, pins),
+    }
+}
+
+/// Moves the receivers of `id` to `first`, which takes over the name if it has none.
+pub(super) fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
+    for (listener, pin) in netlist.fanout(id) {
+        netlist.drive(listener, pin, first);
+    }
+    let copy = netlist.cell(id).cloned();
+    if let (Node::Cell(cell), Some(copy)) = (netlist.node_mut(first), copy) {
+        cell.name = cell.name.take().or(copy.name);
+        cell.span = cell.span.or(copy.span);
+    }
+    netlist.remove(id);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_cells_merge_for_any_order_of_pins() {
+        let mut netlist = Netlist::new("twice");
+        let a = netlist.add_input("a");
+        let b = netlist.add_input("b");
+        let one = netlist.add_gate(Function::NAND, &[a, b]);
+        let two = netlist.add_gate(Function::NAND, &[b, a]);
+        let three = netlist.add_gate(Function::parse("a_and_notb").unwrap(), &[one, a]);
+        let four = netlist.add_gate(Function::parse("nota_and_b").unwrap(), &[a, two]);
+        let both = netlist.add_gate(Function::XOR, &[three, four]);
+        netlist.add_output("q", both);
+        Share.run(&mut netlist).unwrap();
+        assert_eq!(netlist.cells().count(), 3);
+        assert_eq!(netlist.pins(both), [three, three]);
+    }
+}

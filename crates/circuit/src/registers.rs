@@ -1,0 +1,169 @@
+//! Registers made of cells, in forms that are safe for every delay of one to three cycles if the inverter of a clock is
+//! no slower than two other cells (docs/compiler.md, "Registers").
+
+use std::collections::BTreeMap;
+
+use crate::formats::{Design, Register, RegisterKind};
+use crate::{Cell, NetId, Netlist, Node};
+use nbc_base::model::Function;
+
+/// The circuit of a design with a latch or a flip-flop of NAND cells for each register.
+///
+/// A clock that is not an input of the design becomes an additional input.
+pub fn expand(design: &Design) -> Netlist {
+    let mut netlist = Netlist::new(&design.logic.name);
+    let logic = &design.logic;
+    let mut net: BTreeMap<NetId, NetId> = BTreeMap::new();
+    let (ports, states) = logic.inputs().split_at(design.inputs());
+    let (outputs, nexts) = logic.outputs().split_at(design.outputs());
+    for &id in ports {
+        net.insert(id, netlist.add_input(logic.net_name(id)));
+    }
+    for (&id, register) in states.iter().zip(&design.registers) {
+        net.insert(id, netlist.add_wire(&register.name, Some(register.starts_at()), None));
+    }
+    copy(logic, &mut netlist, &mut net);
+    let mut clocks = Clocks { by_name: BTreeMap::new() };
+    for id in logic.ids() {
+        if !matches!(logic.node(id), Node::Output(_) | Node::Constant(_)) {
+            clocks.by_name.entry(logic.net_name(id)).or_insert(net[&id]);
+        }
+    }
+    for ((&state, &next), register) in states.iter().zip(nexts).zip(&design.registers) {
+        let clock = clocks.net(&mut netlist, register);
+        let data = net[&logic.pins(next)[0]];
+        let start = register.starts_at();
+        let q = match register.kind {
+            RegisterKind::High | RegisterKind::Low => latch(&mut netlist, &register.name, data, clock, start),
+            RegisterKind::Rising | RegisterKind::Falling => flip_flop(&mut netlist, &register.name, data, clock, start),
+        };
+        netlist.drive(net[&state], 0, q);
+    }
+    for &id in outputs {
+        netlist.add_output(logic.net_name(id), net[&logic.pins(id)[0]]);
+    }
+    netlist
+}
+
+/// Copies the cells, wires and constants of a netlist, feedback included.
+fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>) {
+    let loops = crate::Loops::of(logic);
+    let mut made = Vec::new();
+    for &id in loops.order() {
+        let copy = match logic.node(id) {
+            Node::Constant(value) => netlist.add_constant(*value),
+            Node::Cell(cell) => netlist.add_loose_cell(cell.clone()),
+            Node::Wire { name, start, span } => netlist.add_wire(name, *start, *span),
+            Node::Input(_) | Node::Output(_) => continue,
+        };
+        net.insert(id, copy);
+        made.push((id, copy));
+    }
+    for (id, copy) in made {
+        for (pin, driver) in (0..).zip(logic.pins(id)) {
+            netlist.connect(copy, pin, net[&driver]);
+        }
+    }
+}
+
+/// Clock nets by name, inverted for registers that need it.
+struct Clocks {
+    by_name: BTreeMap<String, NetId>,
+}
+
+impl Clocks {
+    fn net(&mut self, netlist: &mut Netlist, register: &Register) -> NetId {
+        let name = register.clock_name();
+        let clock = *self.by_name.entry(name.to_owned()).or_insert_with(|| netlist.add_input(name));
+        match register.kind {
+            RegisterKind::Rising | RegisterKind::High => clock,
+            RegisterKind::Falling | RegisterKind::Low => netlist.add_gate(Function::NOT, &[clock]),
+        }
+    }
+}
+
+/// A D latch of four NAND cells, transparent while `enable` is 1. The reset branch reads the set branch, so no inverter
+/// races it.
+pub fn latch(netlist: &mut Netlist, name: &str, data: NetId, enable: NetId, start: bool) -> NetId {
+    let set = netlist.add_gate(Function::NAND, &[data, enable]);
+    let reset = netlist.add_gate(Function::NAND, &[set, enable]);
+    pair(netlist, name, set, reset, start)
+}
+
+/// Two cross-coupled NAND cells; returns the one that `set` pulls up.
+fn pair(netlist: &mut Netlist, name: &str, set: NetId, reset: NetId, start: bool) -> NetId {
+    let q = core_cell(netlist, name.to_owned(), start, [set, set]);
+    let nq = core_cell(netlist, format!("{name}.n"), !start, [reset, q]);
+    netlist.drive(q, 1, nq);
+    q
+}
+
+fn core_cell(netlist: &mut Netlist, name: String, start: bool, pins: [NetId; 2]) -> NetId {
+    netlist.add_cell(Cell { function: Function::NAND, name: Some(name), start: Some(start), span: None }, &pins)
+}
+
+/// A flip-flop of two latches, which takes `data` when `clock` rises: the first is open while the clock is 0, the
+/// second while it is 1.
+pub fn flip_flop(netlist: &mut Netlist, name: &str, data: NetId, clock: NetId, start: bool) -> NetId {
+    let low = netlist.add_gate(Function::NOT, &[clock]);
+    let held = latch(netlist, &format!("{name}.held"), data, low, start);
+    latch(netlist, name, held, clock, start)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::*;
+    use crate::Delayed;
+    use crate::passes::{DissolveWires, Pass, Sweep};
+
+    /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` gives the expected
+    /// q.
+    fn check(
+        build: impl Fn(&mut Netlist, NetId, NetId) -> NetId,
+        cells: usize,
+        mut model: impl FnMut(bool, bool, bool, bool) -> bool,
+    ) {
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..100 {
+            let mut netlist = Netlist::new("register");
+            let data = netlist.add_input("d");
+            let clock = netlist.add_input("clk");
+            let q = build(&mut netlist, data, clock);
+            netlist.add_output("q", q);
+            DissolveWires.run_on(&mut netlist).unwrap();
+            Sweep.run(&mut netlist).unwrap();
+            assert_eq!(netlist.cells().count(), cells);
+            let mut draw = |bound: u32| (rand::Rng::next_u32(&mut random) % bound) as usize;
+            let mut delayed = Delayed::new(&netlist, |_| 1 + draw(3));
+            let (mut data, mut clock) = (false, false);
+            delayed.run(&[data, clock], 40);
+            // Any start value is valid after settling; a first full row sets it.
+            delayed.run(&[data, true], 40);
+            let mut q = delayed.run(&[data, clock], 40)[0];
+            for _ in 0..30 {
+                let before = clock;
+                // One input changes at a time, as set-up and hold times require.
+                if draw(2) == 0 {
+                    data = !data
+                } else {
+                    clock = !clock
+                }
+                q = model(q, data, before, clock);
+                assert_eq!(delayed.run(&[data, clock], 40), [q]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_latch_works_for_all_delays() {
+        check(|netlist, d, e| latch(netlist, "q", d, e, false), 4, |q, data, _, enable| if enable { data } else { q });
+    }
+
+    #[test]
+    fn the_flip_flop_works_for_all_delays() {
+        let model = |q: bool, data: bool, before: bool, clock: bool| if clock && !before { data } else { q };
+        check(|netlist, d, clk| flip_flop(netlist, "q", d, clk, false), 9, model);
+    }
+}

@@ -1,0 +1,174 @@
+//! The cells around a memory element, and their values where few of them are known.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::known::{TernaryBit, answer};
+use crate::{Cell, NetId, Netlist, Node};
+
+/// The most cells between a memory element and the net that closes it.
+const DEPTH: usize = 6;
+/// The most cells before an element that are looked at.
+const MOST_CELLS: usize = 64;
+
+/// Values of nets; a net that is missing is unknown.
+pub(super) type Values = BTreeMap<NetId, TernaryBit>;
+
+/// The inverters and buffers of a netlist: every net is another net, or the opposite of one.
+#[derive(Clone, Debug)]
+pub struct Inverters {
+    driver: BTreeMap<NetId, (NetId, bool)>,
+}
+
+impl Inverters {
+    /// Finds them: cells of one input, of two equal inputs, or of one input and a constant.
+    pub fn of(netlist: &Netlist) -> Self {
+        let driver = netlist.cells().filter_map(|(id, cell)| Some((id, only_pin(netlist, id, cell)?))).collect();
+        Self { driver }
+    }
+
+    /// The net behind all inverters and buffers of a net, and whether it has the opposite value.
+    pub fn root(&self, net: NetId) -> (NetId, bool) {
+        self.steps(net).last().expect("a net leads to itself")
+    }
+
+    /// The net, the net before its inverter or buffer, and so on, each with whether it has the opposite value.
+    pub fn steps(&self, net: NetId) -> impl Iterator<Item = (NetId, bool)> + '_ {
+        let mut seen = BTreeSet::from([net]);
+        std::iter::successors(Some((net, false)), move |&(at, inverted)| {
+            let &(next, inverts) = self.driver.get(&at)?;
+            seen.insert(next).then_some((next, inverted != inverts))
+        })
+    }
+}
+
+/// The one net that a cell depends on, and whether the cell inverts it; memory is never a buffer.
+fn only_pin(netlist: &Netlist, id: NetId, cell: &Cell) -> Option<(NetId, bool)> {
+    if cell.start.is_some() {
+        return None;
+    }
+    let pins = netlist.pins(id);
+    let ends = [pins[0], pins[pins.len() - 1]];
+    let constant = |pin: NetId| match netlist.node(pin) {
+        Node::Constant(value) => Some(*value),
+        _ => None,
+    };
+    let free = ends.into_iter().find(|&pin| constant(pin).is_none())?;
+    if ends.iter().any(|&pin| pin != free && constant(pin).is_none()) {
+        return None;
+    }
+    let output = |value: bool| {
+        let [a, b] = ends.map(|pin| constant(pin).unwrap_or(value));
+        cell.function.output(a, b)
+    };
+    (output(false) != output(true)).then(|| (free, output(false)))
+}
+
+/// A memory element with the cells before it.
+pub(super) struct Cone<'a> {
+    netlist: &'a Netlist,
+    /// The cells of the element.
+    pub element: &'a [NetId],
+    /// The nets that drive the element from outside.
+    pub entering: Vec<NetId>,
+    /// The cells before the element, back to memory and inputs.
+    cells: Vec<NetId>,
+    /// The nets before the element by their distance from it.
+    near: Vec<NetId>,
+}
+
+impl<'a> Cone<'a> {
+    pub fn new(netlist: &'a Netlist, element: &'a [NetId]) -> Self {
+        let mut entering: Vec<NetId> = element.iter().flat_map(|&id| netlist.pins(id)).collect();
+        entering.sort_unstable();
+        entering.dedup();
+        entering.retain(|pin| !element.contains(pin));
+        let mut cone = Self { netlist, element, entering, cells: Vec::new(), near: Vec::new() };
+        cone.look_back();
+        cone
+    }
+
+    fn look_back(&mut self) {
+        let mut seen: BTreeSet<NetId> = self.entering.iter().copied().collect();
+        let mut level: Vec<NetId> = self.entering.clone();
+        for _ in 0..=DEPTH {
+            let mut next = BTreeSet::new();
+            for &net in &level {
+                self.near.push(net);
+                let is_logic = self.netlist.cell(net).is_some_and(|cell| cell.start.is_none());
+                if is_logic && self.cells.len() < MOST_CELLS {
+                    self.cells.push(net);
+                    next.extend(self.netlist.pins(net).into_iter().filter(|&pin| seen.insert(pin)));
+                }
+            }
+            level = next.into_iter().collect();
+        }
+        self.near.retain(|net| !self.element.contains(net));
+        self.cells.retain(|net| !self.element.contains(net));
+    }
+
+    /// The nets before the element that change, nearest first.
+    pub fn near(&self) -> impl Iterator<Item = NetId> + '_ {
+        let changes = |net: &&NetId| !matches!(self.netlist.node(**net), Node::Constant(_));
+        self.near.iter().filter(changes).copied()
+    }
+
+    /// The cells between a net and the element.
+    pub fn guards(&self, net: NetId) -> Vec<NetId> {
+        let mut guards: BTreeSet<NetId> = BTreeSet::new();
+        let mut grows = true;
+        while grows {
+            let depends = |id: &&NetId| self.netlist.pins(**id).iter().any(|pin| *pin == net || guards.contains(pin));
+            let more: Vec<NetId> =
+                self.cells.iter().filter(|id| !guards.contains(id)).filter(depends).copied().collect();
+            grows = !more.is_empty();
+            guards.extend(more);
+        }
+        guards.remove(&net);
+        guards.into_iter().collect()
+    }
+
+    /// What follows from some values for the logic before the element.
+    pub fn implied(&self, known: &Values) -> Values {
+        let mut values = known.clone();
+        let free: Vec<NetId> = self.cells.iter().copied().filter(|id| !known.contains_key(id)).collect();
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for &id in free.iter().rev() {
+                let value = self.answer(&values, id);
+                changed |= values.insert(id, value).unwrap_or(None) != value;
+            }
+        }
+        values
+    }
+
+    /// What follows from some values for the logic and the element, and the number of cells that a change passes in the
+    /// element one after the other; `None` if the values do not determine its state.
+    pub fn stored(&self, known: &Values) -> Option<(Values, usize)> {
+        let mut values = self.implied(known);
+        for rounds in 1..=self.element.len() {
+            let next: Vec<TernaryBit> = self.element.iter().map(|&id| self.answer(&values, id)).collect();
+            let is_known = next.iter().all(Option::is_some);
+            values.extend(self.element.iter().copied().zip(next));
+            if is_known {
+                return Some((values, rounds));
+            }
+        }
+        None
+    }
+
+    /// The response of a cell to its pins.
+    pub fn answer(&self, values: &Values, id: NetId) -> TernaryBit {
+        let pins = self.netlist.pins(id);
+        let cell = self.netlist.cell(id).expect("elements and guards are cells");
+        answer(cell.function, [pins[0], pins[pins.len() - 1]].map(|pin| self.value(values, pin)))
+    }
+
+    /// The known value of a net.
+    pub fn value(&self, values: &Values, net: NetId) -> TernaryBit {
+        match self.netlist.node(net) {
+            Node::Constant(value) => Some(*value),
+            _ => values.get(&net).copied().flatten(),
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The recognition of a latch: one net closes it, whatever its other inputs do, and it then keeps its state.
+
+use std::collections::BTreeMap;
+
+use crate::cells::CellKind;
+use crate::known::TernaryBit;
+use crate::storage::cone::{Cone, Inverters, Values};
+use crate::{NetId, Netlist};
+
+/// The most inputs of a latch whose values are all tried.
+const MOST_DATA: usize = 6;
+
+/// A memory element that one net opens and closes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Latch {
+    /// The cells that keep the bit.
+    pub cells: Vec<NetId>,
+    /// The cells between the enable and them.
+    pub guards: Vec<NetId>,
+    /// The net that opens and closes the guards.
+    pub enable: NetId,
+    /// The net of which the enable is a copy or the opposite.
+    pub root: NetId,
+    /// The inverters and buffers between the root and the enable; the last of them drives the enable.
+    pub chain: Vec<NetId>,
+    /// The value of the root for which the latch is open.
+    pub open: bool,
+    /// The other nets that the guards and cells read.
+    pub data: Vec<NetId>,
+    /// How many cells one after the other a change passes in `cells` until the bit is stored.
+    pub rounds: usize,
+}
+
+impl Latch {
+    /// The number of cycles by which data change too early to be kept if the enable closes the latch after `closed`
+    /// cycles, if they do; `earliest` has the first change of each net.
+    pub fn needed<'k>(
+        &self,
+        netlist: &Netlist,
+        kind: &impl Fn(NetId) -> &'k CellKind,
+        closed: u32,
+        earliest: &[Option<u32>],
+    ) -> Option<u32> {
+        let clocks = |cells: &[NetId]| cells.iter().map(|&id| kind(id).clock).sum::<u32>();
+        let missing = |&cell: &NetId| {
+            let pins = netlist.pins(cell);
+            let is_guarded = pins.contains(&self.enable);
+            let stable = if is_guarded { closed } else { closed + clocks(&self.guards) };
+            let changes = pins.into_iter().filter(|pin| self.data.contains(pin));
+            changes.filter_map(|pin| stable.checked_sub(earliest[pin.index()]?)).filter(|&missing| missing > 0).max()
+        };
+        self.guards.iter().chain(&self.cells).filter_map(missing).max()
+    }
+}
+
+/// A memory element or loop that is not timed by phases.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Unphased {
+    /// Its nets.
+    pub nets: Vec<NetId>,
+    /// The reason.
+    pub why: WhyUnphased,
+}
+
+/// Why a memory element or loop is not timed by phases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum WhyUnphased {
+    /// No net closes it against all others.
+    NoEnable,
+    /// When its enable closes it, its state depends on delays.
+    Race,
+    /// A cell of it may glitch, so its state may change while it is closed.
+    Glitch(NetId),
+    /// It has more inputs than are tried.
+    ManyInputs,
+    /// The circuit has more enables than are tried.
+    ManyEnables,
+    /// A loop of logic and open latches.
+    StaysOpen,
+}
+
+/// Recognizes a memory element as a latch.
+pub(super) fn recognize<'k>(
+    netlist: &Netlist,
+    inverters: &Inverters,
+    element: &[NetId],
+    kind: &impl Fn(NetId) -> &'k CellKind,
+) -> Result<Latch, WhyUnphased> {
+    let cone = Cone::new(netlist, element);
+    let (enable, closed) = closing(&cone).ok_or(WhyUnphased::NoEnable)?;
+    let guards = cone.guards(enable);
+    if let Some(&cell) = element.iter().chain(&guards).find(|&&id| kind(id).glitches) {
+        return Err(WhyUnphased::Glitch(cell));
+    }
+    let mut data: Vec<NetId> = guards.iter().chain(element).flat_map(|&id| netlist.pins(id)).collect();
+    data.sort_unstable();
+    data.dedup();
+    data.retain(|net| *net != enable && !guards.contains(net) && !element.contains(net));
+    let trial = Trial { cone: &cone, enable, closed, guards: &guards };
+    let rounds = trial.run(inverters, &data)?;
+    let mut chain: Vec<NetId> = inverters.steps(enable).map(|(net, _)| net).collect();
+    chain.pop();
+    chain.reverse();
+    let (root, inverted) = inverters.root(enable);
+    Ok(Latch { cells: element.to_vec(), guards, enable, root, chain, open: closed == inverted, data, rounds })
+}
+
+/// The nearest net of which one value determines all nets that enter the element, but not its state, and that value.
+fn closing(cone: &Cone) -> Option<(NetId, bool)> {
+    let closes = |net: NetId, value: bool| {
+        let values = BTreeMap::from([(net, Some(value))]);
+        let implied = cone.implied(&values);
+        let is_known = |entering: &NetId| cone.value(&implied, *entering).is_some();
+        cone.entering.iter().all(is_known) && cone.stored(&values).is_none()
+    };
+    let candidates = cone.near().filter(|net| !cone.entering.contains(net));
+    let both = candidates.flat_map(|net| [(net, false), (net, true)]);
+    both.into_iter().find(|&(net, value)| closes(net, value) && !closes(net, !value))
+}
+
+/// The behavior of an element when its enable opens and closes it.
+struct Trial<'a> {
+    cone: &'a Cone<'a>,
+    enable: NetId,
+    closed: bool,
+    guards: &'a [NetId],
+}
+
+impl Trial<'_> {
+    /// Opens and closes the element with each of its data, and returns the longest time to settle, in cells.
+    fn run(&self, inverters: &Inverters, data: &[NetId]) -> Result<usize, WhyUnphased> {
+        let mut roots: Vec<NetId> = data.iter().map(|&net| inverters.root(net).0).collect();
+        roots.sort_unstable();
+        roots.dedup();
+        if roots.len() > MOST_DATA {
+            return Err(WhyUnphased::ManyInputs);
+        }
+        let mut rounds = None;
+        for pattern in 0..1 << roots.len() {
+            let value = |net: NetId| {
+                let (root, inverted) = inverters.root(net);
+                let bit = roots.binary_search(&root).expect("all roots are listed");
+                Some((pattern >> bit & 1 == 1) != inverted)
+            };
+            let data: Values = data.iter().map(|&net| (net, value(net))).collect();
+            if let Some((stored, taken)) = self.opened(&data) {
+                rounds = rounds.max(Some(taken));
+                if !self.keeps(&stored, &data) {
+                    return Err(WhyUnphased::Race);
+                }
+            }
+        }
+        rounds.ok_or(WhyUnphased::NoEnable)
+    }
+
+    /// The values with the element open, and the rounds after which its cells have them; `None` if it keeps its state
+    /// with these data.
+    fn opened(&self, data: &Values) -> Option<(Values, usize)> {
+        let mut values = data.clone();
+        values.insert(self.enable, Some(!self.closed));
+        self.cone.stored(&values)
+    }
+
+    /// Whether the element keeps its state for any delays when it closes: every cell that may change is unknown, and
+    /// then each takes the value that is determined (Eichelberger 1965).
+    fn keeps(&self, stored: &Values, data: &Values) -> bool {
+        let mut values = stored.clone();
+        values.extend(data);
+        values.insert(self.enable, Some(self.closed));
+        self.settle(&mut values, |old, new| if old == new { new } else { None });
+        self.settle(&mut values, |_, new| new);
+        self.cone.element.iter().all(|id| values[id] == stored[id])
+    }
+
+    fn settle(&self, values: &mut Values, merge: impl Fn(TernaryBit, TernaryBit) -> TernaryBit) {
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for &id in self.guards.iter().chain(self.cone.element) {
+                let old = values[&id];
+                let new = merge(old, self.cone.answer(values, id));
+                changed |= old != new;
+                values.insert(id, new);
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Storage: the latches and flip-flops of a netlist, recognized by what their cells do, and the net that opens and
+//! closes each (docs/compiler.md, "Time").
+
+mod cone;
+mod element;
+mod latch;
+
+use std::collections::BTreeMap;
+
+use crate::cells::CellKind;
+use crate::loops::Loops;
+use crate::{NetId, Netlist};
+
+pub use cone::Inverters;
+pub use latch::{Latch, Unphased, WhyUnphased};
+
+/// Two latches that open in turn: the first while the clock has one value, the second while it has the other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FlipFlop {
+    /// The number of the latch that takes the data, among the latches.
+    pub first: usize,
+    /// The number of the latch that takes the state of the first.
+    pub second: usize,
+    /// Whether it takes its data when the clock rises.
+    pub rising: bool,
+}
+
+/// The memory of a netlist without wires.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Storage {
+    /// The latches.
+    pub latches: Vec<Latch>,
+    /// The pairs of latches that are flip-flops.
+    pub flip_flops: Vec<FlipFlop>,
+    /// The memory that is not recognized as a latch.
+    pub unphased: Vec<Unphased>,
+}
+
+impl Storage {
+    /// Recognizes the memory of a netlist whose cells are of these kinds.
+    pub fn of<'k>(netlist: &Netlist, kind: impl Fn(NetId) -> &'k CellKind) -> Self {
+        let loops = Loops::of(netlist);
+        if loops.cores().is_empty() {
+            return Self::default();
+        }
+        let inverters = Inverters::of(netlist);
+        let mut storage = Self::default();
+        for nets in element::elements(netlist, &loops) {
+            match latch::recognize(netlist, &inverters, &nets, &kind) {
+                Ok(latch) => storage.latches.push(latch),
+                Err(why) => storage.unphased.push(Unphased { nets, why }),
+            }
+        }
+        storage.flip_flops = flip_flops(&storage.latches, &inverters);
+        storage
+    }
+
+    /// The nets that open and close latches, each with the number of its latches, most first.
+    pub fn roots(&self) -> Vec<(NetId, usize)> {
+        let mut counts: BTreeMap<NetId, usize> = BTreeMap::new();
+        self.latches.iter().for_each(|latch| *counts.entry(latch.root).or_insert(0) += 1);
+        let mut roots: Vec<_> = counts.into_iter().collect();
+        roots.sort_by_key(|&(root, count)| (std::cmp::Reverse(count), root));
+        roots
+    }
+}
+
+/// The pairs of latches of which the second takes only the state of the first, and is open when the first is closed.
+///
+/// In a chain of latches any two neighbors are such a pair. Registers of one clock mostly take their data at the same
+/// edge, so the edge of more pairs counts first; between equals it is the rise.
+fn flip_flops(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
+    let pairs = pairs(latches, inverters);
+    let key = |pair: &FlipFlop| (latches[pair.second].root, pair.rising);
+    let mut counts: BTreeMap<(NetId, bool), usize> = BTreeMap::new();
+    pairs.iter().for_each(|pair| *counts.entry(key(pair)).or_insert(0) += 1);
+    let mut ordered: Vec<&FlipFlop> = pairs.iter().collect();
+    ordered.sort_by_key(|pair| (std::cmp::Reverse((counts[&key(pair)], pair.rising)), pair.second));
+    let mut is_paired = vec![false; latches.len()];
+    let mut found = Vec::new();
+    for pair in ordered {
+        if !is_paired[pair.first] && !is_paired[pair.second] {
+            (is_paired[pair.first], is_paired[pair.second]) = (true, true);
+            found.push(pair.clone());
+        }
+    }
+    found.sort_by_key(|pair| pair.second);
+    found
+}
+
+/// All pairs that may be flip-flops.
+fn pairs(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
+    let owner: BTreeMap<NetId, usize> =
+        (0..).zip(latches).flat_map(|(i, latch)| latch.cells.iter().map(move |&cell| (cell, i))).collect();
+    let mut pairs = Vec::new();
+    for (second, latch) in latches.iter().enumerate() {
+        let mut drivers = latch.data.iter().map(|&net| owner.get(&inverters.root(net).0));
+        let Some(Some(&first)) = drivers.next() else { continue };
+        let opposite = latches[first].root == latch.root && latches[first].open != latch.open;
+        if opposite && drivers.all(|driver| driver == Some(&first)) {
+            pairs.push(FlipFlop { first, second, rising: latch.open });
+        }
+    }
+    pairs
+}

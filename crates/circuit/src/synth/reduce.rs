@@ -1,0 +1,449 @@
+//! The course of a synthesis: which searches run, in which order, for which effort.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::cancel::CancelFlag;
+use crate::cells::CellLibrary;
+use crate::network::{Network, Signal};
+use crate::options::{Effort, MapOptions, MappingObjective};
+use crate::synth::candidates::below;
+use crate::synth::care::CareSet;
+use crate::synth::exact::{self, ExactResult};
+use crate::synth::graph::Graph;
+use crate::synth::parts::in_parts;
+use crate::synth::phases::assign_phases;
+use crate::synth::prices::Prices;
+use crate::synth::roam::roam;
+use crate::synth::shared_pairs::share_pairs;
+use crate::synth::walk::{self, MANY_GATES, Pace, WalkPlan};
+use nbc_base::model::Function;
+
+/// The most inputs of a network that is searched as a whole.
+const WHOLE_INPUTS: usize = 12;
+/// The most inputs of a network that is searched from several starts at high effort, and the number of starts.
+const SMALL_INPUTS: usize = 4;
+const SMALL_STARTS: usize = 6;
+/// The most gates of a network that is searched as a whole.
+const WHOLE_GATES: usize = 600;
+/// Above this number of gates, high effort makes fewer rounds.
+const FULL_ROUNDS_GATES: usize = 1_500;
+/// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
+const WHOLE_WORK: u64 = 1_200_000_000;
+/// The gates of a part of a wide network whose gates are seen in their surroundings, or in samples of the patterns.
+const NEAR_GATES: usize = 300;
+const FAR_GATES: usize = 1_500;
+/// The visits to each gate, and to all gates at most, that make gates earlier at no cost.
+const SHORTENING_VISITS: u64 = 10;
+const MOST_SHORTENING: u64 = 20_000;
+/// The most gates of a network that is searched where some conditions hold, and the most visits times its gates.
+const MOST_CARE_GATES: u64 = 10_000;
+const CARE_WORK: u64 = 20_000_000;
+/// Above this number of gates, a network is only shared and mapped.
+const MOST_GATES: usize = 100_000;
+
+/// The network in cells of the library, as cheap as the effort finds it.
+///
+/// # Errors
+/// A function that the library cannot make.
+pub fn reduce(
+    network: &Network,
+    stages: &[u32],
+    library: &CellLibrary,
+    options: &MapOptions,
+) -> Result<Network, Function> {
+    let target = Prices::of(library);
+    let course = Course { prices: &target, stages, effort: options.effort, cancel: &options.cancel };
+    let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_796e_7468);
+    let direct = cover(network, &target, stages)?;
+    if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
+        return Ok(direct);
+    }
+    let best = course.search_both_ways(network, &direct, &mut random)?;
+    let best = course.fewest(best);
+    Ok(match options.objective {
+        MappingObjective::Delay => course.quicken(&best, &mut random),
+        _ => course.shorten(&best, &mut random),
+    })
+}
+
+/// A network of gates of any kind, as few as the effort finds, that is equal where the conditions hold.
+pub fn reduce_within(network: &Network, library: &CellLibrary, care: &CareSet, options: &MapOptions) -> Network {
+    let ideal = Prices::of(library).ideal();
+    let start = cover(network, &ideal, &[]).expect("there is a cell for every function");
+    let gates = start.gates.len() as u64;
+    if gates > MOST_CARE_GATES || gates == 0 {
+        return network.clone();
+    }
+    let visits = match options.effort {
+        Effort::Fast => 10 * gates,
+        Effort::Normal => 60 * gates,
+        Effort::High => 200 * gates,
+    };
+    let plan = WalkPlan { cancel: Some(&options.cancel), ..WalkPlan::calm(visits.min(CARE_WORK / gates)) };
+    let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6363_6172_6573);
+    roam(&start, &ideal, &[], Some(care), plan, &mut random)
+}
+
+/// The cheaper of two networks; of equal cost, the one with the shorter slowest path, or the first.
+fn cheaper(one: Network, two: Network, prices: &Prices) -> Network {
+    let rank = |network: &Network| (cost(network, prices), depth(network, prices));
+    if rank(&two) < rank(&one) { two } else { one }
+}
+
+/// The cost of a network's cells.
+pub fn cost(network: &Network, prices: &Prices) -> u32 {
+    network.gates.iter().map(|gate| prices.cell(gate.function)).sum()
+}
+
+/// Replaces each gate by the cheapest cells for its function, and shares equal cells.
+///
+/// # Errors
+/// A function that cannot be made.
+pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Network, Function> {
+    let swept = network.swept();
+    let mut graph = Graph::new(&Network::new(network.inputs), prices, stages, &[]);
+    let mut made: Vec<Signal> = (0..2 + network.inputs as Signal).collect();
+    for gate in &swept.gates {
+        let signal = graph.compose(gate.function, gate.pins.map(|pin| made[pin as usize])).ok_or(gate.function)?;
+        // Held, because no gate reads it yet.
+        graph.hold(signal);
+        made.push(signal);
+    }
+    made[2 + network.inputs..].iter().for_each(|&signal| graph.let_go(signal));
+    Ok(graph.finish(swept.outputs.iter().map(|&output| made[output as usize])))
+}
+
+/// Whether a network is searched as a whole, over every pattern.
+fn is_narrow(network: &Network) -> bool {
+    network.inputs <= WHOLE_INPUTS && network.gates.len() <= WHOLE_GATES
+}
+
+/// The parameters of all searches of a synthesis.
+#[derive(Clone, Copy)]
+struct Course<'a> {
+    prices: &'a Prices,
+    /// The number of kept cells before each input.
+    stages: &'a [u32],
+    effort: Effort,
+    cancel: &'a CancelFlag,
+}
+
+impl<'a> Course<'a> {
+    /// A walk that never climbs and never turns back.
+    fn calm(&self, visits: u64) -> WalkPlan<'a> {
+        WalkPlan { cancel: Some(self.cancel), ..WalkPlan::calm(visits) }
+    }
+
+    /// The search for the library's prices, and the search that first minimizes the number of gates of any kind.
+    fn search_both_ways(
+        &self,
+        network: &Network,
+        direct: &Network,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Network, Function> {
+        if direct.gates.len() > MANY_GATES && self.effort != Effort::Fast {
+            return self.search_large(network, direct, random);
+        }
+        let exclusive = self.prices.cost(Function::XOR).unwrap_or(4);
+        let best = self.search(direct, 2, random);
+        if exclusive <= 1 || self.effort == Effort::Fast && !is_narrow(direct) {
+            return Ok(best);
+        }
+        // An exclusive or is counted as slightly less than its cells.
+        let ideal = Prices::abstracted(2 * exclusive - 1);
+        let few = Course { prices: &ideal, ..*self }.search(&cover(network, &ideal, self.stages)?, 1, random);
+        let mapped = cover(&few, self.prices, self.stages)?;
+        let other = self.search(&cheaper(direct.clone(), mapped, self.prices), 2, random);
+        Ok(cheaper(best, other, self.prices))
+    }
+
+    /// Minimizes the number of gates of any kind, where inverters are free and a search is stuck less often, then the
+    /// cost with inverters of half the price, then the cost.
+    fn search_large(&self, network: &Network, direct: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
+        let ideal = self.prices.ideal();
+        let start = (0..2).try_fold(cover(network, &ideal, self.stages)?, |now, _| {
+            Ok(cheaper(now.clone(), cover(&share_pairs(&now), &ideal, self.stages)?, &ideal))
+        })?;
+        let few = Course { prices: &ideal, ..*self }.search(&start, 1, random);
+        let mut best = self.in_phases(direct.clone(), &few, random)?;
+        let halfway = self.prices.halfway();
+        let start = cover(&best, &halfway, self.stages)?;
+        let few = Course { prices: &halfway, ..*self }.search(&start, 2, random);
+        best = self.in_phases(best, &few, random)?;
+        Ok(self.search(&best, 1, random))
+    }
+
+    /// The cheapest of a network of the library's cells and of two ways to make another network of these cells.
+    fn in_phases(&self, best: Network, other: &Network, random: &mut ChaCha8Rng) -> Result<Network, Function> {
+        let best = cheaper(best, cover(other, self.prices, self.stages)?, self.prices);
+        let phased = assign_phases(other, self.prices, random).map(|phased| cover(&phased, self.prices, self.stages));
+        Ok(match phased {
+            Some(phased) => cheaper(best, phased?, self.prices),
+            None => best,
+        })
+    }
+
+    /// The search for a network's width and the effort; `share` is its part of the work.
+    fn search(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
+        if !is_narrow(network) {
+            let wide = self.search_wide(network, share, random);
+            return if is_narrow(&wide) { self.search_whole(&wide, share, random) } else { wide };
+        }
+        match network.gates.len() > MANY_GATES && self.effort == Effort::Normal {
+            true => self.search_whole(&self.search_wide(network, share, random), share, random),
+            false => self.search_whole(network, share, random),
+        }
+    }
+
+    /// Searches a narrow network over every pattern.
+    fn search_whole(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
+        let gates = network.gates.len() as u64;
+        let visits = match self.effort {
+            Effort::Fast => (8 * gates).min(1_000),
+            Effort::Normal => (25 * gates + gates * gates / 20).clamp(150, 6_000),
+            Effort::High => (1_000 * gates).clamp(10_000, 60_000),
+        };
+        let words = (1u64 << network.inputs).div_ceil(64);
+        let visits = visits.min(WHOLE_WORK / (words * gates.max(1)));
+        let calm = self.calm(visits * share);
+        let bold = WalkPlan { climb: 400, patience: visits / 4, ..calm };
+        let mut walk = || {
+            let first = walk::improve_all(network, self.prices, self.stages, calm, random);
+            walk::improve_all(&first, self.prices, self.stages, bold, random)
+        };
+        // With few inputs a walk is cheap, so a new start is worth more than a longer walk.
+        let starts = if self.effort == Effort::High && network.inputs <= SMALL_INPUTS { SMALL_STARTS } else { 1 };
+        let first = walk();
+        (1..starts).fold(first, |best, _| cheaper(best, walk(), self.prices))
+    }
+
+    /// Searches each gate's surroundings and then over samples of the patterns, in rounds.
+    fn search_wide(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
+        let round = Round::of(self.effort);
+        let rounds = rounds(self.effort, share, network.gates.len());
+        (0..rounds).fold(network.clone(), |best, _| {
+            let gates = best.gates.len() as u64;
+            let first = below(random, NEAR_GATES) + 1;
+            let near = self.no_dearer(best, |best| {
+                in_parts(best, self.stages, first, NEAR_GATES, |part, stages| {
+                    let plan = self.calm(round.near(part.gates.len() as u64, gates));
+                    walk::improve(part, self.prices, stages, &[], plan, random)
+                })
+            });
+            if round.far == 0 || is_narrow(&near) {
+                return near;
+            }
+            let first = below(random, FAR_GATES) + 1;
+            self.no_dearer(near, |near| {
+                in_parts(near, self.stages, first, FAR_GATES, |part, stages| {
+                    let plan = self.calm(round.far(part.gates.len() as u64, gates));
+                    roam(part, self.prices, stages, None, plan, random)
+                })
+            })
+        })
+    }
+
+    /// The result of a search, unless it is more expensive than the network.
+    fn no_dearer(&self, best: Network, search: impl FnOnce(&Network) -> Network) -> Network {
+        let next = cover(&search(&best), self.prices, self.stages).expect("the network is made of the library's cells");
+        if cost(&next, self.prices) <= cost(&best, self.prices) { next } else { best }
+    }
+
+    /// A network of the minimal number of cells, if it has few inputs and the effort is sufficient.
+    fn fewest(&self, best: Network) -> Network {
+        let nodes = match self.effort {
+            Effort::Fast => 10_000,
+            Effort::Normal => 100_000,
+            Effort::High => 1_000_000_000,
+        };
+        let combinational = self.stages.iter().all(|&stage| stage == 0);
+        if best.inputs > exact::MOST_INPUTS || !combinational || !self.prices.are_even() {
+            return best;
+        }
+        match exact::fewer(&best, self.prices, cost(&best, self.prices), nodes, self.cancel) {
+            ExactResult::Made(network) => network,
+            ExactResult::Impossible | ExactResult::Unknown => best,
+        }
+    }
+
+    /// Makes gates earlier where that costs nothing, so that a network of the same cells settles sooner.
+    fn shorten(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
+        let visits = (SHORTENING_VISITS * network.gates.len() as u64).min(MOST_SHORTENING);
+        let plan = WalkPlan { pace: Pace::Shorten, ..self.calm(visits) };
+        match is_narrow(network) {
+            true => walk::improve_all(network, self.prices, self.stages, plan, random),
+            false => walk::improve(network, self.prices, self.stages, &[], plan, random),
+        }
+    }
+
+    /// Alternately shortens the slowest path and reduces the cost without making the path longer.
+    fn quicken(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
+        let rounds = match self.effort {
+            Effort::Fast => 1,
+            Effort::Normal => 3,
+            Effort::High => 20,
+        };
+        let rank = |network: &Network| (depth(network, self.prices), cost(network, self.prices));
+        let mut best = network.clone();
+        let mut now = network.clone();
+        for _ in 0..rounds {
+            for pace in [Pace::Hurry, Pace::Keep] {
+                let plan = WalkPlan { pace, ..self.calm((10 * now.gates.len() as u64).min(3_000)) };
+                now = match is_narrow(&now) {
+                    true => walk::improve_all(&now, self.prices, self.stages, plan, random),
+                    false => roam(&now, self.prices, self.stages, None, plan, random),
+                };
+            }
+            if rank(&now) < rank(&best) {
+                best = now.clone();
+            }
+        }
+        best
+    }
+}
+
+/// The visits in a round of the search in a wide network.
+#[derive(Clone, Copy)]
+struct Round {
+    /// Visits to each gate that see its surroundings, and the most such visits to all gates.
+    near: u64,
+    most_near: u64,
+    /// Visits to each gate that see samples of the whole part, and the most such visits to all gates.
+    far: u64,
+    most_far: u64,
+    /// The most such visits to a part, times its gates.
+    work: u64,
+}
+
+impl Round {
+    fn of(effort: Effort) -> Self {
+        match effort {
+            Effort::Fast => Self { near: 2, most_near: 100_000, far: 0, most_far: 0, work: 0 },
+            Effort::Normal => Self { near: 26, most_near: 130_000, far: 20, most_far: 10_000, work: 3_000_000 },
+            Effort::High => Self { near: 40, most_near: 400_000, far: 30, most_far: 20_000, work: 9_000_000 },
+        }
+    }
+
+    /// The visits to a part of `part` gates of a network of `all` gates that see surroundings.
+    fn near(&self, part: u64, all: u64) -> u64 {
+        (self.near * part).min(self.most_near * part / all.max(1))
+    }
+
+    /// The visits to a part that see samples.
+    fn far(&self, part: u64, all: u64) -> u64 {
+        (self.far * part).min(self.most_far * part / all.max(1)).min(self.work / part.max(1))
+    }
+}
+
+/// The number of rounds for a share of the work. High effort makes fewer in large networks, so that it always ends.
+fn rounds(effort: Effort, share: u64, gates: usize) -> u64 {
+    match effort {
+        Effort::Fast => 1,
+        Effort::Normal => 2 * share,
+        Effort::High => share * (6 * FULL_ROUNDS_GATES / gates.max(FULL_ROUNDS_GATES)).max(1) as u64,
+    }
+}
+
+/// Cycles until every output is correct, if each cell takes its clock.
+fn depth(network: &Network, prices: &Prices) -> u32 {
+    Graph::new(network, prices, &[], &[]).depth()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::equal;
+
+    fn library(names: &str) -> CellLibrary {
+        CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
+    }
+
+    fn reduced(network: &Network, cells: &str) -> Network {
+        reduce(network, &[], &library(cells), &MapOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn observability_dont_cares_allow_cheaper_gates() {
+        // The exclusive or matters only if `a` is 1: there it is the opposite of `b`.
+        let mut network = Network::new(2);
+        let different = network.add(Function::XOR, [2, 3]);
+        let both = network.add(Function::AND, [2, different]);
+        network.outputs.push(both);
+        assert_eq!(reduced(&network, "nand not").gates.len(), 3);
+        assert_eq!(reduced(&network, "a_and_notb not").gates.len(), 1);
+    }
+
+    #[test]
+    fn exclusive_ors_of_nand_cells_share_their_first_gates() {
+        let mut network = Network::new(3);
+        let half = network.add(Function::XOR, [2, 3]);
+        let sum = network.add(Function::XOR, [half, 4]);
+        let pairs = [network.add(Function::AND, [2, 3]), network.add(Function::AND, [half, 4])];
+        let carry = network.add(Function::OR, pairs);
+        network.outputs = vec![sum, carry];
+        assert_eq!(reduced(&network, "nand").gates.len(), 9);
+    }
+
+    #[test]
+    fn the_work_of_high_effort_is_bounded_for_any_size() {
+        let round = Round::of(Effort::High);
+        for gates in [200u64, 1_000, 2_000, 20_000, 100_000] {
+            let rounds = rounds(Effort::High, 4, gates as usize);
+            let parts = gates.div_ceil(FAR_GATES as u64);
+            let far = rounds * parts * round.far(gates / parts, gates) * (gates / parts);
+            let near = rounds * round.near(gates, gates);
+            assert!(far <= 300_000_000 && near <= 1_600_000, "{gates} gates take {far} and {near}");
+        }
+    }
+
+    #[test]
+    fn a_decoder_of_the_fewest_cells_has_two_levels() {
+        let excluded = Function::parse("nota_and_b").unwrap();
+        let mut network = Network::new(3);
+        let high = network.add(Function::AND, [4, 2]);
+        let low = network.add(excluded, [high, 4]);
+        let one = network.add(Function::AND, [3, low]);
+        let zero = network.add(excluded, [one, low]);
+        let two = network.add(excluded, [3, high]);
+        let three = network.add(excluded, [two, high]);
+        network.outputs = vec![zero, one, two, three];
+        let library = library("and nota_and_b a_and_notb");
+        let reduced = reduce(&network, &[], &library, &MapOptions::default()).unwrap();
+        assert_eq!((reduced.gates.len(), depth(&reduced, &Prices::of(&library))), (6, 2));
+    }
+
+    #[test]
+    fn a_cancelled_search_ends_with_a_network_of_the_same_function() {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for inputs in [3, 14] {
+            let mut network = Network::new(inputs);
+            for i in 0..200 {
+                let pins = [below(&mut random, 2 + inputs + i), 2 + below(&mut random, inputs + i)];
+                network.add([Function::XOR, Function::AND, Function::OR][i % 3], pins.map(|pin| pin as Signal));
+            }
+            let signals = network.signals() as Signal;
+            network.outputs = (signals - 6..signals).collect();
+            let library = library("nand not");
+            for objective in [MappingObjective::Area, MappingObjective::Delay] {
+                let options = MapOptions { objective, effort: Effort::High, ..MapOptions::default() };
+                options.cancel.raise();
+                let cancelled = reduce(&network, &[], &library, &options).unwrap();
+                assert!(equal(&network, &cancelled).is_ok());
+                assert!(cancelled.gates.iter().all(|gate| library.contains(gate.function)));
+                let whole = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
+                assert!(cancelled.gates.len() > reduce(&network, &[], &library, &whole).unwrap().gates.len());
+            }
+        }
+    }
+
+    #[test]
+    fn constant_outputs_and_copied_inputs_need_no_cells() {
+        let mut network = Network::new(2);
+        let never = network.add(Function::XOR, [2, 2]);
+        let same = network.add(Function::OR, [3, never]);
+        network.outputs = vec![never, same];
+        let reduced = reduced(&network, "nand");
+        assert_eq!((reduced.gates.len(), reduced.outputs), (0, vec![0, 3]));
+    }
+}

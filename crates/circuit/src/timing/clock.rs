@@ -1,0 +1,268 @@
+//! The times of a clock: for how long it must be high and low, and for how long the other inputs must be stable before
+//! and after it switches.
+
+use std::collections::BTreeSet;
+
+use petgraph::visit::NodeIndexable;
+
+use crate::cells::CellKind;
+use crate::timing::arrivals::{Arrivals, Delay, Delays};
+use crate::timing::phase::{MOST_ROOTS, Passage, Phase, RootValues, earliest, passages, phases};
+use crate::timing::turn::Turn;
+use crate::{Latch, NetId, Netlist, Node, Storage};
+
+/// After this many periods without an end, data do not arrive in time.
+const MOST_PERIODS: usize = 64;
+
+/// The times of an input that opens and closes latches, in cycles. They hold for robots with delays between one cycle
+/// and their clock.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ClockTimes {
+    /// The input.
+    pub clock: NetId,
+    /// The least time for which it must be 1.
+    pub high: u32,
+    /// The least time for which it must be 0.
+    pub low: u32,
+    /// The least time from one rise to the next.
+    pub period: u32,
+    /// For at most so many cycles after a latch has opened, its data may arrive, if the clock is no slower than that.
+    pub borrowed: u32,
+    /// The times of the other inputs.
+    pub inputs: Vec<InputTimes>,
+    /// The slowest path of each kind.
+    pub paths: Vec<ClockPath>,
+    /// The latches whose data may change before they are closed.
+    pub races: Vec<Vec<NetId>>,
+}
+
+/// The time for which an input must be stable around an edge of a clock.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputTimes {
+    /// The input.
+    pub input: NetId,
+    /// Whether it is the edge at which the clock rises.
+    pub rises: bool,
+    /// Cycles before the edge.
+    pub setup: u32,
+    /// Cycles after the edge.
+    pub hold: u32,
+}
+
+/// The ends of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PathEnds {
+    /// From an input to the data of a register.
+    InputToRegister,
+    /// From an edge of the clock through a register to the data of a register.
+    RegisterToRegister,
+    /// From an edge of the clock through a register to an output.
+    RegisterToOutput,
+}
+
+/// A slowest path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ClockPath {
+    /// Its ends.
+    pub ends: PathEnds,
+    /// Its cycles.
+    pub cycles: u32,
+    /// Its nets, from an input on.
+    pub nets: Vec<NetId>,
+}
+
+impl ClockTimes {
+    /// The times of each input that opens and closes latches; without clocks whose latches do not settle in a row.
+    /// `hold` is the time after which every row has settled.
+    pub fn all<'k>(netlist: &Netlist, storage: &Storage, hold: u32, kind: impl Fn(NetId) -> &'k CellKind) -> Vec<Self> {
+        let roots: Vec<NetId> = storage.roots().into_iter().map(|(root, _)| root).take(MOST_ROOTS).collect();
+        let values = phases(netlist, &roots);
+        let is_input = |root: &&NetId| matches!(netlist.node(**root), Node::Input(_));
+        let times = |&clock: &NetId| Clocked { netlist, storage, kind: &kind, clock, values: &values }.times(hold);
+        roots.iter().filter(is_input).filter_map(times).collect()
+    }
+}
+
+/// A netlist with the clock whose times are wanted.
+struct Clocked<'a, F> {
+    netlist: &'a Netlist,
+    storage: &'a Storage,
+    kind: &'a F,
+    clock: NetId,
+    /// The values that the nets that open and close latches may have at rest.
+    values: &'a [RootValues],
+}
+
+/// The phases in which the clock is 0, and those in which it is 1.
+type Halves = [Vec<(Vec<Passage>, Phase)>; 2];
+
+impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
+    fn times(&self, hold: u32) -> Option<ClockTimes> {
+        let halves = self.halves(&[self.clock]);
+        let works = |high: u32, low: u32| self.borrowed(&halves, high, low).is_some();
+        if !works(hold, hold) {
+            return None;
+        }
+        let high = least(1, hold, |high| works(high, hold));
+        let low = least(1, hold, |low| works(hold, low));
+        let period = least(high + low, 2 * hold, |period| works(high, period - high) && works(period - low, low));
+        Some(ClockTimes {
+            clock: self.clock,
+            high,
+            low,
+            period,
+            borrowed: self.borrowed(&halves, high, period - high)?,
+            inputs: self.inputs(),
+            paths: self.paths(&halves),
+            races: self.races(&halves),
+        })
+    }
+
+    fn delay(&self) -> Delay<'_, F> {
+        Delay { netlist: self.netlist, delays: Delays::Clock, kind: self.kind }
+    }
+
+    /// The phases for switches of some inputs.
+    fn halves(&self, sources: &[NetId]) -> Halves {
+        [false, true].map(|value| {
+            let of_half = self.values.iter().filter(|values| values[&self.clock] == value);
+            let phase = |values: &RootValues| {
+                let passages = passages(self.netlist, self.storage, values, sources, self.kind);
+                let phase = Phase::new(self.netlist, self.storage, &passages);
+                (passages, phase)
+            };
+            of_half.map(phase).collect()
+        })
+    }
+
+    /// The latches of this clock that are open while it has a value.
+    fn open(&self, value: bool) -> impl Iterator<Item = &Latch> {
+        self.storage.latches.iter().filter(move |latch| latch.root == self.clock && latch.open == value)
+    }
+
+    /// The longest time for which data arrive at a latch after it has opened; `None` if the clock, high and low for
+    /// these times again and again, closes a latch before it has settled.
+    fn borrowed(&self, halves: &Halves, high: u32, low: u32) -> Option<u32> {
+        let mut late = vec![0; self.netlist.graph().node_bound()];
+        for _ in 0..MOST_PERIODS {
+            let mut borrowed = 0;
+            let before = late.clone();
+            for (value, cycles) in [(true, high), (false, low)] {
+                let changes = self.changes(&halves[usize::from(value)], &late);
+                for latch in self.open(value) {
+                    let settled = latch.cells.iter().map(|cell| changes[cell.index()]).max().unwrap_or(0);
+                    if settled > cycles + latch.chain.len() as u32 {
+                        return None;
+                    }
+                    let opened: u32 = latch.chain.iter().map(|&id| (self.kind)(id).clock).sum();
+                    let data = latch.data.iter().map(|net| changes[net.index()]).max().unwrap_or(0);
+                    borrowed = borrowed.max(data.saturating_sub(opened));
+                }
+                late = changes.iter().map(|change| change.saturating_sub(cycles)).collect();
+            }
+            if late == before {
+                return Some(borrowed);
+            }
+        }
+        None
+    }
+
+    /// The latest change of each net after an edge of the clock; `late` has the changes that are still to come.
+    fn changes(&self, phases: &[(Vec<Passage>, Phase)], late: &[u32]) -> Vec<u32> {
+        let mut changes = late.to_vec();
+        for (_, phase) in phases {
+            let start = |turn: &Turn| match phase.net(turn) {
+                net if net == self.clock => Some(0),
+                net => Some(late[net.index()]).filter(|&late| late > 0 && phase.is_real(turn)),
+            };
+            let arrivals = Arrivals::from(&self.delay(), phase, start);
+            for (i, turn) in phase.turns.iter().enumerate().filter(|(_, turn)| phase.is_real(turn)) {
+                let change = &mut changes[turn.node.index()];
+                *change = (*change).max(arrivals.latest(i).unwrap_or(0));
+            }
+        }
+        changes
+    }
+
+    /// The times of the other inputs around the edges of the clock.
+    fn inputs(&self) -> Vec<InputTimes> {
+        let others = self.netlist.inputs().iter().filter(|&&input| input != self.clock);
+        others.flat_map(|&input| self.around(input)).collect()
+    }
+
+    fn around(&self, input: NetId) -> Vec<InputTimes> {
+        let halves = self.halves(&[input]);
+        let edge = |rises: bool| {
+            let mut times: Option<InputTimes> = None;
+            for (passages, phase) in &halves[usize::from(!rises)] {
+                let launch = |turn: &Turn| (phase.net(turn) == input).then_some(0);
+                let arrivals = Arrivals::from(&self.delay(), phase, launch);
+                let earliest = earliest(self.netlist, self.storage, passages, &[input], &[]);
+                for latch in self.open(!rises) {
+                    let settled = (0..).zip(&phase.turns).filter(|(_, turn)| latch.cells.contains(&turn.node));
+                    let Some(settled) = settled.filter_map(|(i, _)| arrivals.latest(i)).max() else { continue };
+                    let setup = settled.saturating_sub(latch.chain.len() as u32);
+                    let closed = latch.chain.iter().map(|&id| (self.kind)(id).clock).sum();
+                    let hold = latch.needed(self.netlist, self.kind, closed, &earliest).unwrap_or(0);
+                    let old = times.take().map_or((0, 0), |old| (old.setup, old.hold));
+                    times = Some(InputTimes { input, rises, setup: setup.max(old.0), hold: hold.max(old.1) });
+                }
+            }
+            times
+        };
+        [true, false].into_iter().filter_map(edge).collect()
+    }
+
+    /// The slowest path of each kind.
+    fn paths(&self, halves: &Halves) -> Vec<ClockPath> {
+        let own = self.storage.latches.iter().filter(|latch| latch.root == self.clock);
+        let mut data: BTreeSet<NetId> = own.flat_map(|latch| latch.data.iter().copied()).collect();
+        for pair in &self.storage.flip_flops {
+            self.storage.latches[pair.second].data.iter().for_each(|net| _ = data.remove(net));
+        }
+        data.remove(&self.clock);
+        let outputs: BTreeSet<NetId> = self.netlist.outputs().iter().copied().collect();
+        let others: Vec<NetId> = self.netlist.inputs().iter().copied().filter(|&id| id != self.clock).collect();
+        let from_inputs = self.halves(&others);
+        let kinds = [
+            (PathEnds::InputToRegister, &from_inputs, &others[..], &data),
+            (PathEnds::RegisterToRegister, halves, &[self.clock][..], &data),
+            (PathEnds::RegisterToOutput, halves, &[self.clock][..], &outputs),
+        ];
+        kinds.into_iter().filter_map(|(ends, halves, from, to)| self.slowest(ends, halves, from, to)).collect()
+    }
+
+    fn slowest(&self, ends: PathEnds, halves: &Halves, from: &[NetId], to: &BTreeSet<NetId>) -> Option<ClockPath> {
+        let mut slowest: Option<ClockPath> = None;
+        for (_, phase) in halves.iter().flatten() {
+            let launch = |turn: &Turn| from.contains(&phase.net(turn)).then_some(0);
+            let arrivals = Arrivals::from(&self.delay(), phase, launch);
+            if let Some((cycles, event)) = arrivals.last(|turn| to.contains(&phase.turns[turn].node))
+                && slowest.as_ref().is_none_or(|slowest| cycles > slowest.cycles)
+            {
+                slowest = Some(ClockPath { ends, cycles, nets: arrivals.path(phase, event) });
+            }
+        }
+        slowest
+    }
+
+    /// The latches of this clock whose data may change before they are closed, although no other input switches.
+    fn races(&self, halves: &Halves) -> Vec<Vec<NetId>> {
+        let closing = |passages: &[Passage]| {
+            let latches = self.storage.latches.iter().zip(passages.to_vec());
+            let own = latches.filter(|(latch, passage)| latch.root == self.clock && *passage == Passage::Closing);
+            own.map(|(latch, _)| latch.cells.clone()).collect::<Vec<_>>()
+        };
+        let found: BTreeSet<Vec<NetId>> = halves.iter().flatten().flat_map(|(passages, _)| closing(passages)).collect();
+        found.into_iter().collect()
+    }
+}
+
+/// The least number between two that fits; the greatest fits.
+fn least(mut least: u32, mut greatest: u32, fits: impl Fn(u32) -> bool) -> u32 {
+    while least < greatest {
+        let middle = (least + greatest) / 2;
+        if fits(middle) { greatest = middle } else { least = middle + 1 }
+    }
+    least
+}

@@ -1,0 +1,17 @@
+//! Why registers are not made of pulsed latches, in words.
+
+use crate::timing::pulsed::WhyKept;
+
+impl WhyKept {
+    /// The reason in words.
+    pub fn explain(self) -> &'static str {
+        match self {
+            Self::OtherForm => {
+                "it is not made of eight NAND cells as `register` is, or its first latch is read elsewhere"
+            }
+            Self::DerivedClock => "its clock is not an input",
+            Self::FastData => "its data may change before a pulse has ended",
+            Self::NoGain => "pulsed latches would not save robots",
+        }
+    }
+}

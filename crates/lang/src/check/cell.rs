@@ -1,0 +1,110 @@
+//! Values in the rows of tests and simulations.
+
+use std::num::IntErrorKind;
+
+use crate::check::constant;
+use crate::check::wording::CellError;
+use crate::syntax::tree::NameSyntax;
+use nbc_base::diag::{Diagnostic, counted};
+use nbc_base::model::{Base, Column};
+
+/// A value of a row, as bits with the most significant first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum RowCell {
+    /// The bits, or `None` for `-`, and the text as written.
+    Bits(Vec<Option<bool>>, Base),
+    /// A rising edge: 0, then 1.
+    Pulse,
+}
+
+/// Reads a value for a column.
+pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
+    match word.text.as_str() {
+        "-" => return Ok(RowCell::Bits(vec![None; column.width], Base::of_width(column.width))),
+        "^" if column.width == 1 => return Ok(RowCell::Pulse),
+        "^" => {
+            let error = CellError::WidePulse { column: column.name.clone(), width: column.width };
+            return Err(error.at(word.span));
+        }
+        _ => {}
+    }
+    let bits = match word.text.split_once('\'') {
+        Some((width, constant)) => sized(word, width, constant, column)?,
+        None => plain(word, column)?,
+    };
+    let letter = word.text.split_once('\'').and_then(|(_, constant)| constant.chars().next());
+    if bits.len() == column.width {
+        Ok(RowCell::Bits(bits, letter.and_then(Base::of_letter).unwrap_or_default()))
+    } else {
+        Err(wrong_width(word, &counted(bits.len(), "bit"), column))
+    }
+}
+
+fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
+    // Digits of 0 and 1 may be bits or a number.
+    let is_bits = word.text.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-' | b'_'));
+    let meant = if is_bits { None } else { meant(&word.text, column.width) };
+    CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width, meant }.at(word.span)
+}
+
+/// How a value of another language is written for a column of that width.
+fn meant(word: &str, width: usize) -> Option<String> {
+    if let Some(bit) = constant::truth(word).filter(|_| width == 1) {
+        return Some(u8::from(bit).to_string());
+    }
+    if constant::is_unknown(word) {
+        return Some("-".to_owned());
+    }
+    let any = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z');
+    if word.len() == width && word.contains(any) && word.chars().all(|c| matches!(c, '0' | '1' | '-') || any(c)) {
+        return Some(word.replace(any, "-"));
+    }
+    let lower = word.to_ascii_lowercase();
+    let (base, digits) = match lower.split_once('\'') {
+        Some((_, constant)) => (constant.chars().next()?, constant.get(1..)?),
+        None => match lower.get(..2) {
+            Some("0x") => ('h', &lower[2..]),
+            Some("0b") => ('b', &lower[2..]),
+            _ => ('d', lower.as_str()),
+        },
+    };
+    let value = constant::value(digits, constant::radix(base)?).ok()?;
+    let fits = width >= 128 || value >> width == 0;
+    fits.then(|| if width == 1 { value.to_string() } else { format!("{width}'{base}{digits}") })
+}
+
+fn plain(word: &NameSyntax, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
+    let bit = |c| match c {
+        '0' => Some(Some(false)),
+        '1' => Some(Some(true)),
+        '-' => Some(None),
+        _ => None,
+    };
+    word.text.chars().filter(|&c| c != '_').map(bit).collect::<Option<_>>().ok_or_else(|| no_value(word, column))
+}
+
+/// A number with the given width in bits.
+fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
+    let mut digits = constant.chars();
+    let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word, column))?;
+    if width.is_empty() || !width.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err(no_value(word, column));
+    }
+    let value = constant::value(digits.as_str(), radix).map_err(|error| match error {
+        IntErrorKind::PosOverflow => CellError::TooLarge.at(word.span),
+        _ => no_value(word, column),
+    })?;
+    let width = match width.parse() {
+        Ok(width) if width < 128 && value >> width != 0 => {
+            return Err(CellError::Unfitting { value, width }.at(word.span));
+        }
+        Ok(width) if width == column.width => width,
+        Ok(width) => return Err(wrong_width(word, &counted(width, "bit"), column)),
+        Err(_) => return Err(wrong_width(word, &format!("{width} bits"), column)),
+    };
+    Ok((0..width).rev().map(|bit| Some(bit < 128 && value >> bit & 1 == 1)).collect())
+}
+
+fn no_value(word: &NameSyntax, column: &Column) -> Diagnostic {
+    CellError::NotAValue { word: word.text.clone(), meant: meant(&word.text, column.width) }.at(word.span)
+}

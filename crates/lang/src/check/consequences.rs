@@ -1,0 +1,58 @@
+//! Errors that only follow from text that could not be parsed, which has its own messages.
+
+use std::collections::BTreeSet;
+
+use crate::check::names::Home;
+use crate::syntax::tree::Tree;
+use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::source::{Sources, Span};
+
+/// Forgets what follows from parts that could not be parsed: in their declaration, names that they mention and fields
+/// and rows that are missing; everywhere, the names of declarations that are lost.
+pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, trees: &[(Home, Tree)]) {
+    let broken: Vec<_> = trees.iter().flat_map(|(_, tree)| &tree.broken).collect();
+    let lost: BTreeSet<&str> = broken
+        .iter()
+        .filter(|part| part.span == part.declaration)
+        .filter_map(|part| words(text(sources, part.span)).nth(1))
+        .collect();
+    // The words of each declaration that has lost a part.
+    let mut mentioned: Vec<(Span, BTreeSet<&str>)> = Vec::new();
+    for part in broken {
+        let own = words(text(sources, part.span));
+        match mentioned.last_mut().filter(|(declaration, _)| *declaration == part.declaration) {
+            Some((_, words)) => words.extend(own),
+            None => mentioned.push((part.declaration, own.collect())),
+        }
+    }
+    mentioned.sort_by_key(|(declaration, _)| *declaration);
+    let follows = |diagnostic: &Diagnostic| {
+        let Some(place) = diagnostic.labels.first().map(|label| label.span) else { return false };
+        let word = words(text(sources, place)).next().unwrap_or_default();
+        if diagnostic.code == Code::Unknown && lost.contains(word) {
+            return true;
+        }
+        let next = mentioned
+            .partition_point(|(declaration, _)| (declaration.file, declaration.start) <= (place.file, place.start));
+        let Some((_, words)) = mentioned[..next]
+            .last()
+            .filter(|(declaration, _)| declaration.file == place.file && place.end <= declaration.end)
+        else {
+            return false;
+        };
+        match diagnostic.code {
+            Code::MissingField | Code::Empty => true,
+            Code::Unknown | Code::Undriven | Code::Unused | Code::UnknownWidth => words.contains(word),
+            _ => false,
+        }
+    };
+    diagnostics.retain(|diagnostic| !follows(diagnostic));
+}
+
+fn text(sources: &Sources, span: Span) -> &str {
+    &sources.file(span.file).text[span.range()]
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}

@@ -1,0 +1,343 @@
+//! Evolution declarations. A missing field has the paper's value or that of the evolution named by `from`.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::check::derived::{self, CheckState};
+use crate::check::fields::{self, Fields};
+use crate::check::names::{Home, NameTable};
+use crate::check::quantity;
+use crate::check::wording::{EvolutionError, Expected, NameError};
+use crate::check::world::{self, Worlds};
+use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::LEAST_ACTUATORS;
+use nbc_base::model::{
+    Axis, Count, Evolution, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette, Pattern,
+    PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, Symmetry, Variation,
+};
+use nbc_base::source::Span;
+
+/// The largest width and height of a body's box, in voxels.
+const MAX_BOX: u32 = 64;
+
+/// The most seeds of a range.
+const MAX_SEEDS: u32 = 10_000;
+
+/// The declarations that an evolution may refer to.
+pub(crate) struct Known<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) materials: &'a NameTable,
+    pub(crate) schedules: &'a NameTable,
+    pub(crate) evolutions: &'a NameTable,
+    /// The worlds by the position of their names.
+    pub(crate) worlds: Worlds<'a>,
+    /// The evolutions by the position of their names, as far as they are checked.
+    pub(crate) checked: &'a [CheckState<NamedEvolution>],
+}
+
+/// An evolution whose sensors still name stimuli of the program, so that others can take its materials or its schedule.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedEvolution {
+    evolution: Evolution,
+    /// The two stimuli of its schedule, as indices of [`Program::stimuli`], in ascending order.
+    stimuli: Vec<usize>,
+}
+
+impl NamedEvolution {
+    /// The evolution by itself: its two stimuli are the first and the second of its bodies.
+    pub(crate) fn into_evolution(self) -> Evolution {
+        let Self { evolution, stimuli } = self;
+        let own = |material: &Material| match material.kind {
+            MaterialKind::Sensor(response) => {
+                let stimulus = stimuli.binary_search(&response.stimulus).expect("its schedule has every stimulus");
+                Material { kind: MaterialKind::Sensor(Response { stimulus, ..response }), ..material.clone() }
+            }
+            _ => material.clone(),
+        };
+        let palette = Arc::new(Palette::new(evolution.palette.materials().iter().map(own).collect()));
+        Evolution { palette, ..evolution }
+    }
+
+    /// The first sensor whose stimulus the schedule never gives.
+    fn deaf_sensor(&self) -> Option<(&Material, usize)> {
+        self.evolution.palette.materials().iter().find_map(|material| match material.kind {
+            MaterialKind::Sensor(Response { stimulus, .. }) if !self.stimuli.contains(&stimulus) => {
+                Some((material, stimulus))
+            }
+            _ => None,
+        })
+    }
+}
+
+/// Checks an evolution.
+pub(crate) fn evolution(
+    source: &RecordDeclaration,
+    home: Home,
+    known: &Known<'_>,
+    faults: &mut Vec<Diagnostic>,
+) -> CheckState<NamedEvolution> {
+    let mut fields = Fields::new("evolution", source);
+    let base =
+        fields.read("from", &known.checked[0], |value| derived::base(value, home, known.evolutions, known.checked));
+    let (NamedEvolution { evolution: base, stimuli }, whole) = match base {
+        CheckState::Sound(base) => (NamedEvolution::clone(base), true),
+        // The first evolution of the prelude has the default values of the others.
+        _ => (NamedEvolution { evolution: paper(), stimuli: Vec::new() }, source.record.field("from").is_none()),
+    };
+    let (width, height) = fields.read("box", (base.width, base.height), area);
+    let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
+    fields.read("genome", (), |value| fields::choice(value, &[("cppn", ())]));
+    let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
+    let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
+    let objective = fields.read("objective", base.objective, objective);
+    let evolution = Evolution {
+        name: source.name.text.clone(),
+        width,
+        height,
+        palette: palette.unwrap_or(base.palette),
+        mutation: fields.read("mutation", base.mutation, mutation),
+        variable,
+        fixed_steps: fields.read("fixed", base.fixed_steps, steps),
+        descriptors: fields.read_list("descriptors", axis).unwrap_or(base.descriptors),
+        batch: fields.read("batch", base.batch as u32, |value| quantity::count(value, 1..=1_000_000)) as usize,
+        newcomers: fields.read("newcomers", base.newcomers as u32, |value| quantity::count(value, 0..=1_000_000))
+            as usize,
+        generations: fields.read("generations", base.generations, |value| quantity::count(value, 1..=u32::MAX)),
+        seeds: seeds(&mut fields).unwrap_or(base.seeds),
+        rules: fields
+            .read("as", base.rules, |value| fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])),
+        objective,
+        symmetry: fields.read("symmetry", base.symmetry, |value| {
+            fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
+        }),
+        niche: fields.read("niche", base.niche, niche),
+        world: fields.read("world", base.world, |value| known.worlds.of(value, home)),
+        sample: sample(&mut fields, base.sample, objective),
+    };
+    let found = fields.finish();
+    let sound = found.is_empty() && whole;
+    faults.extend(found);
+    let checked = NamedEvolution { evolution, stimuli };
+    let deaf = if sound { deaf_sensor(source, &checked, known.program) } else { None };
+    let is_deaf = deaf.is_some();
+    faults.extend(deaf);
+    if sound && !is_deaf { CheckState::Sound(Box::new(checked)) } else { CheckState::Faulty }
+}
+
+/// The error of a sensor whose stimulus is never given, at the field that chose the schedule or the materials.
+fn deaf_sensor(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
+    let (material, stimulus) = checked.deaf_sensor()?;
+    let name = |stimulus: usize| program.stimuli.get(stimulus).cloned();
+    let given = checked.stimuli.iter().filter_map(|&stimulus| name(stimulus)).collect();
+    let error = EvolutionError::DeafSensor { material: material.name.clone(), stimulus: name(stimulus)?, given };
+    let field = ["variable", "materials"].into_iter().find_map(|field| source.record.field(field));
+    Some(error.at(field.map_or(source.name.span, |field| field.value.span)))
+}
+
+/// The paper's evolution without its materials and stimuli, which the prelude declares.
+fn paper() -> Evolution {
+    Evolution {
+        name: String::new(),
+        width: 5,
+        height: 5,
+        palette: Arc::new(Palette::new(Vec::new())),
+        mutation: MutationWeights::default(),
+        variable: Schedule::default(),
+        fixed_steps: 10 * nbc_base::model::CYCLE_STEPS,
+        descriptors: Vec::new(),
+        batch: 16,
+        newcomers: 1,
+        generations: 3000,
+        seeds: vec![1],
+        rules: Rules::default(),
+        objective: SearchObjective::default(),
+        symmetry: Symmetry::default(),
+        niche: Niche::default(),
+        world: PhysicsWorld::default(),
+        sample: None,
+    }
+}
+
+/// The other worlds of the gate objective; none if nothing varies.
+fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: SearchObjective) -> Option<SampledWorlds> {
+    let usual = base.map_or(Variation::default(), |base| base.vary);
+    let vary = fields.read("vary", usual, |value| match world::variation(value)? {
+        vary if vary == Variation::default() || objective == SearchObjective::Gate => Ok(vary),
+        _ => Err(EvolutionError::WorldsWithoutGate.at(value.span)),
+    });
+    let usual = base.map_or(SampledWorlds::USUAL, |base| base.worlds);
+    let worlds = fields.read("worlds", usual, |value| match quantity::count(value, 1..=SampledWorlds::MOST)? {
+        _ if vary == Variation::default() => Err(EvolutionError::WorldsWithoutChange.at(value.span)),
+        worlds => Ok(worlds),
+    });
+    let is_used = vary != Variation::default() && objective == SearchObjective::Gate;
+    is_used.then_some(SampledWorlds { worlds, vary })
+}
+
+fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {
+    let ValueKind::Product(width, height) = &value.kind else {
+        return Err(quantity::wrong_kind(Expected::Box, value.span));
+    };
+    let side = |side: &Number| {
+        let found = quantity::whole(quantity::number(side)?, 1..=MAX_BOX, side.span, "voxels")?;
+        Ok::<_, Diagnostic>(found as usize)
+    };
+    let (columns, rows) = (side(width)?, side(height)?);
+    if columns * rows < LEAST_ACTUATORS {
+        return Err(EvolutionError::SmallBox { columns, rows, least: LEAST_ACTUATORS }.at(value.span));
+    }
+    Ok((columns, rows))
+}
+
+fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Palette>, Diagnostic> {
+    let mut materials: Vec<Material> = Vec::new();
+    let values = fields::list(value);
+    if values.is_empty() || values.len() > Palette::MAX_MATERIALS {
+        let error = EvolutionError::PaletteSize { materials: values.len(), most: Palette::MAX_MATERIALS };
+        return Err(error.at(value.span));
+    }
+    for value in values {
+        let name = fields::word(value, Expected::Name("material"))?;
+        let material = known.program.materials.get(known.materials.resolve(name, home)?);
+        let twice = materials.iter().any(|known| known.name == name.text);
+        if twice {
+            return Err(NameError::RepeatedMaterial { name: name.text.clone() }.at(name.span));
+        }
+        materials.extend(material.cloned());
+    }
+    // The kind of a material with errors is unknown.
+    let are_known = materials.len() == values.len();
+    if are_known && !materials.iter().any(|material| matches!(material.kind, MaterialKind::Actuator(_))) {
+        return Err(EvolutionError::NoActuator { least: LEAST_ACTUATORS }.at(value.span));
+    }
+    Ok(Arc::new(Palette::new(materials)))
+}
+
+/// A schedule of two stimuli: which ones, and the schedule as one of the first and the second of them.
+fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
+    let name = fields::word(value, Expected::Name("schedule"))?;
+    let Some(found) = known.program.schedules.get(known.schedules.resolve(name, home)?) else {
+        return Ok(Default::default());
+    };
+    if found.stimuli.len() != 2 {
+        let error = EvolutionError::WrongStimuli { schedule: name.text.clone(), stimuli: found.stimuli.len() };
+        return Err(error.at(name.span));
+    }
+    if let Some(fault) = missing_patterns(found, name) {
+        return Err(fault);
+    }
+    let mut stimuli = found.stimuli.clone();
+    stimuli.sort_unstable();
+    let own = |spell: &Spell| Spell { pattern: restricted(spell.pattern, &stimuli), ..*spell };
+    let schedule = Schedule { spells: found.schedule.spells.iter().map(own).collect() };
+    Ok((stimuli, schedule))
+}
+
+/// Which of these stimuli are present in a pattern, in their order.
+fn restricted(pattern: Pattern, stimuli: &[usize]) -> Pattern {
+    Pattern::new(&stimuli.iter().map(|&stimulus| pattern.has(stimulus)).collect::<Vec<_>>())
+}
+
+/// A behavior is the response of a body to each of the four patterns of two stimuli.
+fn missing_patterns(schedule: &NamedSchedule, name: &NameSyntax) -> Option<Diagnostic> {
+    let shown =
+        |pattern| schedule.schedule.spells.iter().any(|spell| restricted(spell.pattern, &schedule.stimuli) == pattern);
+    let missing: Vec<String> =
+        Pattern::PAIRS.iter().filter(|&&pattern| !shown(pattern)).map(Pattern::to_string).collect();
+    if missing.is_empty() {
+        return None;
+    }
+    Some(EvolutionError::MissingPatterns { schedule: name.text.clone(), missing }.at(name.span))
+}
+
+fn steps(value: &ValueSyntax) -> Result<u32, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(quantity) => quantity::steps(quantity),
+        _ => Err(quantity::wrong_kind(Expected::Time("10 cycles"), value.span)),
+    }
+}
+
+fn axis(value: &ValueSyntax) -> Result<Axis, Diagnostic> {
+    let ValueKind::Bins(name, bins) = &value.kind else {
+        return match fields::word(value, Expected::Axis) {
+            Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
+            _ => Err(fields::not_one_of(value, Expected::Axis, &["behavior"])),
+        };
+    };
+    let of = match name.text.as_str() {
+        "voxels" => Count::Voxels,
+        "active" => Count::Active,
+        "sensory" => Count::Sensory,
+        _ => return Err(fields::unknown_word(name, Expected::Axis, &["voxels", "active", "sensory"])),
+    };
+    let bins = quantity::whole(quantity::number(bins)?, 1..=1000, bins.span, "bins")?;
+    Ok(Axis::Count { of, bins: bins as usize })
+}
+
+/// A number, a list of numbers, or a range that includes both ends.
+fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
+    if let Some(ValueSyntax { kind: ValueKind::Range(first, last), span }) = fields.value("seed") {
+        return fields.read("seed", None, |_| range_of_seeds(first, last, *span).map(Some));
+    }
+    let mut known = BTreeMap::new();
+    fields.read_list("seed", |value| {
+        let seed = quantity::count(value, 0..=u32::MAX)?;
+        match known.insert(seed, value.span) {
+            None => Ok(u64::from(seed)),
+            Some(first) => Err(NameError::RepeatedSeed { seed, first }.at(value.span)),
+        }
+    })
+}
+
+fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u64>, Diagnostic> {
+    let seed = |end| quantity::whole(quantity::bare(end)?, 0..=u32::MAX, Quantity::span(end), "");
+    let (first, last) = (seed(first)?, seed(last)?);
+    if first > last || last - first >= MAX_SEEDS {
+        return Err(EvolutionError::SeedRange { most: MAX_SEEDS }.at(span));
+    }
+    Ok((first..=last).map(u64::from).collect())
+}
+
+fn objective(value: &ValueSyntax) -> Result<SearchObjective, Diagnostic> {
+    fields::choice(value, &[("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate)])
+}
+
+fn niche(value: &ValueSyntax) -> Result<Niche, Diagnostic> {
+    match &value.kind {
+        ValueKind::Applied(name, size) if name.text == "pareto" && size.len() == 1 => {
+            Ok(Niche::Pareto(quantity::count(&size[0], 1..=1000)? as usize))
+        }
+        ValueKind::Applied(name, _) if name.text != "pareto" => {
+            Err(fields::unknown_word(name, Expected::Niche, &["pareto"]))
+        }
+        _ => fields::choice(value, &[("dominance", Niche::Dominance)])
+            .map_err(|_| fields::not_one_of(value, Expected::Niche, &["dominance", "pareto"])),
+    }
+}
+
+fn mutation(value: &ValueSyntax) -> Result<MutationWeights, Diagnostic> {
+    let ValueKind::Record(record) = &value.kind else {
+        return Err(quantity::wrong_kind(Expected::Weights, value.span));
+    };
+    let mut fields = Fields::inner("mutation", value.span, record);
+    let weights = MutationWeights {
+        add_node: fields.read("add_node", 1.0, weight),
+        remove_node: fields.read("remove_node", 1.0, weight),
+        add_link: fields.read("add_link", 1.0, weight),
+        remove_link: fields.read("remove_link", 1.0, weight),
+        change_activation: fields.read("change_activation", 1.0, weight),
+        change_weight: fields.read("change_weight", 1.0, weight),
+    };
+    match fields.finish().into_iter().next() {
+        Some(fault) => Err(fault),
+        None => Ok(weights),
+    }
+}
+
+fn weight(value: &ValueSyntax) -> Result<f64, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(quantity) => quantity::within(quantity::bare(quantity)?, 0.0..=1e6, value.span),
+        _ => Err(quantity::wrong_kind(Expected::Weight, value.span)),
+    }
+}

@@ -1,0 +1,93 @@
+//! Circuits of other tools' files, translated to source text of the language.
+
+use crate::check::wording::{LoadError, at_use, of_translation};
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::source::{FileId, SourceFile, SourceWorld, Span};
+use nbc_circuit::correspondence;
+use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb};
+
+/// A file of another tool that a program uses.
+pub(super) struct Foreign<'a> {
+    pub(super) world: &'a dyn SourceWorld,
+    pub(super) format: CircuitSource,
+    pub(super) name: &'a str,
+    /// The path in the program.
+    pub(super) place: Span,
+}
+
+impl Foreign<'_> {
+    /// The circuit of a .bench file as source text of the language.
+    pub(super) fn bench(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
+        self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Register::CLOCK))?))
+    }
+
+    /// The circuit of a BLIF file as source text of the language.
+    pub(super) fn blif(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
+        self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)
+    }
+
+    /// The circuits of a Verilog file as source text of the language.
+    pub(super) fn verilog(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
+        let texts: Result<Vec<String>, _> = self.modules(source)?.iter().map(|design| self.circuit(design)).collect();
+        Ok(texts?.join("\n"))
+    }
+
+    /// The circuit of an AIGER file as source text of the language.
+    pub(super) fn aiger(&self) -> Result<String, Vec<Diagnostic>> {
+        let file = self.name.to_owned();
+        let bytes = self.world.read_bytes(self.name);
+        let meant = Suggestion::None;
+        let bytes = bytes.map_err(|error| self.fault(LoadError::Unreadable { file, error, meant }))?;
+        let design = aiger::read(&bytes, Some(Register::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
+        self.circuit(&self.titled(design))
+    }
+
+    /// Names a design after its file, for formats without names of circuits.
+    fn titled(&self, mut design: Design) -> Design {
+        let file = self.name.rsplit('/').next().unwrap_or(self.name);
+        design.logic.name = file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned();
+        design
+    }
+
+    /// The modules of a Verilog file that no other module contains.
+    fn modules(&self, source: &SourceFile) -> Result<Vec<Design>, Vec<Diagnostic>> {
+        let modules = self.world.translate_verilog(self.name, &source.text);
+        let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(source, &error), self.place)])?;
+        if modules.tops.is_empty() {
+            return Err(self.fault(LoadError::NoModules { file: self.name.to_owned() }));
+        }
+        modules.tops.iter().map(|name| self.module(&modules.blif, source.id, name)).collect()
+    }
+
+    fn module(&self, blif: &str, file: FileId, name: &str) -> Result<Design, Vec<Diagnostic>> {
+        self.legal(name)?;
+        let design = blif::read_model(blif, file, Some(Register::CLOCK), Some(name));
+        design.map_err(|faults| faults.into_iter().map(|fault| of_translation(fault, self.place)).collect())
+    }
+
+    fn circuit(&self, design: &Design) -> Result<String, Vec<Diagnostic>> {
+        let name = &design.logic.name;
+        self.legal(name)?;
+        if design.outputs() == 0 {
+            return Err(self.fault(LoadError::NoOutputs { circuit: name.clone() }));
+        }
+        Ok(nb::write(&correspondence::reduce(design).0))
+    }
+
+    /// Rejects the name of a circuit that the language cannot call.
+    fn legal(&self, circuit: &str) -> Result<(), Vec<Diagnostic>> {
+        if is_word(circuit) {
+            return Ok(());
+        }
+        let rename = match self.format {
+            CircuitSource::Aiger | CircuitSource::Bench => "rename the file: the circuit has its name",
+            CircuitSource::Blif => "write another name after `.model`",
+            CircuitSource::Verilog => "rename the module",
+        };
+        Err(self.fault(LoadError::CircuitName { circuit: circuit.to_owned(), rename }))
+    }
+
+    fn fault(&self, error: LoadError) -> Vec<Diagnostic> {
+        vec![error.at(self.place)]
+    }
+}

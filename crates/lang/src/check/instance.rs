@@ -1,0 +1,67 @@
+//! Circuits named by tests and swarms, with numbers for their parameters.
+
+use crate::check::circuit::Headers;
+use crate::check::expression::parameter_place;
+use crate::check::names::{Home, NameTable};
+use crate::check::wording::{NameError, OperandError, ValueError};
+use crate::syntax::parse_instance;
+use crate::syntax::tree::{self, SizeSyntaxKind};
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Instance, Program};
+use nbc_base::source::{FileId, Sources};
+
+/// A circuit with numbers for its parameters.
+pub(crate) fn instance(
+    source: &tree::InstanceSyntax,
+    home: Home,
+    names: &NameTable,
+    headers: &Headers,
+) -> Result<Instance, Diagnostic> {
+    let header = &headers.circuits[names.resolve(&source.name, home)?];
+    names.note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
+    with_numbers(source, &header.name, &header.parameters)
+}
+
+/// The circuit named in a text such as `adder[8]` on a command line.
+///
+/// # Errors
+/// When the text is not the name of a circuit with numbers for its parameters.
+pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Instance, Diagnostic> {
+    let source = parse_instance(sources, file)?;
+    let name = source.name.text.as_str();
+    let circuit = program.circuit(name).ok_or_else(|| {
+        let meant = Suggestion::of(name, program.circuits.iter().map(|circuit| circuit.name.as_str()));
+        NameError::Unknown { kind: "circuit", name: name.to_owned(), meant }.at(source.name.span)
+    })?;
+    let parameters: Vec<String> = circuit.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+    with_numbers(&source, &circuit.name, &parameters)
+}
+
+/// A circuit whose parameters have these names, with the given numbers for them.
+fn with_numbers(source: &tree::InstanceSyntax, circuit: &str, parameters: &[String]) -> Result<Instance, Diagnostic> {
+    let mut values = vec![None; parameters.len()];
+    for (place, argument) in source.arguments.iter().enumerate() {
+        let place = parameter_place(&source.name, parameters, place, argument)?;
+        values[place] = Some(literal(&source.sizes[argument.value.0 as usize])?);
+    }
+    let given = values.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
+    let arguments: Option<Vec<u64>> = values[..given].iter().copied().collect();
+    match arguments {
+        Some(arguments) => Ok(Instance { circuit: circuit.to_owned(), arguments }),
+        None => {
+            let missing = values.iter().position(Option::is_none).unwrap_or_default();
+            let parameter = parameters[missing].clone();
+            let error = OperandError::MissingParameter { circuit: source.name.text.clone(), parameter };
+            Err(error.at(source.name.span))
+        }
+    }
+}
+
+fn literal(size: &tree::SizeSyntax) -> Result<u64, Diagnostic> {
+    match &size.kind {
+        SizeSyntaxKind::Literal(digits) => {
+            digits.parse::<u32>().map(u64::from).map_err(|_| ValueError::TooLarge.at(size.span))
+        }
+        _ => Err(ValueError::NotANumber.at(size.span)),
+    }
+}

@@ -1,0 +1,72 @@
+//! Libraries: where robots come from.
+
+use crate::check::fields::{self, Fields};
+use crate::check::load::beside;
+use crate::check::names::{Home, NameTable};
+use crate::check::wording::{Expected, LoadError, NameError};
+use crate::syntax::tree::{
+    DeclarationKind, RecordDeclaration, RecordKeyword, RecordSyntax, Tree, ValueKind, ValueSyntax,
+};
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Behavior, Function, LibrarySource, Origin};
+use nbc_base::source::{SourceWorld, Sources};
+
+/// Checks a library.
+pub(crate) fn library(
+    source: &RecordDeclaration,
+    home: Home,
+    evolutions: &NameTable,
+    sources: &Sources,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<LibrarySource> {
+    let mut fields = Fields::new("library", source);
+    let from = fields.need("from", "from: shipped", |value| origin(value, home, evolutions, sources));
+    let behaviors = fields.read_list("behaviors", behavior);
+    faults.extend(fields.finish());
+    Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors })
+}
+
+/// Folders of libraries that contain no robots.
+pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home, Tree)]) -> Vec<Diagnostic> {
+    let declarations = trees.iter().flat_map(|(_, tree)| &tree.declarations);
+    let records = declarations.filter_map(|declaration| match &declaration.kind {
+        DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => Some(&record.record),
+        _ => None,
+    });
+    let from = |record: &RecordSyntax| record.field("from").map(|field| field.value.clone());
+    records.filter_map(from).filter_map(|value| folder_fault(world, sources, &value)).collect()
+}
+
+fn folder_fault(world: &dyn SourceWorld, sources: &Sources, value: &ValueSyntax) -> Option<Diagnostic> {
+    let ValueKind::Text(path) = &value.kind else { return None };
+    let folder = beside(&sources.file(value.span.file).name, path);
+    let error = match world.list(&folder) {
+        Ok(names) if names.iter().any(|name| name.ends_with(".yaml")) => return None,
+        Ok(_) => LoadError::EmptyLibrary { folder },
+        Err(error) => LoadError::UnreadableLibrary { folder, error },
+    };
+    Some(error.at(value.span))
+}
+
+fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sources) -> Result<Origin, Diagnostic> {
+    if let ValueKind::Text(folder) = &value.kind {
+        return Ok(Origin::Folder(beside(&sources.file(value.span.file).name, folder)));
+    }
+    let name = fields::word(value, Expected::Origin)?;
+    if name.text == "shipped" {
+        return Ok(Origin::Shipped);
+    }
+    evolutions.resolve(name, home).map(|_| Origin::Evolution(name.text.clone()))
+}
+
+/// A function by its name, or a behavior by its four letters.
+fn behavior(value: &ValueSyntax) -> Result<Behavior, Diagnostic> {
+    let name = fields::word(value, Expected::Behavior)?;
+    if let Some(function) = Function::parse(&name.text) {
+        return Ok(function.into());
+    }
+    name.text.parse().map_err(|_| {
+        let meant = Suggestion::near(&name.text, Function::all().map(Function::name));
+        NameError::UnknownBehavior { name: name.text.clone(), meant }.at(name.span)
+    })
+}

@@ -1,0 +1,56 @@
+//! From trees to a [`Program`]: names, units, widths. There is a file for each kind of declaration. Checking never
+//! stops at the first error.
+
+mod analysis;
+mod cell;
+mod circuit;
+mod consequences;
+pub mod constant;
+mod derived;
+mod evolution;
+mod expression;
+mod fields;
+mod foreign;
+mod instance;
+mod library;
+mod limit;
+mod load;
+mod material;
+mod names;
+mod number;
+mod program;
+mod quantity;
+mod recursion;
+mod schedule;
+mod simulate;
+mod size;
+mod start;
+mod swarm;
+mod table;
+mod test;
+mod uses;
+mod wording;
+mod world;
+
+pub use analysis::Analysis;
+pub use instance::named;
+pub use load::{PRELUDE, beside, is_usable, open};
+pub use swarm::DEFAULT_LIBRARY;
+pub use uses::{NameKind, NameUse, NameUses};
+
+use nbc_base::source::{FileId, SourceWorld, Sources};
+
+/// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
+pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
+    let loaded = load::load(world, sources, file);
+    let mut analysis = program::program(&loaded.trees, sources);
+    let diagnostics = &mut analysis.diagnostics;
+    consequences::forget(diagnostics, sources, &loaded.trees);
+    diagnostics.extend(library::folders(world, sources, &loaded.trees));
+    diagnostics.extend(loaded.faults);
+    analysis.trees = loaded.trees.into_iter().map(|(_, tree)| tree).collect();
+    diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
+    diagnostics.dedup();
+    analysis.diagnostics = limit::limit(std::mem::take(diagnostics), sources);
+    analysis
+}

@@ -1,0 +1,560 @@
+//! The declarations of all files: first their names, then each kind after the kinds it refers to.
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::check::analysis::Analysis;
+use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::derived::{CheckState, order};
+use crate::check::evolution::{self, evolution};
+use crate::check::instance::instance;
+use crate::check::library::library;
+use crate::check::material::material;
+use crate::check::names::{Home, NameTable};
+use crate::check::recursion;
+use crate::check::schedule::schedule;
+use crate::check::simulate::{Schedules, spells};
+use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
+use crate::check::test;
+use crate::check::uses::{NameKind, NameUse, NameUses};
+use crate::check::wording::{CircuitError, EvolutionError};
+use crate::check::world::{Worlds, world};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
+use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::model::{
+    CircuitId, CircuitTest, Column, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference, Simulation,
+    Stimulation,
+};
+use nbc_base::source::{FileId, Sources, Span};
+use nbc_circuit::{Inspection, Inspector};
+
+/// The program of the trees, and what is known of it.
+pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
+    let mut assembly = Assembly::new(trees, sources);
+    assembly.stimuli();
+    assembly.materials();
+    assembly.schedules();
+    assembly.worlds();
+    assembly.evolutions();
+    assembly.libraries();
+    assembly.circuits();
+    assembly.swarms();
+    assembly.unused_libraries();
+    let Inspection { diagnostics, widths, instances } = assembly.build();
+    assembly.faults.extend(diagnostics);
+    assembly.forget_redeclared();
+    let uses = assembly.uses();
+    let trees = Vec::new();
+    Analysis { program: assembly.program, diagnostics: assembly.faults, uses, widths, trees, instances }
+}
+
+/// A program under construction.
+struct Assembly<'a> {
+    trees: &'a [(Home, Tree)],
+    /// The declarations that have lost a part: where they begin and end.
+    broken: BTreeMap<(FileId, u32), u32>,
+    sources: &'a Sources,
+    program: Program,
+    faults: Vec<Diagnostic>,
+    stimuli: NameTable,
+    materials: NameTable,
+    schedules: NameTable,
+    evolutions: NameTable,
+    libraries: NameTable,
+    circuits: NameTable,
+    swarms: NameTable,
+    worlds: NameTable,
+    /// The worlds by the position of their names.
+    checked_worlds: Vec<CheckState<NamedWorld>>,
+    headers: Headers,
+    /// The position of each circuit in the program, by name.
+    places: BTreeMap<String, CircuitId>,
+    /// For each circuit, whether it and all circuits it contains have valid names.
+    sound: Vec<bool>,
+    /// The origin of each circuit.
+    homes: Vec<Home>,
+    /// The names inside circuits and tests.
+    inner: Vec<NameUse>,
+}
+
+impl<'a> Assembly<'a> {
+    fn new(trees: &'a [(Home, Tree)], sources: &'a Sources) -> Self {
+        let broken = trees.iter().flat_map(|(_, tree)| &tree.broken).map(|part| part.declaration);
+        Self {
+            trees,
+            broken: broken.map(|declaration| ((declaration.file, declaration.start), declaration.end)).collect(),
+            sources,
+            program: Program::default(),
+            faults: Vec::new(),
+            stimuli: NameTable::new(NameKind::Stimulus),
+            materials: NameTable::new(NameKind::Material),
+            schedules: NameTable::new(NameKind::Schedule),
+            evolutions: NameTable::new(NameKind::Evolution),
+            libraries: NameTable::new(NameKind::Library),
+            circuits: NameTable::new(NameKind::Circuit),
+            swarms: NameTable::new(NameKind::Swarm),
+            worlds: NameTable::new(NameKind::World),
+            checked_worlds: Vec::new(),
+            headers: Headers::default(),
+            places: BTreeMap::new(),
+            sound: Vec::new(),
+            homes: Vec::new(),
+            inner: Vec::new(),
+        }
+    }
+
+    fn declarations(&self) -> impl Iterator<Item = (Home, &'a tree::Declaration)> + use<'a> {
+        self.trees.iter().flat_map(|(home, tree)| tree.declarations.iter().map(|declaration| (*home, declaration)))
+    }
+
+    fn records(&self, keyword: RecordKeyword) -> Vec<(Home, &'a RecordDeclaration)> {
+        let record = |(home, declaration): (Home, &'a tree::Declaration)| match &declaration.kind {
+            DeclarationKind::Record(record) if record.keyword == keyword => Some((home, record)),
+            _ => None,
+        };
+        self.declarations().filter_map(record).collect()
+    }
+
+    /// Records a diagnostic, if any; returns whether there was none.
+    fn note(&mut self, result: Result<(), Diagnostic>) -> bool {
+        let fine = result.is_ok();
+        self.faults.extend(result.err());
+        fine
+    }
+
+    /// Whether the declaration at a place has lost a part.
+    fn is_broken(&self, place: Span) -> bool {
+        let before = self.broken.range(..=(place.file, place.start)).next_back();
+        before.is_some_and(|(&(file, _), &end)| file == place.file && place.end <= end)
+    }
+
+    fn stimuli(&mut self) {
+        for (home, declaration) in self.declarations() {
+            let DeclarationKind::Stimulus(names) = &declaration.kind else { continue };
+            for name in names {
+                self.stimulus(name, home);
+            }
+        }
+    }
+
+    fn stimulus(&mut self, name: &NameSyntax, home: Home) {
+        // A redeclared stimulus of the prelude is the same signal.
+        let known = self.stimuli.find(&name.text, home);
+        let index = known.unwrap_or(self.program.stimuli.len());
+        let declared = self.stimuli.declare(name, index, home);
+        if !self.note(declared) || known.is_some() {
+            return;
+        }
+        self.program.stimuli.push(name.text.clone());
+        if self.program.stimuli.len() == Pattern::MAX_STIMULI + 1 {
+            self.faults.push(EvolutionError::TooManyStimuli { most: Pattern::MAX_STIMULI }.at(name.span));
+        }
+    }
+
+    fn materials(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Material) {
+            let checked = material(source, home, &self.stimuli, &mut self.faults);
+            if let Some(checked) = checked {
+                let declared = self.materials.declare(&source.name, self.program.materials.len(), home);
+                self.note(declared);
+                self.program.materials.push(checked);
+            } else {
+                let declared = self.materials.declare(&source.name, usize::MAX, home);
+                self.note(declared);
+            }
+        }
+    }
+
+    fn schedules(&mut self) {
+        for (home, declaration) in self.declarations() {
+            let DeclarationKind::Schedule(source) = &declaration.kind else { continue };
+            let checked = schedule(source, home, &self.stimuli, &mut self.faults);
+            let checked = checked.filter(|_| !self.is_broken(source.name.span));
+            let index = if checked.is_some() { self.program.schedules.len() } else { usize::MAX };
+            let declared = self.schedules.declare(&source.name, index, home);
+            self.note(declared);
+            self.program.schedules.extend(checked);
+        }
+    }
+
+    fn worlds(&mut self) {
+        let sources = self.records(RecordKeyword::World);
+        for (place, (home, source)) in sources.iter().enumerate() {
+            let declared = self.worlds.declare(&source.name, place, *home);
+            self.note(declared);
+        }
+        self.checked_worlds = vec![CheckState::Open; sources.len()];
+        for place in order(&sources, &self.worlds) {
+            let (home, source) = sources[place];
+            let checked = world(source, home, &self.worlds, &self.checked_worlds, &mut self.faults);
+            self.checked_worlds[place] = checked;
+        }
+        let sound = self.checked_worlds.iter().filter_map(|state| match state {
+            CheckState::Sound(world) => Some(NamedWorld::clone(world)),
+            _ => None,
+        });
+        self.program.worlds.extend(sound);
+    }
+
+    /// The world that a test or simulation of the file names.
+    fn world(&mut self, name: Option<&NameSyntax>) -> Option<PhysicsWorld> {
+        let worlds = Worlds { names: &self.worlds, checked: &self.checked_worlds };
+        let named = worlds.named(name?, Home::Own);
+        named.map_err(|fault| self.faults.push(fault)).ok()
+    }
+
+    fn evolutions(&mut self) {
+        let sources = self.records(RecordKeyword::Evolution);
+        for (place, (home, source)) in sources.iter().enumerate() {
+            let declared = self.evolutions.declare(&source.name, place, *home);
+            self.note(declared);
+        }
+        let mut checked = vec![CheckState::Open; sources.len()];
+        for place in order(&sources, &self.evolutions) {
+            let (home, source) = sources[place];
+            let known = evolution::Known {
+                program: &self.program,
+                materials: &self.materials,
+                schedules: &self.schedules,
+                evolutions: &self.evolutions,
+                worlds: Worlds { names: &self.worlds, checked: &self.checked_worlds },
+                checked: &checked,
+            };
+            checked[place] = evolution(source, home, &known, &mut self.faults);
+        }
+        let own = sources.iter().filter(|(home, _)| *home == Home::Own);
+        self.program.own_evolutions = own.map(|(_, source)| source.name.text.clone()).collect();
+        self.program.evolutions.extend(checked.into_iter().filter_map(|state| match state {
+            CheckState::Sound(evolution) => Some(evolution.into_evolution()),
+            _ => None,
+        }));
+    }
+
+    fn libraries(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Library) {
+            let checked = library(source, home, &self.evolutions, self.sources, &mut self.faults);
+            let declared = self.libraries.declare(&source.name, self.program.libraries.len(), home);
+            self.note(declared);
+            self.program.libraries.extend(checked);
+        }
+    }
+
+    /// Checks all circuits except their widths.
+    fn circuits(&mut self) {
+        let mut sources = Vec::new();
+        for (home, declaration) in self.declarations() {
+            if let DeclarationKind::Circuit(source) = &declaration.kind {
+                let declared = self.circuits.declare(&source.name, sources.len(), home);
+                self.note(declared);
+                self.headers.circuits.push(Header::of(source));
+                sources.push((home, source));
+            }
+        }
+        let mut calls = Vec::new();
+        for &(home, source) in &sources {
+            let checked = circuit(source, home, &self.circuits, &self.headers);
+            let is_whole = !self.is_broken(source.name.span);
+            self.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
+            self.homes.push(home);
+            self.faults.extend(checked.diagnostics);
+            self.inner.extend(checked.uses);
+            calls.push(checked.calls);
+            self.program.circuits.push(checked.circuit);
+        }
+        let (faults, sound) = recursion::look(&calls, &self.sound, &self.headers);
+        self.faults.extend(faults);
+        self.sound = sound;
+        self.rename_redeclared();
+        for (at, header) in self.headers.circuits.iter().enumerate() {
+            self.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
+        }
+    }
+
+    /// All names with a meaning.
+    fn uses(&mut self) -> NameUses {
+        let tables = [
+            &self.stimuli,
+            &self.materials,
+            &self.schedules,
+            &self.evolutions,
+            &self.libraries,
+            &self.circuits,
+            &self.swarms,
+            &self.worlds,
+        ];
+        let mut list = std::mem::take(&mut self.inner);
+        list.extend(tables.into_iter().flat_map(NameTable::take_uses));
+        NameUses::new(list)
+    }
+
+    /// Notes the ports that columns of a test or a simulation name.
+    fn ports_named(&mut self, circuit: &str, columns: &[NameSyntax]) {
+        let Some(place) = self.places.get(circuit) else { return };
+        let header = &self.headers.circuits[place.0 as usize];
+        self.inner.extend(columns.iter().filter_map(|name| header.port(name)));
+    }
+
+    /// If a file redeclares a circuit of the prelude, other circuits of the prelude still use the original.
+    fn rename_redeclared(&mut self) {
+        for (at, home) in self.homes.iter().enumerate() {
+            let name = &mut self.headers.circuits[at].name;
+            if *home == Home::Prelude && self.circuits.is_redeclared(name) {
+                *name = format!("prelude.{name}");
+                self.program.circuits[at].name.clone_from(name);
+            }
+        }
+    }
+
+    /// Removes declarations of the prelude that a file redeclares; those of the prelude come first.
+    fn forget_redeclared(&mut self) {
+        fn keep_last<T>(all: &mut Vec<T>, name: impl Fn(&T) -> &str) {
+            let mut seen = BTreeSet::new();
+            let last: Vec<_> = all.iter().rev().map(|one| seen.insert(name(one).to_owned())).collect();
+            let mut last = last.into_iter().rev();
+            all.retain(|_| last.next().unwrap_or(true));
+        }
+        keep_last(&mut self.program.materials, |material| &material.name);
+        keep_last(&mut self.program.schedules, |schedule| &schedule.name);
+        keep_last(&mut self.program.evolutions, |evolution| &evolution.name);
+        keep_last(&mut self.program.libraries, |library| &library.name);
+        keep_last(&mut self.program.swarms, |swarm| &swarm.name);
+        keep_last(&mut self.program.worlds, |world| &world.name);
+    }
+
+    fn own_tests(&self) -> impl Iterator<Item = (Span, &'a tree::Test)> + use<'a> {
+        self.declarations().filter(|(home, _)| *home == Home::Own).filter_map(|(_, declaration)| {
+            match &declaration.kind {
+                DeclarationKind::Test(test) => Some((declaration.span, test)),
+                _ => None,
+            }
+        })
+    }
+
+    fn swarms(&mut self) {
+        for (home, source) in self.records(RecordKeyword::Swarm) {
+            let worlds = Worlds { names: &self.worlds, checked: &self.checked_worlds };
+            let checked = swarm(source, home, &self.circuits, &self.headers, &self.libraries, worlds, &mut self.faults);
+            let index = if checked.is_some() { self.program.swarms.len() } else { usize::MAX };
+            let declared = self.swarms.declare(&source.name, index, home);
+            self.note(declared);
+            self.program.swarms.extend(checked);
+        }
+    }
+
+    /// Warns of a file's own libraries that no swarm uses if the file runs anything, because the robots then come from
+    /// another library.
+    fn unused_libraries(&mut self) {
+        let runs = |declaration: &tree::Declaration| {
+            matches!(declaration.kind, DeclarationKind::Test(_) | DeclarationKind::Simulate(_))
+        };
+        let something_runs = self.declarations().any(|(home, declaration)| home == Home::Own && runs(declaration));
+        if !something_runs || self.faults.iter().any(Diagnostic::is_error) {
+            return;
+        }
+        for (home, source) in self.records(RecordKeyword::Library) {
+            let name = source.name.text.as_str();
+            let used = name == DEFAULT_LIBRARY || self.program.swarms.iter().any(|swarm| swarm.library == name);
+            if home == Home::Own && !used {
+                self.faults.push(CircuitError::UnusedLibrary { library: name.to_owned() }.at(source.name.span));
+            }
+        }
+    }
+
+    /// Builds all circuits that can be built, to find errors of width, and reads the tests and simulations, which need
+    /// the ports.
+    fn build(&mut self) -> Inspection {
+        let mut program = std::mem::take(&mut self.program);
+        let mut inspector = Inspector::new(&program);
+        for (at, _) in self.homes.iter().enumerate().filter(|(at, home)| **home != Home::Prelude && self.sound[*at]) {
+            inspector.inspect(CircuitId(at as u32));
+        }
+        for swarm in &program.swarms {
+            self.ports(&swarm.circuit, swarm.span, &mut inspector);
+        }
+        let simulations = self.simulations(&program, &mut inspector);
+        let mut tests = Vec::new();
+        for (span, test) in self.own_tests() {
+            tests.extend(self.test(span, test, &mut inspector));
+        }
+        for test in &tests {
+            if let Stimulation::All { reference: Reference::Body(body) } = &test.stimulation {
+                inspector.inspect_body(body);
+            }
+        }
+        self.same_titles();
+        let found = inspector.finish();
+        program.simulations = simulations;
+        program.tests = tests;
+        self.program = program;
+        found
+    }
+
+    /// The ports of an instance, if its circuit and all circuits it contains are valid.
+    fn ports(
+        &self,
+        instance: &Instance,
+        place: Span,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<(Vec<Column>, Vec<Column>)> {
+        let circuit = *self.places.get(&instance.circuit)?;
+        if self.sound[circuit.0 as usize] { inspector.ports(circuit, &instance.arguments, place) } else { None }
+    }
+
+    /// The file and the line of a place.
+    fn place(&self, span: Span) -> (String, usize) {
+        let file = self.sources.file(span.file);
+        (file.name.clone(), file.line_column(span.start as usize).line)
+    }
+
+    fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
+        let mut simulations = Vec::new();
+        for (home, declaration) in self.declarations().filter(|(home, _)| *home == Home::Own) {
+            let DeclarationKind::Simulate(source) = &declaration.kind else { continue };
+            let swarm = match self.swarms.resolve(&source.swarm, home) {
+                Ok(swarm) => program.swarms.get(swarm),
+                Err(fault) => {
+                    self.faults.push(fault);
+                    None
+                }
+            };
+            let Some(swarm) = swarm else { continue };
+            let Some((inputs, _)) = self.ports(&swarm.circuit, source.swarm.span, inspector) else { continue };
+            if let tree::With::Spells { columns, .. } = &source.with {
+                self.ports_named(&swarm.circuit.circuit, columns);
+            }
+            let schedules = Schedules { names: &self.schedules, declared: &program.schedules };
+            let at = source.swarm.span;
+            let spells = spells(&source.with, at, &inputs, home, schedules, self.sources, &mut self.faults);
+            let world = self.world(source.world.as_ref());
+            let (file, line) = self.place(declaration.span);
+            let (swarm, span) = (swarm.name.clone(), source.swarm.span);
+            simulations.push(Simulation { swarm, span, file, line, inputs, spells, world });
+        }
+        simulations
+    }
+
+    fn test(&mut self, span: Span, source: &'a tree::Test, inspector: &mut Inspector<'_>) -> Option<CircuitTest> {
+        let world = self.world(source.world.as_ref());
+        let tested = self.instance(&source.circuit)?;
+        let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
+        let stimulation = match &source.kind {
+            tree::TestKind::Table(table) => {
+                self.ports_named(&tested.circuit, &table.inputs);
+                self.ports_named(&tested.circuit, &table.outputs);
+                let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
+                Stimulation::Rows(test::rows(table, &ports, self.sources, &mut self.faults))
+            }
+            tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, (&inputs, &outputs))?,
+            tree::TestKind::Reference(body) => {
+                let circuit = self.reference(&tested, &source.circuit.name, body, (&inputs, &outputs))?;
+                Stimulation::All { reference: Reference::Body(Box::new(circuit)) }
+            }
+        };
+        if let Stimulation::All { .. } = stimulation {
+            let place = source.circuit.name.span;
+            self.all_inputs(&inputs, place)?;
+            if self.places.get(&tested.circuit).is_some_and(|&at| inspector.has_memory(at, &tested.arguments, place)) {
+                self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
+            }
+        }
+        let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
+        let (file, line) = self.place(span);
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world })
+    }
+
+    /// Warns of tests that only their line tells apart.
+    fn same_titles(&mut self) {
+        let mut known = BTreeMap::new();
+        for (_, test) in self.own_tests() {
+            let Some(title) = &test.title else { continue };
+            let instance = test
+                .circuit
+                .arguments
+                .last()
+                .map_or(test.circuit.name.span, |last| test.circuit.name.span.to(last.span));
+            let circuit = self.sources.text(instance);
+            let world = test.world.as_ref().map(|world| &world.text);
+            match known.entry((circuit, &title.text, world)) {
+                Entry::Vacant(entry) => _ = entry.insert(title.span),
+                Entry::Occupied(first) => {
+                    let (circuit, first) = (test.circuit.name.text.clone(), *first.get());
+                    let error = CircuitError::SameTitle { circuit, title: title.text.clone(), first };
+                    self.faults.push(error.at(title.span));
+                }
+            }
+        }
+    }
+
+    /// The circuit of a test.
+    fn instance(&mut self, source: &tree::InstanceSyntax) -> Option<Instance> {
+        let named = instance(source, Home::Own, &self.circuits, &self.headers);
+        named.map_err(|fault| self.faults.push(fault)).ok()
+    }
+
+    fn against(
+        &mut self,
+        tested: &tree::InstanceSyntax,
+        other: &tree::InstanceSyntax,
+        inspector: &mut Inspector<'_>,
+        ports: (&[Column], &[Column]),
+    ) -> Option<Stimulation> {
+        let reference = self.instance(other)?;
+        let (inputs, outputs) = self.ports(&reference, other.name.span, inspector)?;
+        let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
+        if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
+            let circuits = [&tested.name, &other.name].map(|name| name.text.clone());
+            let error = CircuitError::DifferentPorts { circuits, first: tested.name.span };
+            self.faults.push(error.at(other.name.span));
+            return None;
+        }
+        Some(Stimulation::All { reference: Reference::Circuit(reference) })
+    }
+
+    /// The body of a test as a circuit with the ports of the tested one.
+    fn reference(
+        &mut self,
+        instance: &Instance,
+        tested: &NameSyntax,
+        body: &tree::BodySyntax,
+        ports: (&[Column], &[Column]),
+    ) -> Option<nbc_base::model::Circuit> {
+        let mut body = body.clone();
+        let mut port = |column: &Column| {
+            let kind = tree::SizeSyntaxKind::Literal(column.width.to_string());
+            body.sizes.push(tree::SizeSyntax { kind, span: tested.span });
+            let name = NameSyntax { text: column.name.clone(), span: tested.span };
+            tree::Port { name, width: Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)) }
+        };
+        let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
+        let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
+        let source = tree::CircuitSyntax { name, parameters: Vec::new(), inputs, outputs, body };
+        let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
+        let sound = !self.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
+        let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);
+        // Its ports are those of the tested circuit.
+        let (ports, own): (Vec<_>, Vec<_>) = checked.uses.into_iter().partition(|found| found.declared == tested.span);
+        let names: Vec<_> = ports
+            .into_iter()
+            .filter(|found| found.place != tested.span)
+            .map(|found| NameSyntax { text: self.sources.text(found.place).to_owned(), span: found.place })
+            .collect();
+        self.ports_named(&instance.circuit, &names);
+        self.inner.extend(own);
+        // The reference may ignore an input of the tested circuit.
+        self.faults.extend(checked.diagnostics.into_iter().filter(|fault| fault.code != Code::Unused));
+        (sound && called).then_some(checked.circuit)
+    }
+
+    /// Rejects a test over all inputs that would have too many rows.
+    fn all_inputs(&mut self, inputs: &[Column], span: Span) -> Option<()> {
+        let bits: usize = inputs.iter().map(|column| column.width).sum();
+        if bits > MAX_TRIED_BITS {
+            self.faults.push(CircuitError::TooManyInputs { bits, most: MAX_TRIED_BITS }.at(span));
+            return None;
+        }
+        Some(())
+    }
+}
+
+/// The most input bits of a test over all inputs.
+const MAX_TRIED_BITS: usize = 16;

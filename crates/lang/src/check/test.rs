@@ -1,0 +1,193 @@
+//! Tests: columns are ports, rows are bits.
+
+use crate::check::cell::{RowCell, cell};
+use crate::check::names::duplicate;
+use crate::check::quantity;
+use crate::check::wording::{CellError, NameError, RowError};
+use crate::syntax::tree::{self, NameSyntax, TestTable};
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Base, Column, TestRow};
+use nbc_base::source::{Sources, Span};
+
+/// The ports of the circuit under test.
+pub(crate) struct Ports<'a> {
+    pub(crate) circuit: &'a str,
+    pub(crate) inputs: &'a [Column],
+    pub(crate) outputs: &'a [Column],
+}
+
+/// The rows of a test, as bits in order of the ports.
+pub(crate) fn rows(
+    table: &TestTable,
+    ports: &Ports<'_>,
+    sources: &Sources,
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<TestRow> {
+    let before = faults.len();
+    let inputs = ports.places(&table.inputs, true, faults);
+    let outputs = ports.places(&table.outputs, false, faults);
+    missing_inputs(table, ports, faults);
+    if table.rows.is_empty() {
+        faults.push(RowError::EmptyTest.at(table.header));
+    }
+    if faults.len() > before {
+        return Vec::new();
+    }
+    let columns = Columns { ports, inputs: &inputs, outputs: &outputs, sources };
+    table.rows.iter().enumerate().flat_map(|(at, row)| columns.row(at + 1, row, faults)).collect()
+}
+
+impl Ports<'_> {
+    /// The port of each named column.
+    fn places(&self, names: &[NameSyntax], inputs: bool, faults: &mut Vec<Diagnostic>) -> Vec<usize> {
+        let own = if inputs { self.inputs } else { self.outputs };
+        let mut places = Vec::new();
+        for (at, name) in names.iter().enumerate() {
+            if let Some(first) = names[..at].iter().find(|first| first.text == name.text) {
+                faults.push(duplicate("column", name, first.span));
+            }
+            match own.iter().position(|column| column.name == name.text) {
+                Some(place) => places.push(place),
+                None => faults.push(self.no_port(name, inputs)),
+            }
+        }
+        places
+    }
+
+    fn no_port(&self, name: &NameSyntax, inputs: bool) -> Diagnostic {
+        let (own, others) = if inputs { (self.inputs, self.outputs) } else { (self.outputs, self.inputs) };
+        let (circuit, name, span) = (self.circuit.to_owned(), name.text.clone(), name.span);
+        let meant = Suggestion::of(&name, own.iter().map(|column| column.name.as_str()));
+        let is_other = others.iter().any(|column| column.name == name);
+        let error = match inputs {
+            true => NameError::UnknownInput { circuit, name, is_output: is_other, meant },
+            false => NameError::UnknownOutput { circuit, name, is_input: is_other, meant },
+        };
+        error.at(span)
+    }
+}
+
+fn missing_inputs(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnostic>) {
+    let missing: Vec<_> = ports
+        .inputs
+        .iter()
+        .map(|column| column.name.clone())
+        .filter(|input| !table.inputs.iter().any(|name| name.text == *input))
+        .collect();
+    if !missing.is_empty() {
+        let error = RowError::MissingInputs { inputs: missing, circuit: ports.circuit.to_owned() };
+        faults.push(error.at(table.header));
+    }
+}
+
+/// The columns of a table as indices of the ports.
+struct Columns<'a> {
+    ports: &'a Ports<'a>,
+    inputs: &'a [usize],
+    outputs: &'a [usize],
+    sources: &'a Sources,
+}
+
+impl Columns<'_> {
+    /// A row as bits; two rows for a rising edge of a clock.
+    fn row(&self, number: usize, row: &tree::TestRowSyntax, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
+        if let Some(fault) = self.shape_fault(row) {
+            faults.push(fault);
+            return Vec::new();
+        }
+        let mut found = Vec::new();
+        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, &mut found);
+        let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, &mut found);
+        let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| found.push(fault)).ok());
+        let expected = output_bits(&outputs, &row.outputs, &mut found);
+        let bases: Vec<Base> = inputs.iter().chain(&outputs).map(base).collect();
+        let line = self.sources.file(row.span.file).line_column(row.span.start as usize).line;
+        let turns = if inputs.contains(&Some(RowCell::Pulse)) { 2 } else { 1 };
+        let mut rows = Vec::new();
+        for turn in (0..turns).rev() {
+            let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, &mut found);
+            let expected = if turn == 0 { expected.clone() } else { vec![None; expected.len()] };
+            let bases = bases.clone();
+            rows.push(TestRow { inputs, expected, bases, hold, span: row.span, line, row: number });
+        }
+        if !found.is_empty() {
+            rows.clear();
+        }
+        faults.extend(found);
+        rows
+    }
+
+    fn shape_fault(&self, row: &tree::TestRowSyntax) -> Option<Diagnostic> {
+        let values = row.inputs.len() + row.outputs.len();
+        let columns = self.inputs.len() + self.outputs.len();
+        if row.bars.len() > 1 {
+            return Some(RowError::TwoBars.at(row.bars[1]));
+        }
+        if values != columns {
+            return Some(RowError::Width { values, columns }.at(row.span));
+        }
+        let Some(&bar) = row.bars.first() else { return Some(RowError::NoBar.at(row.span)) };
+        let inputs = self.inputs.len();
+        (row.inputs.len() != inputs).then(|| RowError::BarElsewhere { inputs }.at(bar))
+    }
+}
+
+/// The values of a row in order of the ports.
+fn cells(
+    words: &[NameSyntax],
+    places: &[usize],
+    ports: &[Column],
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<Option<RowCell>> {
+    let mut cells: Vec<_> =
+        ports.iter().map(|port| Some(RowCell::Bits(vec![None; port.width], Base::of_width(port.width)))).collect();
+    for (word, &place) in words.iter().zip(places) {
+        cells[place] = cell(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
+    }
+    cells
+}
+
+fn output_bits(cells: &[Option<RowCell>], words: &[NameSyntax], faults: &mut Vec<Diagnostic>) -> Vec<Option<bool>> {
+    if let Some(word) = words.iter().find(|word| word.text == "^") {
+        faults.push(CellError::PulsedOutput.at(word.span));
+    }
+    let bits = |cell: &Option<RowCell>| match cell {
+        Some(RowCell::Bits(bits, _)) => bits.clone(),
+        _ => Vec::new(),
+    };
+    cells.iter().flat_map(bits).collect()
+}
+
+/// The notation of a value.
+fn base(cell: &Option<RowCell>) -> Base {
+    match cell {
+        Some(RowCell::Bits(_, base)) => *base,
+        _ => Base::Bits,
+    }
+}
+
+fn input_bits(
+    cells: &[Option<RowCell>],
+    ports: &[Column],
+    high: bool,
+    row: Span,
+    faults: &mut Vec<Diagnostic>,
+) -> Vec<bool> {
+    let mut all = Vec::new();
+    for (cell, port) in cells.iter().zip(ports) {
+        match cell {
+            Some(RowCell::Pulse) => all.push(high),
+            Some(RowCell::Bits(bits, _)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
+                Some(bits) => all.extend(bits),
+                None => {
+                    let fault = RowError::InputWithoutValue { input: port.name.clone() }.at(row);
+                    if !faults.contains(&fault) {
+                        faults.push(fault);
+                    }
+                }
+            },
+            None => {}
+        }
+    }
+    all
+}

@@ -1,0 +1,277 @@
+//! Circuits: their nets, operands and tables, and their tests and swarms.
+
+use nbc_base::diag::{Code, Diagnostic, Edit, Fix, counted, suggest};
+use nbc_base::source::Span;
+
+/// An invalid circuit, or an invalid use of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum CircuitError {
+    /// An input with a driver inside.
+    DrivenInput { net: String, declared: Span },
+    /// A net without a declared width, some of whose bits are driven.
+    UnknownWidth { net: String },
+    /// A constant of several bits without its width; it needs at least `bits`.
+    ConstantWithoutWidth { number: String, constant: String, is_certain: bool },
+    /// A constant of too many bits.
+    ConstantTooLarge,
+    /// Digits that are not of their base.
+    WrongDigits { digits: String, radix: u32 },
+    /// A net or output without a driver.
+    Undriven { what: &'static str, net: String },
+    /// A net or input that is not used.
+    Unused { what: &'static str, net: String },
+    /// A library that is not used by a swarm.
+    UnusedLibrary { library: String },
+    /// A circuit that contains itself, through others.
+    Recursion { circuit: String, through: Vec<String> },
+    /// A reference whose ports differ from those of the tested circuit, which is named at `first`.
+    DifferentPorts { circuits: [String; 2], first: Span },
+    /// A test over all inputs with too many input bits.
+    TooManyInputs { bits: usize, most: usize },
+    /// A test over all inputs of a circuit with memory.
+    AllInputsOfMemory { circuit: String },
+    /// Two tests of a circuit with the same title.
+    SameTitle { circuit: String, title: String, first: Span },
+    /// A start value of a net that a circuit drives whose start value is a parameter.
+    StartOfCall { net: String, circuit: String, start: Option<String>, edit: Option<StartEdit> },
+}
+
+/// The edits that move a start value from a net to the call that drives it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct StartEdit {
+    /// The `init` and its value.
+    pub(crate) init: Span,
+    /// The place and the text of the parameter, unless the call gives it already.
+    pub(crate) argument: Option<(Span, String)>,
+}
+
+impl From<StartEdit> for Fix {
+    fn from(StartEdit { init, argument }: StartEdit) -> Self {
+        let removed = Fix::remove(init, "the start value of the net");
+        let Some((span, text)) = argument else { return removed };
+        let moved = Edit { span, text };
+        Fix { title: "move the start value into the call".to_owned(), edits: [removed.edits, vec![moved]].concat() }
+    }
+}
+
+impl CircuitError {
+    /// The error at the net, the expression or the name.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::DrivenInput { net, declared } => {
+                let message = format!("the input `{net}` is driven inside its circuit");
+                Diagnostic::new(Code::MultipleDrivers, message, span, "driven here")
+                    .with_label(declared, "an input is driven from outside")
+                    .with_help("drive a net with another name")
+            }
+            Self::UnknownWidth { net } => {
+                let message = format!("the width of `{net}` is unknown");
+                Diagnostic::new(Code::UnknownWidth, message, span, "only some of its bits are driven here")
+                    .with_help(format!("declare it first: `net {net}[8]`"))
+            }
+            Self::ConstantWithoutWidth { number, constant, is_certain } => {
+                let message = format!("the width of `{number}` is unknown");
+                Diagnostic::new(Code::UnknownWidth, message, span, "expected a constant with its width")
+                    .with_help(format!("write `{constant}`"))
+                    .with_fix(is_certain.then(|| Fix::replace(span, constant)))
+            }
+            Self::ConstantTooLarge => {
+                Diagnostic::new(Code::OutOfRange, "constant is too large", span, "expected at most 128 bits")
+                    .with_help("join several constants: `{64'h…, 64'h…}`")
+            }
+            Self::WrongDigits { digits, radix } => {
+                let message = format!("`{digits}` is not a number in base {radix}");
+                Diagnostic::new(Code::Syntax, message, span, format!("expected digits of base {radix}"))
+                    .with_help("`4'b1010` is binary, `4'd10` decimal, `4'ha` hexadecimal")
+            }
+            Self::Undriven { what, net } => {
+                let message = format!("nothing drives the {what} `{net}`");
+                Diagnostic::new(Code::Undriven, message, span, "declared here")
+                    .with_help(format!("add a line `{net} = …`"))
+            }
+            Self::Unused { what, net } => {
+                let message = format!("the {what} `{net}` is never used");
+                Diagnostic::new(Code::Unused, message, span, "declared here")
+                    .with_help(format!("remove it, or rename it to `_{net}`"))
+            }
+            Self::UnusedLibrary { library } => {
+                let message = format!("no swarm uses the library `{library}`");
+                let help = format!("declare a swarm: `swarm my_swarm {{ circuit: my_circuit, library: {library} }}`");
+                Diagnostic::new(Code::Unused, message, span, "declared here").with_help(help)
+            }
+            Self::DifferentPorts { circuits: [tested, other], first } => {
+                let message = format!("`{tested}` and `{other}` have different ports");
+                let label = "expected as many ports, with the same widths,";
+                Diagnostic::new(Code::Operands, message, span, label).with_label(first, "as this circuit has")
+            }
+            Self::TooManyInputs { bits, most } => {
+                let message = format!("too many patterns to test: {bits} input bits");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most} bits"))
+                    .with_help("test a narrower instance, or list rows")
+            }
+            Self::AllInputsOfMemory { circuit } => {
+                let message = format!("`{circuit}` has memory, so this test does not try all that it can do");
+                Diagnostic::new(Code::AllInputs, message, span, "every pattern is applied once, in one order")
+                    .with_help("list rows in the order that matters, with `^` for a rising edge of a clock")
+            }
+            Self::SameTitle { circuit, title, first } => {
+                let message = format!("two tests of `{circuit}` have the title \"{title}\"");
+                Diagnostic::new(Code::SameTitle, message, span, "this test")
+                    .with_label(first, "and this test")
+                    .with_help("give each its own title, so that results and reports can be told apart")
+            }
+            Self::StartOfCall { net, circuit, start, edit } => {
+                let start = start.as_deref().unwrap_or("…");
+                let message = format!("`init` does not set the start value of `{circuit}`, which drives `{net}`");
+                let help = match &edit {
+                    Some(StartEdit { argument: None, .. }) => {
+                        format!("remove `init {start}`; the parameter `start` is given already")
+                    }
+                    _ => format!("give it as a parameter: `{circuit}[start = {start}](…)`"),
+                };
+                Diagnostic::new(Code::StartValue, message, span, "this start value has no effect")
+                    .with_help(help)
+                    .with_fix(edit.map(Fix::from))
+            }
+            Self::Recursion { circuit, through } => {
+                let through = match through.is_empty() {
+                    true => String::new(),
+                    false => format!(" through {}", suggest::alternatives(&through, "and")),
+                };
+                let message = format!("the circuit `{circuit}` contains itself{through}");
+                Diagnostic::new(Code::Recursion, message, span, "used here, inside itself")
+                    .with_help("a swarm has a fixed number of robots; repeat parts with `for i in 0..8 { … }`")
+            }
+        }
+    }
+}
+
+/// A wrong number of operands, outputs or parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum OperandError {
+    /// One value for several nets.
+    OneValue { nets: Vec<String> },
+    /// An operator with too many or too few operands.
+    OperatorOperands { operator: &'static str, found: usize, expected: &'static str },
+    /// `xnor` of more than two operands.
+    WideXnor { found: usize },
+    /// A call with too many or too few operands.
+    CallOperands { circuit: String, expected: usize, found: usize, signature: String },
+    /// A call with more or fewer targets than the circuit has outputs.
+    CallOutputs { circuit: String, expected: usize, found: usize, signature: String },
+    /// One parameter too many.
+    TooManyParameters { circuit: String, parameters: usize },
+    /// A missing parameter before one that is given.
+    MissingParameter { circuit: String, parameter: String },
+}
+
+impl OperandError {
+    /// The error at the expression or the name.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        let operands = |message: String, label: String| Diagnostic::new(Code::Operands, message, span, label);
+        match self {
+            Self::OneValue { nets } => {
+                let mut bits: Vec<String> =
+                    nets.iter().rev().enumerate().map(|(bit, net)| format!("`{net} = t[{bit}]`")).collect();
+                bits.reverse();
+                bits.retain(|line| !line.starts_with("`_ "));
+                bits.truncate(4);
+                operands(format!("one value for {} nets", nets.len()), "expected a call of a circuit".to_owned())
+                    .with_help(format!("name the value, `t = …`, and drive each net with a bit: {}", bits.join(", ")))
+            }
+            Self::OperatorOperands { operator, found, expected } => operands(
+                format!("wrong number of operands of `{operator}`"),
+                format!("expected {expected}, found {found}"),
+            ),
+            Self::WideXnor { found } => {
+                operands("wrong number of operands of `xnor`".to_owned(), format!("expected two, found {found}"))
+                    .with_help("to invert the parity of more than two, write `not xor(a, b, c)`")
+            }
+            Self::CallOperands { circuit, expected, found, signature } => {
+                operands(format!("`{circuit}` takes {}", counted(expected, "operand")), format!("found {found}"))
+                    .with_help(format!("it is declared as `{signature}`"))
+            }
+            Self::CallOutputs { circuit, expected, found, signature } => {
+                operands(format!("`{circuit}` has {}", counted(expected, "output")), format!("{found} taken here"))
+                    .with_help(format!("it is declared as `{signature}`"))
+            }
+            Self::TooManyParameters { circuit, parameters } => {
+                operands(format!("`{circuit}` has {}", counted(parameters, "parameter")), "one too many".to_owned())
+            }
+            Self::MissingParameter { circuit, parameter } => operands(
+                format!("missing parameter `{parameter}` of `{circuit}`"),
+                "expected every parameter before the last one given".to_owned(),
+            ),
+        }
+    }
+}
+
+/// A truth table that is not a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum TableError {
+    /// A pattern with anything but `0`, `1` and `-`.
+    NotAPattern { word: String },
+    /// A table with too many rows.
+    TooManyRows { rows: usize, most: usize },
+    /// A pattern of too many bits.
+    TooManyBits { bits: usize, most: usize },
+    /// Patterns or outputs of different widths.
+    Uneven { what: &'static str, bits: [usize; 2], first: Span },
+    /// A second `else`.
+    TwoElse { first: Span },
+    /// Two rows for one pattern.
+    Overlap { first: Span },
+    /// No row for a pattern; `rest` is a row for all remaining patterns, and the byte at which it would follow the
+    /// others.
+    MissingRow { pattern: String, rest: Option<(u32, String)> },
+    /// No rows at all.
+    Empty,
+}
+
+impl TableError {
+    /// The error at the table, the row or the pattern.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::NotAPattern { word } => {
+                let message = format!("`{word}` is not a pattern");
+                Diagnostic::new(Code::Syntax, message, span, "expected `0`, `1` and `-`")
+            }
+            Self::TooManyRows { rows, most } => {
+                let message = format!("a table of {rows} rows is too large");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            }
+            Self::TooManyBits { bits, most } => {
+                let message = format!("a pattern of {bits} bits is too wide");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            }
+            Self::Uneven { what, bits: [before, here], first } => {
+                let message = format!("the {what} of a table differ in width");
+                Diagnostic::new(Code::RowWidth, message, span, counted(here, "bit"))
+                    .with_label(first, counted(before, "bit"))
+            }
+            Self::TwoElse { first } => {
+                Diagnostic::new(Code::TableOverlap, "the table has two `else` rows", span, "this row")
+                    .with_label(first, "and this row")
+            }
+            Self::Overlap { first } => {
+                let message = "two rows of the table match the same pattern";
+                Diagnostic::new(Code::TableOverlap, message, span, "this row")
+                    .with_label(first, "and this row")
+                    .with_help("remove one of them, or write `0` or `1` for `-`")
+            }
+            Self::MissingRow { pattern, rest } => {
+                let fix = rest.map(|(end, row)| Fix {
+                    title: format!("add `{row}`"),
+                    edits: vec![Edit { span: Span { start: end, end, ..span }, text: format!(", {row}") }],
+                });
+                missing_row(format!("the table has no row for `{pattern}`"), span).with_fix(fix)
+            }
+            Self::Empty => missing_row("the table has no rows".to_owned(), span),
+        }
+    }
+}
+
+fn missing_row(message: String, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::TableIncomplete, message, span, "in this table")
+        .with_help("add the row, or `else: 0` for all remaining patterns")
+}

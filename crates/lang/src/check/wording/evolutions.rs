@@ -1,0 +1,87 @@
+//! Evolution runs and their setting.
+
+use nbc_base::diag::{Code, Diagnostic, counted, suggest};
+use nbc_base::source::Span;
+
+/// An invalid evolution run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EvolutionError {
+    /// A box without room for a body.
+    SmallBox { columns: usize, rows: usize, least: usize },
+    /// A palette without materials, or with too many.
+    PaletteSize { materials: usize, most: usize },
+    /// A palette of materials that cannot move a body.
+    NoActuator { least: usize },
+    /// A schedule of another number of stimuli than the two of a behavior.
+    WrongStimuli { schedule: String, stimuli: usize },
+    /// A sensor of a stimulus that the schedule never gives; it gives others.
+    DeafSensor { material: String, stimulus: String, given: Vec<String> },
+    /// A schedule that leaves out patterns of the two stimuli.
+    MissingPatterns { schedule: String, missing: Vec<String> },
+    /// A range without seeds, or with too many.
+    SeedRange { most: u32 },
+    /// Too many stimuli.
+    TooManyStimuli { most: usize },
+    /// Other worlds for an objective that has none.
+    WorldsWithoutGate,
+    /// A number of worlds that do not vary.
+    WorldsWithoutChange,
+}
+
+impl EvolutionError {
+    /// The error at the name or value.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::SmallBox { columns, rows, least } => {
+                let message = format!("a box of {columns} x {rows} voxels is too small for a body");
+                let label = format!("expected room for at least {}", counted(least, "actuator"));
+                Diagnostic::new(Code::OutOfRange, message, span, label)
+            }
+            Self::PaletteSize { materials, most } => {
+                let message = format!("palette has {}", counted(materials, "material"));
+                Diagnostic::new(Code::OutOfRange, message, span, format!("expected 1 to {most}"))
+            }
+            Self::NoActuator { least } => {
+                let label = format!("expected an actuator, because a body needs {least} of them");
+                Diagnostic::new(Code::Value, "no material is an actuator", span, label)
+                    .with_help("add one, for example `muscle` of the prelude")
+            }
+            Self::WrongStimuli { schedule, stimuli } => {
+                let noun = if stimuli == 1 { "stimulus" } else { "stimuli" };
+                let message = format!("the schedule `{schedule}` has {stimuli} {noun}");
+                Diagnostic::new(Code::Value, message, span, "expected two, the inputs of a robot")
+            }
+            Self::DeafSensor { material, stimulus, given } => {
+                let message = format!("the material `{material}` senses `{stimulus}`, which the schedule never gives");
+                let given = suggest::alternatives(&given, "and");
+                let label = format!("the schedule of this evolution gives {given}");
+                let help = format!("name a schedule with `{stimulus}` in `variable`, or materials that sense {given}");
+                Diagnostic::new(Code::Value, message, span, label).with_help(help)
+            }
+            Self::MissingPatterns { schedule, missing } => {
+                let names = suggest::alternatives(&missing, "or");
+                let message = format!("the schedule `{schedule}` never gives {names}");
+                let label = "expected all four patterns, under which a behavior is measured";
+                let row: Vec<_> = missing[0].chars().map(String::from).collect();
+                Diagnostic::new(Code::Value, message, span, label)
+                    .with_help(format!("add a row, for example `{} for 10 cycles`", row.join(" ")))
+            }
+            Self::SeedRange { most } => {
+                let message = "the range of seeds is empty or too long";
+                Diagnostic::new(Code::OutOfRange, message, span, format!("expected 1 to {most} seeds"))
+            }
+            Self::TooManyStimuli { most } => {
+                Diagnostic::new(Code::OutOfRange, "too many stimuli", span, format!("expected at most {most} stimuli"))
+            }
+            Self::WorldsWithoutGate => {
+                let message = "only the gate objective tries bodies in several worlds";
+                Diagnostic::new(Code::Value, message, span, "this evolution's objective is `distance`")
+                    .with_help("write `objective: gate`, or name one world with `world`")
+            }
+            Self::WorldsWithoutChange => {
+                let label = "expected `vary` too, for example `vary: { all: 10% }`";
+                Diagnostic::new(Code::MissingField, "the worlds do not vary", span, label)
+            }
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Worlds: factors of the paper's physics, and noise. A missing field is that of the world named by `from`. Also the
+//! changes of sampled worlds.
+
+use crate::check::derived::{self, CheckState};
+use crate::check::fields::{self, Fields};
+use crate::check::names::{Home, NameTable};
+use crate::check::quantity;
+use crate::check::wording::Expected;
+use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
+
+/// The worlds that other declarations may name.
+#[derive(Clone, Copy)]
+pub(crate) struct Worlds<'a> {
+    pub(crate) names: &'a NameTable,
+    /// The worlds by the position of their names.
+    pub(crate) checked: &'a [CheckState<NamedWorld>],
+}
+
+impl Worlds<'_> {
+    /// The world that a field names.
+    pub(crate) fn of(self, value: &ValueSyntax, home: Home) -> Result<PhysicsWorld, Diagnostic> {
+        self.named(fields::word(value, Expected::Name("world"))?, home)
+    }
+
+    /// The world of that name. For one with errors, which are already reported, it is the paper's.
+    pub(crate) fn named(self, name: &NameSyntax, home: Home) -> Result<PhysicsWorld, Diagnostic> {
+        let found = &self.checked[self.names.resolve(name, home)?];
+        Ok(if let CheckState::Sound(named) = found { named.world } else { PhysicsWorld::default() })
+    }
+}
+
+/// Checks a world; `checked` are the worlds by the position of their names, as far as they are checked.
+pub(crate) fn world(
+    source: &RecordDeclaration,
+    home: Home,
+    names: &NameTable,
+    checked: &[CheckState<NamedWorld>],
+    faults: &mut Vec<Diagnostic>,
+) -> CheckState<NamedWorld> {
+    let mut fields = Fields::new("world", source);
+    let base = fields.read("from", None, |value| derived::base(value, home, names, checked).map(Some));
+    let (base, whole) = match base {
+        Some(CheckState::Sound(base)) => (base.world, true),
+        _ => (PhysicsWorld::default(), fields.value("from").is_none()),
+    };
+    let mut factor = |field, of: f64| fields.read(field, of, factor);
+    let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = base.factors;
+    let factors = WorldFactors {
+        friction: factor("friction", friction),
+        gravity: factor("gravity", gravity),
+        stiffness: factor("stiffness", stiffness),
+        drag: factor("drag", drag),
+        damping: factor("damping", damping),
+        swelling: factor("swelling", swelling),
+    };
+    let noise = WorldNoise {
+        start: fields.read("start", base.noise.start, voxels),
+        missed: fields.read("missed", base.noise.missed, share),
+        weak: fields.read("weak", base.noise.weak, share),
+        dead: fields.read("dead", base.noise.dead, share),
+        seed: fields.read("seed", base.noise.seed as u32, |value| quantity::count(value, 0..=u32::MAX)).into(),
+    };
+    let found = fields.finish();
+    let sound = found.is_empty() && whole;
+    faults.extend(found);
+    let world = PhysicsWorld { factors, noise };
+    let named = || NamedWorld { name: source.name.text.clone(), world };
+    if sound { CheckState::Sound(Box::new(named())) } else { CheckState::Faulty }
+}
+
+/// How much the worlds of a sample vary: a record of quantities and their largest changes.
+pub(crate) fn variation(value: &ValueSyntax) -> Result<Variation, Diagnostic> {
+    let ValueKind::Record(record) = &value.kind else {
+        return Err(quantity::wrong_kind(Expected::Changes, value.span));
+    };
+    let mut fields = Fields::inner("variation", value.span, record);
+    let all = fields.read(Variation::ALL, 0.0, |value| change(Variation::ALL, value));
+    let variation = Variation::of(|name| {
+        let usual = if Variation::is_factor(name) { all } else { 0.0 };
+        fields.read(name, usual, |value| change(name, value))
+    });
+    match fields.finish().into_iter().next() {
+        Some(fault) => Err(fault),
+        None => Ok(variation),
+    }
+}
+
+/// The largest change of a quantity.
+fn change(name: &str, value: &ValueSyntax) -> Result<f64, Diagnostic> {
+    if name == "start" { voxels(value) } else { ratio(value, 0.0..=Variation::most(name)) }
+}
+
+/// A factor of the paper's physics.
+fn factor(value: &ValueSyntax) -> Result<f64, Diagnostic> {
+    ratio(value, WorldFactors::RANGE)
+}
+
+/// A part of a whole, or a probability.
+fn share(value: &ValueSyntax) -> Result<f64, Diagnostic> {
+    ratio(value, 0.0..=1.0)
+}
+
+fn ratio(value: &ValueSyntax, range: std::ops::RangeInclusive<f64>) -> Result<f64, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(given) => quantity::within(quantity::ratio(given)?, range, value.span),
+        _ => Err(quantity::wrong_kind(Expected::Ratio, value.span)),
+    }
+}
+
+fn voxels(value: &ValueSyntax) -> Result<f64, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(given) => {
+            quantity::within(quantity::bare(given)?, 0.0..=WorldNoise::MOST_START, value.span)
+        }
+        _ => Err(quantity::wrong_kind(Expected::Number, value.span)),
+    }
+}

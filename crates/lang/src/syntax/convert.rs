@@ -1,0 +1,173 @@
+//! From pest's pairs to the tree: the parts shared by all kinds of declarations. Mistakes that the grammar recognizes
+//! become diagnostics here.
+
+use std::ops::Range;
+
+use pest::iterators::{Pair, Pairs};
+
+use crate::syntax::arena::Arena;
+use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::is_word;
+use crate::syntax::tree::{
+    CircuitSyntax, Declaration, DeclarationKind, NameSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
+};
+use crate::syntax::wording::Slip;
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::{FileId, Span};
+
+/// Turns the pairs of one declaration into a tree.
+pub(crate) struct Converter<'a> {
+    pub(crate) file: FileId,
+    /// The declaration's text, and all comments of the file.
+    pub(crate) source: &'a str,
+    pub(crate) comments: &'a [Range<usize>],
+    /// The place of the declaration's text in the file.
+    pub(crate) offset: usize,
+    pub(crate) errors: Vec<Diagnostic>,
+}
+
+impl Converter<'_> {
+    /// The declaration in the pairs of a parse, unless it matches a common mistake.
+    pub(crate) fn declaration(&mut self, pairs: Pairs<Rule>) -> Option<Declaration> {
+        let pair = solid(pairs).next().expect("a parsed declaration has a pair");
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::use_file => DeclarationKind::Use(self.quoted(parts(pair).next().expect("a path"))),
+            Rule::stimulus => DeclarationKind::Stimulus(parts(pair).map(|name| self.name(&name)).collect()),
+            Rule::material => self.record_declaration(RecordKeyword::Material, pair),
+            Rule::evolution => self.record_declaration(RecordKeyword::Evolution, pair),
+            Rule::library => self.record_declaration(RecordKeyword::Library, pair),
+            Rule::swarm => self.record_declaration(RecordKeyword::Swarm, pair),
+            Rule::world => self.record_declaration(RecordKeyword::World, pair),
+            Rule::schedule => DeclarationKind::Schedule(self.schedule(pair)),
+            Rule::simulate => DeclarationKind::Simulate(self.simulate(pair)),
+            Rule::circuit => DeclarationKind::Circuit(self.circuit(pair)),
+            Rule::test => DeclarationKind::Test(self.test(pair)),
+            Rule::slip_declaration => {
+                self.slip_declaration(pair);
+                return None;
+            }
+            rule => unreachable!("a declaration is not {rule:?}"),
+        };
+        Some(Declaration { span, kind })
+    }
+
+    /// The text of a circuit that begins like one of another language.
+    fn slip_declaration(&mut self, pair: Pair<Rule>) {
+        let word = pair.as_str().split(|c: char| !is_word(c)).next().unwrap_or_default().to_owned();
+        let start = self.span(&pair).start as usize;
+        let span = Span::new(self.file, start, start + word.len());
+        self.slip(Slip::CircuitKeyword { word, is_circuit: false }, span);
+    }
+
+    fn record_declaration(&mut self, keyword: RecordKeyword, pair: Pair<Rule>) -> DeclarationKind {
+        let mut parts = parts(pair);
+        let name = self.name(&parts.next().expect("a name"));
+        let record = self.record(parts.next().expect("a record"));
+        DeclarationKind::Record(RecordDeclaration { keyword, name, record })
+    }
+
+    fn circuit(&mut self, pair: Pair<Rule>) -> CircuitSyntax {
+        let mut arena = Arena::default();
+        let mut parts = parts(pair).peekable();
+        if let Some(word) = parts.next_if(|part| part.as_rule() == Rule::slip_circuit) {
+            self.slip(Slip::CircuitKeyword { word: word.as_str().to_owned(), is_circuit: true }, self.span(&word));
+        }
+        let name = self.name(&parts.next().expect("a name"));
+        let parameters = match parts.peek().map(Pair::as_rule) {
+            Some(Rule::parameters) => self.parameters(parts.next().expect("parameters"), &mut arena),
+            _ => Vec::new(),
+        };
+        let inputs = self.ports(parts.next().expect("inputs"), &mut arena);
+        let outputs = self.outputs(parts.next().expect("outputs"), &mut arena);
+        let statements = self.statements(parts.next().expect("a body"), &mut arena);
+        CircuitSyntax { name, parameters, inputs, outputs, body: arena.body(statements) }
+    }
+
+    /// Notes a slip that the grammar knows.
+    pub(crate) fn slip(&mut self, slip: Slip, span: Span) {
+        self.errors.push(slip.at(span));
+    }
+
+    pub(crate) fn span(&self, pair: &Pair<Rule>) -> Span {
+        let span = pair.as_span();
+        let start = self.offset + span.start();
+        Span::new(self.file, start, self.solid_end(start, self.offset + span.end()))
+    }
+
+    /// The text of the declaration at a place.
+    pub(crate) fn text(&self, span: Span) -> &str {
+        &self.source[span.start as usize - self.offset..span.end as usize - self.offset]
+    }
+
+    /// The end of a text without the spaces and comments after it, which pest includes.
+    fn solid_end(&self, start: usize, mut end: usize) -> usize {
+        loop {
+            end = start + self.source[start - self.offset..end - self.offset].trim_end().len();
+            let after = self.comments.partition_point(|comment| comment.start < end);
+            match after.checked_sub(1).map(|last| &self.comments[last]) {
+                Some(last) if last.start > start && last.end >= end => end = last.start,
+                _ => return end,
+            }
+        }
+    }
+
+    pub(crate) fn name(&self, pair: &Pair<Rule>) -> NameSyntax {
+        NameSyntax { text: pair.as_str().to_owned(), span: self.span(pair) }
+    }
+
+    pub(crate) fn number(&self, pair: &Pair<Rule>) -> Number {
+        Number { text: pair.as_str().to_owned(), span: self.span(pair) }
+    }
+
+    pub(crate) fn quoted(&self, pair: Pair<Rule>) -> Text {
+        let span = self.span(&pair);
+        Text { text: parts(pair).map(|part| part.as_str().to_owned()).collect(), span }
+    }
+
+    pub(crate) fn quantity(&self, pair: Pair<Rule>) -> Quantity {
+        let mut parts = parts(pair);
+        let number = self.number(&parts.next().expect("a number"));
+        Quantity { number, unit: parts.next().map(|unit| self.name(&unit)) }
+    }
+}
+
+/// The pairs inside a pair that carry meaning: no comments, no keywords whose presence is already known.
+pub(crate) fn parts(pair: Pair<Rule>) -> impl Iterator<Item = Pair<Rule>> {
+    solid(pair.into_inner())
+}
+
+fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
+    pairs.filter(|pair| {
+        !matches!(
+            pair.as_rule(),
+            Rule::EOI
+                | Rule::COMMENT
+                | Rule::circuit_word
+                | Rule::test_word
+                | Rule::simulate_word
+                | Rule::schedule_word
+                | Rule::stimulus_word
+                | Rule::use_word
+                | Rule::material_word
+                | Rule::evolution_word
+                | Rule::library_word
+                | Rule::swarm_word
+                | Rule::world_word
+                | Rule::with_word
+                | Rule::times_word
+                | Rule::in_word
+                | Rule::bins_word
+                | Rule::for_word
+                | Rule::all_word
+                | Rule::inputs_word
+                | Rule::against_word
+                | Rule::init_word
+                | Rule::net_word
+                | Rule::if_word
+                | Rule::then_word
+                | Rule::table_word
+                | Rule::log2_word
+        )
+    })
+}

@@ -1,0 +1,304 @@
+//! Pest's pairs to the tree: parameters, ports, statements and sizes of circuits.
+
+use pest::iterators::Pair;
+
+use crate::syntax::arena::Arena;
+use crate::syntax::convert::{Converter, parts};
+use crate::syntax::convert_expression::choice_of;
+use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::is_word;
+use crate::syntax::tree::{
+    Argument, Index, ParameterSyntax, Port, SizeSyntaxId, SizeSyntaxKind, StatementKind, StatementSyntax, TargetSyntax,
+};
+use crate::syntax::wording::Slip;
+use nbc_base::model::SizeOperator;
+use nbc_base::source::Span;
+
+impl Converter<'_> {
+    pub(crate) fn parameters(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ParameterSyntax> {
+        parts(pair)
+            .map(|parameter| {
+                let mut parts = parts(parameter);
+                let name = self.name(&parts.next().expect("a name"));
+                ParameterSyntax { name, default: parts.next().map(|size| self.size(size, arena)) }
+            })
+            .collect()
+    }
+
+    pub(crate) fn ports(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Port> {
+        parts(pair).map(|port| self.port(port, arena)).collect()
+    }
+
+    /// The outputs of a circuit, whose parentheses may be missing.
+    pub(crate) fn outputs(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Port> {
+        match parts(pair.clone()).next().filter(|first| first.as_rule() == Rule::slip_outputs) {
+            Some(bare) => {
+                let span = self.span(&bare);
+                self.slip(Slip::BareOutputs { outputs: self.text(span).to_owned() }, span);
+                self.ports(bare, arena)
+            }
+            None => self.ports(pair, arena),
+        }
+    }
+
+    fn port(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Port {
+        let mut parts = parts(pair).peekable();
+        while let Some(kind) = parts.next_if(|part| part.as_rule() == Rule::slip_kind) {
+            let next = self.span(parts.peek().expect("a name after the kind"));
+            let span = self.span(&kind);
+            let before = Span { end: next.start, ..span };
+            self.slip(Slip::KindOfPort { kind: kind.as_str().to_owned(), before }, span);
+        }
+        let range = parts.next_if(|part| part.as_rule() == Rule::slip_range);
+        let name = self.name(&parts.next().expect("a name"));
+        if let Some(range) = range {
+            let (span, (width, text)) = (self.span(&range), self.width_of_range(range, arena));
+            let slip = Slip::WidthBeforeName { name: name.text.clone(), width: text, both: span.to(name.span) };
+            self.slip(slip, Span { end: span.start + 1, ..span });
+            return Port { name, width: Some(width) };
+        }
+        let width = parts.next().map(|size| match size.as_rule() {
+            Rule::slip_range => {
+                let (span, (width, text)) = (self.span(&size), self.width_of_range(size, arena));
+                self.slip(Slip::RangeOfPort { port: name.text.clone(), width: text }, span);
+                width
+            }
+            _ => self.size(size, arena),
+        });
+        Port { name, width }
+    }
+
+    /// The number of bits in brackets, which may be a range such as `[7:0]`, and its text.
+    fn width_of_range(&mut self, range: Pair<Rule>, arena: &mut Arena) -> (SizeSyntaxId, String) {
+        let span = self.span(&range);
+        let mut ends = parts(range).map(|end| (end.as_str().trim().to_owned(), end));
+        let (high_text, high) = ends.next().expect("a width");
+        let Some((low_text, low)) = ends.next() else { return (self.size(high, arena), high_text) };
+        let [high_bit, low_bit] = [&high_text, &low_text].map(|end| end.parse::<u32>().ok());
+        if let (Some(high), Some(low)) = (high_bit, low_bit) {
+            let bits = (u64::from(high.abs_diff(low)) + 1).to_string();
+            return (arena.size(SizeSyntaxKind::Literal(bits.clone()), span), bits);
+        }
+        let text = match high_text.strip_suffix('1').and_then(|sum| sum.trim_end().strip_suffix('-')) {
+            Some(width) if low_bit == Some(0) => width.trim_end().to_owned(),
+            _ => format!("{high_text} - ({low_text}) + 1"),
+        };
+        let (high, low) = (self.size(high, arena), self.size(low, arena));
+        let bits = arena.size(SizeSyntaxKind::Binary(SizeOperator::Subtract, high, low), span);
+        let one = arena.size(SizeSyntaxKind::Literal("1".to_owned()), span);
+        (arena.size(SizeSyntaxKind::Binary(SizeOperator::Add, bits, one), span), text)
+    }
+
+    pub(crate) fn statements(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
+        parts(pair).flat_map(|statement| self.statement(statement, arena)).collect()
+    }
+
+    fn statement(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::drive => self.drive(pair, arena),
+            Rule::nets => StatementKind::Nets(self.ports(pair, arena)),
+            Rule::slip_nets => self.slip_nets(pair, arena),
+            Rule::loop_ => self.for_loop(pair, arena),
+            Rule::slip_if => return self.if_block(pair, arena),
+            Rule::slip_end => {
+                self.slip(Slip::StatementEnd { sign: pair.as_str().to_owned() }, span);
+                return Vec::new();
+            }
+            _ => {
+                let word = parts(pair.clone()).next().expect("a word").as_str().to_owned();
+                let end = pair.as_span().end();
+                let blank = self.source[end..].len() - self.source[end..].trim_start().len();
+                let whole = Span { end: (self.offset + end + blank) as u32, ..span };
+                let span = Span { end: span.start + word.len() as u32, ..span };
+                self.slip(Slip::StatementKeyword { word, whole }, span);
+                return Vec::new();
+            }
+        };
+        vec![StatementSyntax { kind, span }]
+    }
+
+    /// Nets that are declared with a keyword of another language.
+    fn slip_nets(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
+        let span = self.span(&pair);
+        let mut parts = parts(pair).peekable();
+        let word = parts.next().expect("a keyword");
+        let range = parts.next_if(|part| part.as_rule() == Rule::slip_range);
+        let range = range.map(|range| self.width_of_range(range, arena));
+        let mut texts = Vec::new();
+        let mut nets = Vec::new();
+        for port in parts {
+            let text = self.text(self.span(&port)).to_owned();
+            let mut port = self.port(port, arena);
+            match (&range, port.width) {
+                (Some((width, bits)), None) => {
+                    port.width = Some(*width);
+                    texts.push(format!("{}[{bits}]", port.name.text));
+                }
+                _ => texts.push(text),
+            }
+            nets.push(port);
+        }
+        let slip = Slip::NetKeyword { word: word.as_str().to_owned(), nets: texts.join(", "), whole: span };
+        self.slip(slip, self.span(&word));
+        StatementKind::Nets(nets)
+    }
+
+    fn for_loop(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
+        let mut parts = parts(pair).peekable();
+        let variable = self.name(&parts.next().expect("a variable"));
+        let from = self.size(parts.next().expect("a start"), arena);
+        if let Some(colon) = parts.next_if(|part| part.as_rule() == Rule::slip_colon) {
+            self.slip(Slip::ColonInLoop, self.span(&colon));
+        }
+        let to = self.size(parts.next().expect("an end"), arena);
+        StatementKind::For { variable, from, to, statements: self.statements(parts.next().expect("a body"), arena) }
+    }
+
+    /// `if` with statements in braces. If each branch drives the same nets, it is a choice for each of them.
+    fn if_block(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
+        let span = self.span(&pair);
+        let is_word = |part: &Pair<Rule>| part.as_rule() == Rule::else_word;
+        let (bodies, conditions): (Vec<_>, Vec<_>) =
+            parts(pair).filter(|part| !is_word(part)).partition(|part| part.as_rule() == Rule::body);
+        let drives: Option<Vec<Vec<_>>> = bodies.into_iter().map(|body| self.drives_of(body)).collect();
+        let drives = drives.filter(|drives| {
+            let nets = |drives: &[(Pair<Rule>, Pair<Rule>)]| {
+                drives.iter().map(|(target, _)| target.as_str().trim().to_owned()).collect::<Vec<_>>()
+            };
+            drives.len() == conditions.len() + 1 && drives.iter().all(|branch| nets(branch) == nets(&drives[0]))
+        });
+        let if_span = Span { end: span.start + 2, ..span };
+        let Some(drives) = drives else {
+            self.slip(Slip::IfBlock { choices: Vec::new(), whole: span }, if_span);
+            return Vec::new();
+        };
+        let (mut statements, mut choices) = (Vec::new(), Vec::new());
+        for (at, (target, _)) in drives[0].iter().enumerate() {
+            let target_text = self.text(self.span(target)).to_owned();
+            let mut text = format!("{target_text} =");
+            let mut values = Vec::new();
+            for (condition, branch) in conditions.iter().zip(&drives) {
+                let [condition_text, then] = [condition, &branch[at].1].map(|part| self.text(self.span(part)));
+                text += &format!(" if {condition_text} then {then} else");
+                values.push(self.expression(condition.clone(), arena));
+                values.push(self.expression(branch[at].1.clone(), arena));
+            }
+            let last = drives.last().expect("a branch")[at].1.clone();
+            text += &format!(" {}", self.text(self.span(&last)));
+            values.push(self.expression(last, arena));
+            let kind = choice_of(values, arena);
+            let value = arena.expression(kind, span);
+            choices.push(text);
+            let targets = vec![self.target(target.clone(), arena)];
+            statements.push(StatementSyntax { kind: StatementKind::Drive { targets, grouped: false, value }, span });
+        }
+        self.slip(Slip::IfBlock { choices, whole: span }, if_span);
+        statements
+    }
+
+    /// The targets and values of a body that only drives single nets.
+    fn drives_of<'p>(&self, body: Pair<'p, Rule>) -> Option<Vec<(Pair<'p, Rule>, Pair<'p, Rule>)>> {
+        let drive = |statement: Pair<'p, Rule>| {
+            let is_drive = statement.as_rule() == Rule::drive;
+            let mut parts = parts(statement);
+            let target = parts.next().filter(|target| is_drive && target.as_rule() == Rule::target)?;
+            Some((target, parts.next().filter(|value| value.as_rule() == Rule::expression)?))
+        };
+        parts(body).map(drive).collect()
+    }
+
+    fn drive(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
+        let mut parts = parts(pair).peekable();
+        let left = parts.next().expect("a target");
+        let grouped = left.as_rule() == Rule::targets;
+        let targets = match left.as_rule() {
+            Rule::targets => crate::syntax::convert::parts(left).map(|target| self.target(target, arena)).collect(),
+            _ => vec![self.target(left, arena)],
+        };
+        if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_arrow) {
+            self.slip(Slip::DriveSign { sign: slip.as_str().to_owned() }, self.span(&slip));
+        }
+        StatementKind::Drive { targets, grouped, value: self.expression(parts.next().expect("a value"), arena) }
+    }
+
+    fn target(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TargetSyntax {
+        let span = self.span(&pair);
+        let mut parts = parts(pair).peekable();
+        let name = self.name(&parts.next().expect("a name"));
+        let index = parts.next_if(|part| part.as_rule() == Rule::index).map(|index| self.index(index, arena));
+        TargetSyntax { name, index, start: parts.next().map(|size| self.size(size, arena)), span }
+    }
+
+    pub(crate) fn index(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Index {
+        let span = self.span(&pair);
+        let mut parts = parts(pair).peekable();
+        let high = parts.next().expect("a bit");
+        let Some(colon) = parts.next_if(|part| part.as_rule() == Rule::slip_colon) else {
+            let high = self.size(high, arena);
+            return Index { high, low: parts.next().map(|size| self.size(size, arena)), span };
+        };
+        // In other languages the first bit may be the lowest.
+        let low = parts.next().expect("the other end");
+        let bit = |end: &Pair<Rule>| end.as_str().trim().parse::<u32>().ok();
+        let is_ascending = bit(&high).zip(bit(&low)).is_some_and(|(high, low)| high < low);
+        let (high, low) = if is_ascending { (low, high) } else { (high, low) };
+        let net = self.source[..span.start as usize - self.offset].rsplit(|c| !is_word(c)).next().unwrap_or_default();
+        let slice = format!("[{}..{}]", high.as_str().trim(), low.as_str().trim());
+        let slip = Slip::ColonInSlice { net: net.to_owned(), slice, index: span };
+        self.slip(slip, self.span(&colon));
+        let high = self.size(high, arena);
+        Index { high, low: Some(self.size(low, arena)), span }
+    }
+
+    pub(crate) fn arguments(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Argument> {
+        parts(pair)
+            .map(|argument| {
+                let span = self.span(&argument);
+                let mut parts = parts(argument).peekable();
+                let name = parts.next_if(|part| part.as_rule() == Rule::name).map(|name| self.name(&name));
+                Argument { name, value: self.size(parts.next().expect("a value"), arena), span }
+            })
+            .collect()
+    }
+
+    /// An integer expression: `**` binds tighter than `*`, `/` and `%`, and these tighter than `+` and `-`; from left
+    /// to right.
+    pub(crate) fn size(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeSyntaxId {
+        let (mut values, mut operators) = (Vec::new(), Vec::<SizeOperator>::new());
+        for part in parts(pair) {
+            if part.as_rule() == Rule::size_infix {
+                let operator = SizeOperator::parse(part.as_str()).expect("the grammar knows the operators");
+                while operators.last().is_some_and(|top| top.precedence() >= operator.precedence()) {
+                    reduce(&mut values, &mut operators, arena);
+                }
+                operators.push(operator);
+            } else {
+                values.push(self.size_operand(part, arena));
+            }
+        }
+        while !operators.is_empty() {
+            reduce(&mut values, &mut operators, arena);
+        }
+        values.pop().expect("an operand")
+    }
+
+    pub(crate) fn size_operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeSyntaxId {
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::digits => SizeSyntaxKind::Literal(pair.as_str().to_owned()),
+            Rule::name => SizeSyntaxKind::Name(pair.as_str().to_owned()),
+            Rule::log2 => SizeSyntaxKind::Log2(self.size(parts(pair).next().expect("an operand"), arena)),
+            _ => SizeSyntaxKind::Group(self.size(parts(pair).next().expect("an operand"), arena)),
+        };
+        arena.size(kind, span)
+    }
+}
+
+fn reduce(values: &mut Vec<SizeSyntaxId>, operators: &mut Vec<SizeOperator>, arena: &mut Arena) {
+    let right = values.pop().expect("a right operand");
+    let left = values.pop().expect("a left operand");
+    let operator = operators.pop().expect("an operator");
+    let span = arena.sizes[left.0 as usize].span.to(arena.sizes[right.0 as usize].span);
+    values.push(arena.size(SizeSyntaxKind::Binary(operator, left, right), span));
+}

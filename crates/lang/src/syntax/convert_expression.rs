@@ -1,0 +1,314 @@
+//! Pest's pairs to the tree: expressions, arranged by precedence with a stack of operators.
+
+use pest::iterators::Pair;
+
+use crate::syntax::arena::Arena;
+use crate::syntax::convert::{Converter, parts};
+use crate::syntax::grammar::Rule;
+use crate::syntax::tree::{
+    ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntaxId, SizeSyntaxKind, TableOutputSyntax,
+    TableRowSyntax,
+};
+use crate::syntax::wording::{Slip, SyntaxError};
+use nbc_base::model::Operator;
+use nbc_base::source::Span;
+
+/// Operands and operators of an expression before they are combined.
+#[derive(Default)]
+struct Stacks {
+    values: Vec<ExpressionSyntaxId>,
+    waiting: Vec<Waiting>,
+}
+
+#[derive(Clone, Copy)]
+enum Waiting {
+    Not(Span),
+    Infix(Infix, Span),
+}
+
+impl Waiting {
+    fn precedence(self) -> u8 {
+        match self {
+            Self::Not(_) => u8::MAX,
+            Self::Infix(infix, _) => infix.precedence(),
+        }
+    }
+}
+
+impl Converter<'_> {
+    pub(crate) fn expression(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxId {
+        let mut stacks = Stacks::default();
+        let mut parts = parts(pair).peekable();
+        let mut choice = None;
+        while let Some(part) = parts.next() {
+            let span = self.span(&part);
+            match part.as_rule() {
+                Rule::slip_choice => choice = Some(part),
+                Rule::prefix => {
+                    self.slip_prefix(&part, span, &stacks);
+                    stacks.waiting.push(Waiting::Not(span));
+                }
+                Rule::operator | Rule::sum | Rule::comparison | Rule::slip_infix => {
+                    let infix = self.infix(&part);
+                    let next = parts.peek().map_or("…", |next| next.as_str());
+                    self.push_infix((infix, span), next, &mut stacks, arena);
+                }
+                _ => {
+                    let value = self.operand(part, arena);
+                    stacks.values.push(value);
+                }
+            }
+        }
+        while !stacks.waiting.is_empty() {
+            stacks.reduce(arena);
+        }
+        let value = stacks.values.pop().expect("an expression has an operand");
+        choice.map_or(value, |choice| self.question_mark(value, choice, arena))
+    }
+
+    /// A choice with `?` and `:` after its condition.
+    fn question_mark(
+        &mut self,
+        condition: ExpressionSyntaxId,
+        pair: Pair<Rule>,
+        arena: &mut Arena,
+    ) -> ExpressionSyntaxId {
+        let (sign, first) = (self.span(&pair), arena.span(condition));
+        let values: Vec<_> = parts(pair).collect();
+        let mut texts = values.iter().map(|value| self.text(self.span(value)).to_owned());
+        let (then, otherwise) = (texts.next().unwrap_or_default(), texts.next().unwrap_or_default());
+        let whole = first.to(sign);
+        let condition_text = self.text(first).to_owned();
+        let slip = Slip::QuestionMark { condition: condition_text, then, otherwise, whole };
+        self.slip(slip, Span { end: sign.start + 1, ..sign });
+        let values: Vec<_> = values.into_iter().map(|value| self.expression(value, arena)).collect();
+        let [then, otherwise] = values[..] else { unreachable!("a choice has two values") };
+        arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, whole)
+    }
+
+    /// Each run of `~` and `!` is reported once.
+    fn slip_prefix(&mut self, prefix: &Pair<Rule>, span: Span, stacks: &Stacks) {
+        let sign = prefix.as_str();
+        let follows = matches!(stacks.waiting.last(), Some(Waiting::Not(before)) if before.end - before.start == 1);
+        if sign != "not" && !follows {
+            self.slip(Slip::NotSign { sign: sign.to_owned() }, span);
+        }
+    }
+
+    /// A word that replaces a sign, with spaces around it if the text has none.
+    fn apart(&self, sign: Span, word: &str) -> String {
+        let space = |character: Option<char>| if character.is_some_and(char::is_whitespace) { "" } else { " " };
+        let (before, after) =
+            (&self.source[..sign.start as usize - self.offset], &self.source[sign.end as usize - self.offset..]);
+        format!("{}{word}{}", space(before.chars().next_back()), space(after.chars().next()))
+    }
+
+    /// Adds an operator; `next` is the text after it.
+    fn push_infix(&mut self, (infix, place): (Infix, Span), next: &str, stacks: &mut Stacks, arena: &mut Arena) {
+        while let Some(&top) = stacks.waiting.last().filter(|top| top.precedence() >= infix.precedence()) {
+            if let Waiting::Infix(before, before_place) = top
+                && before.precedence() == infix.precedence()
+                && !infix.chains_after(before)
+            {
+                let [.., left, middle] = stacks.values[..] else { unreachable!("an operator has two operands") };
+                let [left, middle] = [left, middle].map(|value| brief(self.text(arena.span(value))));
+                let readings = [
+                    format!("({left} {} {middle}) {} {}", before.word(), infix.word(), brief(next)),
+                    format!("{left} {} ({middle} {} {})", before.word(), infix.word(), brief(next)),
+                ];
+                let operators = [before.word(), infix.word()];
+                self.errors.push(SyntaxError::Ambiguous { operators, first: before_place, readings }.at(place));
+            }
+            stacks.reduce(arena);
+        }
+        stacks.waiting.push(Waiting::Infix(infix, place));
+    }
+
+    fn infix(&mut self, pair: &Pair<Rule>) -> Infix {
+        let word = pair.as_str();
+        if pair.as_rule() == Rule::slip_infix {
+            let operator = if word.starts_with('&') {
+                Operator::And
+            } else if word.starts_with('|') {
+                Operator::Or
+            } else {
+                Operator::Xor
+            };
+            let (sign, span) = (word.to_owned(), self.span(pair));
+            let text = self.apart(span, operator.word());
+            self.slip(Slip::OperatorSign { sign, operator: operator.word(), text }, span);
+            return Infix::Bitwise(operator);
+        }
+        let sign = Infix::SIGNS.iter().find(|(_, sign)| *sign == word).map(|(infix, _)| *infix);
+        sign.unwrap_or_else(|| Infix::Bitwise(Operator::parse(word).expect("the grammar knows the operators")))
+    }
+
+    fn operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxId {
+        let span = self.span(&pair);
+        let kind = match pair.as_rule() {
+            Rule::choice => self.choice(pair, arena),
+            Rule::table => self.table(pair, arena),
+            Rule::operation => self.operation(pair, arena),
+            Rule::constant => self.constant(pair, arena),
+            Rule::reference => self.reference(pair, arena),
+            Rule::group => {
+                ExpressionSyntaxKind::Group(self.expression(parts(pair).next().expect("an expression"), arena))
+            }
+            Rule::concatenation => ExpressionSyntaxKind::Concatenation(self.expressions(pair, arena)),
+            Rule::repetition => self.repetition(pair, arena),
+            rule => unreachable!("an operand is not {rule:?}"),
+        };
+        arena.expression(kind, span)
+    }
+
+    fn expressions(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<ExpressionSyntaxId> {
+        parts(pair).map(|expression| self.expression(expression, arena)).collect()
+    }
+
+    /// An `if` expression. In the grammar the expressions after `else` are siblings; in the tree they are nested.
+    fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut values = Vec::new();
+        for part in parts(pair) {
+            match part.as_rule() {
+                Rule::slip_then => {
+                    let start = self.span(&part).start;
+                    self.slip(Slip::MissingThen, Span { file: self.file, start, end: start + 1 });
+                }
+                Rule::expression => values.push(self.expression(part, arena)),
+                _ => {}
+            }
+        }
+        choice_of(values, arena)
+    }
+
+    fn operation(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut parts = parts(pair);
+        let operator =
+            Operator::parse(parts.next().expect("an operator").as_str()).expect("the grammar knows the operators");
+        ExpressionSyntaxKind::Operation { operator, operands: self.expressions(parts.next().expect("operands"), arena) }
+    }
+
+    fn repetition(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut parts = parts(pair);
+        let count = self.size_operand(parts.next().expect("a count"), arena);
+        ExpressionSyntaxKind::Repetition { count, values: parts.map(|value| self.expression(value, arena)).collect() }
+    }
+
+    fn constant(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut parts = parts(pair);
+        let first = parts.next().expect("digits");
+        let Some(base) = parts.next() else { return ExpressionSyntaxKind::Digits(first.as_str().to_owned()) };
+        let width = match first.as_rule() {
+            Rule::digits => SizeSyntaxKind::Literal(first.as_str().to_owned()),
+            _ => SizeSyntaxKind::Name(first.as_str().to_owned()),
+        };
+        let width = arena.size(width, self.span(&first));
+        let base = base.as_str().chars().next().expect("a base");
+        let value = parts.next().expect("a value");
+        if value.as_rule() == Rule::computed {
+            return self.computed(width, base, value, arena);
+        }
+        let digits = value.as_str().to_owned();
+        ExpressionSyntaxKind::Constant { width, base, digits }
+    }
+
+    fn computed(
+        &mut self,
+        width: SizeSyntaxId,
+        base: char,
+        pair: Pair<Rule>,
+        arena: &mut Arena,
+    ) -> ExpressionSyntaxKind {
+        let span = self.span(&pair);
+        if base != 'd' {
+            self.slip(Slip::BaseOfComputed { base }, span);
+        }
+        ExpressionSyntaxKind::Computed { width, value: self.size(parts(pair).next().expect("a size"), arena) }
+    }
+
+    fn reference(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut parts = parts(pair).peekable();
+        let name = self.name(&parts.next().expect("a name"));
+        let brackets = parts.next_if(|part| matches!(part.as_rule(), Rule::index | Rule::arguments));
+        let Some(operands) = parts.next() else {
+            let index = brackets.and_then(|brackets| self.index_of_net(brackets, arena));
+            return ExpressionSyntaxKind::Net { name, index };
+        };
+        let arguments = brackets.map_or(Vec::new(), |brackets| self.arguments_of_call(brackets, arena));
+        ExpressionSyntaxKind::Call { name, arguments, operands: self.expressions(operands, arena) }
+    }
+
+    fn index_of_net(&mut self, brackets: Pair<Rule>, arena: &mut Arena) -> Option<Index> {
+        if brackets.as_rule() == Rule::index {
+            return Some(self.index(brackets, arena));
+        }
+        self.slip(Slip::ParametersOfNet, self.span(&brackets));
+        None
+    }
+
+    fn arguments_of_call(&mut self, brackets: Pair<Rule>, arena: &mut Arena) -> Vec<crate::syntax::tree::Argument> {
+        if brackets.as_rule() == Rule::arguments {
+            return self.arguments(brackets, arena);
+        }
+        let index = self.index(brackets, arena);
+        if index.low.is_some() {
+            self.slip(Slip::SliceOfCircuit, index.span);
+        }
+        let span = arena.sizes[index.high.0 as usize].span;
+        vec![crate::syntax::tree::Argument { name: None, value: index.high, span }]
+    }
+
+    fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut parts = parts(pair);
+        let inputs = self.expressions(parts.next().expect("operands"), arena);
+        ExpressionSyntaxKind::Table { inputs, rows: parts.map(|row| self.table_row(row, arena)).collect() }
+    }
+
+    pub(crate) fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {
+        let span = self.span(&pair);
+        let mut parts = parts(pair);
+        let pattern = parts.next().expect("a pattern");
+        let pattern = (pattern.as_rule() == Rule::pattern).then(|| self.name(&pattern));
+        let output = parts.next().expect("an output");
+        let output = match output.as_rule() {
+            Rule::output_bits => TableOutputSyntax::Bits(self.name(&output)),
+            _ => TableOutputSyntax::Value(self.expression(output, arena)),
+        };
+        TableRowSyntax { pattern, output, span }
+    }
+}
+
+/// The choice of conditions and values in order of text; the last value has no condition.
+pub(crate) fn choice_of(mut values: Vec<ExpressionSyntaxId>, arena: &mut Arena) -> ExpressionSyntaxKind {
+    let mut otherwise = values.pop().expect("a choice has its last branch");
+    loop {
+        let then = values.pop().expect("a choice has a value");
+        let condition = values.pop().expect("a choice has a condition");
+        if values.is_empty() {
+            return ExpressionSyntaxKind::Choice { condition, then, otherwise };
+        }
+        let span = arena.span(condition).to(arena.span(otherwise));
+        otherwise = arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, span);
+    }
+}
+
+impl Stacks {
+    /// Combines the topmost operator with its operands.
+    fn reduce(&mut self, arena: &mut Arena) {
+        let right = self.values.pop().expect("an operand");
+        let value = match self.waiting.pop().expect("an operator") {
+            Waiting::Not(place) => arena.expression(ExpressionSyntaxKind::Not(right), place.to(arena.span(right))),
+            Waiting::Infix(operator, place) => {
+                let left = self.values.pop().expect("a left operand");
+                let span = arena.span(left).to(arena.span(right));
+                arena.expression(ExpressionSyntaxKind::Infix { operator, place, left, right }, span)
+            }
+        };
+        self.values.push(value);
+    }
+}
+
+/// An operand as shown in advice.
+fn brief(operand: &str) -> &str {
+    if operand.len() > 24 || operand.contains('\n') { "…" } else { operand.trim_end() }
+}

@@ -1,0 +1,131 @@
+//! Describes a parse error of pest in the words of the language: what was found and what was expected.
+
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::{is_word, open_brackets};
+use crate::syntax::part::{PartKind, PartPlace};
+use crate::syntax::slips;
+use crate::syntax::split::KEYWORDS;
+use crate::syntax::wording::SyntaxError;
+use nbc_base::diag::{Diagnostic, Suggestion, suggest};
+use nbc_base::source::Span;
+
+/// The offset of a parse error.
+pub(crate) fn place(error: &Error<Rule>) -> usize {
+    match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    }
+}
+
+/// The diagnostic for a part that does not follow the grammar at `at`.
+pub(crate) fn diagnostic(part: &PartPlace<'_>, at: usize, error: &Error<Rule>) -> Diagnostic {
+    let found = found(&part.source[at..part.end]);
+    let span = Span::new(part.file, part.offset + at, part.offset + at + found.len());
+    let end = found.is_empty().then(|| unexpected_end(part, error));
+    if let Some(Ok(unclosed)) = end {
+        return unclosed;
+    }
+    if let Some(slip) = slips::look(part, at, found, error) {
+        return slip;
+    }
+    if let Some(Err(end)) = end {
+        return end.at(span);
+    }
+    let found = found.to_owned();
+    let error = if part.kind == PartKind::Declaration && at == 0 {
+        let meant = Suggestion::near(&found, KEYWORDS);
+        SyntaxError::UnexpectedDeclaration { found, meant }
+    } else if let ErrorVariant::CustomError { .. } = error.variant {
+        SyntaxError::TooDeepHere
+    } else if found.starts_with(['\n', '\r']) {
+        SyntaxError::EndOfLine { expected: expected(error) }
+    } else {
+        SyntaxError::Unexpected { found, expected: expected(error) }
+    };
+    error.at(span)
+}
+
+fn unexpected_end(part: &PartPlace<'_>, error: &Error<Rule>) -> Result<Diagnostic, SyntaxError> {
+    if let Some(open) = open_brackets(&part.source[part.start..part.end]).last() {
+        let open = part.offset + part.start + open;
+        let is_declaration = part.kind == PartKind::Declaration;
+        return Ok(SyntaxError::UnclosedBracket { is_declaration }.at(Span::new(part.file, open, open + 1)));
+    }
+    let expected = expected(error);
+    Err(match part.kind {
+        PartKind::Declaration => SyntaxError::EndOfDeclaration { expected },
+        _ => SyntaxError::EndOfLine { expected },
+    })
+}
+
+/// The word or sign that a text begins with; a long one is cut.
+fn found(rest: &str) -> &str {
+    let first = rest.chars().next();
+    let end = match first {
+        Some(c) if is_word(c) => {
+            rest.char_indices().take(40).find(|(_, c)| !is_word(*c)).map_or(rest.len(), |(at, _)| at)
+        }
+        Some(c) => c.len_utf8(),
+        None => 0,
+    };
+    &rest[..rest.floor_char_boundary(end.min(40))]
+}
+
+fn expected(error: &Error<Rule>) -> String {
+    let ErrorVariant::ParsingError { positives, .. } = &error.variant else { return "here".to_owned() };
+    let mut words: Vec<&str> = positives.iter().filter_map(|rule| word(*rule)).collect();
+    words.sort_unstable();
+    words.dedup();
+    match words[..] {
+        [] => "not expected here".to_owned(),
+        _ => format!("expected {}", suggest::join(&words, "or")),
+    }
+}
+
+/// The name of a rule in messages; `None` if the message should not suggest it.
+fn word(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
+        Rule::name => "a name",
+        Rule::text => "a string in quotes",
+        Rule::number | Rule::digits | Rule::number_without_width => "a number",
+        Rule::unit => "a unit",
+        Rule::quantity => "a number with its unit",
+        Rule::record => "`{`",
+        Rule::field => "a field",
+        Rule::list | Rule::product | Rule::range | Rule::bins | Rule::applied | Rule::function | Rule::instance => {
+            "a value"
+        }
+        Rule::columns | Rule::inputs | Rule::outputs | Rule::operands => "`(`",
+        Rule::spells | Rule::body | Rule::test_table => "`{`",
+        Rule::spell | Rule::row | Rule::cell => "a row",
+        Rule::header => "column names",
+        Rule::bar => "`|`",
+        Rule::parameters | Rule::arguments | Rule::index => "`[`",
+        Rule::parameter | Rule::argument => "a parameter",
+        Rule::port => "a port",
+        Rule::loop_ | Rule::nets | Rule::drive => "a statement",
+        Rule::targets | Rule::target => "a net",
+        Rule::expression | Rule::choice | Rule::operation | Rule::constant | Rule::reference | Rule::group => {
+            "an expression"
+        }
+        Rule::table | Rule::repetition | Rule::concatenation | Rule::prefix => "an expression",
+        Rule::operator | Rule::sum | Rule::comparison => "an operator",
+        Rule::base => "`b`, `d` or `h`",
+        Rule::pattern | Rule::table_row | Rule::pattern_digits => "a pattern of `0`, `1` and `-`",
+        Rule::size | Rule::size_group | Rule::log2 => "a number",
+        Rule::size_infix => "an operator",
+        Rule::with_word => "`with`",
+        Rule::times_word => "`x`",
+        Rule::in_word | Rule::in_world => "`in`",
+        Rule::bins_word => "`bins`",
+        Rule::for_word | Rule::for_all => "`for`",
+        Rule::all_word => "`all`",
+        Rule::inputs_word => "`inputs`",
+        Rule::against_word => "`against`",
+        Rule::then_word => "`then`",
+        Rule::else_word => "`else`",
+        Rule::schedule_word => "`schedule`",
+        _ => return None,
+    })
+}

@@ -1,0 +1,170 @@
+//! The tokens of a text: words, numbers, texts in quotes, comments and signs. Spaces and the ends of lines are between
+//! them.
+
+use std::ops::Range;
+
+/// The kinds of tokens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TokenKind {
+    /// A name, a keyword, or any other run of letters and digits.
+    Word,
+    /// Digits with what follows them without a space: a point and more digits, or the base and digits of a constant.
+    Number,
+    /// A text in quotes, which ends with its line at the latest.
+    Quoted,
+    /// From `//` to the end of the line.
+    Comment,
+    /// A comment of another language: from `#` to the end of the line, or from `/*` to `*/`.
+    ForeignComment,
+    /// One character of any other kind, or an operator of two.
+    Sign,
+}
+
+/// A token and its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Token {
+    /// What it is made of.
+    pub kind: TokenKind,
+    /// Its bytes in the text.
+    pub range: Range<usize>,
+    /// Whether no other token is before it on its line, except comments.
+    pub is_first: bool,
+}
+
+/// Operators of two characters.
+const PAIRS: [&str; 8] = ["->", "==", "!=", "<=", ">=", "..", "**", ":="];
+
+/// The tokens of a text, in order.
+pub fn tokens(text: &str) -> impl Iterator<Item = Token> {
+    let (mut at, mut is_first) = (0, true);
+    std::iter::from_fn(move || {
+        let start = at + text[at..].find(|c: char| !c.is_whitespace())?;
+        is_first |= text[at..start].contains(['\n', '\r']);
+        let (kind, length) = token(&text[start..]);
+        at = start + length;
+        let token = Token { kind, range: start..at, is_first };
+        is_first &= matches!(kind, TokenKind::Comment | TokenKind::ForeignComment);
+        Some(token)
+    })
+}
+
+/// The kind and the length of the token that a text begins with.
+fn token(rest: &str) -> (TokenKind, usize) {
+    let first = rest.chars().next().expect("the text goes on");
+    let line = || rest.find(['\n', '\r']).unwrap_or(rest.len());
+    match first {
+        _ if rest.starts_with("//") => (TokenKind::Comment, line()),
+        _ if rest.starts_with("/*") => (TokenKind::ForeignComment, rest.find("*/").map_or(rest.len(), |end| end + 2)),
+        '#' => (TokenKind::ForeignComment, line()),
+        '"' => (TokenKind::Quoted, quoted(rest)),
+        c if c.is_ascii_digit() => (TokenKind::Number, number(rest)),
+        c if is_word(c) => (TokenKind::Word, rest.find(|c| !is_word(c)).unwrap_or(rest.len())),
+        _ if PAIRS.iter().any(|pair| rest.starts_with(pair)) => (TokenKind::Sign, 2),
+        c => (TokenKind::Sign, c.len_utf8()),
+    }
+}
+
+/// The length of a number. A point between digits belongs to it, and those of a range do not.
+fn number(rest: &str) -> usize {
+    let whole = rest.find(|c| !is_word(c) && c != '\'').unwrap_or(rest.len());
+    let digits = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    match rest[whole..].strip_prefix('.').map(digits) {
+        Some(more) if more > 0 => whole + 1 + more,
+        _ => whole,
+    }
+}
+
+fn quoted(rest: &str) -> usize {
+    let end = rest[1..].find(['"', '\n', '\r']).map_or(rest.len(), |end| end + 1);
+    end + usize::from(rest[end..].starts_with('"'))
+}
+
+/// Whether a character belongs to words.
+pub(crate) fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// The brackets that are open at the end of a text, as offsets.
+pub(crate) fn open_brackets(text: &str) -> Vec<usize> {
+    let mut open = Vec::new();
+    for token in tokens(text) {
+        bracket(&mut open, &text[token.range.clone()], token.range.start, |open| &text[*open..*open + 1]);
+    }
+    open
+}
+
+/// Opens a bracket, or closes the innermost one if it fits; a closing brace also closes what is open inside it.
+/// Returns whether a closing bracket has no opening one.
+pub(crate) fn bracket<'t, T>(open: &mut Vec<T>, sign: &str, at: T, text: impl Fn(&T) -> &'t str) -> bool {
+    let opening = match sign {
+        "(" | "[" | "{" => {
+            open.push(at);
+            return false;
+        }
+        ")" => "(",
+        "]" => "[",
+        "}" => "{",
+        _ => return false,
+    };
+    let place = match open.last() {
+        Some(last) if text(last) == opening => open.len() - 1,
+        _ if sign == "}" => match open.iter().rposition(|open| text(open) == "{") {
+            Some(place) => place,
+            None => return true,
+        },
+        _ => return true,
+    };
+    open.truncate(place);
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_split_into_tokens() {
+        let text = "q=4'b1 // é\n/* a\nb */ {a[3..0]} # x\n\"c d\" \"open\nü->";
+        let words: Vec<_> = tokens(text).map(|token| (&text[token.range], token.is_first)).collect();
+        let first = ["q", "/* a\nb */", "{", "\"c d\"", "ü"];
+        let all = [
+            "q",
+            "=",
+            "4'b1",
+            "// é",
+            "/* a\nb */",
+            "{",
+            "a",
+            "[",
+            "3",
+            "..",
+            "0",
+            "]",
+            "}",
+            "# x",
+            "\"c d\"",
+            "\"open",
+            "ü",
+            "->",
+        ];
+        assert_eq!(words, all.map(|word| (word, first.contains(&word))));
+    }
+
+    #[test]
+    fn numbers_have_points_and_bases_but_no_ranges() {
+        let words = |text: &'static str| tokens(text).map(|token| &text[token.range]).collect::<Vec<_>>();
+        assert_eq!(
+            words("0.6..1.6 -> 4'b1_0 n'd(1)"),
+            ["0.6", "..", "1.6", "->", "4'b1_0", "n", "'", "d", "(", "1", ")"]
+        );
+        let kinds: Vec<_> = tokens("12 a12 é").map(|token| token.kind).collect();
+        assert_eq!(kinds, [TokenKind::Number, TokenKind::Word, TokenKind::Word]);
+    }
+
+    #[test]
+    fn brackets_stay_open_until_they_are_closed() {
+        assert_eq!(open_brackets("{ (a \")\" // )\n [b]"), [0, 2]);
+        assert_eq!(open_brackets("{ ( [ }"), [0; 0]);
+        assert_eq!(open_brackets("( ]"), [0]);
+    }
+}

@@ -1,0 +1,24 @@
+//! From nb text to the tree and back: the grammar, the parser, the formatter. Names are not resolved here.
+
+mod arena;
+mod convert;
+mod convert_circuit;
+mod convert_expression;
+mod convert_record;
+mod convert_test;
+mod expected;
+mod format;
+mod grammar;
+mod lexer;
+mod parse;
+mod part;
+mod recover;
+mod slips;
+mod split;
+pub mod tree;
+mod wording;
+
+pub use format::format;
+pub use lexer::{Token, TokenKind, tokens};
+pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse, parse_instance};
+pub use split::KEYWORDS;

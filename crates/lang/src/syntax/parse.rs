@@ -1,0 +1,152 @@
+//! From text to the tree, one declaration after another; never fails.
+
+use std::ops::Range;
+
+use pest::Parser;
+
+use crate::syntax::convert::Converter;
+use crate::syntax::expected;
+use crate::syntax::grammar::{NbParser, Rule};
+use crate::syntax::part::{PartKind, PartPlace};
+use crate::syntax::recover;
+use crate::syntax::split::{SourcePiece, Split, split};
+use crate::syntax::tree::{BrokenSyntax, InstanceSyntax, Tree};
+use crate::syntax::wording::{Slip, SyntaxError};
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::{FileId, Sources, Span};
+
+/// The largest source text, in bytes.
+pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
+
+/// The deepest nesting of brackets and `if`. It is small enough for the parser, checker and formatter to fit in the
+/// stack of any thread.
+pub const MAX_NESTING: usize = 64;
+
+/// The most tokens of a declaration, which bounds the time of parsing.
+pub const MAX_WORDS: usize = 2_000_000;
+
+/// The tree of a text, and its errors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parsed {
+    /// Everything that could be parsed.
+    pub tree: Tree,
+    /// What could not be parsed, in the order of the text.
+    pub errors: Vec<Diagnostic>,
+}
+
+/// Parses a file of `sources`.
+pub fn parse(sources: &Sources, file: FileId) -> Parsed {
+    let text = &sources.file(file).text;
+    if text.len() as u64 > MAX_SOURCE_BYTES {
+        let error = SyntaxError::TooLarge { bytes: text.len(), most: MAX_SOURCE_BYTES };
+        return Parsed { errors: vec![error.at(Span::new(file, 0, 0))], ..Parsed::default() };
+    }
+    if let Some(at) = text.find('\0') {
+        let error = SyntaxError::ZeroByte.at(Span::new(file, at, at + 1));
+        return Parsed { errors: vec![error], ..Parsed::default() };
+    }
+    let split = split(text);
+    let mut parsed = Parsed::default();
+    parsed.tree.comments = split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
+    for comment in &split.foreign_comments {
+        let span = Span::new(file, comment.start, comment.end);
+        parsed.errors.push(Slip::foreign_comment(&text[comment.clone()], &text[comment.end..]).at(span));
+    }
+    for piece in &split.pieces {
+        parse_piece(text, file, &split, piece, &mut parsed);
+    }
+    parsed.errors.sort_by_key(|error| error.labels.first().map(|label| label.span));
+    parsed
+}
+
+/// Parses a text that names a circuit with its parameters, such as `adder[8]` on a command line.
+///
+/// # Errors
+/// When it is anything else.
+pub fn parse_instance(sources: &Sources, file: FileId) -> Result<InstanceSyntax, Diagnostic> {
+    let text = sources.file(file).text.as_str();
+    let mut converter = Converter { file, source: text, comments: &[], offset: 0, errors: Vec::new() };
+    let parsed = NbParser::parse(Rule::one_instance, text).ok().and_then(|mut pairs| pairs.next());
+    let instance = parsed.map(|pair| converter.instance(pair)).filter(|_| converter.errors.is_empty());
+    let whole = Span::new(file, 0, text.len());
+    instance.ok_or_else(|| SyntaxError::NotAnInstance { text: text.to_owned() }.at(whole))
+}
+
+fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, parsed: &mut Parsed) {
+    let (offset, end) = (piece.range.start, piece.range.end);
+    let declaration = Span::new(file, offset, end);
+    let place = |range: &Range<usize>| Span::new(file, offset + range.start, offset + range.end);
+    if let Some(error) = over_limits(piece) {
+        parsed.errors.push(error.at(Span { end: declaration.start + 1, ..declaration }));
+        parsed.tree.broken.push(BrokenSyntax { span: declaration, declaration });
+        return;
+    }
+    let mut source = text[piece.range.clone()].to_owned();
+    let first = split.foreign_comments.partition_point(|comment| comment.start < offset);
+    let comments = split.foreign_comments[first..].iter().take_while(|comment| comment.start < end);
+    let semicolons = piece.semicolons.iter().map(|&at| at..at + 1);
+    for hole in comments.cloned().chain(semicolons) {
+        blank(&mut source, hole.start - offset..hole.end - offset);
+    }
+    let mut recovered = None;
+    if NbParser::parse(Rule::declaration, &source).is_err() {
+        let found = recover::recover(file, &source, offset);
+        let parts = source.clone();
+        for range in &found.broken {
+            blank(&mut source, range.clone());
+        }
+        recovered = Some((found, parts));
+    }
+    let mut converter = Converter { file, source: &source, comments: &split.comments, offset, errors: Vec::new() };
+    let tree = match NbParser::parse(Rule::declaration, &source) {
+        Ok(pairs) => converter.declaration(pairs),
+        Err(error) => {
+            // Each part may be fine alone.
+            if let Some((found, _)) = recovered.as_mut().filter(|(found, _)| found.errors.is_empty()) {
+                let (kind, end) = (PartKind::Declaration, source.len());
+                let place = PartPlace { file, source: &source, offset, kind, start: 0, end };
+                found.errors.push(expected::diagnostic(&place, expected::place(&error), &error));
+            }
+            None
+        }
+    };
+    if tree.is_none() {
+        parsed.tree.broken.push(BrokenSyntax { span: declaration, declaration });
+    }
+    // A declaration of another language has one message.
+    if tree.is_some() || recovered.is_some() {
+        let semicolon = |&at: &usize| Slip::StatementEnd { sign: ";".to_owned() }.at(Span::new(file, at, at + 1));
+        converter.errors.extend(piece.semicolons.iter().map(semicolon));
+    }
+    if let Some((found, parts)) = recovered {
+        if tree.is_none() {
+            for (kind, range) in &found.kept {
+                let offset = offset + range.start;
+                let source = &parts[range.clone()];
+                let mut part = Converter { file, source, comments: &split.comments, offset, errors: Vec::new() };
+                recover::slips(&mut part, *kind, source);
+                converter.errors.append(&mut part.errors);
+            }
+        }
+        let broken = found.broken.iter().map(|range| BrokenSyntax { span: place(range), declaration });
+        parsed.tree.broken.extend(broken);
+        converter.errors.extend(found.errors);
+    }
+    parsed.errors.append(&mut converter.errors);
+    parsed.tree.declarations.extend(tree);
+}
+
+/// Replaces a part of a text by spaces, so that the rest stays in its place.
+fn blank(text: &mut String, range: Range<usize>) {
+    let space = |byte: u8| if matches!(byte, b'\n' | b'\r') { char::from(byte) } else { ' ' };
+    let blanks: String = text[range.clone()].bytes().map(space).collect();
+    text.replace_range(range, &blanks);
+}
+
+/// The error of a declaration that is nested too deeply or too long to be parsed.
+fn over_limits(piece: &SourcePiece) -> Option<SyntaxError> {
+    if piece.depth > MAX_NESTING {
+        return Some(SyntaxError::TooDeep { depth: piece.depth, most: MAX_NESTING });
+    }
+    (piece.words > MAX_WORDS).then_some(SyntaxError::TooLong { words: piece.words, most: MAX_WORDS })
+}

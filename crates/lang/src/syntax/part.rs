@@ -1,0 +1,41 @@
+//! Parts of a declaration that are parsed alone.
+
+use crate::syntax::grammar::Rule;
+use nbc_base::source::FileId;
+
+/// The kinds of parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PartKind {
+    Declaration,
+    Statement,
+    Field,
+    Spell,
+    Row,
+    TableRow,
+}
+
+impl PartKind {
+    /// The rule of the grammar for parts of this kind.
+    pub(crate) fn rule(self) -> Rule {
+        match self {
+            Self::Declaration => Rule::declaration,
+            Self::Statement => Rule::some_statements,
+            Self::Field => Rule::some_fields,
+            Self::Spell => Rule::some_spells,
+            Self::Row => Rule::some_row,
+            Self::TableRow => Rule::some_table_rows,
+        }
+    }
+}
+
+/// A part of a declaration that is parsed alone.
+#[derive(Clone, Copy)]
+pub(crate) struct PartPlace<'a> {
+    pub(crate) file: FileId,
+    /// The text of the declaration, and its place in the file.
+    pub(crate) source: &'a str,
+    pub(crate) offset: usize,
+    pub(crate) kind: PartKind,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+}

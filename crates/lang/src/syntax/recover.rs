@@ -1,0 +1,240 @@
+//! Finds every bad part of a declaration that does not follow the grammar as a whole. Its statements, fields and rows
+//! are cut apart by their lines and brackets, and each is parsed alone.
+
+use std::ops::Range;
+
+use pest::Parser;
+
+use crate::syntax::arena::Arena;
+use crate::syntax::convert::{Converter, parts};
+use crate::syntax::expected;
+use crate::syntax::grammar::NbParser;
+use crate::syntax::lexer::{Token, TokenKind, bracket, tokens};
+use crate::syntax::part::{PartKind, PartPlace};
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::FileId;
+
+/// What is wrong with a declaration.
+pub(crate) struct Recovered {
+    pub(crate) errors: Vec<Diagnostic>,
+    /// The bad parts; the first is the whole declaration if its own text is bad.
+    pub(crate) broken: Vec<Range<usize>>,
+    /// The good parts.
+    pub(crate) kept: Vec<(PartKind, Range<usize>)>,
+}
+
+/// The parts of a declaration, which begins at `offset` of its file.
+pub(crate) fn recover(file: FileId, source: &str, offset: usize) -> Recovered {
+    let tokens: Vec<_> = tokens(source).filter(|token| token.kind != TokenKind::Comment).collect();
+    let all = 0..tokens.len();
+    let found = Recovered { errors: Vec::new(), broken: Vec::new(), kept: Vec::new() };
+    let mut recovery = Recovery { file, source, offset, tokens, found };
+    recovery.part(PartKind::Declaration, all);
+    recovery.found
+}
+
+/// Reports the slips in a part of a declaration that is otherwise lost.
+pub(crate) fn slips(converter: &mut Converter<'_>, kind: PartKind, source: &str) {
+    let Some(pair) = NbParser::parse(kind.rule(), source).ok().and_then(|mut pairs| pairs.next()) else { return };
+    let mut arena = Arena::default();
+    match kind {
+        PartKind::Statement => _ = converter.statements(pair, &mut arena),
+        PartKind::Field => _ = converter.record(pair),
+        PartKind::TableRow => parts(pair).for_each(|row| _ = converter.table_row(row, &mut arena)),
+        PartKind::Declaration | PartKind::Spell | PartKind::Row => {}
+    }
+}
+
+struct Recovery<'a> {
+    file: FileId,
+    source: &'a str,
+    offset: usize,
+    tokens: Vec<Token>,
+    found: Recovered,
+}
+
+/// Parts in braces, as a range of tokens without the braces.
+struct PartBlock {
+    holds: PartKind,
+    tokens: Range<usize>,
+}
+
+impl Recovery<'_> {
+    fn word(&self, at: usize) -> &str {
+        self.tokens.get(at).map_or("", |token| &self.source[token.range.clone()])
+    }
+
+    fn bytes(&self, tokens: &Range<usize>) -> Range<usize> {
+        self.tokens[tokens.start].range.start..self.tokens[tokens.end - 1].range.end
+    }
+
+    /// Parses a part without the blocks in it, then the parts in these. Returns whether it can be kept.
+    fn part(&mut self, kind: PartKind, tokens: Range<usize>) -> bool {
+        let blocks = self.blocks(kind, &tokens);
+        let range = self.bytes(&tokens);
+        let cuts: Vec<_> = blocks.iter().map(|block| self.bytes(&block.tokens)).collect();
+        let mut shell = String::new();
+        let mut from = range.start;
+        for cut in &cuts {
+            shell += &self.source[from..cut.start];
+            from = cut.end;
+        }
+        shell += &self.source[from..range.end];
+        let mut keep = true;
+        if let Err(error) = NbParser::parse(kind.rule(), &shell) {
+            let mut at = range.start + expected::place(&error);
+            for cut in cuts.iter().filter(|cut| !cut.is_empty()) {
+                at += if at >= cut.start { cut.len() } else { 0 };
+            }
+            let (file, source, offset) = (self.file, self.source, self.offset);
+            let place = PartPlace { file, source, offset, kind, start: range.start, end: range.end };
+            self.found.errors.push(expected::diagnostic(&place, at, &error));
+            keep = false;
+        } else if blocks.is_empty() {
+            self.found.kept.push((kind, range.clone()));
+        }
+        let at = self.found.broken.len();
+        for block in blocks {
+            for unit in self.units(&block) {
+                // A table without one of its rows has another meaning.
+                keep &= self.part(block.holds, unit) || block.holds != PartKind::TableRow;
+            }
+        }
+        if !keep {
+            self.found.broken.insert(at, range);
+        }
+        keep
+    }
+
+    /// The blocks of a part that hold other parts.
+    fn blocks(&self, kind: PartKind, tokens: &Range<usize>) -> Vec<PartBlock> {
+        let mut blocks = Vec::new();
+        let mut at = tokens.start;
+        while at < tokens.end {
+            if self.word(at) == "{"
+                && let Some(holds) = self.holds(kind, tokens.start, at)
+            {
+                let end = self.closing(at, tokens.end);
+                let mut start = at + 1;
+                if holds == PartKind::Row {
+                    // The header belongs to the test.
+                    start += 1;
+                    while start < end && !self.tokens[start].is_first {
+                        start += 1;
+                    }
+                }
+                if start < end {
+                    blocks.push(PartBlock { holds, tokens: start..end });
+                }
+                at = end;
+            }
+            at += 1;
+        }
+        blocks
+    }
+
+    /// What the block holds that begins at `at`, in a part that begins at `start`.
+    fn holds(&self, kind: PartKind, start: usize, at: usize) -> Option<PartKind> {
+        match (kind, self.word(start)) {
+            (PartKind::Declaration, "circuit" | "module" | "fn" | "def" | "function") => Some(PartKind::Statement),
+            (PartKind::Declaration, "test") if self.word(at - 1) == "inputs" => Some(PartKind::Statement),
+            (PartKind::Declaration, "test") => Some(PartKind::Row),
+            (PartKind::Declaration, "schedule" | "simulate") => Some(PartKind::Spell),
+            (PartKind::Declaration, "material" | "evolution" | "library" | "swarm" | "world") => Some(PartKind::Field),
+            (PartKind::Statement, "for") => Some(PartKind::Statement),
+            (PartKind::Field, _) => Some(PartKind::Field),
+            (PartKind::Statement, _) if self.is_table(at) => Some(PartKind::TableRow),
+            _ => None,
+        }
+    }
+
+    /// Whether the brace at `at` follows `table(…)`.
+    fn is_table(&self, at: usize) -> bool {
+        let mut depth = 0;
+        for back in (0..at).rev() {
+            match self.word(back) {
+                ")" => depth += 1,
+                "(" => depth -= 1,
+                _ => {}
+            }
+            if depth <= 0 {
+                return depth == 0 && self.word(back) == "(" && back > 0 && self.word(back - 1) == "table";
+            }
+        }
+        false
+    }
+
+    /// The brace that closes the one at `at`.
+    fn closing(&self, at: usize, end: usize) -> usize {
+        let mut depth = 0;
+        for place in at..end {
+            match self.word(place) {
+                "{" => depth += 1,
+                "}" => depth -= 1,
+                _ => {}
+            }
+            if depth == 0 {
+                return place;
+            }
+        }
+        end
+    }
+
+    /// Cuts a block into its parts.
+    fn units(&self, block: &PartBlock) -> Vec<Range<usize>> {
+        let mut units: Vec<Range<usize>> = Vec::new();
+        let mut open = Vec::new();
+        for at in block.tokens.clone() {
+            let within_braces = open.iter().any(|&open| self.word(open) == "{");
+            let is_loose = open.is_empty() || !within_braces && self.is_new_statement(block.holds, at);
+            match units.last_mut() {
+                Some(unit) if !(is_loose && self.starts(block.holds, at)) => unit.end = at + 1,
+                _ => {
+                    open.clear();
+                    units.push(at..at + 1);
+                }
+            }
+            bracket(&mut open, self.word(at), at, |&open| self.word(open));
+        }
+        units
+    }
+
+    /// Whether a line begins like a statement, even within a parenthesis that is not closed.
+    fn is_new_statement(&self, holds: PartKind, at: usize) -> bool {
+        holds == PartKind::Statement
+            && self.tokens[at].is_first
+            && (self.word(at + 1) == "=" || self.word(at + 2) == "in")
+    }
+
+    /// Whether a part begins at a token that is in no bracket.
+    fn starts(&self, holds: PartKind, at: usize) -> bool {
+        let (before, here, next) = (self.word(at - 1), self.word(at), self.word(at + 1));
+        let is_first = self.tokens[at].is_first;
+        match holds {
+            PartKind::Row => is_first,
+            PartKind::Spell => is_first && here != "for" && before != "for",
+            PartKind::Field => {
+                let is_named = matches!(next, ":" | "=") && here.starts_with(|c: char| c.is_alphabetic() || c == '_');
+                is_named || before == "," || is_first && !continues(before, here)
+            }
+            PartKind::TableRow => before == "," || is_first && (here == "-" || !continues(before, here)),
+            _ => self.is_new_statement(holds, at) || is_first && !continues(before, here),
+        }
+    }
+}
+
+/// Whether a line that begins with `here` continues the one that ends with `before`.
+fn continues(before: &str, here: &str) -> bool {
+    let infix = |word: &str| {
+        let words = ["and", "nand", "or", "nor", "xor", "xnor", "then", "else", "init", "in"];
+        let signs = [
+            "=", "+", "-", "*", "/", "%", "**", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^", "?", ":", ":=",
+            ",",
+        ];
+        words.contains(&word) || signs.contains(&word)
+    };
+    infix(before)
+        || infix(here)
+        || matches!(before, "not" | "if" | "net" | "for" | "~" | "!")
+        || matches!(here, "{" | "x")
+}

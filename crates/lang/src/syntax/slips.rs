@@ -1,0 +1,276 @@
+//! Common mistakes and habits from other languages, recognized by the text around the place where a declaration
+//! violates the grammar.
+
+use pest::error::{Error, ErrorVariant};
+
+use crate::syntax::grammar::Rule;
+use crate::syntax::lexer::{is_word, open_brackets};
+use crate::syntax::part::{PartKind, PartPlace};
+use crate::syntax::wording::Slip;
+use nbc_base::diag::{Diagnostic, suggest};
+use nbc_base::source::{FileId, Span};
+
+/// Reserved words.
+pub(crate) const RESERVED: [&str; 16] = [
+    "and", "else", "for", "if", "in", "init", "log2", "nand", "net", "nor", "not", "or", "table", "then", "xnor", "xor",
+];
+
+/// The tokens between two operands of an expression.
+const BETWEEN: [&str; 8] = ["and", "else", "nand", "nor", "or", "then", "xnor", "xor"];
+
+/// A place where a part of a declaration violates the grammar.
+pub(crate) struct SlipPlace<'a> {
+    file: FileId,
+    kind: PartKind,
+    /// The text of the declaration, and its place in the file.
+    text: &'a str,
+    offset: usize,
+    /// The start and the end of the part.
+    start: usize,
+    end: usize,
+    /// The place of the parse error, and the token there.
+    at: usize,
+    found: &'a str,
+    /// The expected tokens.
+    wanted: &'a [Rule],
+    /// The brackets of the part that are open at that place, as offsets.
+    open: Vec<usize>,
+}
+
+/// A slip with its place.
+type Found = Option<(Slip, Span)>;
+
+/// In order: the first that recognizes the place decides.
+const LOOKS: [fn(&SlipPlace<'_>) -> Found; 11] = [
+    letters,
+    unclosed_quote,
+    single_quote,
+    reserved_word,
+    width_of_constant,
+    nets_in_braces,
+    space_before_operands,
+    misspelled_operator,
+    missing_operator,
+    space_in_pattern,
+    missing_comma,
+];
+
+/// The message for a known mistake.
+pub(crate) fn look(part: &PartPlace<'_>, at: usize, found: &str, error: &Error<Rule>) -> Option<Diagnostic> {
+    let ErrorVariant::ParsingError { positives: wanted, .. } = &error.variant else { return None };
+    let &PartPlace { file, kind, source: text, offset, start, end } = part;
+    let open = open_brackets(&text[start..at]).into_iter().map(|open| start + open).collect();
+    let place = SlipPlace { file, kind, text, offset, start, end, at, found, wanted, open };
+    LOOKS.iter().find_map(|look| look(&place)).map(|(slip, span)| slip.at(span))
+}
+
+/// The last word of a text, and the text before it.
+fn last_word(text: &str) -> (&str, &str) {
+    text.split_at(text.trim_end_matches(is_word).len())
+}
+
+/// Text as shown in help.
+fn brief(text: &str) -> &str {
+    let text = text.trim();
+    if text.is_empty() || text.len() > 40 || text.contains(['\n', '\r']) { "…" } else { text }
+}
+
+impl<'a> SlipPlace<'a> {
+    fn before(&self) -> &'a str {
+        &self.text[self.start..self.at]
+    }
+
+    fn after(&self) -> &'a str {
+        &self.text[self.at..self.end]
+    }
+
+    fn span(&self, start: usize, end: usize) -> Span {
+        Span::new(self.file, self.offset + start, self.offset + end)
+    }
+
+    fn here(&self) -> Span {
+        self.span(self.at, self.at + self.found.len())
+    }
+
+    /// The word or sign at the place.
+    fn found(&self) -> String {
+        self.found.to_owned()
+    }
+
+    fn wants(&self, rules: &[Rule]) -> bool {
+        self.wanted.iter().any(|rule| rules.contains(rule))
+    }
+
+    /// The innermost open bracket.
+    fn inside(&self) -> Option<(usize, u8)> {
+        self.open.last().map(|&at| (at, self.text.as_bytes()[at]))
+    }
+
+    /// Whether the place is in the ports of a circuit.
+    fn in_ports(&self) -> bool {
+        self.text[self.start..].starts_with("circuit")
+            && self.open.first().is_some_and(|&at| self.text.as_bytes()[at] == b'(')
+    }
+
+    /// Whether the place is in the body of a circuit.
+    fn in_body(&self) -> bool {
+        matches!(self.kind, PartKind::Statement | PartKind::TableRow)
+    }
+
+    /// The word before the place, its start, and the text before it on its line.
+    fn word_before(&self) -> Option<(&'a str, usize, &'a str)> {
+        let (rest, word) = last_word(self.before().trim_end());
+        let line = rest.rsplit(['\n', '\r']).next().unwrap_or_default();
+        (!word.is_empty()).then(|| (word, self.start + rest.len(), line.trim_end()))
+    }
+}
+
+/// Whether a text ends with an operand.
+fn ends_operand(text: &str) -> bool {
+    let word = last_word(text).1;
+    let ends = text.ends_with(|c: char| is_word(c) || matches!(c, ')' | ']' | '}'));
+    ends && !RESERVED.contains(&word)
+}
+
+fn letters(place: &SlipPlace<'_>) -> Found {
+    let foreign = |word: &str| !word.is_ascii();
+    let (rest, head) = last_word(place.before());
+    let tail = place.after().find(|c| !is_word(c)).unwrap_or(place.after().len());
+    let word = &place.text[place.start + rest.len()..place.at + tail];
+    (foreign(word) && foreign(place.found) && word.chars().all(is_word))
+        .then(|| (Slip::ForeignLetters { word: word.to_owned() }, place.span(place.at - head.len(), place.at + tail)))
+}
+
+fn unclosed_quote(place: &SlipPlace<'_>) -> Found {
+    let line = place.after().lines().next().unwrap_or_default();
+    (place.found == "\"" && !line[1..].contains('"')).then(|| (Slip::UnclosedQuote, place.here()))
+}
+
+fn single_quote(place: &SlipPlace<'_>) -> Found {
+    (place.found == "'" && place.wants(&[Rule::text])).then(|| {
+        let line = place.after().lines().next().unwrap_or_default();
+        let close = line[1..].find('\'').map(|end| place.span(place.at + end + 1, place.at + end + 2));
+        (Slip::SingleQuote { close }, place.here())
+    })
+}
+
+fn reserved_word(place: &SlipPlace<'_>) -> Found {
+    let assigned = |rest: &str| rest.trim_start().starts_with('=') && !rest.trim_start().starts_with("==");
+    let (word, start) = if RESERVED.contains(&place.found) {
+        let name = place.wants(&[Rule::name, Rule::port, Rule::target, Rule::parameter]);
+        let named = name || assigned(&place.after()[place.found.len()..]) || place.in_ports();
+        named.then_some((place.found, place.at))?
+    } else {
+        let (word, start, line) = place.word_before()?;
+        (assigned(place.after()) && RESERVED.contains(&word) && !line.ends_with(is_word)).then_some((word, start))?
+    };
+    Some((Slip::ReservedWord { word: word.to_owned() }, place.span(start, start + word.len())))
+}
+
+fn width_of_constant(place: &SlipPlace<'_>) -> Found {
+    let before = place.before();
+    let open = before.strip_suffix(')').and_then(|inside| inside.rfind('(')).filter(|_| place.found == "'")?;
+    let sum = brief(&before[open + 1..before.len() - 1]);
+    let constant = &place.after()[1..];
+    let constant = &constant[..constant.find(|c| !is_word(c)).unwrap_or(constant.len())];
+    let digits = constant.trim_start_matches(['b', 'd', 'h']);
+    let is_zero = sum != "…" && !digits.is_empty() && digits.bytes().all(|digit| digit == b'0');
+    let zero = is_zero.then(|| place.span(place.start + open, place.at + 1 + constant.len()));
+    Some((Slip::WidthOfConstant { width: sum.to_owned(), digits: brief(digits).to_owned(), zero }, place.here()))
+}
+
+fn nets_in_braces(place: &SlipPlace<'_>) -> Found {
+    let close = place.after().find('}')?;
+    let assigned = place.after()[close + 1..].trim_start();
+    if place.found != "{" || !place.in_body() || !assigned.starts_with('=') || assigned.starts_with("==") {
+        return None;
+    }
+    let names: Vec<&str> = place.after()[1..close].split(',').map(str::trim).collect();
+    let bits = names.iter().rev().enumerate().map(|(bit, name)| format!("{name} = t[{bit}]"));
+    let bits: Vec<String> = bits.collect::<Vec<_>>().into_iter().rev().take(4).collect();
+    Some((Slip::NetsInBraces { nets: brief(&names.join(", ")).to_owned(), bits }, place.here()))
+}
+
+fn space_before_operands(place: &SlipPlace<'_>) -> Found {
+    let before = place.before().trim_end();
+    let open = if place.found == "(" { place.at } else { place.start + opening(before.strip_suffix(')')?)? };
+    let head = &place.text[place.start..open];
+    let callee = head.trim_end_matches([' ', '\t']);
+    let name = last_word(callee).1;
+    if name.is_empty() || callee.len() == head.len() || RESERVED.contains(&name) || !place.in_body() {
+        return None;
+    }
+    let close = place.text[open..place.end].find(')').map_or(place.end, |close| open + close + 1);
+    let span = place.span(place.start + callee.len(), open);
+    let operands = brief(&place.text[open..close]).to_owned();
+    Some((Slip::SpaceBeforeOperands { name: name.to_owned(), operands }, span))
+}
+
+/// The offset of the bracket that a closing bracket after this text closes.
+fn opening(inside: &str) -> Option<usize> {
+    let mut depth = 0;
+    inside.bytes().enumerate().rev().find_map(|(at, byte)| {
+        match byte {
+            b')' => depth += 1,
+            b'(' if depth == 0 => return Some(at),
+            b'(' => depth -= 1,
+            _ => {}
+        }
+        None
+    })
+}
+
+fn misspelled_operator(place: &SlipPlace<'_>) -> Found {
+    let operator = |word| suggest::nearest(word, BETWEEN);
+    let (word, start, near) = match place.word_before() {
+        Some((word, start, line)) if ends_operand(line) && operator(word).is_some() => (word, start, operator(word)?),
+        _ if place.wants(&[Rule::operator]) && ends_operand(place.before().trim_end()) => {
+            (place.found, place.at, operator(place.found)?)
+        }
+        _ => return None,
+    };
+    if !place.in_body() || RESERVED.contains(&word) {
+        return None;
+    }
+    let span = place.span(start, start + word.len());
+    Some((Slip::MisspelledOperator { word: word.to_owned(), operator: near.to_owned() }, span))
+}
+
+fn missing_operator(place: &SlipPlace<'_>) -> Found {
+    let (word, start, line) = place.word_before()?;
+    let drives = place.wants(&[Rule::index, Rule::slip_arrow]) && place.in_body();
+    (drives && ends_operand(line) && line.contains('=') && !RESERVED.contains(&word))
+        .then(|| (Slip::MissingOperator { found: word.to_owned() }, place.span(start, start + word.len())))
+}
+
+fn space_in_pattern(place: &SlipPlace<'_>) -> Found {
+    let is_pattern = |word: &str| !word.is_empty() && word.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-'));
+    let in_table = place.kind == PartKind::TableRow;
+    let rest = place.after();
+    let pattern = &rest[..rest.find([':', ',', '}', '\n']).unwrap_or(rest.len())];
+    let words: Vec<&str> = pattern.split_whitespace().collect();
+    let before = place.before().trim_end();
+    let first = before.rsplit(|c: char| !matches!(c, '0' | '1' | '-')).next().unwrap_or_default();
+    (in_table && is_pattern(first) && !words.is_empty() && words.iter().all(|word| is_pattern(word))).then(|| {
+        let start = place.start + before.len() - first.len();
+        let whole = place.span(start, place.at + pattern.trim_end().len());
+        (
+            Slip::SpaceInPattern { found: place.found(), pattern: format!("{first}{}", words.concat()), whole },
+            place.here(),
+        )
+    })
+}
+
+fn missing_comma(place: &SlipPlace<'_>) -> Found {
+    let (_, bracket) = place.inside()?;
+    let follows = ends_operand(place.before().trim_end()) && place.found.starts_with(is_word);
+    let close = match bracket {
+        b'(' => ')',
+        b'[' => ']',
+        _ => return None,
+    };
+    (follows && !place.wants(&[Rule::operator, Rule::size_infix])).then(|| {
+        let before = place.word_before().map(|(word, at, _)| (word.to_owned(), place.span(at, at + word.len())));
+        (Slip::MissingComma { before, found: place.found(), close }, place.here())
+    })
+}

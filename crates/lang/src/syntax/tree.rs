@@ -1,0 +1,630 @@
+//! The syntax tree: declarations as written, with unresolved names. Expressions and sizes are stored in arenas,
+//! children before parents, so that deep nesting needs no deep stack.
+
+use nbc_base::source::Span;
+
+/// A file's declarations and its comments, both in order of text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tree {
+    /// The declarations that could be parsed.
+    pub declarations: Vec<Declaration>,
+    /// The parts that could not be parsed, and that are missing in the declarations.
+    pub broken: Vec<BrokenSyntax>,
+    /// The places of all comments, each from its `//` to the end of its line.
+    pub comments: Vec<Span>,
+}
+
+/// A part that could not be parsed: a declaration, or a statement, field or row of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BrokenSyntax {
+    /// The part.
+    pub span: Span,
+    /// The declaration that it belongs to.
+    pub declaration: Span,
+}
+
+/// A declaration with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declaration {
+    /// From its keyword to its last character.
+    pub span: Span,
+    /// What is declared.
+    pub kind: DeclarationKind,
+}
+
+/// The kinds of declarations.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DeclarationKind {
+    /// `use "file.nb"`
+    Use(Text),
+    /// `stimulus s1, s2`
+    Stimulus(Vec<NameSyntax>),
+    /// `material`, `evolution`, `library`, `swarm`, `world`: a name and a record.
+    Record(RecordDeclaration),
+    /// `schedule`
+    Schedule(ScheduleSyntax),
+    /// `simulate`
+    Simulate(Simulate),
+    /// `circuit`
+    Circuit(CircuitSyntax),
+    /// `test`
+    Test(Test),
+}
+
+/// A name with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NameSyntax {
+    /// The name.
+    pub text: String,
+    /// The place.
+    pub span: Span,
+}
+
+/// A text in quotes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Text {
+    /// The text between the quotes.
+    pub text: String,
+    /// The place, including the quotes.
+    pub span: Span,
+}
+
+/// The keyword of a declaration that is a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RecordKeyword {
+    /// `material`
+    Material,
+    /// `evolution`
+    Evolution,
+    /// `library`
+    Library,
+    /// `swarm`
+    Swarm,
+    /// `world`
+    World,
+}
+
+impl RecordKeyword {
+    /// The keyword.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Evolution => "evolution",
+            Self::Library => "library",
+            Self::Swarm => "swarm",
+            Self::World => "world",
+        }
+    }
+}
+
+/// A declaration that is a name and a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordDeclaration {
+    /// The word that begins the declaration.
+    pub keyword: RecordKeyword,
+    /// The declared name.
+    pub name: NameSyntax,
+    /// The fields.
+    pub record: RecordSyntax,
+}
+
+/// Fields in braces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordSyntax {
+    /// The fields in order of text.
+    pub fields: Vec<Field>,
+    /// The place, including the braces.
+    pub span: Span,
+}
+
+impl RecordSyntax {
+    /// The first field of that name.
+    pub fn field(&self, name: &str) -> Option<&Field> {
+        self.fields.iter().find(|field| field.name.text == name)
+    }
+}
+
+/// A field of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The word before the colon.
+    pub name: NameSyntax,
+    /// What is after the colon.
+    pub value: ValueSyntax,
+}
+
+/// A value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ValueSyntax {
+    /// A number, a word, a list or another form.
+    pub kind: ValueKind,
+    /// The place.
+    pub span: Span,
+}
+
+/// The kinds of values.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueKind {
+    /// `{ name: value, … }`
+    Record(RecordSyntax),
+    /// `[value, …]`
+    List(Vec<ValueSyntax>),
+    /// `"text"`
+    Text(String),
+    /// `84 steps`
+    Quantity(Quantity),
+    /// `0.6..1.6`
+    Range(Quantity, Quantity),
+    /// `5 x 5`
+    Product(Number, Number),
+    /// `voxels in 4 bins`
+    Bins(NameSyntax, Number),
+    /// `pareto(8)`
+    Applied(NameSyntax, Vec<ValueSyntax>),
+    /// A word, or a circuit with its parameters.
+    Instance(InstanceSyntax),
+}
+
+/// A number as written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Number {
+    /// The digits, with sign and point.
+    pub text: String,
+    /// The place.
+    pub span: Span,
+}
+
+/// A number with its unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// The digits and what they are worth.
+    pub number: Number,
+    /// The word or sign after the number, such as `cycles` or `%`.
+    pub unit: Option<NameSyntax>,
+}
+
+impl Quantity {
+    /// The place of the number and its unit.
+    pub fn span(&self) -> Span {
+        self.unit.as_ref().map_or(self.number.span, |unit| self.number.span.to(unit.span))
+    }
+}
+
+/// A circuit's name with values for its parameters, which are sizes of the surrounding arena.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InstanceSyntax {
+    /// The circuit's name.
+    pub name: NameSyntax,
+    /// The parameters given.
+    pub arguments: Vec<Argument>,
+    /// The sizes of the parameters, if the instance is not inside a circuit.
+    pub sizes: Vec<SizeSyntax>,
+}
+
+/// `schedule sweep(s1, s2) { … }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScheduleSyntax {
+    /// The schedule's name.
+    pub name: NameSyntax,
+    /// The stimuli.
+    pub columns: Vec<NameSyntax>,
+    /// The spells in order of time.
+    pub spells: Vec<SpellSyntax>,
+}
+
+/// `0 1 for 10 cycles`
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpellSyntax {
+    /// The values, one for each column.
+    pub cells: Vec<NameSyntax>,
+    /// The duration.
+    pub length: Quantity,
+    /// The place.
+    pub span: Span,
+}
+
+/// `simulate latch with …`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulate {
+    /// The name of the swarm to simulate.
+    pub swarm: NameSyntax,
+    /// `in slippery`
+    pub world: Option<NameSyntax>,
+    /// Its inputs over time.
+    pub with: With,
+}
+
+/// The inputs of a simulation over time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum With {
+    /// `with sweep`
+    Named(NameSyntax),
+    /// `with schedule (d, e) { … }`
+    Spells {
+        /// The input ports.
+        columns: Vec<NameSyntax>,
+        /// The spells in order of time.
+        spells: Vec<SpellSyntax>,
+    },
+}
+
+/// `test latch "…" …`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Test {
+    /// The tested circuit.
+    pub circuit: InstanceSyntax,
+    /// The text after the circuit that tells tests apart.
+    pub title: Option<Text>,
+    /// `in slippery`
+    pub world: Option<NameSyntax>,
+    /// The method.
+    pub kind: TestKind,
+}
+
+/// The methods of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TestKind {
+    /// A table of rows.
+    Table(TestTable),
+    /// `for all inputs against other`
+    Against(InstanceSyntax),
+    /// `for all inputs { … }`
+    Reference(Box<BodySyntax>),
+}
+
+/// The rows of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestTable {
+    /// The input columns.
+    pub inputs: Vec<NameSyntax>,
+    /// The output columns.
+    pub outputs: Vec<NameSyntax>,
+    /// The rows in order of time.
+    pub rows: Vec<TestRowSyntax>,
+    /// The place of the header.
+    pub header: Span,
+}
+
+/// One row of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestRowSyntax {
+    /// The values before the bar.
+    pub inputs: Vec<NameSyntax>,
+    /// The bars; a valid row has one.
+    pub bars: Vec<Span>,
+    /// The values after the bar.
+    pub outputs: Vec<NameSyntax>,
+    /// The hold, if the row sets it.
+    pub hold: Option<Quantity>,
+    /// The place.
+    pub span: Span,
+}
+
+/// `circuit half_adder(a, b) -> (s, c) { … }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct CircuitSyntax {
+    /// The circuit's name.
+    pub name: NameSyntax,
+    /// The width parameters.
+    pub parameters: Vec<ParameterSyntax>,
+    /// The input ports.
+    pub inputs: Vec<Port>,
+    /// The output ports.
+    pub outputs: Vec<Port>,
+    /// The body; it also has the sizes of the ports.
+    pub body: BodySyntax,
+}
+
+/// Statements and the arenas they point into.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodySyntax {
+    /// The statements in order of text.
+    pub statements: Vec<StatementSyntax>,
+    /// The expressions, children before parents.
+    pub expressions: Vec<ExpressionSyntax>,
+    /// The sizes, children before parents.
+    pub sizes: Vec<SizeSyntax>,
+}
+
+/// A place in [`BodySyntax::expressions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExpressionSyntaxId(pub u32);
+
+/// A place in [`BodySyntax::sizes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SizeSyntaxId(pub u32);
+
+/// `n` or `start = 0` in a circuit's parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterSyntax {
+    /// The parameter's name.
+    pub name: NameSyntax,
+    /// The default value.
+    pub default: Option<SizeSyntaxId>,
+}
+
+/// `a` or `a[8]`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    /// The port's name.
+    pub name: NameSyntax,
+    /// The width in bits, if there is one.
+    pub width: Option<SizeSyntaxId>,
+}
+
+/// A statement with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatementSyntax {
+    /// A driver, a loop or another statement.
+    pub kind: StatementKind,
+    /// The place.
+    pub span: Span,
+}
+
+/// The kinds of statements.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StatementKind {
+    /// `q init 0 = nand(s, nq)`
+    Drive {
+        /// What is driven, left of the `=`.
+        targets: Vec<TargetSyntax>,
+        /// Whether the targets are in parentheses.
+        grouped: bool,
+        /// The driver.
+        value: ExpressionSyntaxId,
+    },
+    /// `net c[9]`
+    Nets(Vec<Port>),
+    /// `for i in 0..8 { … }`
+    For {
+        /// The loop's variable.
+        variable: NameSyntax,
+        /// Its first value.
+        from: SizeSyntaxId,
+        /// One more than its last value.
+        to: SizeSyntaxId,
+        /// The repeated statements.
+        statements: Vec<StatementSyntax>,
+    },
+}
+
+/// The left side of a drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetSyntax {
+    /// The net.
+    pub name: NameSyntax,
+    /// The bits, if not the whole net is driven.
+    pub index: Option<Index>,
+    /// The value before the first cycle.
+    pub start: Option<SizeSyntaxId>,
+    /// The place.
+    pub span: Span,
+}
+
+/// `[3]` or `[3..0]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Index {
+    /// The bit, or the highest of them.
+    pub high: SizeSyntaxId,
+    /// The lowest bit of a slice.
+    pub low: Option<SizeSyntaxId>,
+    /// The place, including the brackets.
+    pub span: Span,
+}
+
+/// An integer with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeSyntax {
+    /// A number, a name or an operation.
+    pub kind: SizeSyntaxKind,
+    /// The place.
+    pub span: Span,
+}
+
+/// The kinds of integers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SizeSyntaxKind {
+    /// Digits.
+    Literal(String),
+    /// A parameter or loop variable.
+    Name(String),
+    /// `log2(n)`
+    Log2(SizeSyntaxId),
+    /// `(n)`
+    Group(SizeSyntaxId),
+    /// `n + 1`
+    Binary(nbc_base::model::SizeOperator, SizeSyntaxId, SizeSyntaxId),
+}
+
+/// A parameter given to a circuit: `8` or `start = 1`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Argument {
+    /// The parameter's name, if it is given.
+    pub name: Option<NameSyntax>,
+    /// The value that the argument gives to a parameter.
+    pub value: SizeSyntaxId,
+    /// The place.
+    pub span: Span,
+}
+
+/// An expression with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExpressionSyntax {
+    /// A literal, a net, a call or another form.
+    pub kind: ExpressionSyntaxKind,
+    /// The place.
+    pub span: Span,
+}
+
+/// The kinds of expressions.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExpressionSyntaxKind {
+    /// Digits without a width.
+    Digits(String),
+    /// `4'b1010`
+    Constant {
+        /// The width: a literal or a parameter.
+        width: SizeSyntaxId,
+        /// `b`, `d` or `h`.
+        base: char,
+        /// The digits in that base.
+        digits: String,
+    },
+    /// `n'd(i + 1)`
+    Computed {
+        /// The width: a literal or a parameter.
+        width: SizeSyntaxId,
+        /// The integer before it gets its width.
+        value: SizeSyntaxId,
+    },
+    /// `a`, `a[3]`, `a[3..0]`
+    Net {
+        /// The net whose bits are taken.
+        name: NameSyntax,
+        /// The bits, if not the whole net is read.
+        index: Option<Index>,
+    },
+    /// `add[8](a, b)`
+    Call {
+        /// The circuit.
+        name: NameSyntax,
+        /// The parameters given.
+        arguments: Vec<Argument>,
+        /// The expressions between the parentheses.
+        operands: Vec<ExpressionSyntaxId>,
+    },
+    /// `(a)`
+    Group(ExpressionSyntaxId),
+    /// `{a, b}`
+    Concatenation(Vec<ExpressionSyntaxId>),
+    /// `{4{a, b}}`
+    Repetition {
+        /// The number of repetitions.
+        count: SizeSyntaxId,
+        /// The repeated value.
+        values: Vec<ExpressionSyntaxId>,
+    },
+    /// `not a`
+    Not(ExpressionSyntaxId),
+    /// `a and b`
+    Infix {
+        /// The word or sign between the operands.
+        operator: Infix,
+        /// The place of the operator.
+        place: Span,
+        /// The left operand.
+        left: ExpressionSyntaxId,
+        /// The right operand.
+        right: ExpressionSyntaxId,
+    },
+    /// `nand(a, b, c)`
+    Operation {
+        /// The operation.
+        operator: nbc_base::model::Operator,
+        /// The expressions between the operators.
+        operands: Vec<ExpressionSyntaxId>,
+    },
+    /// `if c then a else b`
+    Choice {
+        /// The expression after `if`.
+        condition: ExpressionSyntaxId,
+        /// The value if it is 1.
+        then: ExpressionSyntaxId,
+        /// The value if it is 0.
+        otherwise: ExpressionSyntaxId,
+    },
+    /// `table(a, b) { 00: 1, else: 0 }`
+    Table {
+        /// The expressions whose bits select the row.
+        inputs: Vec<ExpressionSyntaxId>,
+        /// The rows in order of text.
+        rows: Vec<TableRowSyntax>,
+    },
+}
+
+/// `0-1: 1` or `else: 0`
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableRowSyntax {
+    /// The pattern; `None` is `else`.
+    pub pattern: Option<NameSyntax>,
+    /// What the row shows.
+    pub output: TableOutputSyntax,
+    /// The place of the row.
+    pub span: Span,
+}
+
+/// The output of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TableOutputSyntax {
+    /// `0-1`
+    Bits(NameSyntax),
+    /// The value of an expression.
+    Value(ExpressionSyntaxId),
+}
+
+/// The operators between two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Infix {
+    /// A bitwise operation.
+    Bitwise(nbc_base::model::Operator),
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `<`
+    Less,
+    /// `>`
+    Greater,
+    /// `<=`
+    AtMost,
+    /// `>=`
+    AtLeast,
+}
+
+impl Infix {
+    /// The operators written as symbols.
+    pub const SIGNS: [(Self, &'static str); 8] = [
+        (Self::Add, "+"),
+        (Self::Subtract, "-"),
+        (Self::Equal, "=="),
+        (Self::NotEqual, "!="),
+        (Self::Less, "<"),
+        (Self::Greater, ">"),
+        (Self::AtMost, "<="),
+        (Self::AtLeast, ">="),
+    ];
+
+    /// The notation of the language.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Bitwise(operator) => operator.word(),
+            _ => Self::SIGNS.iter().find(|(infix, _)| *infix == self).expect("every sign has its word").1,
+        }
+    }
+
+    /// The precedence: 1 is the loosest.
+    pub fn precedence(self) -> u8 {
+        use nbc_base::model::Operator;
+        match self {
+            Self::Bitwise(Operator::Or | Operator::Nor) => 1,
+            Self::Bitwise(Operator::Xor | Operator::Xnor) => 2,
+            Self::Bitwise(_) => 3,
+            Self::Add | Self::Subtract => 5,
+            _ => 4,
+        }
+    }
+
+    /// Whether `a op b op c` is unambiguous if it follows `before`, which has the same precedence.
+    pub fn chains_after(self, before: Self) -> bool {
+        use nbc_base::model::Operator;
+        match self {
+            Self::Add | Self::Subtract => true,
+            Self::Bitwise(Operator::And | Operator::Or | Operator::Xor) => self == before,
+            _ => false,
+        }
+    }
+}

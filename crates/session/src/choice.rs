@@ -1,0 +1,136 @@
+//! Finds the circuit and the test that a user's words refer to.
+
+use crate::checked::Checked;
+use crate::wording::ChoiceError;
+use nbc_base::diag::{Diagnostic, Diagnostics, Suggestion};
+use nbc_base::model::{Circuit, CircuitTest, Instance, Program, Simulation, Swarm};
+use nbc_circuit::is_same_instance;
+
+/// A choice of a circuit; the source decides what is left open.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// A circuit, such as `adder` or `adder[8]`.
+    pub circuit: Option<String>,
+    /// A declared swarm.
+    pub swarm: Option<String>,
+}
+
+impl Checked {
+    /// The chosen circuit: the one named, else that of the chosen swarm, else the last circuit declared in the source
+    /// itself. If it needs numbers for its parameters, those of its swarm or its test are used.
+    ///
+    /// # Errors
+    /// When there is no such circuit or swarm.
+    pub fn circuit(&self, choice: &Choice) -> Result<Instance, Diagnostics> {
+        match (&choice.circuit, &choice.swarm) {
+            (Some(circuit), _) => self.named(circuit),
+            (None, Some(swarm)) => match declared_swarm(&self.program, swarm) {
+                Ok(swarm) => Ok(swarm.circuit.clone()),
+                Err(fault) => Err(self.fail(vec![fault])),
+            },
+            (None, None) => self.last_circuit().map_err(|fault| self.fail(vec![fault])),
+        }
+    }
+
+    /// The tests of that name: that of their title, their circuit, or one of its swarms.
+    pub fn tests<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a CircuitTest> {
+        let is_called = move |test: &&CircuitTest| {
+            test.title == name
+                || test.circuit.circuit == name
+                || test.circuit.to_string() == name
+                || swarms_of(&self.program, &test.circuit).iter().any(|swarm| swarm.name == name)
+        };
+        self.program.tests.iter().filter(is_called)
+    }
+
+    /// The simulations of that name: that of their swarm or its circuit.
+    pub fn simulations<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Simulation> {
+        let is_called = move |simulation: &&Simulation| {
+            let circuit = self.program.swarm(&simulation.swarm).map(|swarm| swarm.circuit.to_string());
+            simulation.swarm == name || circuit.as_deref() == Some(name)
+        };
+        self.program.simulations.iter().filter(is_called)
+    }
+
+    /// The circuit that a text of its own names.
+    fn named(&self, circuit: &str) -> Result<Instance, Diagnostics> {
+        let mut sources = self.sources.clone();
+        let file = sources.add("--circuit", circuit);
+        let named = nbc_lang::check::named(&self.program, &sources, file);
+        let named = named.and_then(|named| self.with_parameters(named));
+        named.map_err(|fault| Diagnostics { list: vec![fault], sources })
+    }
+
+    /// A circuit, if its choice has numbers for its parameters.
+    fn with_parameters(&self, named: Instance) -> Result<Instance, Diagnostic> {
+        let parameters = self.program.circuit(&named.circuit).map_or(&[][..], |circuit| &circuit.parameters);
+        let missing = parameters.iter().skip(named.arguments.len()).find(|parameter| parameter.default.is_none());
+        match missing {
+            None => Ok(named),
+            Some(parameter) => {
+                let (circuit, all) = (named.circuit, parameters.len());
+                Err(ChoiceError::NoNumber { circuit, parameter: parameter.name.clone(), all }.into())
+            }
+        }
+    }
+
+    /// The last circuit of the source itself.
+    fn last_circuit(&self) -> Result<Instance, Diagnostic> {
+        let program = &self.program;
+        let Some(last) = program.circuits.iter().rfind(|circuit| Some(circuit.span.file) == self.file) else {
+            return Err(ChoiceError::NoCircuit.into());
+        };
+        self.declared(last).map_or_else(|| self.with_parameters(last.name.as_str().into()), Ok)
+    }
+
+    /// A circuit with its defaults, or else with the parameters of its swarm or its test, if it has one.
+    fn declared(&self, circuit: &Circuit) -> Option<Instance> {
+        if circuit.parameters.iter().all(|parameter| parameter.default.is_some()) {
+            return Some(circuit.name.as_str().into());
+        }
+        let swarms = self.program.swarms.iter().map(|swarm| &swarm.circuit);
+        let tests = self.program.tests.iter().map(|test| &test.circuit);
+        swarms.chain(tests).find(|used| used.circuit == circuit.name).cloned()
+    }
+
+    /// A circuit with its defaults, or else with the parameters of its swarm, of its test or of a call of it.
+    pub fn in_use(&self, circuit: &Circuit) -> Option<Instance> {
+        let called = || self.instances.iter().find(|used| used.circuit == circuit.name).cloned();
+        self.declared(circuit).or_else(called)
+    }
+
+    /// The swarms that are declared for a circuit, in order.
+    pub fn swarms(&self, circuit: &Instance) -> Vec<&Swarm> {
+        swarms_of(&self.program, circuit)
+    }
+}
+
+/// The swarms that are declared for a circuit, in order.
+pub(super) fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p Swarm> {
+    program.swarms.iter().filter(|swarm| is_same_instance(program, &swarm.circuit, circuit)).collect()
+}
+
+/// Checks that at most one swarm is declared for a circuit, unless `chosen` names one.
+///
+/// # Errors
+/// When there are several to choose from.
+pub fn check_swarm_is_clear(program: &Program, circuit: &Instance, chosen: Option<&str>) -> Result<(), Diagnostic> {
+    match (chosen, &swarms_of(program, circuit)[..]) {
+        (None, [first, second, ..]) => {
+            let swarms = [first.name.clone(), second.name.clone()];
+            Err(ChoiceError::SeveralSwarms { circuit: circuit.to_string(), swarms }.into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The declared swarm of that name.
+///
+/// # Errors
+/// When there is none.
+pub(super) fn declared_swarm<'p>(program: &'p Program, name: &str) -> Result<&'p Swarm, Diagnostic> {
+    program.swarm(name).ok_or_else(|| {
+        let meant = Suggestion::of(name, program.swarms.iter().map(|swarm| swarm.name.as_str()));
+        ChoiceError::UnknownSwarm { name: name.to_owned(), meant }.into()
+    })
+}

@@ -1,0 +1,144 @@
+//! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
+
+use crate::plan::Plan;
+use crate::wording::{ChoiceError, SwarmWarning, for_circuit};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Instance, PhysicsWorld, Program, RegisterStyle};
+use nbc_base::source::Span;
+use nbc_circuit::passes::{Pass, Sweep};
+use nbc_circuit::timing::{Delays, Pulsed, PulsedRegisters};
+use nbc_circuit::{
+    CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, elaborate_net, map_with, prove,
+};
+use nbc_swarm::{Assembly, WeakRobot};
+
+/// A circuit made of cells, and proved.
+#[derive(Clone, Debug)]
+pub struct Mapping {
+    /// The netlist as written.
+    pub source: Netlist,
+    /// The netlist of cells.
+    pub netlist: Netlist,
+    /// The available cells.
+    pub cells: CellLibrary,
+    /// How the two netlists were proved equal, before registers became pulsed latches.
+    pub proof: Proof,
+    /// The registers, if they were to be pulsed latches.
+    pub registers: Option<PulsedRegisters>,
+}
+
+impl Mapping {
+    /// The same circuit with registers of another style.
+    fn with_registers(self, style: RegisterStyle) -> Self {
+        match style {
+            RegisterStyle::MasterSlave => self,
+            RegisterStyle::Pulsed => {
+                let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
+                Self { netlist, registers: Some(registers), ..self }
+            }
+        }
+    }
+}
+
+/// A circuit compiled to a swarm.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// Its plan.
+    pub plan: Plan,
+    /// The circuit as cells of its robots.
+    pub mapping: Mapping,
+    /// When each net has settled.
+    pub timing: Timing,
+    /// The robots and their wiring.
+    pub assembly: Assembly,
+    /// The robots with errors or a thin margin.
+    pub weak_robots: Vec<WeakRobot>,
+    /// Warnings.
+    pub warnings: Vec<Diagnostic>,
+}
+
+impl Compiled {
+    /// The same swarm in another world.
+    pub(super) fn in_world(&self, world: PhysicsWorld) -> Self {
+        let mut moved = self.clone();
+        for member in &mut moved.assembly.members {
+            let own = self.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
+            member.robot.body.clone_from(&own.expect("a member is of the library").body);
+        }
+        moved.plan.world = world;
+        Self { assembly: moved.assembly.in_world(world), ..moved }
+    }
+}
+
+/// Maps a netlist onto a library's cells, and proves that the result is equal to it.
+///
+/// # Errors
+/// When the library lacks functions, or the netlist is not well formed or too large.
+///
+/// # Panics
+/// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
+pub fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
+    let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
+    match prove(&source, &netlist) {
+        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None }),
+        Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
+    }
+}
+
+/// Elaborates a circuit of a program without errors, and maps it as requested at `place`.
+///
+/// # Errors
+/// When the circuit cannot be built, or the library lacks a function.
+pub(super) fn map(
+    program: &Program,
+    circuit: &Instance,
+    cells: &CellLibrary,
+    options: &MapOptions,
+    style: RegisterStyle,
+    place: Span,
+) -> Result<Mapping, Vec<Diagnostic>> {
+    let source = elaborate(program, circuit)?;
+    let mapping = synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])?;
+    Ok(mapping.with_registers(style))
+}
+
+/// Maps the part of a planned circuit that drives the net declared at `net`.
+///
+/// # Errors
+/// As [`map`].
+pub(super) fn map_net(
+    program: &Program,
+    plan: &Plan,
+    net: Span,
+    options: MapOptions,
+) -> Result<Mapping, Vec<Diagnostic>> {
+    let mut source = elaborate_net(program, &plan.circuit, net)?;
+    let swept = Sweep.run(&mut source).map_err(|error| ChoiceError::Unmapped(MapError::Netlist(error)));
+    swept.map_err(|error| vec![for_circuit(error.into(), net)])?;
+    let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options);
+    mapping.map_err(|fault| vec![for_circuit(fault, net)])
+}
+
+/// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
+///
+/// # Errors
+/// As [`map`].
+pub(super) fn compile(
+    program: &Program,
+    plan: Plan,
+    options: &MapOptions,
+    place: Span,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let mapping = map(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, plan.registers, place)?;
+    let timing = Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock);
+    let assembly =
+        nbc_swarm::assemble(&mapping.netlist, &plan.library).expect("the netlist was mapped onto this library");
+    let assembly = assembly.in_world(plan.world);
+    let weak_robots = nbc_swarm::weak_robots(&assembly);
+    let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();
+    Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })
+}
+
+fn warn_of(weak: &WeakRobot, plan: &Plan, place: Span) -> Diagnostic {
+    SwarmWarning::Weak { circuit: plan.circuit.to_string(), robot: weak.clone() }.at(place)
+}

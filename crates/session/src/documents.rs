@@ -1,0 +1,276 @@
+//! The sources of a session: the texts given to it, which hide those of its world, and the results for each.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::checked::Checked;
+use nbc_base::source::{FileError, OverlayWorld, SourceWorld, VerilogError, VerilogModules};
+
+/// The sources of a session.
+pub(super) struct Documents {
+    world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
+    /// The revisions of the texts that were given, by the identities of their files.
+    revisions: BTreeMap<String, u64>,
+    /// The results that are still valid, by path.
+    known: BTreeMap<String, Known>,
+    translations: Translations,
+}
+
+/// The last translation of each Verilog file with its text, by path. One that reads other files is not kept.
+type Translations = BTreeMap<String, (String, VerilogModules)>;
+
+/// What makes a Verilog text read other files.
+const READING: &str = "`include";
+
+/// A checked source with its dependencies.
+struct Known {
+    checked: Arc<Checked>,
+    /// The identities of the files and folders that were read.
+    asked: BTreeSet<String>,
+}
+
+impl Documents {
+    pub(super) fn new(world: Box<dyn SourceWorld + Send + Sync>) -> Self {
+        Self {
+            world: OverlayWorld::new(world),
+            revisions: BTreeMap::new(),
+            known: BTreeMap::new(),
+            translations: Translations::new(),
+        }
+    }
+
+    /// The world that sources and robots are read from.
+    pub(super) fn world(&self) -> &dyn SourceWorld {
+        &self.world
+    }
+
+    pub(super) fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
+        let identity = self.world.identity(path);
+        if self.revisions.get(&identity).is_some_and(|&known| revision < known) {
+            return;
+        }
+        self.forget(path);
+        self.world.insert(path, text);
+        self.revisions.insert(identity, revision);
+    }
+
+    pub(super) fn close(&mut self, path: &str) {
+        self.forget(path);
+        self.revisions.remove(&self.world.identity(path));
+        self.world.remove(path);
+    }
+
+    pub(super) fn checked(&mut self, path: &str) -> Arc<Checked> {
+        if let Some(known) = self.known.get(path) {
+            return known.checked.clone();
+        }
+        let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
+        let translations = RefCell::new(std::mem::take(&mut self.translations));
+        let asking =
+            Asking { world: &self.world, asked: RefCell::default(), translations, is_cancelled: Cell::default() };
+        let checked = Arc::new(Checked::read(&asking, path, revision));
+        self.translations = asking.translations.into_inner();
+        if asking.is_cancelled.get() {
+            return checked;
+        }
+        let known = Known { checked: checked.clone(), asked: asking.asked.into_inner() };
+        self.known.insert(path.to_owned(), known);
+        checked
+    }
+
+    /// Whether a result for `path` is valid.
+    pub(super) fn is_known(&self, path: &str) -> bool {
+        self.known.contains_key(path)
+    }
+
+    /// The identities of the files and folders that the result for `path` depends on; those that are missing too.
+    pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
+        self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
+    }
+
+    /// Drops all results that depend on the file at `path` or on the list of its folder.
+    fn forget(&mut self, path: &str) {
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let changed = [path, folder].map(|path| self.world.identity(path));
+        self.known.retain(|_, known| changed.iter().all(|path| !known.asked.contains(path)));
+    }
+}
+
+/// A world that records what was read, and translates no text twice.
+struct Asking<'a> {
+    world: &'a dyn SourceWorld,
+    asked: RefCell<BTreeSet<String>>,
+    translations: RefCell<Translations>,
+    /// Whether a translation was cancelled.
+    is_cancelled: Cell<bool>,
+}
+
+impl Asking<'_> {
+    fn note(&self, path: &str) {
+        self.asked.borrow_mut().insert(self.world.identity(path));
+    }
+}
+
+impl SourceWorld for Asking<'_> {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        self.note(path);
+        self.world.read(path)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.note(path);
+        self.world.read_bytes(path)
+    }
+
+    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+        let known = self.translations.borrow().get(path).filter(|(known, _)| known == text).cloned();
+        if let Some((_, modules)) = known {
+            return Ok(modules);
+        }
+        let modules = self.world.translate_verilog(path, text);
+        self.is_cancelled.set(self.is_cancelled.get() || modules == Err(VerilogError::Cancelled));
+        let modules = modules?;
+        if !text.contains(READING) {
+            self.translations.borrow_mut().insert(path.to_owned(), (text.to_owned(), modules.clone()));
+        }
+        Ok(modules)
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        self.note(folder);
+        self.world.list(folder)
+    }
+
+    fn identity(&self, path: &str) -> String {
+        self.world.identity(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use nbc_base::source::MemoryWorld;
+
+    const INVERTER: &str = "circuit inverter(a) -> (q) { q = not a }";
+
+    fn documents(files: &[(&str, &str)]) -> Documents {
+        let mut world = MemoryWorld::default();
+        files.iter().for_each(|(path, text)| world.insert(*path, *text));
+        Documents::new(Box::new(world))
+    }
+
+    fn circuits(checked: &Checked) -> Vec<&str> {
+        let own = checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == checked.file);
+        own.map(|circuit| circuit.name.as_str()).collect()
+    }
+
+    #[test]
+    fn a_source_is_checked_again_only_when_its_text_changes() {
+        let mut documents = documents(&[("a.nb", INVERTER), ("b.nb", INVERTER)]);
+        let [first, other] = ["a.nb", "b.nb"].map(|path| documents.checked(path));
+        assert!(Arc::ptr_eq(&first, &documents.checked("a.nb")));
+        documents.update("a.nb", 1, INVERTER.replace("inverter", "n"));
+        let second = documents.checked("a.nb");
+        assert_eq!((second.revision, circuits(&second)), (1, vec!["n"]));
+        assert!(Arc::ptr_eq(&other, &documents.checked("b.nb")), "another source stays as it is");
+        documents.close("a.nb");
+        assert_eq!(circuits(&documents.checked("a.nb")), ["inverter"]);
+    }
+
+    #[test]
+    fn a_text_of_an_older_revision_is_ignored() {
+        let mut documents = documents(&[]);
+        documents.update("a.nb", 5, INVERTER);
+        documents.update("a.nb", 4, "circuit");
+        let checked = documents.checked("a.nb");
+        assert_eq!((checked.revision, &checked.diagnostics[..]), (5, &[][..]));
+    }
+
+    #[test]
+    fn a_source_is_checked_again_when_a_file_that_it_uses_appears() {
+        let mut documents = documents(&[("a.nb", "use \"b.nb\"\ncircuit f(a) -> (q) { q = inverter(a) }")]);
+        assert!(documents.checked("a.nb").has_errors());
+        documents.update("b.nb", 1, INVERTER);
+        assert_eq!(documents.checked("a.nb").diagnostics, []);
+    }
+
+    /// A world with a translator that counts its work.
+    struct Translating(MemoryWorld, Arc<AtomicUsize>);
+
+    impl SourceWorld for Translating {
+        fn read(&self, path: &str) -> Result<String, FileError> {
+            self.0.read(path)
+        }
+
+        fn translate_verilog(&self, _: &str, _: &str) -> Result<VerilogModules, VerilogError> {
+            self.1.fetch_add(1, Ordering::Relaxed);
+            let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
+            Ok(VerilogModules { blif, tops: vec!["f".to_owned()] })
+        }
+
+        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+            self.0.list(folder)
+        }
+    }
+
+    #[test]
+    fn a_verilog_text_is_translated_again_only_when_it_changes_or_reads_files() {
+        let mut world = MemoryWorld::default();
+        world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
+        world.insert("f.v", "module f(input a, output q);");
+        let count = Arc::new(AtomicUsize::new(0));
+        let mut documents = Documents::new(Box::new(Translating(world, count.clone())));
+        let mut check = |path, text: &str| {
+            documents.update(path, 0, text);
+            assert_eq!(documents.checked("a.nb").diagnostics, []);
+            count.load(Ordering::Relaxed)
+        };
+        let changed = "use \"f.v\"\ncircuit g(a) -> (q) { q = not f(a) }";
+        assert_eq!(check("a.nb", changed), 1);
+        assert_eq!(check("a.nb", &format!("{changed}\n")), 1);
+        assert_eq!(check("f.v", "module f(input b, output q);"), 2);
+        assert_eq!(check("f.v", "`include \"g.vh\""), 3);
+        assert_eq!(check("a.nb", changed), 4);
+    }
+
+    /// A world whose first translation is cancelled.
+    struct Impatient(Translating);
+
+    impl SourceWorld for Impatient {
+        fn read(&self, path: &str) -> Result<String, FileError> {
+            self.0.read(path)
+        }
+
+        fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+            let modules = self.0.translate_verilog(path, text);
+            if self.0.1.load(Ordering::Relaxed) == 1 { Err(VerilogError::Cancelled) } else { modules }
+        }
+
+        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+            self.0.list(folder)
+        }
+    }
+
+    #[test]
+    fn a_source_is_checked_again_when_a_translation_was_cancelled() {
+        let mut world = MemoryWorld::default();
+        world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
+        world.insert("f.v", "module f(input a, output q);");
+        let mut documents = Documents::new(Box::new(Impatient(Translating(world, Arc::default()))));
+        assert!(documents.checked("a.nb").has_errors());
+        assert!(!documents.is_known("a.nb"));
+        assert_eq!(documents.checked("a.nb").diagnostics, []);
+        assert!(documents.is_known("a.nb"));
+    }
+
+    #[test]
+    fn a_source_is_checked_again_when_a_robot_appears_in_the_folder_of_its_library() {
+        let mut documents = documents(&[("a.nb", "library l { from: \"robots\" }")]);
+        assert!(documents.checked("a.nb").has_errors());
+        documents.update("robots/x.yaml", 1, "");
+        assert!(!documents.checked("a.nb").has_errors());
+    }
+}

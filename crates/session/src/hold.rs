@@ -1,0 +1,82 @@
+//! How long the rows of a test are held, and warnings of rows that end before their robots have settled.
+
+use crate::compile::Compiled;
+use crate::wording::SwarmWarning;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{CircuitTest, Hold, TestRow};
+use nbc_base::source::Span;
+use nbc_circuit::{Netlist, Timing};
+use nbc_swarm::{Demand, STEADY_CYCLES, Settling, resting_outputs};
+
+/// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
+/// [`STEADY_CYCLES`].
+const STEADY_EXTRA: usize = STEADY_CYCLES - 1;
+
+/// The hold of each row: until every robot has settled for any delays, but not longer than static timing requires. Rows
+/// that cannot be shown to settle are held for that time.
+pub(super) fn demands(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled) -> Vec<Demand> {
+    let holds = holds(rows, compiled, compiled.plan.hold);
+    let demand = |([hold, needed], rests): ([usize; 2], Vec<bool>)| Demand { hold, needed, rests };
+    holds.into_iter().zip(resting_outputs(rows, netlist)).map(demand).collect()
+}
+
+/// For each row, the cycles for which it is held, and those that its robots need; rows without a hold of their own are
+/// held as `usual` says.
+fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> {
+    let window = compiled.plan.window;
+    let bound = (compiled.timing.hold + window - 1) as usize;
+    let mut settling = Settling::new(&compiled.assembly, window as usize);
+    let hold = |(i, row): (usize, &TestRow)| {
+        let most = if i == 0 { bound + compiled.assembly.start_cycles() } else { bound };
+        let needed = settling.cycles_to_settle(&row.inputs, most).unwrap_or(most) + STEADY_EXTRA;
+        let hold = match (row.hold, usual) {
+            (Some(cycles), _) | (None, Hold::Cycles(cycles)) => cycles.max(1) as usize,
+            (None, Hold::Auto) => needed,
+        };
+        settling.hold(&row.inputs, hold);
+        [hold, needed]
+    };
+    rows.iter().enumerate().map(hold).collect()
+}
+
+/// Cycles that suffice for every row without a hold of its own. A longer hold may show that a later row needs more,
+/// because the row before it has settled.
+pub(super) fn sufficient(rows: &[TestRow], compiled: &Compiled) -> usize {
+    let mut cycles = 1;
+    loop {
+        let found = holds(rows, compiled, Hold::Cycles(cycles as u32));
+        let usual = rows.iter().zip(found).filter(|(row, _)| row.hold.is_none());
+        let needed = usual.map(|(_, [_, needed])| needed).max().unwrap_or(cycles);
+        if needed <= cycles {
+            return cycles;
+        }
+        cycles = needed;
+    }
+}
+
+/// Warnings of rows that end before their robots have settled: one of the swarm's hold, for which `sufficient` cycles
+/// are enough, and one of each row with a hold of its own.
+pub(super) fn warnings(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    demands: &[Demand],
+    compiled: &Compiled,
+    sufficient: impl FnOnce() -> usize,
+) -> Vec<Diagnostic> {
+    let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
+    let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
+    let warning = |hold, needed, place| SwarmWarning::ShortHold { hold, needed, path: path.clone() }.at(place);
+    let short = || rows.iter().zip(demands).filter(|(_, demand)| demand.hold < demand.needed);
+    let usual = short().find(|(row, _)| row.hold.is_none());
+    let mut own: Vec<(Span, usize, usize)> = Vec::new();
+    for (row, demand) in short().filter(|(row, _)| row.hold.is_some()) {
+        match own.last_mut() {
+            // The two halves of a pulse.
+            Some((place, _, needed)) if *place == row.span => *needed = demand.needed.max(*needed),
+            _ => own.push((row.span, demand.hold, demand.needed)),
+        }
+    }
+    let usual = usual.map(|(_, demand)| warning(demand.hold, sufficient(), test.span));
+    let own = own.into_iter().map(|(place, hold, needed)| warning(hold, needed, place));
+    usual.into_iter().chain(own).collect()
+}

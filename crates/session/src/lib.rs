@@ -1,0 +1,41 @@
+//! What every door calls: from source text to swarms, tests, files and reports. `compile.rs` has the stages in order.
+
+mod checked;
+mod choice;
+mod compile;
+mod documents;
+mod formatted;
+mod hold;
+mod observer;
+mod options;
+mod pictures;
+mod plan;
+mod replay;
+pub mod report;
+mod robots;
+mod run_report;
+mod schedule;
+mod session;
+mod simulation;
+pub mod store;
+mod swarm_run;
+mod test;
+mod wording;
+
+pub use checked::{Checked, prelude};
+pub use choice::{Choice, check_swarm_is_clear};
+pub use compile::{Compiled, Mapping, synthesize};
+pub use formatted::Formatted;
+pub use observer::Observer;
+pub use options::{CompileOptions, RUNS};
+pub use pictures::run_page;
+pub use plan::Plan;
+pub use replay::Excerpt;
+pub use run_report::RunReport;
+pub use schedule::read_schedule;
+pub use session::Session;
+#[cfg(feature = "disk")]
+pub use session::run_file;
+pub use simulation::SimulationRun;
+pub use swarm_run::{RunEnd, SwarmRun};
+pub use test::{TestCase, TestOptions, TestRun};

@@ -1,0 +1,38 @@
+//! The options of compiling.
+
+use nbc_base::model::Library;
+use nbc_circuit::{CancelFlag, Effort, MapOptions, MappingObjective};
+
+/// The default folder of evolution runs.
+pub const RUNS: &str = "out";
+
+/// Options of compiling a circuit to a swarm. The default is what the source declares.
+#[derive(Clone, Debug)]
+pub struct CompileOptions {
+    /// The declared swarm, if several are declared for the circuit.
+    pub swarm: Option<String>,
+    /// Robots to use instead of those that the source declares.
+    pub robots: Option<Library>,
+    /// What mapping minimizes.
+    pub objective: MappingObjective,
+    /// The amount of search in mapping.
+    pub effort: Effort,
+    /// The folder of evolution runs; the robots of `from: NAME` are in its `NAME/robots`.
+    pub runs: String,
+    /// Ends the search in mapping early.
+    pub cancel: CancelFlag,
+}
+
+impl Default for CompileOptions {
+    fn default() -> Self {
+        let MapOptions { objective, effort, cancel } = MapOptions::default();
+        Self { swarm: None, robots: None, objective, effort, runs: RUNS.to_owned(), cancel }
+    }
+}
+
+impl CompileOptions {
+    /// The options of mapping.
+    pub fn mapping(&self) -> MapOptions {
+        MapOptions { objective: self.objective, effort: self.effort, cancel: self.cancel.clone() }
+    }
+}

@@ -1,0 +1,63 @@
+//! Pictures and timing of what a session made.
+
+use std::fmt;
+
+use crate::compile::{Compiled, Mapping};
+use crate::report::{self, PageSwarm, PhaseTiming, Scheme, Svg, SwarmOutcome, SwarmTiming};
+use crate::run_report::RunReport;
+use crate::swarm_run::SwarmRun;
+use crate::test::TestRun;
+use nbc_base::model::Robot;
+
+impl Compiled {
+    /// The circuit with its robots as gates, its slowest path marked.
+    pub fn schematic(&self, scheme: Scheme) -> Svg {
+        let robots: Vec<&Robot> = self.assembly.members.iter().map(|member| &member.robot).collect();
+        report::draw_schematic(&self.mapping.netlist, &robots, &self.timing.critical_path, scheme)
+    }
+
+    /// Arrival, required times and slack of each robot, the slowest path, and memory.
+    pub fn swarm_timing(&self) -> SwarmTiming {
+        let Mapping { netlist, cells, registers, .. } = &self.mapping;
+        let phases = PhaseTiming::of(netlist, &self.timing, cells.kinds_of(netlist), registers.as_ref());
+        SwarmTiming::of(netlist, &self.timing, &self.assembly, phases)
+    }
+}
+
+impl RunReport {
+    /// The page of the source file with that name: every swarm that was simulated, with its verdict and a player.
+    pub fn page(&self, source: &str, scheme: Scheme) -> String {
+        let tests = self.tests.iter();
+        let tests = tests.filter_map(|run| Some((SwarmOutcome::Test(&run.verdict), run.swarm.as_ref()?)));
+        let simulations = self.simulations.iter().map(|run| (SwarmOutcome::Simulation(&run.result), &run.swarm));
+        run_page(source, &tests.chain(simulations).collect::<Vec<_>>(), scheme)
+    }
+}
+
+impl fmt::Display for TestRun {
+    /// The truth table with expected and observed outputs, and the failures.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&report::describe_test(&self.verdict))
+    }
+}
+
+/// The page of swarms that were tested or simulated, with a player for those whose poses were recorded.
+pub fn run_page(source: &str, runs: &[(SwarmOutcome<'_>, &SwarmRun)], scheme: Scheme) -> String {
+    let drawings: Vec<[Svg; 2]> = runs
+        .iter()
+        .map(|(_, SwarmRun { compiled, trace })| [compiled.schematic(scheme), report::draw_swarm(trace)])
+        .collect();
+    let swarms: Vec<PageSwarm<'_>> = runs
+        .iter()
+        .zip(&drawings)
+        .map(|(&(outcome, SwarmRun { compiled, trace }), [schematic, spacetime])| PageSwarm {
+            outcome,
+            trace,
+            assembly: &compiled.assembly,
+            schematic,
+            spacetime,
+            timing: compiled.swarm_timing().describe(),
+        })
+        .collect();
+    report::draw_run_page(source, &swarms, scheme)
+}

@@ -1,0 +1,119 @@
+//! The plan of a circuit's swarm: the declared swarm with its robots, hold and window.
+
+use crate::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
+use crate::options::CompileOptions;
+use crate::robots::Supply;
+use crate::wording::ChoiceError;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Hold, Instance, Library, PhysicsWorld, Program, RegisterStyle, Swarm};
+use nbc_lang::check::DEFAULT_LIBRARY;
+
+/// A circuit with everything that its swarm declares.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The circuit, with the values of its parameters.
+    pub circuit: Instance,
+    /// The declared swarm; `None` if the source declares none for the circuit.
+    pub swarm: Option<String>,
+    /// The robots.
+    pub library: Library,
+    /// The hold of rows that do not set their own.
+    pub hold: Hold,
+    /// Cycles over which an output is measured.
+    pub window: u32,
+    /// What registers are made of.
+    pub registers: RegisterStyle,
+    /// The world of the swarm.
+    pub world: PhysicsWorld,
+}
+
+/// The plans of a circuit: one for each swarm that is declared for it, or that of the default library if there is none;
+/// only the chosen one if a swarm is chosen.
+///
+/// # Errors
+/// When robots cannot be read, or the chosen swarm is not one of the circuit's.
+pub(super) fn plans(
+    supply: Supply<'_>,
+    program: &Program,
+    circuit: &Instance,
+    options: &CompileOptions,
+) -> Result<Vec<Plan>, Vec<Diagnostic>> {
+    let swarms = swarms_of(program, circuit);
+    match (&options.swarm, &swarms[..]) {
+        (Some(name), swarms) => {
+            let swarm = chosen(program, circuit, name, swarms).map_err(|fault| vec![fault])?;
+            Ok(vec![of_swarm(supply, program, circuit, Some(swarm), options)?])
+        }
+        (None, []) => Ok(vec![of_swarm(supply, program, circuit, None, options)?]),
+        (None, swarms) => swarms.iter().map(|swarm| of_swarm(supply, program, circuit, Some(swarm), options)).collect(),
+    }
+}
+
+/// The one plan of a circuit.
+///
+/// # Errors
+/// As [`plans`], and when several swarms are declared and none is chosen.
+pub(super) fn plan(
+    supply: Supply<'_>,
+    program: &Program,
+    circuit: &Instance,
+    options: &CompileOptions,
+) -> Result<Plan, Vec<Diagnostic>> {
+    check_swarm_is_clear(program, circuit, options.swarm.as_deref()).map_err(|fault| vec![fault])?;
+    Ok(plans(supply, program, circuit, options)?.remove(0))
+}
+
+/// The plan of a circuit for a declared swarm, or for the default library.
+///
+/// # Errors
+/// When robots cannot be read.
+pub(super) fn of_swarm(
+    supply: Supply<'_>,
+    program: &Program,
+    circuit: &Instance,
+    declaration: Option<&Swarm>,
+    options: &CompileOptions,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let library = robots(supply, program, declaration.map(|swarm| swarm.library.as_str()), options)?;
+    Ok(Plan {
+        circuit: circuit.clone(),
+        swarm: declaration.map(|swarm| swarm.name.clone()),
+        library: nbc_swarm::prefer(library, options.objective),
+        hold: declaration.map_or(Hold::Auto, |swarm| swarm.hold),
+        window: declaration.map_or(1, |swarm| swarm.window),
+        registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
+        world: declaration.map_or(PhysicsWorld::default(), |swarm| swarm.world),
+    })
+}
+
+/// The robots of a declared library, or of the default library, unless the options have others.
+///
+/// # Errors
+/// When they cannot be read.
+pub(super) fn robots(
+    supply: Supply<'_>,
+    program: &Program,
+    library: Option<&str>,
+    options: &CompileOptions,
+) -> Result<Library, Vec<Diagnostic>> {
+    match (&options.robots, program.library(library.unwrap_or(DEFAULT_LIBRARY))) {
+        (Some(robots), _) => Ok(robots.clone()),
+        (None, Some(declared)) => supply.library(declared, &options.runs),
+        (None, None) => Ok(supply.shipped().clone()),
+    }
+}
+
+/// The swarm of that name, which must be one of the circuit's.
+fn chosen<'p>(
+    program: &'p Program,
+    circuit: &Instance,
+    name: &str,
+    swarms: &[&'p Swarm],
+) -> Result<&'p Swarm, Diagnostic> {
+    let swarm = declared_swarm(program, name)?;
+    if swarms.iter().any(|one| one.name == swarm.name) {
+        return Ok(swarm);
+    }
+    let (own, circuit) = (swarm.circuit.to_string(), circuit.to_string());
+    Err(ChoiceError::OtherCircuit { swarm: name.to_owned(), own, circuit }.into())
+}

@@ -1,0 +1,53 @@
+//! A part of a live swarm's run, simulated again with its poses recorded, for pictures and pages.
+
+use crate::compile::Compiled;
+use crate::observer::Observer;
+use crate::simulation::{self, SimulationRun};
+use crate::swarm_run::{self, LIVE_CYCLES, Physics};
+use nbc_base::model::{InputSpell, Simulation};
+use nbc_base::source::{FileId, Span};
+use nbc_swarm::{Room, SwarmSnapshot};
+
+/// A part of the run of a live swarm.
+#[derive(Clone, Debug)]
+pub struct Excerpt {
+    /// The swarm's circuit.
+    pub compiled: Compiled,
+    /// The swarm at the begin of the part.
+    pub start: SwarmSnapshot,
+    /// The input bits of each cycle.
+    pub inputs: Vec<Vec<bool>>,
+}
+
+/// Simulates the part again; the same robots do the same.
+pub(super) fn replay(physics: &Physics, excerpt: &Excerpt, observer: &mut dyn Observer) -> SimulationRun {
+    let Excerpt { compiled, start, inputs } = excerpt;
+    // The robots are where they were in their world, so this is the world of live swarms.
+    let mut swarm = physics.swarm(compiled, LIVE_CYCLES);
+    swarm.restore(start);
+    swarm.record(Room::SWARM, inputs.len());
+    let before = swarm.trace().cycles.len();
+    let (mut trace, end) = swarm_run::run(swarm, inputs, observer);
+    trace.forget_first(before);
+    simulation::finish(&simulation(excerpt), compiled.clone(), trace, end)
+}
+
+/// The inputs of the part as a declared simulation would have them.
+fn simulation(excerpt: &Excerpt) -> Simulation {
+    let plan = &excerpt.compiled.plan;
+    let spell = |same: &[Vec<bool>]| InputSpell {
+        inputs: same[0].clone(),
+        bases: Vec::new(),
+        cycles: same.len() as u32,
+        line: 0,
+    };
+    Simulation {
+        swarm: plan.swarm.clone().unwrap_or_else(|| plan.circuit.to_string()),
+        span: Span::new(FileId(0), 0, 0),
+        file: String::new(),
+        line: 0,
+        inputs: excerpt.compiled.assembly.inputs.clone(),
+        spells: excerpt.inputs.chunk_by(|a, b| a == b).map(spell).collect(),
+        world: None,
+    }
+}

@@ -1,0 +1,90 @@
+//! Evolution runs in words and lines: a line a generation for programs, a table at the end for people.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use nbc_base::model::SearchObjective;
+use nbc_swarm::Work;
+use nbc_swarm::evolve::{ArchiveStats, Counts, Search};
+
+/// A run after a generation, as a line of `progress.jsonl`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EvolutionLine {
+    /// Generations done.
+    pub generation: u32,
+    /// Counts of the results.
+    #[serde(flatten)]
+    pub counts: Counts,
+    /// Filled niches.
+    pub filled: usize,
+    /// The share of filled niches.
+    pub coverage: f64,
+    /// Sum over filled niches of the best first fitness.
+    pub qd_score: f64,
+    /// Behaviors found.
+    pub behaviors: usize,
+    /// The two fitnesses of the best of each behavior.
+    pub best: BTreeMap<String, [f64; 2]>,
+    /// Env steps simulated, and left out because they could not have mattered.
+    #[serde(flatten)]
+    pub work: Work,
+}
+
+impl EvolutionLine {
+    /// The line for the current state of a search.
+    pub fn of(search: &Search, work: Work) -> Self {
+        let ArchiveStats { filled, coverage, qd_score, champions, .. } = search.archive().stats();
+        Self {
+            generation: search.generation(),
+            counts: search.counts(),
+            filled,
+            coverage,
+            qd_score,
+            behaviors: champions.len(),
+            best: champions.iter().map(|best| (best.behavior.to_string(), best.fitness)).collect(),
+            work,
+        }
+    }
+}
+
+/// The table at the end of a run: the best of each behavior, then the totals of the run.
+pub fn evolution_table(search: &Search, work: Work) -> String {
+    let stats = search.archive().stats();
+    let [first, second] = match search.evolution().objective {
+        SearchObjective::Distance => ["variable", "fixed"],
+        SearchObjective::Gate => ["settled", "unchanged"],
+    };
+    let mut text = format!("{:<10}{:<12}{:>8}{first:>11}{second:>11}\n", "behavior", "function", "niches");
+    for best in &stats.champions {
+        let function = best.behavior.function();
+        let [a, b] = best.fitness;
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{:<10}{function:<12}{:>8}{a:>11.3}{b:>11.3}", best.behavior, best.niches);
+    }
+    let counts = search.counts();
+    let _ = writeln!(
+        text,
+        "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults), {} invalid bodies drawn; {} of \
+         {} niches ({:.1} %), {} of 16 behaviors, QD-score {:.2}",
+        search.generation(),
+        counts.evaluations,
+        counts.surpassed,
+        counts.inconsistent,
+        counts.faults,
+        counts.undeveloped,
+        stats.filled,
+        stats.niches,
+        100.0 * stats.coverage,
+        stats.champions.len(),
+        stats.qd_score,
+    );
+    let share = 100.0 * work.left_out as f64 / (work.env_steps + work.left_out).max(1) as f64;
+    let _ = writeln!(
+        text,
+        "{} env steps simulated; {share:.0} % of the protocol left out as it could not matter",
+        work.env_steps
+    );
+    text
+}

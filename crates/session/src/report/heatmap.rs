@@ -1,0 +1,179 @@
+//! Archives as heat maps: the best fitness over two axes, with one map for each behavior if the archive has a behavior
+//! axis.
+
+use std::collections::BTreeMap;
+
+use crate::report::Color;
+use crate::report::chart::{Scale, range_of, tick_label};
+use crate::report::element::{Anchor, Paint, Type};
+use crate::report::evolution_results::bins;
+use crate::report::svg::Svg;
+use nbc_base::model::{Axis, Behavior, Count, Function};
+use nbc_swarm::evolve::NicheKey;
+
+const CELL: f64 = 26.0;
+const COLUMNS: usize = 8;
+/// Left of the maps and above them.
+const LEFT: f64 = 46.0;
+const TOP: f64 = 66.0;
+/// From map to map.
+const GAP: (f64, f64) = (28.0, 52.0);
+/// Width of the key to the right of the maps, and height of its colors.
+const KEY: f64 = 80.0;
+const KEY_HEIGHT: f64 = 150.0;
+
+/// Five steps of a map from dark to light that keeps its order in gray and for any color vision.
+const MAP: [Color; 5] = [
+    Color::new(68, 1, 84),
+    Color::new(59, 82, 139),
+    Color::new(33, 145, 140),
+    Color::new(94, 201, 98),
+    Color::new(253, 231, 37),
+];
+
+/// The contents of a map: the best first fitness of each pair of bins.
+type Cells = BTreeMap<(u16, u16), f64>;
+
+/// An archive as a map shows it.
+pub struct Terrain<'a> {
+    /// The meaning of the first fitness, with its unit.
+    pub unit: &'a str,
+    /// The archive's axes.
+    pub axes: &'a [Axis],
+    /// The best first fitness of each filled niche.
+    pub niches: &'a [(&'a NicheKey, f64)],
+}
+
+/// Draws an archive over two of its axes, given by index. Unless one of them is the behavior axis, there is a small map
+/// for each behavior.
+///
+/// # Panics
+/// When an axis is not there.
+pub fn draw_heatmap(title: &str, terrain: &Terrain<'_>, x: usize, y: usize) -> Svg {
+    let axes = (terrain.axes[x], terrain.axes[y]);
+    let split = terrain.axes.iter().position(|axis| *axis == Axis::Behavior).filter(|&axis| axis != x && axis != y);
+    let maps = collect(terrain, x, y, split);
+    let range = range_of(maps.values().flat_map(Cells::values).copied(), 0.0);
+    let shown: Vec<Option<u16>> = split.map_or(vec![None], |_| (0..16).map(Some).collect());
+    let columns = COLUMNS.min(shown.len());
+    let pitch = (bins(axes.0) as f64 * CELL + GAP.0, bins(axes.1) as f64 * CELL + GAP.1);
+    let width = (LEFT + columns as f64 * pitch.0 + KEY).max(title.chars().count() as f64 * 10.0 + 30.0);
+    let height = (TOP + shown.len().div_ceil(columns) as f64 * pitch.1).max(TOP + KEY_HEIGHT + 30.0);
+    let mut svg = Svg::new(width, height, title);
+    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let empty = Cells::new();
+    for (i, behavior) in shown.iter().enumerate() {
+        let place = (i % columns, i / columns);
+        let corner = (LEFT + place.0 as f64 * pitch.0, TOP + place.1 as f64 * pitch.1);
+        let cells = maps.get(behavior).unwrap_or(&empty);
+        let map = Map { cells, axes, range, leftmost: place.0 == 0, lowest: i + columns >= shown.len() };
+        let word = behavior.map_or(String::new(), |bits| Behavior::from(Function::new(bits as u8)).to_string());
+        let function = behavior.map_or("", |bits| Function::new(bits as u8).name());
+        svg.group(&format!("map-{word}"), &format!("{word} {function}"), |svg| {
+            map.draw(svg, corner, (&word, function));
+        });
+    }
+    draw_key(&mut svg, LEFT + columns as f64 * pitch.0 + 14.0, range, terrain.unit);
+    svg
+}
+
+fn collect(terrain: &Terrain<'_>, x: usize, y: usize, split: Option<usize>) -> BTreeMap<Option<u16>, Cells> {
+    let mut maps: BTreeMap<Option<u16>, Cells> = BTreeMap::new();
+    for &(NicheKey(key), best) in terrain.niches {
+        let cells = maps.entry(split.map(|axis| key[axis])).or_default();
+        let cell = cells.entry((key[x], key[y])).or_insert(best);
+        *cell = cell.max(best);
+    }
+    maps
+}
+
+fn axis_label(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Count { of: Count::Voxels, .. } => "voxels (bin)",
+        Axis::Count { of: Count::Active, .. } => "active voxels (bin)",
+        Axis::Count { of: Count::Sensory, .. } => "sensory voxels (bin)",
+        Axis::Behavior => "behavior",
+    }
+}
+
+/// The color of a share from 0 to 1.
+pub fn heat(share: f64) -> Color {
+    let place = share.clamp(0.0, 1.0) * (MAP.len() - 1) as f64;
+    let below = (place as usize).min(MAP.len() - 2);
+    MAP[below].mix(MAP[below + 1], place - below as f64)
+}
+
+/// The relative position of a value in a range: 0 at its start, 1 at its end.
+pub fn share((low, high): (f64, f64), value: f64) -> f64 {
+    if high > low { (value - low) / (high - low) } else { 1.0 }
+}
+
+/// One map.
+struct Map<'a> {
+    cells: &'a Cells,
+    axes: (Axis, Axis),
+    range: (f64, f64),
+    /// Whether the map is labeled with the second axis.
+    leftmost: bool,
+    /// Whether the first axis is named below it.
+    lowest: bool,
+}
+
+impl Map<'_> {
+    fn draw(&self, svg: &mut Svg, (left, top): (f64, f64), (word, function): (&str, &str)) {
+        let (across, down) = (bins(self.axes.0), bins(self.axes.1));
+        let (width, height) = (across as f64 * CELL, down as f64 * CELL);
+        svg.text((left, top - 6.0), word, Type::new(11.0).bold());
+        let small = Type::new(9.0).colored(Color::GRAY);
+        svg.text((left + width, top - 6.0), function, small.anchored(Anchor::End));
+        for row in 0..down {
+            for column in 0..across {
+                // The second axis grows upwards.
+                let corner = (left + column as f64 * CELL, top + (down - 1 - row) as f64 * CELL);
+                let found = self.cells.get(&(column as u16, row as u16));
+                let color = found.map_or(Color::WHITE, |&value| heat(share(self.range, value)));
+                svg.rect(corner, CELL, CELL, Paint::fill(color).with_stroke(Color::PALE, 1.0));
+            }
+        }
+        let middle = small.anchored(Anchor::Middle);
+        for column in 0..across {
+            let name = bin_label(self.axes.0, column);
+            svg.text((left + (column as f64 + 0.5) * CELL, top + height + 11.0), &name, middle);
+        }
+        for row in 0..down {
+            let y = top + (down as f64 - row as f64 - 0.5) * CELL + 3.0;
+            svg.text((left - 4.0, y), &bin_label(self.axes.1, row), small.anchored(Anchor::End));
+        }
+        if self.lowest {
+            svg.text((left + width / 2.0, top + height + 24.0), axis_label(self.axes.0), middle);
+        }
+        if self.leftmost {
+            let beside = if self.axes.1 == Axis::Behavior { 36.0 } else { 18.0 };
+            svg.text((left - beside, top + height / 2.0), axis_label(self.axes.1), middle.upwards());
+        }
+    }
+}
+
+fn bin_label(axis: Axis, bin: usize) -> String {
+    match axis {
+        Axis::Count { .. } => (bin + 1).to_string(),
+        Axis::Behavior => Behavior::from(Function::new(bin as u8)).to_string(),
+    }
+}
+
+fn draw_key(svg: &mut Svg, left: f64, range: (f64, f64), unit: &str) {
+    const STEPS: u32 = 70;
+    let step_height = KEY_HEIGHT / f64::from(STEPS);
+    for step in 0..STEPS {
+        let color = heat(1.0 - (f64::from(step) + 0.5) / f64::from(STEPS));
+        svg.rect((left, TOP + step_height * f64::from(step)), 14.0, step_height + 0.5, Paint::fill(color));
+    }
+    let scale = Scale::new(range, (TOP + KEY_HEIGHT, TOP));
+    let ticks = scale.ticks(5);
+    for &tick in &ticks {
+        let y = scale.at(tick);
+        svg.line((left + 14.0, y), (left + 18.0, y), Paint::stroke(Color::GRAY, 1.0));
+        svg.text((left + 21.0, y + 3.5), &tick_label(tick, &ticks), Type::new(10.0).colored(Color::GRAY));
+    }
+    svg.text((left + 52.0, TOP + KEY_HEIGHT / 2.0), unit, Type::new(11.0).anchored(Anchor::Middle).upwards());
+}

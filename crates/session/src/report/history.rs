@@ -1,0 +1,108 @@
+//! The history of a run: a line for each generation, read back from its `progress.jsonl`.
+
+use std::collections::BTreeMap;
+
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer};
+
+use nbc_base::model::Behavior;
+
+/// The fields read from a line of `progress.jsonl`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct ProgressLine {
+    /// Generations done.
+    pub generation: u32,
+    /// The share of filled niches.
+    pub coverage: f64,
+    /// Sum over filled niches of the best first fitness.
+    pub qd_score: f64,
+    /// The behaviors found so far.
+    #[serde(default, rename = "best", deserialize_with = "behaviors")]
+    pub behaviors: Vec<Behavior>,
+}
+
+/// The names of an object that are behaviors.
+fn behaviors<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Behavior>, D::Error> {
+    let best: BTreeMap<String, IgnoredAny> = Deserialize::deserialize(deserializer)?;
+    Ok(best.keys().filter_map(|word| word.parse().ok()).collect())
+}
+
+/// The lines of a run up to a generation, each generation once and in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History<'a> {
+    lines: BTreeMap<u32, (ProgressLine, &'a str)>,
+    generations: u32,
+}
+
+impl<'a> History<'a> {
+    /// The history of a run of this many generations. Later lines were written after the last checkpoint, and the run
+    /// will repeat them. A line that cannot be read counts as missing.
+    pub fn read(text: &'a str, generations: u32) -> Self {
+        let mut lines = BTreeMap::new();
+        for text in text.lines() {
+            let Ok(line) = serde_json::from_str::<ProgressLine>(text) else { continue };
+            if (1..=generations).contains(&line.generation) {
+                lines.entry(line.generation).or_insert((line, text));
+            }
+        }
+        Self { lines, generations }
+    }
+
+    /// The valid lines.
+    pub fn lines(&self) -> impl Iterator<Item = ProgressLine> {
+        self.lines.values().map(|(line, _)| line.clone())
+    }
+
+    /// The lines as the text of a file.
+    pub fn print(&self) -> String {
+        self.lines.values().flat_map(|(_, text)| [*text, "\n"]).collect()
+    }
+
+    /// A description of the damage; `None` if each generation has its line.
+    pub fn damage(&self) -> Option<String> {
+        let missing = self.generations as usize - self.lines.len();
+        let first = (1..=self.generations).find(|generation| !self.lines.contains_key(generation))?;
+        Some(format!(
+            "has no readable line for {missing} of {} generations, the first of them {first}",
+            self.generations
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(generation: u32) -> String {
+        format!("{{\"generation\":{generation},\"coverage\":0.5,\"qd_score\":1.0,\"more\":true}}\n")
+    }
+
+    #[test]
+    fn a_whole_history_is_kept_up_to_the_checkpoint() {
+        let text: String = (1..=5).map(line).collect();
+        let history = History::read(&text, 3);
+        assert_eq!((history.damage(), history.lines().count()), (None, 3));
+        assert_eq!(history.print(), (1..=3).map(line).collect::<String>());
+        let killed = text + "{\"gener";
+        assert_eq!(History::read(&killed, 5).damage(), None, "the line that was being written is made again");
+    }
+
+    #[test]
+    fn the_behaviors_found_so_far_are_read() {
+        let best = r#"{"LLRR":[5.9,1.4],"LRLL":[1.7,0.1],"?":0}"#;
+        let text = line(1).replace("true}", &format!("true,\"best\":{best}}}"));
+        let found: Vec<String> =
+            History::read(&text, 1).lines().flat_map(|line| line.behaviors).map(|b| b.to_string()).collect();
+        assert_eq!(found, ["LLRR", "LRLL"]);
+    }
+
+    #[test]
+    fn damage_is_reported_and_valid_lines_are_kept() {
+        let text = line(1) + "\0\0\0\n" + &line(3) + &line(3) + &line(4);
+        let history = History::read(&text, 4);
+        assert_eq!(history.damage().unwrap(), "has no readable line for 1 of 4 generations, the first of them 2");
+        assert_eq!(history.print(), line(1) + &line(3) + &line(4));
+        let damage = History::read("nothing\n", 6).damage().unwrap();
+        assert_eq!(damage, "has no readable line for 6 of 6 generations, the first of them 1");
+    }
+}

@@ -1,0 +1,158 @@
+//! Robots of a library as a table, as one page, and as data.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::report::looks::material_words;
+use crate::report::{Align, TextTable};
+use crate::store;
+use nbc_base::diag::counted;
+use nbc_base::model::{Library, Palette, Pattern, Robot};
+
+/// The data of a robot in a list, for programs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Listing {
+    /// The robot's name in its library.
+    pub name: String,
+    /// Its four letters.
+    pub behavior: String,
+    /// The gate it is.
+    pub function: &'static str,
+    /// Its bounding box, columns by rows, such as `5x5`.
+    #[serde(rename = "box")]
+    pub bounds: String,
+    /// Its clock in cycles.
+    pub clock: u32,
+    /// Its smallest displacement in voxels per cycle.
+    pub margin: f64,
+    /// The share of random switches with a wrong output.
+    pub error_rate: f64,
+    /// Random switches over which they were counted.
+    pub switches: u32,
+    /// The share of wrong cycles in which the output should not change.
+    pub glitch_rate: f64,
+    /// Its rows of codes, top row first.
+    pub body: Vec<String>,
+    /// The materials of the codes, in their order, if they are not the paper's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub materials: Option<Arc<Palette>>,
+}
+
+impl Listing {
+    /// The entry for one robot.
+    pub fn of(robot: &Robot) -> Self {
+        let character = &robot.character;
+        Self {
+            name: robot.name.clone(),
+            behavior: robot.behavior.to_string(),
+            function: robot.function().name(),
+            bounds: format!("{}x{}", robot.body.width(), robot.body.height()),
+            clock: character.clock,
+            margin: character.margin,
+            error_rate: character.error_rate,
+            switches: character.switches,
+            glitch_rate: character.glitch_rate,
+            body: robot.body.rows(),
+            materials: store::own_materials(&robot.body),
+        }
+    }
+
+    /// All robots of a library, in its order.
+    pub fn all(library: &Library) -> Vec<Self> {
+        library.robots.iter().map(Self::of).collect()
+    }
+
+    /// A list as a table for people.
+    pub fn table(list: &[Self]) -> TextTable {
+        use Align::{Left, Right};
+        let mut table = TextTable::new(&[
+            ("function", Left),
+            ("robot", Left),
+            ("behavior", Left),
+            ("box", Left),
+            ("clock", Right),
+            ("margin", Right),
+            ("errors", Right),
+            ("glitches", Right),
+        ]);
+        for robot in list {
+            table.push(vec![
+                robot.function.to_owned(),
+                robot.name.clone(),
+                robot.behavior.clone(),
+                robot.bounds.clone(),
+                robot.clock.to_string(),
+                format!("{:.3}", robot.margin),
+                percent(robot.error_rate),
+                percent(robot.glitch_rate),
+            ]);
+        }
+        table
+    }
+}
+
+fn percent(share: f64) -> String {
+    if share == 0.0 { "0".to_owned() } else { format!("{:.2} %", share * 100.0) }
+}
+
+/// A robot on one page: its body, its materials, its character and its provenance.
+pub fn describe_robot(robot: &Robot) -> String {
+    let (character, provenance) = (&robot.character, &robot.provenance);
+    let drawing = robot.body.rows().join("\n    ").replace('0', ".");
+    let displacement: Vec<String> = Pattern::PAIRS
+        .iter()
+        .zip(robot.displacement)
+        .map(|(pattern, voxels)| format!("{pattern} {voxels:+.2}"))
+        .collect();
+    let clock =
+        format!("{}, margin {:.3} voxels a cycle", counted(character.clock as usize, "cycle"), character.margin);
+    let errors = format!(
+        "{} of {} switches, glitches {}",
+        percent(character.error_rate),
+        character.switches,
+        percent(character.glitch_rate)
+    );
+    format!(
+        "{name}: {function}, {behavior}, {width}x{height}{topples}\n\n    {drawing}\n\n{legend}\n\n\
+         displacement  {displacement} voxels in 10 cycles\n\
+         clock         {clock}\n\
+         errors        {errors}\n\
+         settles       {settles}\n\
+         made by       {program} {version}, evolution {evolution}, seed {seed}, generation {generation}, \
+         {evaluations} evaluations\n",
+        name = robot.name,
+        function = robot.function(),
+        behavior = robot.behavior,
+        width = robot.body.width(),
+        height = robot.body.height(),
+        topples = if character.topples { ", topples" } else { "" },
+        legend = legend(robot),
+        displacement = displacement.join(", "),
+        settles = settles(robot),
+        program = provenance.program,
+        version = provenance.version,
+        evolution = provenance.evolution,
+        seed = provenance.seed,
+        generation = provenance.generation,
+        evaluations = provenance.evaluations,
+    )
+}
+
+/// The materials that the body has, by code.
+fn legend(robot: &Robot) -> String {
+    material_words(&robot.body).join("  ")
+}
+
+/// The settle times, grouped: `1: 00>01 01>11, 2: 11>10`.
+fn settles(robot: &Robot) -> String {
+    let mut times: Vec<u32> = robot.character.settle.iter().map(|transition| transition.cycles).collect();
+    times.sort_unstable();
+    times.dedup();
+    let of_time = |&cycles: &u32| {
+        let same = robot.character.settle.iter().filter(|transition| transition.cycles == cycles);
+        let words: Vec<String> = same.map(|transition| format!("{}>{}", transition.from, transition.to)).collect();
+        format!("in {cycles}: {}", words.join(" "))
+    };
+    if times.is_empty() { "not measured".to_owned() } else { times.iter().map(of_time).collect::<Vec<_>>().join("; ") }
+}

@@ -1,0 +1,75 @@
+//! Bodies on pages: their voxels, the looks of these, and their materials.
+
+use serde_json::{Value, json};
+
+use crate::report::looks::{Look, Looks, material_words};
+use nbc_base::diag::counted;
+use nbc_base::model::{Body, Material};
+use nbc_swarm::{Assembly, Member, Recorded, RobotTrace, StimulusSource, SwarmTrace};
+
+/// How voxels look, for the page's script.
+pub fn look_data(looks: &Looks) -> Vec<Value> {
+    let data = |(material, Look { color, mark }): (&Material, Look)| {
+        let mut data = json!({ "name": material.name, "color": color.to_string() });
+        if let Some(mark) = mark {
+            data["ink"] = json!(mark.ink.to_string());
+            data["mark"] = json!(mark.polygons);
+        }
+        data
+    };
+    looks.all().map(data).collect()
+}
+
+/// Each voxel of a recorded body: its points from the top left around it, and the place of its look.
+pub fn voxel_data(recorded: &Recorded, body: &Body, looks: &Looks) -> Vec<[usize; 5]> {
+    let voxel = |&([a, b, c, d], code): &([usize; 4], u8)| [a, b, c, d, looks.index(body.palette(), code)];
+    recorded.voxels.iter().map(voxel).collect()
+}
+
+/// The materials that occur in a body.
+pub fn materials(body: &Body) -> String {
+    material_words(body).join("; ")
+}
+
+/// What a page says of a robot of a swarm: pairs of a word and a text.
+pub fn about_robot(robot: &RobotTrace, member: &Member) -> Value {
+    let (body, character) = (&member.robot.body, &member.robot.character);
+    let wired = |i: usize| match robot.senses[i] {
+        StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(value)),
+        StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
+    };
+    let (clock, switches) = (counted(character.clock as usize, "cycle"), character.switches);
+    json!([
+        ["robot", robot.robot.as_str()],
+        ["behavior", &member.robot.behavior.to_string()],
+        ["stimulus 1", &wired(0)],
+        ["stimulus 2", &wired(1)],
+        ["body", &body.rows().join(" ")],
+        ["materials", &materials(body)],
+        ["clock", &format!("{clock}, margin {:.3} voxels a cycle", character.margin)],
+        ["errors", &format!("{:.2} % of {switches} switches", character.error_rate * 100.0)],
+    ])
+}
+
+/// The robots of a swarm whose poses are recorded, for a page that shows them live.
+pub fn live_robots(trace: &SwarmTrace, assembly: &Assembly, looks: &Looks) -> Vec<Value> {
+    let robot = |recorded: &Recorded| {
+        let (robot, member) = (&trace.robots[recorded.robot], &assembly.members[recorded.robot]);
+        let (body, character) = (&member.robot.body, &member.robot.character);
+        json!({
+            "net": robot.net,
+            "function": robot.function.name(),
+            "robot": robot.robot,
+            "about": about_robot(robot, member),
+            "senses": robot.senses,
+            "body": body.rows(),
+            "size": [body.width(), body.height()],
+            "voxels": voxel_data(recorded, body, looks),
+            "points": recorded.points,
+            "clock": character.clock,
+            "margin": character.margin,
+            "errors": character.error_rate,
+        })
+    };
+    trace.recording.robots.iter().map(robot).collect()
+}

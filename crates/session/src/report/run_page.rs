@@ -1,0 +1,265 @@
+//! The report of a run as one self-contained HTML page: the verdict, the schematic, and a player in step with the
+//! waveform.
+
+use serde_json::{Value as Json, json};
+
+use crate::report::html::{Html, base64, controls, escape, picture};
+use crate::report::looks::Looks;
+use crate::report::page_bodies::{about_robot, look_data, voxel_data};
+use crate::report::scheme::Scheme;
+use crate::report::svg::Svg;
+use nbc_base::diag::counted;
+use nbc_base::model::{CYCLE_STEPS, Column, Value};
+use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
+
+const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
+
+/// The result of a test or a simulation.
+#[derive(Clone, Copy)]
+pub enum SwarmOutcome<'a> {
+    /// Of a test.
+    Test(&'a TestVerdict),
+    /// Of a simulation.
+    Simulation(&'a SimulationResult),
+}
+
+/// One swarm on the page, tested or simulated.
+pub struct PageSwarm<'a> {
+    /// The verdict.
+    pub outcome: SwarmOutcome<'a>,
+    /// The trace of the swarm, with the recording for the player.
+    pub trace: &'a SwarmTrace,
+    /// The swarm's robots.
+    pub assembly: &'a Assembly,
+    /// The circuit.
+    pub schematic: &'a Svg,
+    /// The swarm in space and time.
+    pub spacetime: &'a Svg,
+    /// Its static timing, as text.
+    pub timing: String,
+}
+
+/// The page of a run of the source file with that name.
+pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> String {
+    let members = swarms.iter().flat_map(|swarm| &swarm.assembly.members);
+    let looks = Looks::of(members.map(|member| &member.robot.body), scheme);
+    let tests: Vec<bool> = swarms.iter().filter_map(|swarm| swarm.outcome.passed()).collect();
+    let passed = tests.iter().all(|passed| *passed);
+    Html {
+        heading: source,
+        passed,
+        verdict: heading(&tests, swarms.len() - tests.len()),
+        body: swarms.iter().enumerate().map(|(i, swarm)| section(i, swarm)).collect(),
+        data: json!({
+            "looks": look_data(&looks),
+            "swarms": swarms.iter().map(|swarm| swarm_data(swarm, &looks)).collect::<Vec<_>>(),
+        }),
+        script: SCRIPT,
+    }
+    .finish()
+}
+
+/// `pass: 2 of 2 tests passed, 1 simulation`
+fn heading(tests: &[bool], simulations: usize) -> String {
+    let (passed, count) = (tests.iter().filter(|passed| **passed).count(), tests.len());
+    let word = if passed == count { "pass" } else { "FAIL" };
+    let simulated = counted(simulations, "simulation");
+    match (count, simulations) {
+        (0, _) => simulated,
+        (_, 0) => format!("{word}: {passed} of {} passed", counted(count, "test")),
+        _ => format!("{word}: {passed} of {} passed, {simulated}", counted(count, "test")),
+    }
+}
+
+impl SwarmOutcome<'_> {
+    /// Whether a test passed.
+    fn passed(self) -> Option<bool> {
+        match self {
+            Self::Test(verdict) => Some(verdict.passed),
+            Self::Simulation(_) => None,
+        }
+    }
+
+    fn heading(self) -> String {
+        let of_swarm = |swarm: &str| format!(" as {}", escape(swarm));
+        match self {
+            Self::Test(verdict) => {
+                let swarm = verdict.swarm.as_deref().map_or(String::new(), of_swarm);
+                let word = if verdict.passed { "pass" } else { "fail" };
+                let (circuit, title) = (escape(&verdict.circuit), escape(&verdict.title));
+                format!("{circuit}{swarm}: {title} <span class=\"{word}\">{word}</span>")
+            }
+            Self::Simulation(result) => {
+                format!("{}{}, simulated", escape(&result.circuit), of_swarm(&result.swarm))
+            }
+        }
+    }
+
+    fn table(self) -> String {
+        match self {
+            Self::Test(verdict) => truth_table(verdict),
+            Self::Simulation(result) => activity_table(result),
+        }
+    }
+}
+
+fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
+    let shown = swarm.trace.recording.robots.len();
+    let left_out = match swarm.trace.robots.len() - shown {
+        0 => String::new(),
+        _ => format!(
+            "<p class=\"dim\">The player has room for {shown} robots: those of outputs and of named nets come \
+             first.</p>\n"
+        ),
+    };
+    let player = if shown == 0 { String::new() } else { player() };
+    format!(
+        "<section id=\"swarm-{number}\">\n<h2>{heading}</h2>\n{table}\
+         <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" \
+         aria-live=\"polite\"></div></div>\n{left_out}{player}\
+         <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n\
+         <details><summary>Timing, in cycles</summary>\n<pre>{timing}</pre></details>\n</section>\n",
+        heading = swarm.outcome.heading(),
+        table = swarm.outcome.table(),
+        schematic = picture(swarm.schematic, "schematic"),
+        spacetime = picture(swarm.spacetime, "paths of the robots over time"),
+        timing = escape(&swarm.timing),
+    )
+}
+
+fn player() -> String {
+    format!(
+        "<h3>Robots</h3>\n{}<canvas class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas>\n\
+         <h3>Waveform</h3>\n<canvas class=\"wave\" role=\"img\" aria-label=\"inputs, robots' bits and outputs over \
+         the cycles\"></canvas>\n",
+        controls("2")
+    )
+}
+
+fn truth_table(verdict: &TestVerdict) -> String {
+    let (inputs, outputs) = (verdict.inputs.len(), verdict.outputs.len());
+    let rows: String = verdict.rows.iter().map(truth_row).collect();
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th></th>{}{}{}<th></th><th></th></tr>\n\
+         <tr><th>line</th>{}{}{}<th>cycles</th><th></th></tr>\n{rows}</table></div>\n",
+        group_head(inputs, "inputs"),
+        group_head(outputs, "expected"),
+        group_head(outputs, "observed"),
+        port_heads(&verdict.inputs),
+        port_heads(&verdict.outputs),
+        port_heads(&verdict.outputs),
+    )
+}
+
+fn truth_row(row: &RowVerdict) -> String {
+    let word = if row.passed { "pass" } else { "fail" };
+    format!(
+        "<tr><td>{}</td>{}{}{}<td>{}</td><td class=\"{word}\">{word}</td></tr>\n",
+        row.line,
+        cells(&row.inputs),
+        cells(&row.expected),
+        cells(&row.observed),
+        row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
+    )
+}
+
+/// The activity of a simulation's outputs.
+fn activity_table(result: &SimulationResult) -> String {
+    let (inputs, outputs) = (result.inputs.len(), result.outputs.len());
+    let row = |row: &RowActivity| {
+        let (inputs, observed, changes) = (cells(&row.inputs), cells(&row.observed), cells(&row.changes));
+        format!("<tr><td>{}</td>{inputs}<td>{}</td>{observed}{changes}</tr>\n", row.line, row.cycles)
+    };
+    let rows: String = result.rows.iter().map(row).collect();
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\"><table>\n<tr><th></th>{}<th></th>{}{}</tr>\n\
+         <tr><th>line</th>{}<th>cycles</th>{}{}</tr>\n{rows}</table></div>\n",
+        group_head(inputs, "inputs"),
+        group_head(outputs, "at the end"),
+        group_head(outputs, "changes"),
+        port_heads(&result.inputs),
+        port_heads(&result.outputs),
+        port_heads(&result.outputs),
+    )
+}
+
+/// The heading of a group of columns; a circuit without inputs has none.
+fn group_head(columns: usize, name: &str) -> String {
+    if columns == 0 { String::new() } else { format!("<th colspan=\"{columns}\">{name}</th>") }
+}
+
+fn port_heads(ports: &[Column]) -> String {
+    ports.iter().map(|port| format!("<th>{}</th>", escape(&port.name))).collect()
+}
+
+fn cells(values: &[impl ToString]) -> String {
+    values.iter().map(|value| format!("<td>{}</td>", escape(&value.to_string()))).collect()
+}
+
+/// The data of one swarm for the player.
+fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
+    let trace = swarm.trace;
+    let pairs = trace.cycles.windows(2).enumerate();
+    let marks: Vec<usize> = pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect();
+    let robots: Vec<Json> = trace.recording.robots.iter().map(|recorded| robot_data(swarm, recorded, looks)).collect();
+    json!({
+        "pace": trace.recording.frames_per_cycle,
+        "robots": robots,
+        "cycles": trace.cycles.len(),
+        "marks": marks,
+        "waves": waves(trace),
+    })
+}
+
+/// A bit in each cycle, as digits.
+fn digits(bits: impl Iterator<Item = bool>) -> String {
+    bits.map(|bit| if bit { '1' } else { '0' }).collect()
+}
+
+fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json {
+    let (trace, k) = (swarm.trace, recorded.robot);
+    let (robot, member) = (&trace.robots[k], &swarm.assembly.members[k]);
+    let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
+    let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
+    let body = &member.robot.body;
+    let sensed = [0, 1].map(|i| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k][i])));
+    json!({
+        "cell": k,
+        "net": robot.net,
+        "function": robot.function.name(),
+        "fault": fault,
+        "sensed": sensed,
+        "size": [body.width(), body.height()],
+        "voxels": voxel_data(recorded, body, looks),
+        "corners": recorded.points,
+        "frames": base64(&recorded.frames),
+        "about": about_robot(robot, member),
+    })
+}
+
+/// The rows of the waveform: inputs, the recorded robots, outputs. An output changes at the end of its cycle. The row
+/// of a bit is a text of digits, that of a bus a list of values.
+fn waves(trace: &SwarmTrace) -> Vec<Json> {
+    let cycles = 0..trace.cycles.len();
+    let words = |port: &Column, value: &dyn Fn(usize) -> Value| {
+        let words: Vec<String> = cycles.clone().map(|cycle| value(cycle).to_string()).collect();
+        if port.width == 1 { json!(words.concat()) } else { json!(words) }
+    };
+    let input =
+        |(i, port): (usize, &Column)| row(&port.name, "s1", 0, words(port, &|c| trace.input_values(c).swap_remove(i)));
+    let robot = |recorded: &Recorded| {
+        let k = recorded.robot;
+        row(&trace.robots[k].net, "dim", 1, json!(digits(trace.cycles.iter().map(|cycle| cycle.bits[k]))))
+    };
+    let output = |(o, port): (usize, &Column)| {
+        row(&format!("output {}", port.name), "out", 1, words(port, &|c| trace.output_values(c).swap_remove(o)))
+    };
+    let inputs = trace.inputs.iter().enumerate().map(input);
+    let robots = trace.recording.robots.iter().map(robot);
+    inputs.chain(robots).chain(trace.outputs.iter().enumerate().map(output)).collect()
+}
+
+/// A row of the waveform, whose values apply `shift` cycles later.
+fn row(name: &str, color: &str, shift: usize, values: Json) -> Json {
+    json!({ "name": name, "color": color, "shift": shift, "values": values })
+}

@@ -1,0 +1,53 @@
+//! The sources of a swarm's robots: the program, a folder of the world, or an evolution's run.
+
+use std::sync::OnceLock;
+
+use crate::store;
+use crate::wording::of_library;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Library, LibrarySource, Origin};
+use nbc_base::source::SourceWorld;
+
+/// Everything that robots can be read from.
+#[derive(Clone, Copy)]
+pub(super) struct Supply<'a> {
+    pub(super) world: &'a dyn SourceWorld,
+    /// The built-in robots, after their first use.
+    pub(super) shipped: &'a OnceLock<Library>,
+    /// The path of the checked source.
+    pub(super) file: &'a str,
+}
+
+impl<'a> Supply<'a> {
+    /// The built-in robots.
+    pub(super) fn shipped(self) -> &'a Library {
+        self.shipped.get_or_init(store::shipped_library)
+    }
+
+    /// The robots of a declared library; evolution runs are in the folder `runs`.
+    ///
+    /// # Errors
+    /// The errors of the folder or its files, at the declaration.
+    pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
+        let mut library = match &declared.from {
+            Origin::Shipped => self.shipped().clone(),
+            Origin::Folder(folder) => self.folder(folder, declared, None)?,
+            Origin::Evolution(name) => {
+                let (run, file) = (format!("{runs}/{name}"), self.file);
+                let help = format!(
+                    "`nbc evolve {file} --run {name} --out {runs}`, then `nbc library add {run} --into {run}/robots`"
+                );
+                self.folder(&format!("{run}/robots"), declared, Some(&help))?
+            }
+        };
+        if let Some(behaviors) = &declared.behaviors {
+            library.robots.retain(|robot| behaviors.contains(&robot.behavior));
+        }
+        Ok(library)
+    }
+
+    fn folder(self, folder: &str, declared: &LibrarySource, help: Option<&str>) -> Result<Library, Vec<Diagnostic>> {
+        let placed = |fault: Diagnostic| of_library(fault, declared.span, help);
+        store::read_library(self.world, folder).map_err(|faults| faults.into_iter().map(placed).collect())
+    }
+}

@@ -1,0 +1,296 @@
+//! The session: each door (command line, editor, page, cluster) calls one and repeats none of its steps. A session is a
+//! value: it can be dropped at any moment, and two sessions share no mutable state.
+
+use std::sync::{Arc, OnceLock};
+
+use crate::documents::Documents;
+use crate::observer::Observer;
+use crate::replay::{self, Excerpt};
+use crate::robots::Supply;
+use crate::simulation::{self, SimulationRun};
+use crate::swarm_run::Physics;
+use crate::test::{self, TestCase, TestOptions, TestRun};
+use crate::{
+    Checked, CompileOptions, Compiled, Formatted, Mapping, RunReport, compile, formatted, plan, store, swarm_run,
+};
+use nbc_base::diag::Diagnostics;
+use nbc_base::model::{CircuitTest, Instance, Library, RegisterStyle, Simulation};
+use nbc_base::source::{SourceWorld, Sources, Span};
+use nbc_circuit::CellLibrary;
+use nbc_sim::Simulator;
+use nbc_swarm::{Level, LiveSwarm, Room};
+
+/// From sources in a [`SourceWorld`] to checked programs, compiled circuits, tests and running swarms.
+pub struct Session {
+    documents: Documents,
+    physics: Physics,
+    /// The robots in the program, once they have been asked for.
+    shipped: OnceLock<Library>,
+}
+
+impl Session {
+    /// The cycles for which a swarm has ground, even if a robot walks its own width in each.
+    pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
+
+    /// A session over the sources of a world.
+    pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
+        Self { documents: Documents::new(Box::new(world)), physics: Physics::default(), shipped: OnceLock::new() }
+    }
+
+    /// The same session, with its robots simulated by `simulator`.
+    pub fn with_simulator(mut self, simulator: Simulator) -> Self {
+        self.physics.simulator = simulator;
+        self
+    }
+
+    /// The same session, with a recording of the poses of its swarms, as far as there is room.
+    pub fn with_poses(mut self, room: Room) -> Self {
+        self.physics.poses = Some(room);
+        self
+    }
+
+    /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than
+    /// the last is ignored.
+    pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
+        self.documents.update(path, revision, text);
+    }
+
+    /// Forgets what was read of `path`, and the text that [`Session::update`] gave it: the world's text counts again.
+    pub fn close(&mut self, path: &str) {
+        self.documents.close(path);
+    }
+
+    /// The source at `path`, parsed and checked; the same value until one of its files changes. A file
+    /// that cannot be read has a diagnostic that says so.
+    pub fn checked(&mut self, path: &str) -> Arc<Checked> {
+        self.documents.checked(path)
+    }
+
+    /// Whether the source at `path` was checked, and its files have not changed since. A check whose translation was
+    /// cancelled does not count.
+    pub fn is_checked(&self, path: &str) -> bool {
+        self.documents.is_known(path)
+    }
+
+    /// The files and folders that the source at `path` depends on, as far as it was checked: itself, files that it
+    /// uses, and folders of robots, also those that are missing.
+    pub fn dependencies(&self, path: &str) -> Vec<String> {
+        self.documents.asked(path).map(str::to_owned).collect()
+    }
+
+    /// The source at `path`, without errors.
+    ///
+    /// # Errors
+    /// All its diagnostics, if one of them is an error.
+    pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
+        let checked = self.checked(path);
+        if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
+    }
+
+    /// The source at `path` in its canonical form.
+    ///
+    /// # Errors
+    /// When it cannot be read or parsed.
+    pub fn formatted(&self, path: &str) -> Result<Formatted, Diagnostics> {
+        formatted::format(self.documents.world(), path)
+    }
+
+    /// The robots that come with the program.
+    pub fn shipped(&self) -> &Library {
+        self.shipped.get_or_init(store::shipped_library)
+    }
+
+    /// The robots of a folder of the world, best first.
+    ///
+    /// # Errors
+    /// When the folder or one of its robot files cannot be read.
+    pub fn library(&self, folder: &str) -> Result<Library, Diagnostics> {
+        let read = store::read_library(self.documents.world(), folder);
+        read.map_err(|list| Diagnostics { list, sources: Sources::default() })
+    }
+
+    /// The robots of a declared library, or of the default library, best first for each function.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn robots(
+        &self,
+        checked: &Checked,
+        library: Option<&str>,
+        options: &CompileOptions,
+    ) -> Result<Library, Diagnostics> {
+        let robots = plan::robots(self.supply(checked), &checked.program, library, options);
+        let robots = robots.map_err(|faults| checked.fail(faults))?;
+        Ok(nbc_swarm::prefer(robots, options.objective))
+    }
+
+    fn supply<'a>(&'a self, checked: &'a Checked) -> Supply<'a> {
+        Supply { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
+    }
+
+    /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
+    pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
+        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan.map_err(|faults| checked.fail(faults))?;
+        let (cells, place) = (nbc_swarm::cells(&plan.library), checked.place(circuit));
+        let mapping = compile::map(&checked.program, circuit, &cells, &options.mapping(), plan.registers, place);
+        mapping.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Maps the part of a circuit that drives one net, which is declared at `net`, onto the robots of its swarm.
+    ///
+    /// # Errors
+    /// As [`Session::map`].
+    pub fn map_net(
+        &self,
+        checked: &Checked,
+        circuit: &Instance,
+        net: Span,
+        options: &CompileOptions,
+    ) -> Result<Mapping, Diagnostics> {
+        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan.map_err(|faults| checked.fail(faults))?;
+        let mapping = compile::map_net(&checked.program, &plan, net, options.mapping());
+        mapping.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Elaborates a circuit, maps it onto cells that need not be of robots, and proves the result.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, or a function is missing among the cells.
+    pub fn map_onto(
+        &self,
+        checked: &Checked,
+        circuit: &Instance,
+        cells: &CellLibrary,
+        options: &CompileOptions,
+    ) -> Result<Mapping, Diagnostics> {
+        let (style, place) = (RegisterStyle::default(), checked.place(circuit));
+        let mapping = compile::map(&checked.program, circuit, cells, &options.mapping(), style, place);
+        mapping.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, robots cannot be read or a function is missing among them, or several swarms
+    /// are declared and none is chosen.
+    pub fn compile(
+        &self,
+        checked: &Checked,
+        circuit: &Instance,
+        options: &CompileOptions,
+    ) -> Result<Compiled, Diagnostics> {
+        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let compiled =
+            plan.and_then(|plan| compile::compile(&checked.program, plan, &options.mapping(), checked.place(circuit)));
+        compiled.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Makes a test ready to run: one case for each swarm that is declared for its circuit, or one at the level of
+    /// logic.
+    ///
+    /// # Errors
+    /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
+    pub fn cases<'a>(
+        &self,
+        checked: &Checked,
+        test: &'a CircuitTest,
+        options: &TestOptions,
+    ) -> Result<Vec<TestCase<'a>>, Diagnostics> {
+        test::cases(self.supply(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
+    }
+
+    /// Runs one case of a test.
+    pub fn run_case(&self, case: TestCase<'_>, observer: &mut dyn Observer) -> TestRun {
+        case.run(&self.physics, observer)
+    }
+
+    /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
+    ///
+    /// # Errors
+    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
+    pub fn test(
+        &self,
+        checked: &Checked,
+        test: &CircuitTest,
+        options: &TestOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<TestRun>, Diagnostics> {
+        let cases = self.cases(checked, test, options)?;
+        Ok(cases.into_iter().map(|case| self.run_case(case, observer)).collect())
+    }
+
+    /// Runs a declared simulation in physics.
+    ///
+    /// # Errors
+    /// When the swarm's circuit cannot be compiled, or its robots cannot be read.
+    pub fn simulate(
+        &self,
+        checked: &Checked,
+        simulation: &Simulation,
+        options: &CompileOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<SimulationRun, Diagnostics> {
+        let compiled = simulation::compiled(self.supply(checked), &checked.program, simulation, options);
+        let compiled = compiled.map_err(|faults| checked.fail(faults))?;
+        Ok(simulation::run(&self.physics, simulation, compiled, observer))
+    }
+
+    /// A compiled circuit's swarm at its start, to be stepped a cycle at a time.
+    pub fn swarm(&self, compiled: &Compiled) -> LiveSwarm {
+        self.physics.swarm(compiled, Self::LIVE_CYCLES)
+    }
+
+    /// Simulates a part of a live swarm's run again, with its poses recorded.
+    pub fn replay(&self, excerpt: &Excerpt, observer: &mut dyn Observer) -> SimulationRun {
+        replay::replay(&self.physics, excerpt, observer)
+    }
+
+    /// Runs every test and every simulation of a source in physics.
+    ///
+    /// # Errors
+    /// When the source has errors or its circuits cannot be compiled. A test that fails is no error.
+    pub fn run(
+        &mut self,
+        path: &str,
+        options: &CompileOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, Diagnostics> {
+        let checked = self.open(path)?;
+        self.run_checked(&checked, options, observer)
+    }
+
+    /// Runs every test and every simulation of a checked source in physics.
+    ///
+    /// # Errors
+    /// When its circuits cannot be compiled. A test that fails is no error.
+    pub fn run_checked(
+        &self,
+        checked: &Checked,
+        options: &CompileOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, Diagnostics> {
+        let test_options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
+        let mut report = RunReport { tests: Vec::new(), simulations: Vec::new() };
+        for test in &checked.program.tests {
+            report.tests.extend(self.test(checked, test, &test_options, observer)?);
+        }
+        for simulation in &checked.program.simulations {
+            report.simulations.push(self.simulate(checked, simulation, options, observer)?);
+        }
+        Ok(report)
+    }
+}
+
+/// Runs every test and every simulation of a file of the disk in physics; see [`Session::run`].
+///
+/// # Errors
+/// As [`Session::run`].
+#[cfg(feature = "disk")]
+pub fn run_file(path: impl AsRef<std::path::Path>, options: &CompileOptions) -> Result<RunReport, Diagnostics> {
+    Session::new(crate::store::DiskWorld).run(&path.as_ref().to_string_lossy(), options, &mut ())
+}

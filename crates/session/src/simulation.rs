@@ -1,0 +1,71 @@
+//! Simulations: a declared swarm under a schedule of its inputs, without a demand on its outputs.
+
+use crate::compile::{self, Compiled};
+use crate::observer::Observer;
+use crate::options::CompileOptions;
+use crate::plan;
+use crate::robots::Supply;
+use crate::swarm_run::{Physics, RunEnd, SwarmRun};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Program, Simulation};
+use nbc_swarm::{SimulationResult, SwarmTrace};
+
+/// A simulation with its results.
+#[derive(Clone, Debug)]
+pub struct SimulationRun {
+    /// The activity of the outputs.
+    pub result: SimulationResult,
+    /// How the run ended.
+    pub end: RunEnd,
+    /// The swarm and its trace.
+    pub swarm: SwarmRun,
+    /// Warnings about the swarm.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// The swarm of a simulation, compiled.
+///
+/// # Errors
+/// When the swarm's circuit cannot be compiled, or its robots cannot be read.
+///
+/// # Panics
+/// When the simulation is of another program.
+pub(super) fn compiled(
+    supply: Supply<'_>,
+    program: &Program,
+    simulation: &Simulation,
+    options: &CompileOptions,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let swarm = program.swarm(&simulation.swarm).expect("a simulation names a swarm of its program");
+    let mut plan = plan::of_swarm(supply, program, &swarm.circuit, Some(swarm), options)?;
+    plan.world = simulation.world.unwrap_or(plan.world);
+    compile::compile(program, plan, &options.mapping(), simulation.span)
+}
+
+/// Runs a simulation in full physics.
+pub(super) fn run(
+    physics: &Physics,
+    simulation: &Simulation,
+    compiled: Compiled,
+    observer: &mut dyn Observer,
+) -> SimulationRun {
+    let held = simulation.spells.iter().flat_map(|spell| std::iter::repeat_n(&spell.inputs, spell.cycles as usize));
+    let (trace, end) = physics.run(&compiled, held.cloned().collect(), observer);
+    finish(simulation, compiled, trace, end)
+}
+
+/// The results of a simulation that has run.
+pub(super) fn finish(simulation: &Simulation, compiled: Compiled, trace: SwarmTrace, end: RunEnd) -> SimulationRun {
+    let result = SimulationResult {
+        file: simulation.file.clone(),
+        line: simulation.line,
+        circuit: compiled.plan.circuit.to_string(),
+        swarm: simulation.swarm.clone(),
+        inputs: trace.inputs.clone(),
+        outputs: trace.outputs.clone(),
+        weak_robots: compiled.weak_robots.clone(),
+        rows: nbc_swarm::activity(simulation, &trace),
+    };
+    let warnings = compiled.warnings.clone();
+    SimulationRun { result, end, swarm: SwarmRun { compiled, trace }, warnings }
+}

@@ -1,0 +1,64 @@
+//! The declaration of a run, as its checkpoint stores it.
+
+use std::sync::Arc;
+
+use nbc_base::model::{Axis, Evolution, Palette, SearchObjective};
+
+/// The declaration in a checkpoint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// The declaration's name.
+    pub name: String,
+    /// The archive's axes; `None` in the oldest checkpoints, which do not have them.
+    pub axes: Vec<Axis>,
+    /// What fitness meant in the run.
+    pub objective: SearchObjective,
+    /// The meaning of the codes in its bodies.
+    pub palette: Arc<Palette>,
+    pub(super) whole: Whole,
+}
+
+/// A declaration in full.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Whole {
+    /// As data.
+    Data(Box<Evolution>),
+    /// As the text by which checkpoints of format 1 are compared.
+    Text(String),
+}
+
+impl Declared {
+    pub(super) fn of(evolution: Evolution) -> Self {
+        Self {
+            name: evolution.name.clone(),
+            axes: evolution.descriptors.clone(),
+            objective: evolution.objective,
+            palette: Arc::clone(&evolution.palette),
+            whole: Whole::Data(Box::new(evolution)),
+        }
+    }
+
+    /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be
+    /// others.
+    pub(super) fn fits(&self, evolution: &Evolution) -> bool {
+        match &self.whole {
+            Whole::Data(own) => {
+                let Evolution { name, generations, seeds, .. } = evolution.clone();
+                Evolution { name, generations, seeds, ..Evolution::clone(own) } == *evolution
+            }
+            Whole::Text(own) => *own == declaration_text(evolution),
+        }
+    }
+}
+
+/// Everything in a declaration that its archive depends on, as format 1 wrote it.
+fn declaration_text(evolution: &Evolution) -> String {
+    let spells = &evolution.variable.spells;
+    let Evolution { width, height, palette, mutation, fixed_steps, descriptors, batch, newcomers, .. } = evolution;
+    let Evolution { rules, objective, symmetry, niche, .. } = evolution;
+    format!(
+        "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + \
+         {newcomers}; {rules:?}; \
+         {objective:?}; {symmetry:?}; {niche:?}"
+    )
+}

@@ -1,0 +1,152 @@
+//! Reading regular files up to a limit of size.
+
+use std::fs::{self, File, FileType};
+use std::io::Read;
+use std::path::Path;
+
+use nbc_base::diag::io_words;
+use nbc_base::source::FileError;
+use nbc_lang::syntax::MAX_SOURCE_BYTES;
+
+/// The largest checkpoint of an evolution run, in bytes.
+pub const MAX_CHECKPOINT_BYTES: u64 = 1 << 30;
+/// The largest record of a run's progress, in bytes.
+pub const MAX_PROGRESS_BYTES: u64 = 256 << 20;
+/// The largest circuit file (BLIF, AIGER, .bench, Verilog), in bytes.
+pub const MAX_CIRCUIT_BYTES: u64 = 256 << 20;
+
+/// The path of standard input, which may be a pipe.
+const STANDARD_INPUT: &str = "/dev/stdin";
+
+/// The bytes of a regular file of at most `limit` bytes. Folders, pipes and devices are rejected before they are
+/// opened, because a pipe waits for its writer and a device may never end. Standard input is read in any case.
+///
+/// # Errors
+/// When there is no such file, or it is not a regular one, too large, or the system rejects it.
+pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+    let about = fs::metadata(path).map_err(|error| refusal(&error))?;
+    if !about.is_file() && path != Path::new(STANDARD_INPUT) {
+        return Err(FileError::NotRegular(kind(about.file_type())));
+    }
+    if about.len() > limit {
+        return Err(FileError::TooLarge { limit });
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| refusal(&error))?;
+    // The system does not know the size of every file, so one byte more than the limit shows that a file is too large.
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| refusal(&error))?;
+    if bytes.len() as u64 > limit { Err(FileError::TooLarge { limit }) } else { Ok(bytes) }
+}
+
+/// Like [`read`], for text.
+///
+/// # Errors
+/// As [`read`], and when the bytes are not UTF-8.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
+    let bytes = read(path, limit)?;
+    String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
+}
+
+/// The error of the system.
+pub(super) fn refusal(error: &std::io::Error) -> FileError {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => FileError::NotFound,
+        _ => FileError::Io(io_words(error)),
+    }
+}
+
+/// The kind of a path that is not a regular file.
+fn kind(of: FileType) -> &'static str {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if of.is_fifo() {
+            return "a pipe";
+        }
+        if of.is_char_device() || of.is_block_device() {
+            return "a device";
+        }
+        if of.is_socket() {
+            return "a socket";
+        }
+    }
+    if of.is_dir() { "a folder" } else { "a special file" }
+}
+
+/// The text of a source.
+///
+/// # Errors
+/// As [`read_text`].
+pub(super) fn source(path: &Path) -> Result<String, FileError> {
+    read_text(path, MAX_SOURCE_BYTES)
+}
+
+/// The bytes of a source.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn source_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    read(path, MAX_SOURCE_BYTES)
+}
+
+/// The names of the entries of a folder, in order.
+///
+/// # Errors
+/// When it is not a folder, or the system rejects it.
+pub(super) fn list(folder: &Path) -> Result<Vec<String>, FileError> {
+    if folder.is_file() {
+        return Err(FileError::Io("it is not a folder".to_owned()));
+    }
+    let entries = fs::read_dir(folder).and_then(|entries| entries.collect::<Result<Vec<_>, _>>());
+    let entries = entries.map_err(|error| refusal(&error))?;
+    let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    Ok(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(bytes: &[u8], expected: Result<&str, FileError>) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.nb");
+        fs::write(&path, bytes).unwrap();
+        assert_eq!(read_text(&path, 10), expected.map(str::to_owned));
+    }
+
+    #[test]
+    fn text_is_read_and_invalid_utf8_is_rejected() {
+        check("circuit é".as_bytes(), Ok("circuit é"));
+        check(b"circuit \xff", Err(FileError::NotText { offset: 8 }));
+    }
+
+    #[test]
+    fn a_file_above_the_limit_is_rejected() {
+        check(b"ten bytes.", Ok("ten bytes."));
+        check(b"eleven byte", Err(FileError::TooLarge { limit: 10 }));
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_file_whose_size_the_system_does_not_know_is_read_up_to_the_limit() {
+        assert_eq!(fs::metadata("/proc/cpuinfo").unwrap().len(), 0);
+        assert_eq!(read(Path::new("/proc/cpuinfo"), 10), Err(FileError::TooLarge { limit: 10 }));
+    }
+
+    #[test]
+    fn missing_files_and_folders_are_distinguished() {
+        assert_eq!(source(Path::new("no/such/file")), Err(FileError::NotFound));
+        assert_eq!(source(Path::new("/")), Err(FileError::NotRegular("a folder")));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn pipes_and_devices_are_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe.nb");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert_eq!(read(&pipe, 10), Err(FileError::NotRegular("a pipe")));
+        assert_eq!(source(Path::new("/dev/zero")), Err(FileError::NotRegular("a device")));
+    }
+}

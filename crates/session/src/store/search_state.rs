@@ -1,0 +1,89 @@
+//! The state of a search as data, without what follows from the declaration; bodies are rows of codes.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::store::declared::Declared;
+use crate::store::wording::StateError;
+use nbc_base::model::{Axis, Behavior, Body, Genotype, Palette};
+use nbc_swarm::evolve::{Counts, Elite, NicheKey, SearchState};
+
+/// The most bins of an axis that can be declared.
+const MAX_BINS: usize = 1000;
+
+/// A search's state.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SearchRecord {
+    seed: u64,
+    generation: u32,
+    counts: Counts,
+    mirrors: Vec<Genotype>,
+    niches: Vec<(NicheKey, Vec<EliteRecord>)>,
+}
+
+/// An elite with the palette of the declaration.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EliteRecord {
+    fitness: [f64; 2],
+    behavior: Behavior,
+    displacement: [f64; 4],
+    body: Vec<String>,
+    genotype: Genotype,
+    generation: u32,
+    evaluations: u64,
+}
+
+impl SearchRecord {
+    pub(super) fn of(state: SearchState) -> Self {
+        let SearchState { seed, generation, counts, mirrors, niches } = state;
+        let record = |elites: Vec<Elite>| elites.into_iter().map(EliteRecord::of).collect();
+        let niches = niches.into_iter().map(|(key, elites)| (key, record(elites))).collect();
+        Self { seed, generation, counts, mirrors, niches }
+    }
+
+    /// The state of a search by that declaration.
+    ///
+    /// # Errors
+    /// The niche or body that cannot belong to it.
+    pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, StateError> {
+        let Self { seed, generation, counts, mirrors, niches } = self;
+        let bins = declared
+            .axes
+            .iter()
+            .filter_map(|axis| if let Axis::Count { bins, .. } = *axis { Some(bins) } else { None });
+        if let Some(bins) = bins.into_iter().find(|bins| !(1..=MAX_BINS).contains(bins)) {
+            return Err(StateError::Bins { bins, most: MAX_BINS });
+        }
+        let niche = |(key, elites): (NicheKey, Vec<EliteRecord>)| {
+            if !declared.axes.is_empty() && !is_niche(&key, &declared.axes) {
+                return Err(StateError::NoNiche { bins: key.0 });
+            }
+            let elites = elites.into_iter().map(|elite| elite.into_elite(&declared.palette));
+            Ok((key, elites.collect::<Result<Vec<_>, _>>()?))
+        };
+        let niches = niches.into_iter().map(niche).collect::<Result<_, StateError>>()?;
+        Ok(SearchState { seed, generation, counts, mirrors, niches })
+    }
+}
+
+/// Whether a key has a bin on each axis.
+fn is_niche(key: &NicheKey, axes: &[Axis]) -> bool {
+    let bins = |axis: &Axis| if let Axis::Count { bins, .. } = *axis { bins } else { 16 };
+    key.0.len() == axes.len() && key.0.iter().zip(axes).all(|(&bin, axis)| usize::from(bin) < bins(axis))
+}
+
+impl EliteRecord {
+    fn of(elite: Elite) -> Self {
+        let Elite { fitness, behavior, displacement, body, genotype, generation, evaluations } = elite;
+        Self { fitness, behavior, displacement, body: body.rows(), genotype, generation, evaluations }
+    }
+
+    fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, StateError> {
+        let Self { fitness, behavior, displacement, body, genotype, generation, evaluations } = self;
+        let body = Body::parse(&body, palette).map_err(StateError::Body)?;
+        Ok(Elite { fitness, behavior, displacement, body, genotype, generation, evaluations })
+    }
+}

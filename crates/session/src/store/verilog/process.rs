@@ -1,0 +1,247 @@
+//! Yosys as a process that can do little and never outlives its asker.
+//!
+//! A shell starts it, sets its limits, and waits for it. The shell also reads from a pipe whose other end only the
+//! asker has. When that closes, because nobody waits any more or the asker was killed, the shell ends Yosys and removes
+//! its folder.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use nbc_base::diag::io_words;
+use nbc_base::source::VerilogError;
+use nbc_circuit::CancelFlag;
+
+/// What Yosys may use.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Seconds of a processor.
+    pub(super) seconds: u64,
+    pub(super) megabytes: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { seconds: 60, megabytes: 2048 }
+    }
+}
+
+/// The first part of the names of its folders.
+const FOLDER: &str = "nbc-verilog-";
+/// A folder that is older belongs to a process that was killed together with its shell.
+const STALE: Duration = Duration::from_secs(3600);
+/// The time between two looks at the process.
+const LOOK: Duration = Duration::from_millis(10);
+/// The most bytes of messages that are kept.
+const MESSAGES: u64 = 1 << 20;
+
+/// Starts Yosys with the script `$1`, for `$2` seconds, with `$3` kilobytes. Signal 15 is for the whole group, and
+/// makes the shell remove the folder, where it is.
+#[cfg(unix)]
+const SHELL: &str = r#"
+folder=$(pwd)
+{
+    ulimit -c 0
+    ulimit -n 64
+    ulimit -f 524288
+    ulimit -H -t $(($2 + 1))
+    ulimit -S -t "$2"
+    ulimit -v "$3"
+} 2>/dev/null
+command -v yosys >/dev/null || exit 127
+trap : TERM
+exec 3<&0 </dev/null
+yosys -q -p "$1" 3<&- &
+yosys=$!
+{ read -r _ <&3; kill -TERM 0; } 2>/dev/null &
+watch=$!
+exec 3<&-
+wait $yosys
+status=$?
+if [ $status -eq 143 ]; then
+    cd /
+    /bin/rm -rf -- "$folder"
+    kill -KILL 0
+fi
+# The shell would name the signal among the messages.
+exec 2>/dev/null
+kill -KILL $watch
+wait $watch
+exit $status
+"#;
+
+/// A folder that only this user can enter.
+pub(super) fn folder() -> Result<TempDir, VerilogError> {
+    remove_stale(&std::env::temp_dir());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(FOLDER);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o700));
+    }
+    builder.tempdir().map_err(|error| VerilogError::NoFolder(io_words(&error)))
+}
+
+/// Removes folders that were left. One that cannot be removed belongs to somebody else.
+fn remove_stale(parent: &Path) {
+    let is_stale = |entry: &fs::DirEntry| {
+        let age = entry.metadata().and_then(|about| about.modified()).ok().and_then(|at| at.elapsed().ok());
+        entry.file_name().to_string_lossy().starts_with(FOLDER) && age.is_some_and(|age| age > STALE)
+    };
+    for entry in fs::read_dir(parent).into_iter().flatten().flatten().filter(is_stale) {
+        let _ = fs::remove_dir_all(entry.path());
+    }
+}
+
+/// Runs Yosys in a folder; its messages if it failed.
+///
+/// # Errors
+/// When it is not installed, reached a limit, or is not waited for any more.
+pub(super) fn run(
+    folder: &Path,
+    script: &str,
+    limits: Limits,
+    cancel: &CancelFlag,
+) -> Result<Result<(), String>, VerilogError> {
+    run_found(std::env::var_os("PATH"), folder, script, limits, cancel)
+}
+
+/// The same with the Yosys that is found in the folders of `path`.
+fn run_found(
+    path: Option<OsString>,
+    folder: &Path,
+    script: &str,
+    limits: Limits,
+    cancel: &CancelFlag,
+) -> Result<Result<(), String>, VerilogError> {
+    let mut command = command(script, limits);
+    command.env_clear().envs(path.map(|path| ("PATH", path)));
+    command.envs(["HOME", "TMPDIR"].map(|name| (name, folder))).env("LC_ALL", "C").current_dir(folder);
+    let child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
+    let mut child = child.map_err(|_| VerilogError::NoYosys)?;
+    let messages = child.stderr.take().map(|stderr| thread::spawn(move || read(stderr)));
+    let status = wait(&mut child, limits, cancel)?;
+    let said = messages.and_then(|thread| thread.join().ok()).unwrap_or_default();
+    outcome(status, said, limits)
+}
+
+fn outcome(status: ExitStatus, said: String, limits: Limits) -> Result<Result<(), String>, VerilogError> {
+    /// What a shell gives for a program that is not there, and for signal 24, which a processor's time limit sends.
+    const MISSING: i32 = 127;
+    const LATE: i32 = 128 + 24;
+    match status.code() {
+        Some(0) => Ok(Ok(())),
+        Some(MISSING) => Err(VerilogError::NoYosys),
+        Some(LATE) => Err(VerilogError::TooLong { seconds: limits.seconds }),
+        _ if said.contains("bad_alloc") || said.contains("Out of memory") => {
+            Err(VerilogError::TooLarge { megabytes: limits.megabytes })
+        }
+        _ => Ok(Err(said)),
+    }
+}
+
+#[cfg(unix)]
+fn command(script: &str, limits: Limits) -> Command {
+    use std::os::unix::process::CommandExt;
+    let mut command = Command::new("/bin/sh");
+    let (seconds, kilobytes) = (limits.seconds.to_string(), (limits.megabytes * 1024).to_string());
+    command.args(["-c", SHELL, "nbc-verilog", script, &seconds, &kilobytes]).process_group(0);
+    command
+}
+
+#[cfg(not(unix))]
+fn command(script: &str, _limits: Limits) -> Command {
+    let mut command = Command::new("yosys");
+    command.args(["-q", "-p", script]);
+    command
+}
+
+/// Waits for the end, or ends it.
+fn wait(child: &mut Child, limits: Limits, cancel: &CancelFlag) -> Result<ExitStatus, VerilogError> {
+    // A process can wait for a processor, but not forever.
+    let end = Instant::now() + Duration::from_secs(4 * limits.seconds);
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Ok(status),
+            Ok(None) if cancel.is_raised() => return Err(stopped(child, VerilogError::Cancelled)),
+            Ok(None) if Instant::now() > end => {
+                return Err(stopped(child, VerilogError::TooLong { seconds: limits.seconds }));
+            }
+            Ok(None) => thread::sleep(LOOK),
+            Err(_) => return Err(stopped(child, VerilogError::NoResult)),
+        }
+    }
+}
+
+/// Closes the pipe, and waits until all are gone.
+fn stopped(child: &mut Child, error: VerilogError) -> VerilogError {
+    drop(child.stdin.take());
+    if cfg!(not(unix)) {
+        let _ = child.kill();
+    }
+    let _ = child.wait();
+    error
+}
+
+/// The start of the messages. The rest is read too, because Yosys would wait for its reader.
+fn read(mut from: ChildStderr) -> String {
+    let mut said = Vec::new();
+    let _ = (&mut from).take(MESSAGES).read_to_end(&mut said);
+    let _ = io::copy(&mut from, &mut io::sink());
+    String::from_utf8_lossy(&said).into_owned()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::PermissionsExt;
+
+    use super::*;
+
+    /// How a shell script ends in the place of Yosys.
+    fn ended(script: &str, limits: Limits, cancel: &CancelFlag) -> Result<Result<(), String>, VerilogError> {
+        let (programs, work) = (tempfile::tempdir().unwrap(), folder().unwrap());
+        let program = programs.path().join("yosys");
+        fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+        let others = std::env::var_os("PATH").unwrap_or_default();
+        let folders = [programs.path().to_owned()].into_iter().chain(std::env::split_paths(&others));
+        let path = std::env::join_paths(folders).unwrap();
+        run_found(Some(path), work.path(), "", limits, cancel)
+    }
+
+    #[test]
+    fn yosys_has_limits_of_time_and_memory() {
+        let cancel = CancelFlag::default();
+        let limits = Limits { seconds: 7, megabytes: 640 };
+        // The system sends this signal to a process at its limit of time.
+        let late = "[ \"$(ulimit -S -t)\" = 7 ] && kill -XCPU $$";
+        assert_eq!(ended(late, limits, &cancel), Err(VerilogError::TooLong { seconds: 7 }));
+        let large = "[ \"$(ulimit -v)\" = 655360 ] && echo 'ERROR: Out of memory' >&2; exit 1";
+        assert_eq!(ended(large, limits, &cancel), Err(VerilogError::TooLarge { megabytes: 640 }));
+        assert_eq!(ended("echo no >&2; exit 1", limits, &cancel), Ok(Err("no\n".to_owned())));
+        assert_eq!(ended("exit 0", limits, &cancel), Ok(Ok(())));
+    }
+
+    #[test]
+    fn a_translation_that_nobody_waits_for_ends() {
+        let cancel = CancelFlag::default();
+        cancel.raise();
+        // Whether it ends is the test. Without an end, it would last for an hour.
+        assert_eq!(ended("sleep 3600", Limits::default(), &cancel), Err(VerilogError::Cancelled));
+    }
+
+    #[test]
+    fn without_yosys_nothing_is_run() {
+        let work = folder().unwrap();
+        let nowhere = Some(work.path().as_os_str().to_owned());
+        let ended = run_found(nowhere, work.path(), "", Limits::default(), &CancelFlag::default());
+        assert_eq!(ended, Err(VerilogError::NoYosys));
+    }
+}

@@ -1,0 +1,28 @@
+//! Circuit files.
+
+use nbc_base::diag::{Code, Diagnostic};
+
+/// A circuit file that cannot be read or written.
+#[derive(Debug)]
+pub(in crate::store) enum StoreError {
+    /// A file name without the extension of a circuit format.
+    CircuitFormat { file: String },
+    /// A circuit whose text would be too large to be read again.
+    NbTooLarge { bytes: usize, most: u64 },
+}
+
+impl From<StoreError> for Diagnostic {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::CircuitFormat { file } => {
+                let message =
+                    format!("unrecognized circuit format of `{file}`; expected .blif, .aig, .aag, .bench, .v or .sv");
+                Self::without_place(Code::BadValue, message)
+            }
+            StoreError::NbTooLarge { bytes, most } => {
+                Self::without_place(Code::TooLarge, format!("the circuit takes {bytes} bytes as a .nb file"))
+                    .with_help(format!("a .nb file has at most {most} bytes; write BLIF"))
+            }
+        }
+    }
+}

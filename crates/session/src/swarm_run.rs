@@ -1,0 +1,81 @@
+//! A compiled circuit's swarm, run through inputs in full physics.
+
+use crate::compile::Compiled;
+use crate::observer::Observer;
+use nbc_sim::Simulator;
+use nbc_swarm::{LiveSwarm, Room, SwarmTrace};
+
+/// The cycles for which a live swarm has ground, even if a robot walks its own width in each.
+pub(super) const LIVE_CYCLES: usize = 1000;
+
+/// A swarm with its trace.
+#[derive(Clone, Debug)]
+pub struct SwarmRun {
+    /// The circuit, compiled.
+    pub compiled: Compiled,
+    /// What each robot showed in each cycle.
+    pub trace: SwarmTrace,
+}
+
+/// How a session's swarms are simulated.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Physics {
+    /// The simulator of their robots.
+    pub simulator: Simulator,
+    /// The room for a recording of the robots' poses, if one is made.
+    pub poses: Option<Room>,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunEnd {
+    /// It was completed.
+    Complete,
+    /// The observer cancelled it; the results cover the part before.
+    Cancelled,
+}
+
+impl Physics {
+    /// A swarm at its start, with ground for that many cycles.
+    pub fn swarm(&self, compiled: &Compiled, cycles: usize) -> LiveSwarm {
+        LiveSwarm::new(&self.simulator, &compiled.assembly, cycles, compiled.plan.window as usize, self.poses)
+    }
+
+    /// Runs a swarm with these input bits in each cycle.
+    pub fn run(
+        &self,
+        compiled: &Compiled,
+        inputs: Vec<Vec<bool>>,
+        observer: &mut dyn Observer,
+    ) -> (SwarmTrace, RunEnd) {
+        run(self.swarm(compiled, inputs.len()), &inputs, observer)
+    }
+}
+
+/// Runs a swarm on with these input bits in each cycle.
+pub(super) fn run(swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
+    run_until(swarm, inputs, &mut |_| false, observer)
+}
+
+/// Runs a swarm on with these input bits in each cycle, to the end of the first after which `is_enough` says that its
+/// trace is.
+pub(super) fn run_until(
+    mut swarm: LiveSwarm,
+    inputs: &[Vec<bool>],
+    is_enough: &mut dyn FnMut(&SwarmTrace) -> bool,
+    observer: &mut dyn Observer,
+) -> (SwarmTrace, RunEnd) {
+    let all = inputs.len() as u64;
+    for (cycle, inputs) in (1..).zip(inputs) {
+        swarm.step(inputs);
+        if is_enough(swarm.trace()) {
+            observer.progress(all, all);
+            break;
+        }
+        observer.progress(cycle, all);
+        if observer.is_cancelled() && cycle < all {
+            return (swarm.into_trace(), RunEnd::Cancelled);
+        }
+    }
+    (swarm.into_trace(), RunEnd::Complete)
+}

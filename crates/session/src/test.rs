@@ -1,0 +1,319 @@
+//! Tests: compiled to cases without errors, and run at the level of logic or in physics.
+
+use crate::compile::{Compiled, compile};
+use crate::hold;
+use crate::observer::Observer;
+use crate::options::CompileOptions;
+use crate::plan::plans;
+use crate::robots::Supply;
+use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
+use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
+use nbc_swarm::{Demand, Level, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
+
+/// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
+const LARGE: usize = 40;
+
+/// Circuits with this many gates are not compiled to count robots: no library makes them of fewer than [`LARGE`]
+/// robots.
+const SURELY_LARGE: usize = 10 * LARGE;
+
+/// How a test is run.
+#[derive(Clone, Debug, Default)]
+pub struct TestOptions {
+    /// The level; by default physics for swarms of few robots.
+    pub level: Option<Level>,
+    /// How its circuit becomes a swarm.
+    pub compile: CompileOptions,
+}
+
+/// A test with its results.
+#[derive(Clone, Debug)]
+pub struct TestRun {
+    /// Whether the circuit passed. A cancelled run has not passed, and its verdict has the completed rows.
+    pub verdict: TestVerdict,
+    /// How the run ended.
+    pub end: RunEnd,
+    /// The swarm and its trace; `None` at the level of logic.
+    pub swarm: Option<SwarmRun>,
+    /// Warnings.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// A test that is ready to run.
+#[derive(Clone, Debug)]
+pub struct TestCase<'a> {
+    test: &'a CircuitTest,
+    rows: Vec<TestRow>,
+    subject: Subject,
+    /// Whether it ends in physics with the first row that fails.
+    ends_at_failure: bool,
+}
+
+/// The tested circuit.
+#[derive(Clone, Debug)]
+enum Subject {
+    Gates(Netlist),
+    Robots(Box<Compiled>, Vec<Demand>),
+}
+
+/// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
+///
+/// # Errors
+/// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
+pub(super) fn cases<'a>(
+    supply: Supply<'_>,
+    program: &Program,
+    test: &'a CircuitTest,
+    options: &TestOptions,
+) -> Result<Vec<TestCase<'a>>, Vec<Diagnostic>> {
+    let rows = rows(program, test)?;
+    let case = |subject| TestCase { test, rows: rows.clone(), subject, ends_at_failure: false };
+    let netlist = elaborate(program, &test.circuit)?;
+    let level = options.level;
+    if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
+        return Ok(vec![case(Subject::Gates(netlist))]);
+    }
+    let mut cases = Vec::new();
+    for mut plan in plans(supply, program, &test.circuit, &options.compile)? {
+        plan.world = test.world.unwrap_or(plan.world);
+        let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
+        if level.is_none() && compiled.assembly.members.len() >= LARGE {
+            return Ok(vec![case(Subject::Gates(netlist))]);
+        }
+        let demands = hold::demands(&rows, &netlist, &compiled);
+        compiled.warnings.extend(short_holds(program, test, &rows, &demands, &compiled));
+        cases.push(case(Subject::Robots(Box::new(compiled), demands)));
+    }
+    Ok(cases)
+}
+
+/// The warnings of a hold that is too short, with one that suffices for all tests of the circuit.
+fn short_holds(
+    program: &Program,
+    test: &CircuitTest,
+    own: &[TestRow],
+    demands: &[Demand],
+    compiled: &Compiled,
+) -> Vec<Diagnostic> {
+    let sufficient = || {
+        let others = program.tests.iter().filter(|other| other.circuit == test.circuit && *other != test);
+        let others = others.filter_map(|other| rows(program, other).ok());
+        let cycles = others.map(|rows| hold::sufficient(&rows, compiled));
+        cycles.fold(hold::sufficient(own, compiled), usize::max)
+    };
+    hold::warnings(test, own, demands, compiled, sufficient)
+}
+
+impl TestRun {
+    /// The run as the result in its world; `None` at the level of logic.
+    pub fn world_trial(&self) -> Option<WorldTrial> {
+        let SwarmRun { compiled, trace } = self.swarm.as_ref()?;
+        let window = compiled.plan.window as usize;
+        Some(WorldTrial::new(compiled.plan.world, &self.verdict, trace, &clocks(compiled), window))
+    }
+}
+
+fn clocks(compiled: &Compiled) -> Vec<u32> {
+    compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect()
+}
+
+impl TestCase<'_> {
+    /// The amount of work: cycles in physics, rows at the level of logic.
+    pub fn work(&self) -> u64 {
+        match &self.subject {
+            Subject::Gates(_) => self.rows.len() as u64,
+            Subject::Robots(..) => self.demands().iter().map(|demand| demand.hold as u64).sum(),
+        }
+    }
+
+    /// The hold of each row in physics; empty at the level of logic.
+    pub fn demands(&self) -> &[Demand] {
+        match &self.subject {
+            Subject::Gates(_) => &[],
+            Subject::Robots(_, demands) => demands,
+        }
+    }
+
+    /// The declared swarm that is tested, if it is one.
+    pub fn swarm(&self) -> Option<&str> {
+        match &self.subject {
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled, _) => compiled.plan.swarm.as_deref(),
+        }
+    }
+
+    /// The swarm, and the input bits of each of its cycles through the first `rows` rows; `None` at the level of logic.
+    pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
+        match self.subject {
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled, demands) => {
+                let rows = self.rows.iter().zip(&demands).take(rows);
+                let held = rows.flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+                Some((*compiled, held.collect()))
+            }
+        }
+    }
+
+    /// The world of its swarm; the paper's at the level of logic, which has none.
+    pub fn world(&self) -> PhysicsWorld {
+        match &self.subject {
+            Subject::Gates(_) => PhysicsWorld::default(),
+            Subject::Robots(compiled, _) => compiled.plan.world,
+        }
+    }
+
+    /// The same test in another world, where it ends with the first row that fails.
+    pub fn trial_in(&self, world: PhysicsWorld) -> Self {
+        let subject = match &self.subject {
+            Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
+            Subject::Robots(compiled, demands) => Subject::Robots(Box::new(compiled.in_world(world)), demands.clone()),
+        };
+        Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true }
+    }
+
+    /// The number of robots; 0 at the level of logic.
+    pub fn robots(&self) -> usize {
+        match &self.subject {
+            Subject::Gates(_) => 0,
+            Subject::Robots(compiled, _) => compiled.assembly.members.len(),
+        }
+    }
+
+    /// The rows, in order.
+    pub fn rows(&self) -> &[TestRow] {
+        &self.rows
+    }
+
+    /// The simulation of its swarm, to be done elsewhere; `None` at the level of logic.
+    pub fn task(&self) -> Option<SwarmTask> {
+        match &self.subject {
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled, demands) => {
+                let inputs = inputs(&self.rows, demands);
+                Some(SwarmTask::of(&compiled.assembly, inputs, compiled.plan.window as usize))
+            }
+        }
+    }
+
+    /// The end of the test when its swarm was simulated elsewhere, with these bits. There is no trace.
+    ///
+    /// # Panics
+    /// When the bits belong to another swarm, or the test has none.
+    pub fn judge(self, bits: &SwarmBits) -> TestRun {
+        let Subject::Robots(compiled, demands) = self.subject else { panic!("a test in physics") };
+        let inputs = inputs(&self.rows, &demands);
+        let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
+        let trace = bits.trace(&compiled.assembly, &inputs);
+        let (verdict, warnings) = judged(self.test, &self.rows, &demands, &compiled, &trace, end);
+        TestRun { verdict, end, swarm: None, warnings }
+    }
+
+    /// Runs the test.
+    pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
+        match self.subject {
+            Subject::Gates(ref netlist) => {
+                let rows = nbc_swarm::judge_logic(self.test, &self.rows, netlist);
+                observer.progress(rows.len() as u64, rows.len() as u64);
+                let verdict = verdict(self.test, Level::Logic, None, rows);
+                TestRun { verdict, end: RunEnd::Complete, swarm: None, warnings: Vec::new() }
+            }
+            Subject::Robots(compiled, ref demands) => {
+                let Self { test, ref rows, ends_at_failure, .. } = self;
+                let inputs = inputs(rows, demands);
+                let swarm = physics.swarm(&compiled, inputs.len());
+                let mut has_failed = has_failed(test, rows, demands);
+                let mut is_enough = |trace: &SwarmTrace| ends_at_failure && has_failed(trace);
+                let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
+                let (verdict, warnings) = judged(test, rows, demands, &compiled, &trace, end);
+                TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), warnings }
+            }
+        }
+    }
+}
+
+/// Whether a row has failed that ends with a trace's last cycle; to be asked after each cycle.
+fn has_failed<'a>(
+    test: &'a CircuitTest,
+    rows: &'a [TestRow],
+    demands: &'a [Demand],
+) -> impl FnMut(&SwarmTrace) -> bool + 'a {
+    let ends = demands.iter().scan(0, |end, demand| {
+        *end += demand.hold;
+        Some(*end)
+    });
+    let mut left = ends.zip(rows.iter().zip(demands)).peekable();
+    move |trace| {
+        let row = left.next_if(|(end, _)| *end == trace.cycles.len());
+        row.is_some_and(|(_, (row, demand))| !nbc_swarm::passes(test, row, demand, trace))
+    }
+}
+
+/// The input bits of each cycle.
+fn inputs(rows: &[TestRow], demands: &[Demand]) -> Vec<Vec<bool>> {
+    let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+    held.collect()
+}
+
+/// The verdict on a trace, and the warnings.
+fn judged(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    demands: &[Demand],
+    compiled: &Compiled,
+    trace: &SwarmTrace,
+    end: RunEnd,
+) -> (TestVerdict, Vec<Diagnostic>) {
+    let warnings = compiled.warnings.clone();
+    let judged = nbc_swarm::judge_swarm(test, rows, demands, trace, &clocks(compiled));
+    let mut verdict = verdict(test, Level::Physics, Some(compiled), judged);
+    verdict.passed &= end == RunEnd::Complete;
+    (verdict, warnings)
+}
+
+fn verdict(
+    test: &CircuitTest,
+    level: Level,
+    compiled: Option<&Compiled>,
+    rows: Vec<nbc_swarm::RowVerdict>,
+) -> TestVerdict {
+    TestVerdict {
+        file: test.file.clone(),
+        line: test.line,
+        circuit: test.circuit.to_string(),
+        title: test.title.clone(),
+        swarm: compiled.and_then(|compiled| compiled.plan.swarm.clone()),
+        level,
+        passed: rows.iter().all(|row| row.passed),
+        inputs: test.inputs.clone(),
+        outputs: test.outputs.clone(),
+        weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
+        rows,
+    }
+}
+
+/// The rows of a test. For a test over all inputs, of which the checker allows few, they are computed from its
+/// reference.
+///
+/// # Errors
+/// When the reference cannot be built.
+fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
+    let reference = match &test.stimulation {
+        Stimulation::Rows(rows) => return Ok(rows.clone()),
+        Stimulation::All { reference } => reference,
+    };
+    let bits: usize = test.inputs.iter().map(|port| port.width).sum();
+    let mut logic = Logic::new(&elaborate_reference(program, reference)?);
+    let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(|port| Base::of_width(port.width)).collect();
+    let row = |pattern: usize| {
+        let inputs: Vec<bool> = (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
+        let expected = match logic.settle(&inputs) {
+            Ok(outputs) => outputs.into_iter().map(Some).collect(),
+            Err(_) => vec![None; test.output_bits().len()],
+        };
+        let (bases, span, line) = (bases.clone(), test.span, test.line);
+        TestRow { inputs, expected, bases, hold: None, span, line, row: pattern + 1 }
+    };
+    Ok((0..1 << bits).map(row).collect())
+}

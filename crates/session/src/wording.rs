@@ -1,0 +1,152 @@
+//! What can be wrong with compiling and running a program without errors, as data, and how it is worded.
+
+use crate::report;
+use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};
+use nbc_base::source::Span;
+use nbc_circuit::MapError;
+use nbc_swarm::WeakRobot;
+
+/// An invalid choice of a circuit, swarm or library. These errors have no place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ChoiceError {
+    /// A source without circuits of its own.
+    NoCircuit,
+    /// A circuit without a number for a parameter; `all` is how many parameters it has.
+    NoNumber { circuit: String, parameter: String, all: usize },
+    /// An undeclared swarm.
+    UnknownSwarm { name: String, meant: Suggestion },
+    /// A circuit with several swarms, without a choice of one.
+    SeveralSwarms { circuit: String, swarms: [String; 2] },
+    /// A swarm that is declared for another circuit.
+    OtherCircuit { swarm: String, own: String, circuit: String },
+    /// A circuit that cannot be made of the library's cells.
+    Unmapped(MapError),
+}
+
+impl From<ChoiceError> for Diagnostic {
+    fn from(error: ChoiceError) -> Self {
+        match error {
+            ChoiceError::NoCircuit => Self::without_place(Code::Empty, "the file declares no circuit")
+                .with_help("choose one that it uses: `--circuit NAME`"),
+            ChoiceError::NoNumber { circuit, parameter, all } => {
+                let numbers = vec!["4"; all].join(", ");
+                let message = format!("the parameter `{parameter}` of `{circuit}` has no number");
+                Self::without_place(Code::UnknownWidth, message)
+                    .with_help(format!("give one for each parameter, such as `--circuit '{circuit}[{numbers}]'`"))
+            }
+            ChoiceError::UnknownSwarm { name, meant } => {
+                Self::without_place(Code::Unknown, format!("no swarm is called `{name}`")).with_suggestion(None, &meant)
+            }
+            ChoiceError::SeveralSwarms { circuit, swarms: [first, second] } => {
+                Self::without_place(Code::BadValue, format!("several swarms are declared for `{circuit}`"))
+                    .with_help(format!("choose one, for example `--swarm {first}` or `--swarm {second}`"))
+            }
+            ChoiceError::OtherCircuit { swarm, own, circuit } => Self::without_place(
+                Code::BadValue,
+                format!("the swarm `{swarm}` is declared for `{own}`, not for `{circuit}`"),
+            ),
+            ChoiceError::Unmapped(error) => {
+                let code = match error {
+                    MapError::Netlist(_) => Code::CircuitFile,
+                    MapError::TooLarge { .. } => Code::TooLarge,
+                    MapError::Incomplete { .. } => Code::IncompleteLibrary,
+                };
+                let fault = Self::without_place(code, error.to_string());
+                error.help().into_iter().fold(fault, Self::with_help)
+            }
+        }
+    }
+}
+
+/// Shows an error of a circuit's mapping at the place that asks for the circuit.
+pub(super) fn for_circuit(error: Diagnostic, place: Span) -> Diagnostic {
+    error.with_label(place, "for this circuit")
+}
+
+/// Shows an error of a robot file at the library that has it; `command` makes the robots.
+pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>) -> Diagnostic {
+    let error = error.with_label(library, "the robots of this library");
+    command.into_iter().fold(error, Diagnostic::with_help)
+}
+
+/// A swarm that may give wrong results.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum SwarmWarning {
+    /// A robot of the swarm that makes errors or hardly moves.
+    Weak { circuit: String, robot: WeakRobot },
+    /// A row that ends before every robot has settled; `path` is the slowest one by static timing.
+    ShortHold { hold: usize, needed: usize, path: Vec<String> },
+}
+
+impl SwarmWarning {
+    /// The warning at the test, its row or its circuit.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::Weak { circuit, robot } => {
+                let message = format!("`{circuit}` uses the robot `{}`, {}", robot.robot, robot.complaint());
+                let help = format!(
+                    "it drives {}; a library without it, or a longer hold, may do better",
+                    robot.nets.join(", ")
+                );
+                Diagnostic::new(Code::WeakRobot, message, span, "for this circuit").with_help(help)
+            }
+            Self::ShortHold { hold, needed, path } => {
+                let message = format!("a hold of {} is too short, expected at least {needed}", counted(hold, "cycle"));
+                let path = report::describe_path(&path);
+                Diagnostic::new(Code::HoldTooShort, message, span, "held here").with_help(format!(
+                    "`hold: auto` holds each row until every robot has settled; the slowest path is {path}"
+                ))
+            }
+        }
+    }
+}
+
+/// A schedule of stimuli that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ScheduleError {
+    /// No entries.
+    Empty,
+    /// Too many env steps in all.
+    TooLong { steps: u64, most: u64 },
+    /// An entry without `*`.
+    NoDuration { entry: String },
+    /// A pattern that is not one of two stimuli.
+    Pattern { found: String },
+    /// A duration that is not a number of cycles or env steps.
+    NotADuration { found: String },
+    /// A duration of zero.
+    NoTime { found: String },
+    /// An entry that is too long.
+    LongEntry { found: String, most: u64 },
+}
+
+impl ScheduleError {
+    /// The error at its place in the text.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let (message, label) = match self {
+            Self::Empty => ("the schedule is empty".to_owned(), "expected an entry such as `01*10`".to_owned()),
+            Self::TooLong { steps, most } => {
+                (format!("the schedule of {steps} env steps is too long"), format!("expected at most {most}"))
+            }
+            Self::NoDuration { entry } => (
+                format!("missing duration after `{entry}`"),
+                format!("expected `*` and a number, for example `{entry}*10`"),
+            ),
+            Self::Pattern { found } => {
+                (format!("invalid stimulus pattern `{found}`"), "expected 00, 01, 10 or 11".to_owned())
+            }
+            Self::NotADuration { found } => (
+                format!("`{found}` is not a duration"),
+                "expected a number of cycles, or of env steps as in `56steps`".to_owned(),
+            ),
+            Self::NoTime { found } => {
+                (format!("the duration `{found}` is too short"), "expected at least 1".to_owned())
+            }
+            Self::LongEntry { found, most } => {
+                (format!("the duration `{found}` is too long"), format!("expected at most {most} env steps"))
+            }
+        };
+        Diagnostic::new(Code::BadSchedule, message, span, label)
+            .with_help("write stimuli, `*` and a duration: `01*10` is ten cycles, `01*56steps` is 56 env steps")
+    }
+}

@@ -1,0 +1,135 @@
+//! Robots that are advanced step by step. They keep their lanes from advance to advance.
+
+use crate::backend::lanes::formation::{Formation, LaneRequest};
+use crate::backend::lanes::squad::Squad;
+use crate::backend::lanes::threads;
+use crate::backend::lanes::world::World;
+use crate::backend::run::{Run, runs};
+use crate::backend::{Flock, Snapshot};
+use crate::lattice::Lattice;
+use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting};
+
+/// Robots in the lanes of this processor.
+#[derive(Debug)]
+pub struct LaneFlock {
+    world: World,
+    squads: Vec<Squad>,
+    /// The squad of each robot, and its index there.
+    places: Vec<(usize, usize)>,
+    /// The cost of a substep of all squads, in the unit of [`Formation::cost`].
+    cost: u64,
+}
+
+impl LaneFlock {
+    /// A robot for each body, at its start.
+    pub fn new(world: World, setting: &Setting, bodies: &[Body]) -> Self {
+        let runs = runs(&world.constants, setting, bodies);
+        let mut flock = Self { world, squads: Vec::new(), places: Vec::new(), cost: 0 };
+        let formation = flock.formation(runs.iter());
+        flock.form(runs, formation);
+        flock
+    }
+
+    /// The best formation of these runs.
+    fn formation<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> Formation {
+        let candidates: Vec<LaneRequest> =
+            runs.map(|run| LaneRequest { size: run.lattice.size(), body: run.body }).collect();
+        let kernel = self.world.kernel;
+        Formation::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
+    }
+
+    /// Forms squads of these runs.
+    fn form(&mut self, runs: Vec<Run>, formation: Formation) {
+        self.places = vec![(0, 0); runs.len()];
+        for (squad, robots) in formation.squads.iter().enumerate() {
+            for (place, &robot) in robots.iter().enumerate() {
+                self.places[robot] = (squad, place);
+            }
+        }
+        let squad = |robots: &Vec<usize>| Squad::new(robots.iter().map(|&robot| runs[robot].clone()).collect());
+        self.squads = formation.squads.iter().map(squad).collect();
+        self.cost = formation.cost;
+    }
+
+    fn run(&self, i: usize) -> &Run {
+        let (squad, place) = self.places[i];
+        &self.squads[squad].runs()[place]
+    }
+
+    fn run_mut(&mut self, i: usize) -> &mut Run {
+        let (squad, place) = self.places[i];
+        &mut self.squads[squad].runs_mut()[place]
+    }
+
+    /// Takes the runs out of their squads, in order of the robots.
+    fn dissolve(&mut self) -> Vec<Run> {
+        let mut runs: Vec<Vec<Option<Run>>> =
+            self.squads.iter_mut().map(|squad| squad.take().into_iter().map(Some).collect()).collect();
+        let take =
+            |&(squad, place): &(usize, usize)| runs[squad][place].take().expect("a robot has a place of its own");
+        self.places.iter().map(take).collect()
+    }
+}
+
+impl Flock for LaneFlock {
+    fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
+        assert_eq!(patterns.len(), self.len(), "each robot has a pattern");
+        for (i, &pattern) in patterns.iter().enumerate() {
+            self.run_mut(i).assign(&Schedule::constant(pattern, env_steps));
+        }
+        let world = &self.world;
+        threads::for_each(&mut self.squads, |squad| squad.finish(world));
+    }
+
+    fn retain(&mut self, keep: &[bool]) {
+        assert_eq!(keep.len(), self.len(), "each robot is kept or not");
+        let kept = (0..self.len()).filter(|&i| keep[i]).map(|i| self.run(i));
+        let formation = self.formation(kept);
+        let mut keep = keep.iter();
+        if formation.cost < self.cost {
+            let mut runs = self.dissolve();
+            runs.retain(|_| keep.next().is_some_and(|&keep| keep));
+            self.form(runs, formation);
+        } else {
+            self.places.retain(|_| keep.next().is_some_and(|&keep| keep));
+        }
+    }
+
+    fn center(&self, i: usize) -> [f64; 2] {
+        self.run(i).center
+    }
+
+    fn fault(&self, i: usize) -> Option<Fault> {
+        self.run(i).fault
+    }
+
+    fn clock(&self, i: usize) -> u32 {
+        self.run(i).clock
+    }
+
+    fn lattice(&self, i: usize) -> &Lattice {
+        &self.run(i).lattice
+    }
+
+    fn points(&self, i: usize) -> Vec<[f64; 2]> {
+        let (squad, place) = self.places[i];
+        let cell = self.world.constants.cell;
+        self.squads[squad].state(place).position.into_iter().map(|at| at.map(|axis| axis / cell)).collect()
+    }
+
+    fn snapshot(&self, i: usize) -> Snapshot {
+        let (squad, place) = self.places[i];
+        let run = self.run(i);
+        Snapshot { state: self.squads[squad].state(place), center: run.center, clock: run.clock, fault: run.fault }
+    }
+
+    fn restore(&mut self, i: usize, snapshot: &Snapshot) {
+        let (squad, place) = self.places[i];
+        self.squads[squad].unload();
+        self.squads[squad].runs_mut()[place].restore(snapshot);
+    }
+}

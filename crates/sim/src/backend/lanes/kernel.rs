@@ -1,0 +1,584 @@
+//! The kernels: one step, compiled for each instruction set and number of lanes, chosen when the program runs.
+//!
+//! This is the one file with `unsafe`: vector types of an instruction set, and calls of functions compiled for it. A
+//! vector is created only inside [`Kernel::batch`], after checking that the processor has the instructions.
+#![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
+
+use std::sync::Arc;
+
+use crate::backend::lanes::batch::Batch;
+use crate::backend::lanes::lane_batch::{LaneBatch, Stepped};
+use crate::backend::lanes::real::Real;
+use crate::backend::lanes::step::env_step;
+use crate::backend::lanes::stiffness::{Common, Own, Stiffness};
+use crate::backend::lanes::vector::Lanes;
+use crate::constants::Constants;
+use crate::lattice::Lattice;
+use crate::meter::{Meter, Part, Stopwatch};
+use crate::state::State;
+
+/// A set of vector instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum InstructionSet {
+    /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM.
+    Baseline,
+    /// AVX2.
+    Avx2,
+    /// AVX-512 F, DQ and VL.
+    Avx512,
+}
+
+/// An instruction set, and the number of lanes. Every kernel gives the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    set: InstructionSet,
+    lanes: usize,
+}
+
+impl Default for Kernel {
+    /// The fastest of this processor.
+    fn default() -> Self {
+        Self::widest(InstructionSet::best())
+    }
+}
+
+impl InstructionSet {
+    /// The sets that this processor has, plainest first.
+    pub fn available() -> Vec<Self> {
+        [Self::Baseline, Self::Avx2, Self::Avx512].into_iter().filter(|set| set.is_available()).collect()
+    }
+
+    /// The best that this processor has.
+    pub fn best() -> Self {
+        Self::available().pop().expect("the baseline is always there")
+    }
+
+    fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+
+    /// Its name as processors' makers write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "AVX2",
+            Self::Avx512 => "AVX-512",
+        }
+    }
+}
+
+impl Kernel {
+    /// The supported numbers of lanes.
+    pub const WIDTHS: [usize; 3] = [1, 4, 8];
+
+    /// One simulation at a time.
+    pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
+
+    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions.
+    ///
+    /// # Panics
+    /// When there is no kernel of so many lanes.
+    pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
+        assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
+        set.is_available().then_some(Self { set, lanes })
+    }
+
+    /// The kernel with most lanes.
+    fn widest(set: InstructionSet) -> Self {
+        Self { set, lanes: 8 }
+    }
+
+    /// A kernel whether the processor has its instructions or not, to reason about.
+    #[cfg(test)]
+    pub(crate) fn of(set: InstructionSet, lanes: usize) -> Self {
+        Self { set, lanes }
+    }
+
+    /// The cost of a substep of this many robots per voxel of their box: 100 for eight different bodies with AVX-512
+    /// (docs/performance.md). `alike` means that all have the same body.
+    pub(crate) fn cost(self, robots: usize, alike: bool) -> u64 {
+        let (different, same) = match (self.set, robots) {
+            (_, 1) => (51, 51),
+            (InstructionSet::Avx512, 5..) => (100, 86),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4) => (83, 72),
+            (InstructionSet::Avx2, _) => (166, 144),
+            (InstructionSet::Baseline, ..=4) => (152, 126),
+            (InstructionSet::Baseline, _) => (304, 252),
+        };
+        if alike { same } else { different }
+    }
+
+    /// The number of lanes.
+    pub fn lanes(self) -> usize {
+        self.lanes
+    }
+
+    /// The instruction set.
+    pub fn set(self) -> InstructionSet {
+        self.set
+    }
+
+    /// Lays out at most [`Kernel::lanes`] robots, in no more lanes than needed. `alike` means that all have the same
+    /// body.
+    pub(crate) fn batch(self, robots: &[(&Lattice, &State)], alike: bool, ground: Ground<'_>) -> Box<dyn LaneBatch> {
+        assert!(robots.len() <= self.lanes, "a robot for each lane at most");
+        match (self.set, robots.len(), alike) {
+            (_, 1, _) => layout::<f64, Common>(robots, ground, env_step),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, true) => x86::avx2_4::<Common>(robots, ground),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, false) => x86::avx2_4::<Own<_>>(robots, ground),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx2, _, true) => x86::avx2_8::<Common>(robots, ground),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx2, _, false) => x86::avx2_8::<Own<_>>(robots, ground),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512, _, true) => x86::avx512_8::<Common>(robots, ground),
+            #[cfg(target_arch = "x86_64")]
+            (InstructionSet::Avx512, _, false) => x86::avx512_8::<Own<_>>(robots, ground),
+            (_, ..=4, true) => layout::<Lanes<4>, Common>(robots, ground, env_step),
+            (_, ..=4, false) => layout::<Lanes<4>, Own<_>>(robots, ground, env_step),
+            (_, _, true) => layout::<Lanes<8>, Common>(robots, ground, env_step),
+            (_, _, false) => layout::<Lanes<8>, Own<_>>(robots, ground, env_step),
+        }
+    }
+}
+
+/// The parameters of a batch besides its robots.
+#[derive(Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    /// The numbers of the physics.
+    pub constants: &'a Constants,
+    /// Ground voxels in a row.
+    pub width: usize,
+    /// Measures the time of each part, if requested.
+    pub meter: Option<&'a Arc<Meter>>,
+}
+
+/// A batch of numbers `R` with the env step compiled for them.
+fn layout<R: Real, K: Stiffness<R>>(
+    robots: &[(&Lattice, &State)],
+    ground: Ground<'_>,
+    step: fn(&mut Batch<R, K>),
+) -> Box<dyn LaneBatch> {
+    let stopwatch = ground.meter.map(Stopwatch::new);
+    let mut batch = Batch::<R, K>::new(robots, ground.width, ground.constants);
+    batch.stopwatch = stopwatch;
+    batch.lap(Part::Bookkeeping);
+    Box::new(Stepped { batch, step })
+}
+
+/// Vectors of x86-64's instruction sets.
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use std::arch::x86_64::*;
+    use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+
+    use super::{Ground, layout};
+    use crate::backend::lanes::batch::Batch;
+    use crate::backend::lanes::lane_batch::LaneBatch;
+    use crate::backend::lanes::real::{Mask, Real};
+    use crate::backend::lanes::step::env_step;
+    use crate::backend::lanes::stiffness::Stiffness;
+    use crate::lattice::Lattice;
+    use crate::state::State;
+
+    /// Eight lanes of AVX-512.
+    #[derive(Clone, Copy, Debug)]
+    #[repr(transparent)]
+    pub struct Avx512(__m512d);
+
+    /// Four lanes of AVX2.
+    #[derive(Clone, Copy, Debug)]
+    #[repr(transparent)]
+    pub struct Avx2(__m256d);
+
+    /// The comparison results of four lanes: all bits of a lane set, or none.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Avx2Mask(__m256d);
+
+    /// Two vectors used as one.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Pair<T>(T, T);
+
+    /// Eight lanes with AVX-512 instructions, which must be available.
+    pub fn avx512_8<K: Stiffness<Avx512>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
+        fn step<K: Stiffness<Avx512>>(batch: &mut Batch<Avx512, K>) {
+            env_step(batch);
+        }
+        // SAFETY: a kernel of this set is made only where the processor has it.
+        layout::<Avx512, K>(robots, ground, |batch| unsafe { step(batch) })
+    }
+
+    /// Four lanes with AVX2 instructions, which must be available.
+    pub fn avx2_4<K: Stiffness<Avx2>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
+        #[target_feature(enable = "avx2")]
+        fn step<K: Stiffness<Avx2>>(batch: &mut Batch<Avx2, K>) {
+            env_step(batch);
+        }
+        // SAFETY: a kernel of this set is made only where the processor has it.
+        layout::<Avx2, K>(robots, ground, |batch| unsafe { step(batch) })
+    }
+
+    /// Eight lanes with AVX2 instructions, which must be available.
+    pub fn avx2_8<K: Stiffness<Pair<Avx2>>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
+        #[target_feature(enable = "avx2")]
+        fn step<K: Stiffness<Pair<Avx2>>>(batch: &mut Batch<Pair<Avx2>, K>) {
+            env_step(batch);
+        }
+        // SAFETY: a kernel of this set is made only where the processor has it.
+        layout::<Pair<Avx2>, K>(robots, ground, |batch| unsafe { step(batch) })
+    }
+
+    macro_rules! arithmetic {
+        ($vector:ident, $add:ident, $sub:ident, $mul:ident) => {
+            impl Add for $vector {
+                type Output = Self;
+
+                #[inline(always)]
+                fn add(self, other: Self) -> Self {
+                    // SAFETY: a vector of this type exists only where the processor has its instructions; so below.
+                    Self(unsafe { $add(self.0, other.0) })
+                }
+            }
+
+            impl Sub for $vector {
+                type Output = Self;
+
+                #[inline(always)]
+                fn sub(self, other: Self) -> Self {
+                    Self(unsafe { $sub(self.0, other.0) })
+                }
+            }
+
+            impl Mul for $vector {
+                type Output = Self;
+
+                #[inline(always)]
+                fn mul(self, other: Self) -> Self {
+                    Self(unsafe { $mul(self.0, other.0) })
+                }
+            }
+
+            impl AddAssign for $vector {
+                #[inline(always)]
+                fn add_assign(&mut self, other: Self) {
+                    *self = *self + other;
+                }
+            }
+
+            impl SubAssign for $vector {
+                #[inline(always)]
+                fn sub_assign(&mut self, other: Self) {
+                    *self = *self - other;
+                }
+            }
+        };
+    }
+
+    arithmetic!(Avx512, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd);
+    arithmetic!(Avx2, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd);
+
+    /// One lane of a vector, accessed in place.
+    macro_rules! lane_access {
+        () => {
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> f64 {
+                assert!(lane < Self::LANES, "the lane exists");
+                // SAFETY: a vector is an array of doubles, and the lane is one of them.
+                unsafe { *(&raw const self.0).cast::<f64>().add(lane) }
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, value: f64) {
+                assert!(lane < Self::LANES, "the lane exists");
+                // SAFETY: as above.
+                unsafe { *(&raw mut self.0).cast::<f64>().add(lane) = value }
+            }
+        };
+    }
+
+    impl Mask for u8 {
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            u32::from(self)
+        }
+
+        #[inline(always)]
+        fn from_bits(bits: u32) -> Self {
+            bits as u8
+        }
+
+        #[inline(always)]
+        fn or(self, other: Self) -> Self {
+            self | other
+        }
+
+        #[inline(always)]
+        fn and(self, other: Self) -> Self {
+            self & other
+        }
+    }
+
+    impl Real for Avx512 {
+        const LANES: usize = 8;
+
+        type Mask = u8;
+
+        lane_access!();
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { _mm512_set1_pd(value) })
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(unsafe { _mm512_abs_pd(self.0) })
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(unsafe { _mm512_max_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(unsafe { _mm512_min_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> u8 {
+            unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) }
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> u8 {
+            unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) }
+        }
+
+        #[inline(always)]
+        fn select(mask: u8, yes: Self, no: Self) -> Self {
+            Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+        }
+
+        #[inline(always)]
+        fn recip_sqrt_seed(self) -> Self {
+            Self(unsafe {
+                let root = _mm256_sqrt_ps(_mm512_cvtpd_ps(self.0));
+                _mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1.0), root))
+            })
+        }
+    }
+
+    impl Mask for Avx2Mask {
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            unsafe { _mm256_movemask_pd(self.0) as u32 }
+        }
+
+        #[inline(always)]
+        fn from_bits(bits: u32) -> Self {
+            let lane = |i: u32| if bits >> i & 1 == 1 { -1 } else { 0 };
+            Self(unsafe { _mm256_castsi256_pd(_mm256_setr_epi64x(lane(0), lane(1), lane(2), lane(3))) })
+        }
+
+        #[inline(always)]
+        fn or(self, other: Self) -> Self {
+            Self(unsafe { _mm256_or_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn and(self, other: Self) -> Self {
+            Self(unsafe { _mm256_and_pd(self.0, other.0) })
+        }
+    }
+
+    impl Real for Avx2 {
+        const LANES: usize = 4;
+
+        type Mask = Avx2Mask;
+
+        lane_access!();
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { _mm256_set1_pd(value) })
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(unsafe { _mm256_max_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(unsafe { _mm256_min_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> Avx2Mask {
+            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> Avx2Mask {
+            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
+            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+        }
+
+        #[inline(always)]
+        fn recip_sqrt_seed(self) -> Self {
+            Self(unsafe {
+                let root = _mm_sqrt_ps(_mm256_cvtpd_ps(self.0));
+                _mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0), root))
+            })
+        }
+    }
+
+    impl<T: Real> Add for Pair<T> {
+        type Output = Self;
+
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            Self(self.0 + other.0, self.1 + other.1)
+        }
+    }
+
+    impl<T: Real> Sub for Pair<T> {
+        type Output = Self;
+
+        #[inline(always)]
+        fn sub(self, other: Self) -> Self {
+            Self(self.0 - other.0, self.1 - other.1)
+        }
+    }
+
+    impl<T: Real> Mul for Pair<T> {
+        type Output = Self;
+
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            Self(self.0 * other.0, self.1 * other.1)
+        }
+    }
+
+    impl<T: Real> AddAssign for Pair<T> {
+        #[inline(always)]
+        fn add_assign(&mut self, other: Self) {
+            *self = *self + other;
+        }
+    }
+
+    impl<T: Real> SubAssign for Pair<T> {
+        #[inline(always)]
+        fn sub_assign(&mut self, other: Self) {
+            *self = *self - other;
+        }
+    }
+
+    impl Mask for Pair<Avx2Mask> {
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            self.0.bits() | self.1.bits() << 4
+        }
+
+        #[inline(always)]
+        fn from_bits(bits: u32) -> Self {
+            Self(Avx2Mask::from_bits(bits), Avx2Mask::from_bits(bits >> 4))
+        }
+
+        #[inline(always)]
+        fn or(self, other: Self) -> Self {
+            Self(self.0.or(other.0), self.1.or(other.1))
+        }
+
+        #[inline(always)]
+        fn and(self, other: Self) -> Self {
+            Self(self.0.and(other.0), self.1.and(other.1))
+        }
+
+        #[inline(always)]
+        fn any(self) -> bool {
+            self.0.or(self.1).any()
+        }
+    }
+
+    impl Real for Pair<Avx2> {
+        const LANES: usize = 8;
+
+        type Mask = Pair<Avx2Mask>;
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(Avx2::splat(value), Avx2::splat(value))
+        }
+
+        #[inline(always)]
+        fn lane(&self, lane: usize) -> f64 {
+            if lane < 4 { self.0.lane(lane) } else { self.1.lane(lane - 4) }
+        }
+
+        #[inline(always)]
+        fn set_lane(&mut self, lane: usize, value: f64) {
+            if lane < 4 { self.0.set_lane(lane, value) } else { self.1.set_lane(lane - 4, value) }
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(self.0.abs(), self.1.abs())
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(self.0.max(other.0), self.1.max(other.1))
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(self.0.min(other.0), self.1.min(other.1))
+        }
+
+        #[inline(always)]
+        fn below(self, other: Self) -> Self::Mask {
+            Pair(self.0.below(other.0), self.1.below(other.1))
+        }
+
+        #[inline(always)]
+        fn at_most(self, other: Self) -> Self::Mask {
+            Pair(self.0.at_most(other.0), self.1.at_most(other.1))
+        }
+
+        #[inline(always)]
+        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+            Self(Avx2::select(mask.0, yes.0, no.0), Avx2::select(mask.1, yes.1, no.1))
+        }
+
+        #[inline(always)]
+        fn recip_sqrt_seed(self) -> Self {
+            Self(self.0.recip_sqrt_seed(), self.1.recip_sqrt_seed())
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! This processor's back end: several robots in the lanes of its vector instructions, on all its threads.
+#![allow(clippy::needless_range_loop, reason = "an axis or a corner indexes several arrays at once")]
+
+mod batch;
+mod contact;
+mod flock;
+mod formation;
+mod kernel;
+mod lane_batch;
+mod limits;
+mod mass;
+mod proximity;
+mod real;
+mod response;
+mod squad;
+mod step;
+mod stiffness;
+mod threads;
+mod trials;
+mod vector;
+mod world;
+
+use std::sync::Arc;
+
+use crate::backend::{Backend, Flock};
+use crate::constants::Constants;
+use crate::meter::Meter;
+use crate::monitor::Monitor;
+use nbc_base::model::{Body, Setting, Trajectory, Trial};
+
+pub use kernel::{InstructionSet, Kernel};
+#[cfg(feature = "gpu")]
+pub(super) use proximity::{MARGIN, SLACK};
+
+use flock::LaneFlock;
+use world::World;
+
+/// The lanes of this processor.
+#[derive(Clone, Debug, Default)]
+pub struct LaneBackend {
+    /// The numbers of the physics.
+    pub constants: Constants,
+    /// The kernel: an instruction set and a number of lanes.
+    pub kernel: Kernel,
+    /// Measures the time of each part, at the cost of a few percent of speed.
+    pub meter: Option<Arc<Meter>>,
+    /// Follows simulations, and can end them.
+    pub monitor: Option<Arc<Monitor>>,
+}
+
+impl LaneBackend {
+    fn world(&self, setting: &Setting) -> World {
+        let Self { constants, kernel, meter, monitor } = self.clone();
+        let constants = constants.in_world(&setting.factors);
+        World { constants, kernel, width: setting.world_width, meter, monitor }
+    }
+}
+
+impl Backend for LaneBackend {
+    fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
+        Box::new(LaneFlock::new(self.world(setting), setting, bodies))
+    }
+
+    fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
+        trials::run_trials(&self.world(setting), setting, trials)
+    }
+}

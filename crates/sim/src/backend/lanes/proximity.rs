@@ -1,0 +1,260 @@
+//! Pairs that are close to each other: the broad phase of contact and of the instability test (docs/physics.md 7 and
+//! 9).
+//!
+//! Bounding boxes and points are compared only now and then. Pairs farther apart than a margin are skipped until some
+//! point has moved by half the margin since then; closer pairs are checked in every substep. So no contact is missed,
+//! and the times at which the lists are rebuilt do not affect results.
+
+use crate::backend::lanes::contact::is_inside;
+use crate::backend::lanes::mass::{Mass, Vector};
+use crate::backend::lanes::real::{Mask, Real};
+use crate::lattice::CORNERS;
+
+/// Boxes closer than this, in meters, are checked in every substep.
+pub const MARGIN: f64 = 0.03;
+
+/// Slack for rounding, in meters.
+pub const SLACK: f64 = 1e-9;
+
+/// A voxel of any lane.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    /// Row and column.
+    pub cell: [usize; 2],
+    /// Its masses: top left, top right, bottom right, bottom left.
+    pub corners: [usize; CORNERS],
+    /// Lanes that have it on their surface, as bits.
+    pub surface: u32,
+}
+
+/// The lists of close pairs.
+#[derive(Clone, Debug)]
+pub struct Proximity<R: Real> {
+    /// Surface voxels of all lanes, in reading order.
+    tiles: Vec<Tile>,
+    /// Their masses.
+    points: Vec<usize>,
+    /// The positions when the lists were built; infinitely far before the first time.
+    reference: Vec<Vector<R>>,
+    /// Points near a tile that is not theirs.
+    near_points: Vec<NearPoint>,
+    /// Pairs of tiles near each other but not neighbors.
+    near_tiles: Vec<NearTiles>,
+    /// Lanes with so many close pairs that they might be unstable, as bits.
+    suspects: u32,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct NearPoint {
+    tile: usize,
+    point: usize,
+    lanes: u32,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct NearTiles {
+    tiles: [usize; 2],
+    lanes: u32,
+}
+
+/// A point at or below some height.
+#[derive(Clone, Copy, Debug)]
+pub struct LowPoint {
+    pub mass: usize,
+    /// In which lanes, as bits.
+    pub lanes: u32,
+}
+
+/// A point found inside a tile.
+#[derive(Clone, Copy, Debug)]
+pub struct Inside {
+    /// The tile's masses.
+    pub corners: [usize; CORNERS],
+    /// The point's mass.
+    pub point: usize,
+    /// In which lanes, as bits.
+    pub lanes: u32,
+}
+
+impl<R: Real> Default for Proximity<R> {
+    fn default() -> Self {
+        Self::new(Vec::new())
+    }
+}
+
+impl<R: Real> Proximity<R> {
+    /// The broad phase over these surface voxels.
+    pub fn new(tiles: Vec<Tile>) -> Self {
+        let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
+        points.sort_unstable();
+        points.dedup();
+        let reference = vec![[R::splat(f64::INFINITY); 2]; points.len()];
+        Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
+    }
+
+    /// Lists the points at or below `height`. Returns whether a point has moved so far that the other lists have to be
+    /// renewed.
+    #[inline(always)]
+    pub fn survey(&self, masses: &[Mass<R>], height: f64, low: &mut Vec<LowPoint>) -> bool {
+        let height = R::splat(height);
+        let mut moved = R::splat(0.0);
+        for (&point, reference) in self.points.iter().zip(&self.reference) {
+            let at = masses[point].at;
+            moved = (at[0] - reference[0]).abs().max(moved);
+            moved = (at[1] - reference[1]).abs().max(moved);
+            let lanes = at[1].at_most(height).bits();
+            if lanes != 0 {
+                low.push(LowPoint { mass: point, lanes });
+            }
+        }
+        R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any()
+    }
+
+    /// Builds the lists from current positions. `surface[lane]` is the number of a lane's surface voxels, or zero if it
+    /// cannot be unstable.
+    #[inline(always)]
+    pub fn renew(&mut self, masses: &[Mass<R>], surface: &[u32]) {
+        self.reference.clear();
+        self.reference.extend(self.points.iter().map(|&point| masses[point].at));
+        self.near_points.clear();
+        self.near_tiles.clear();
+        let margin = R::splat(MARGIN);
+        let mut boxes: Vec<[Vector<R>; 2]> = Vec::with_capacity(self.tiles.len());
+        for tile in &self.tiles {
+            boxes.push(bounds(masses, tile));
+        }
+        for (n, tile) in self.tiles.iter().enumerate() {
+            for &point in &self.points {
+                let at = masses[point].at;
+                let lanes = gap(&boxes[n], &[at, at]).at_most(margin).bits() & tile.surface;
+                if lanes != 0 && !tile.corners.contains(&point) {
+                    self.near_points.push(NearPoint { tile: n, point, lanes });
+                }
+            }
+            for (m, other) in self.tiles.iter().enumerate().skip(n + 1) {
+                let both = tile.surface & other.surface;
+                if both != 0 && are_apart(tile, other) {
+                    let lanes = gap(&boxes[n], &boxes[m]).at_most(margin).bits() & both;
+                    if lanes != 0 {
+                        self.near_tiles.push(NearTiles { tiles: [n, m], lanes });
+                    }
+                }
+            }
+        }
+        let mut pairs = Tally::default();
+        for near in &self.near_tiles {
+            pairs.add(near.lanes);
+        }
+        self.suspects = pairs.overfull(surface);
+    }
+
+    /// Points inside tiles that are not theirs, by tile and then by point.
+    #[inline(always)]
+    pub fn insides(&self, masses: &[Mass<R>], found: &mut Vec<Inside>) {
+        let slack = R::splat(SLACK);
+        let mut last = usize::MAX;
+        let mut reach = [[R::splat(0.0); 2]; 2];
+        for near in &self.near_points {
+            let tile = &self.tiles[near.tile];
+            if near.tile != last {
+                reach = bounds(masses, tile);
+                last = near.tile;
+            }
+            let at = masses[near.point].at;
+            if gap(&reach, &[at, at]).at_most(slack).bits() & near.lanes == 0 {
+                continue;
+            }
+            let lanes = is_inside(at, corners(masses, tile)).bits() & near.lanes;
+            if lanes != 0 {
+                found.push(Inside { corners: tile.corners, point: near.point, lanes });
+            }
+        }
+    }
+
+    /// The instability test of docs/physics.md 9 on current positions: lanes in which the ordered pairs of non-adjacent
+    /// surface voxels with overlapping boxes outnumber the surface voxels.
+    #[inline(always)]
+    pub fn unstable(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
+        if self.suspects == 0 { 0 } else { self.count_overlaps(masses, surface) }
+    }
+
+    #[inline(always)]
+    fn count_overlaps(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
+        let mut pairs = Tally::default();
+        let mut last = usize::MAX;
+        let mut first = [[R::splat(0.0); 2]; 2];
+        for near in self.near_tiles.iter().filter(|near| near.lanes & self.suspects != 0) {
+            let [a, b] = near.tiles;
+            if a != last {
+                first = bounds(masses, &self.tiles[a]);
+                last = a;
+            }
+            pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
+        }
+        pairs.overfull(surface)
+    }
+}
+
+/// Counts something in each lane.
+#[derive(Default)]
+struct Tally([u32; u32::BITS as usize]);
+
+impl Tally {
+    /// Counts one in the lanes whose bit is set.
+    #[inline(always)]
+    fn add(&mut self, mut lanes: u32) {
+        while lanes != 0 {
+            self.0[lanes.trailing_zeros() as usize] += 1;
+            lanes &= lanes - 1;
+        }
+    }
+
+    /// Lanes where twice the pairs are more than the surface voxels, as bits.
+    fn overfull(&self, surface: &[u32]) -> u32 {
+        let lanes = self.0.iter().zip(surface).enumerate();
+        lanes
+            .filter(|(_, (pairs, surface))| **surface > 0 && 2 * **pairs > **surface)
+            .fold(0, |bits, (lane, _)| bits | 1 << lane)
+    }
+}
+
+/// Whether two voxels' cells differ by more than one row or column.
+fn are_apart(a: &Tile, b: &Tile) -> bool {
+    a.cell[0].abs_diff(b.cell[0]) > 1 || a.cell[1].abs_diff(b.cell[1]) > 1
+}
+
+// The functions below use no closures and iterators on vectors: these would be compiled without the vector instructions
+// of the kernel, and called with every vector in memory.
+
+/// Where the masses of a tile are.
+#[inline(always)]
+fn corners<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; CORNERS] {
+    let [a, b, c, d] = tile.corners;
+    [masses[a].at, masses[b].at, masses[c].at, masses[d].at]
+}
+
+/// Least and greatest coordinates of a tile.
+#[inline(always)]
+fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
+    let [a, b, c, d] = corners(masses, tile);
+    [
+        [a[0].min(b[0]).min(c[0].min(d[0])), a[1].min(b[1]).min(c[1].min(d[1]))],
+        [a[0].max(b[0]).max(c[0].max(d[0])), a[1].max(b[1]).max(c[1].max(d[1]))],
+    ]
+}
+
+/// The distance of two boxes along the axis where it is largest; negative if they overlap.
+#[inline(always)]
+fn gap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R {
+    let x = (a[0][0] - b[1][0]).max(b[0][0] - a[1][0]);
+    let y = (a[0][1] - b[1][1]).max(b[0][1] - a[1][1]);
+    x.max(y)
+}
+
+/// Whether two boxes overlap or touch.
+#[inline(always)]
+fn overlap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R::Mask {
+    let x = a[0][0].at_most(b[1][0]).and(b[0][0].at_most(a[1][0]));
+    let y = a[0][1].at_most(b[1][1]).and(b[0][1].at_most(a[1][1]));
+    x.and(y)
+}

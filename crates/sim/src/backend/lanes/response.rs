@@ -1,0 +1,180 @@
+//! Contact forces: which voxels touch in a substep, and the forces between them (docs/physics.md 7).
+
+use nalgebra::Vector2;
+
+use crate::backend::lanes::batch::Batch;
+use crate::backend::lanes::contact::{Hit, Quad};
+use crate::backend::lanes::proximity::{Inside, LowPoint};
+use crate::backend::lanes::real::Real;
+use crate::backend::lanes::stiffness::Stiffness;
+use crate::lattice::CORNERS;
+
+impl<R: Real, K: Stiffness<R>> Batch<R, K> {
+    /// Contact forces and the instability test, both from the positions at the start of the substep.
+    #[inline(always)]
+    pub fn apply_contacts(&mut self) {
+        self.clear_contacts();
+        let mut low = std::mem::take(&mut self.low);
+        let mut inside = std::mem::take(&mut self.inside);
+        if self.proximity.survey(&self.masses, self.constants.cell, &mut low) {
+            self.proximity.renew(&self.masses, &self.countable);
+        }
+        self.proximity.insides(&self.masses, &mut inside);
+        self.unstable |= self.proximity.unstable(&self.masses, &self.countable);
+        if !low.is_empty() {
+            self.collide_with_ground(&low);
+        }
+        if !inside.is_empty() {
+            self.collide_with_itself(&inside);
+        }
+        low.clear();
+        inside.clear();
+        self.low = low;
+        self.inside = inside;
+    }
+
+    /// Removes the contact forces of the last substep.
+    #[inline(always)]
+    fn clear_contacts(&mut self) {
+        for (mass, weight) in self.loaded.drain(..) {
+            self.load[mass] = weight;
+            self.masses[mass].force = self.loads[weight as usize];
+        }
+        self.loads.truncate(self.weights);
+    }
+
+    /// Contact between each robot's low voxels and the ground, each way once.
+    #[inline(never)]
+    fn collide_with_ground(&mut self, low: &[LowPoint]) {
+        for lane in 0..self.occupants.len() {
+            let mut voxels = std::mem::take(&mut self.voxels);
+            for point in low.iter().filter(|point| point.lanes >> lane & 1 == 1) {
+                voxels.extend(self.occupants[lane].at_mass[point.mass].iter().map(|&(voxel, _)| voxel));
+            }
+            voxels.sort_unstable();
+            voxels.dedup();
+            for &voxel in &voxels {
+                self.collide_voxel_with_ground(lane, voxel);
+            }
+            voxels.clear();
+            self.voxels = voxels;
+        }
+    }
+
+    fn collide_voxel_with_ground(&mut self, lane: usize, voxel: usize) {
+        let (quad, masses) = self.quad(lane, voxel);
+        let cell = self.constants.cell;
+        let [least, greatest] = quad.bounds;
+        if !(least.y <= cell && greatest.y >= 0.0) {
+            return;
+        }
+        let columns = self.world_width as f64;
+        let from = ((least.x / cell).floor() - 1.0).clamp(0.0, columns) as usize;
+        let to = ((greatest.x / cell).floor() + 2.0).clamp(0.0, columns) as usize;
+        for column in from..to {
+            let ground = self.ground(column);
+            let [left, right] = [ground.corners[0].x, ground.corners[1].x];
+            if !(left <= greatest.x && least.x <= right) {
+                continue;
+            }
+            for corner in 0..CORNERS {
+                if let Some(hit) = ground.hit_by(&quad, corner, &self.constants) {
+                    self.push(lane, &hit, Some(masses[corner]), None, 1.0);
+                }
+            }
+            for corner in 0..CORNERS {
+                if let Some(hit) = quad.hit_by(&ground, corner, &self.constants) {
+                    let ends = quad.ends(hit.side).map(|corner| masses[corner]);
+                    self.push(lane, &hit, None, Some(ends), 1.0);
+                }
+            }
+        }
+    }
+
+    /// Contact of robots with themselves. Each pair is evaluated twice in both orders, so the forces are doubled.
+    #[inline(never)]
+    fn collide_with_itself(&mut self, insides: &[Inside]) {
+        for inside in insides {
+            for lane in (0..self.occupants.len()).filter(|lane| inside.lanes >> lane & 1 == 1) {
+                self.collide_point_with_itself(lane, inside);
+            }
+        }
+    }
+
+    fn collide_point_with_itself(&mut self, lane: usize, inside: &Inside) {
+        let reference = self.occupants[lane].surface.iter().position(|voxel| voxel.corners == inside.corners);
+        let (reference, masses) = self.quad(lane, reference.expect("a tile in a lane is a surface voxel of its robot"));
+        let [least, greatest] = reference.bounds;
+        for n in 0..self.occupants[lane].at_mass[inside.point].len() {
+            let (voxel, corner) = self.occupants[lane].at_mass[inside.point][n];
+            let (main, _) = self.quad(lane, voxel);
+            let [from, to] = main.bounds;
+            let overlap = from.x <= greatest.x && least.x <= to.x && from.y <= greatest.y && least.y <= to.y;
+            if let Some(hit) = overlap.then(|| reference.hit_by(&main, corner, &self.constants)).flatten() {
+                let ends = reference.ends(hit.side).map(|corner| masses[corner]);
+                self.push(lane, &hit, Some(inside.point), Some(ends), 2.0);
+            }
+        }
+    }
+
+    /// The forces of a contact, multiplied: on the point F - 140 (n·w) n and friction; on each end of the side half of
+    /// F and of friction in the opposite direction, and its own damping. No force acts on the ground.
+    fn push(&mut self, lane: usize, hit: &Hit, point: Option<usize>, ends: Option<[usize; 2]>, times: f64) {
+        let constants = self.constants;
+        let normal = hit.normal;
+        let strength = constants.contact_stiffness * (constants.contact_depth + hit.distance);
+        let force = strength * normal;
+        let mut friction = Vector2::zeros();
+        if let Some(point) = point {
+            let speed = self.true_velocity(lane, point);
+            let along = Vector2::new(-normal.y, normal.x);
+            let range = constants.friction_range * strength;
+            friction = -constants.friction * range * libm::tanh(along.dot(&speed) / range) * along;
+            let damping = constants.point_damping * normal.dot(&speed) * normal;
+            self.add_load(lane, point, (force - damping + friction) * times);
+        }
+        for end in ends.into_iter().flatten() {
+            let damping = constants.edge_damping * normal.dot(&self.true_velocity(lane, end)) * normal;
+            self.add_load(lane, end, (force / 2.0 + damping + friction / 2.0) * -times);
+        }
+    }
+
+    /// Adds a force in newtons to a lane's mass for this substep.
+    fn add_load(&mut self, lane: usize, mass: usize, force: Vector2<f64>) {
+        let scale = self.constants.per_substep_squared();
+        let weight = self.load[mass];
+        if (weight as usize) < self.weights {
+            self.load[mass] = self.loads.len() as u32;
+            self.loads.push(self.loads[weight as usize]);
+            self.loaded.push((mass, weight));
+        }
+        let load = &mut self.loads[self.load[mass] as usize];
+        for axis in 0..2 {
+            load[axis].set_lane(lane, load[axis].lane(lane) + force[axis] * scale);
+        }
+        self.masses[mass].force = *load;
+    }
+
+    /// The velocity over the last substep, including corrections, in meters per second (docs/physics.md 5).
+    fn true_velocity(&self, lane: usize, mass: usize) -> Vector2<f64> {
+        let (now, before) = (&self.masses[mass].at, &self.before[mass]);
+        let speed = |axis: usize| (now[axis].lane(lane) - before[axis].lane(lane)) / self.constants.substep;
+        Vector2::new(speed(0), speed(1))
+    }
+
+    /// A lane's surface voxel at its current position, and its masses.
+    fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
+        let voxel = self.occupants[lane].surface[voxel];
+        let place = |mass: usize| Vector2::new(self.masses[mass].at[0].lane(lane), self.masses[mass].at[1].lane(lane));
+        (Quad::new(voxel.corners.map(place), voxel.sides), voxel.corners)
+    }
+
+    /// Ground voxel `column`, rounded as in docs/physics.md 2.
+    fn ground(&self, column: usize) -> Quad {
+        let cell = self.constants.cell;
+        let (left, right) = (column as f64 * cell, (column + 1) as f64 * cell);
+        let corners = [[left, cell], [right, cell], [right, 0.0], [left, 0.0]].map(|[x, y]| Vector2::new(x, y));
+        let bounds = [corners[3], corners[1]];
+        Quad::within(bounds, corners, [true, column + 1 == self.world_width, true, column == 0])
+    }
+}

@@ -1,0 +1,146 @@
+//! Lanes as plain arrays: the portable form, which compilers translate to the vectors of the target.
+
+use std::array::from_fn;
+use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+
+use crate::backend::lanes::real::{Mask, Real};
+
+/// An array of `N` numbers.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub struct Lanes<const N: usize>([f64; N]);
+
+/// Yes or no for each of `N` lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneMask<const N: usize>([bool; N]);
+
+impl<const N: usize> Lanes<N> {
+    #[inline(always)]
+    fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        Self(from_fn(|i| operation(self.0[i], other.0[i])))
+    }
+
+    #[inline(always)]
+    fn compare(self, other: Self, relation: impl Fn(f64, f64) -> bool) -> LaneMask<N> {
+        LaneMask(from_fn(|i| relation(self.0[i], other.0[i])))
+    }
+}
+
+impl<const N: usize> Add for Lanes<N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl<const N: usize> Sub for Lanes<N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl<const N: usize> Mul for Lanes<N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl<const N: usize> AddAssign for Lanes<N> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const N: usize> SubAssign for Lanes<N> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<const N: usize> Mask for LaneMask<N> {
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.iter().enumerate().fold(0, |bits, (i, &lane)| bits | u32::from(lane) << i)
+    }
+
+    #[inline(always)]
+    fn from_bits(bits: u32) -> Self {
+        Self(from_fn(|i| bits >> i & 1 == 1))
+    }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(from_fn(|i| self.0[i] | other.0[i]))
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(from_fn(|i| self.0[i] & other.0[i]))
+    }
+}
+
+impl<const N: usize> Real for Lanes<N> {
+    const LANES: usize = N;
+
+    type Mask = LaneMask<N>;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(from_fn(|i| self.0[i].abs()))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> LaneMask<N> {
+        self.compare(other, |a, b| a < b)
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> LaneMask<N> {
+        self.compare(other, |a, b| a <= b)
+    }
+
+    #[inline(always)]
+    fn select(mask: LaneMask<N>, yes: Self, no: Self) -> Self {
+        Self(from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
+    }
+
+    #[inline(always)]
+    fn recip_sqrt_seed(self) -> Self {
+        Self(from_fn(|i| f64::from(1.0 / (self.0[i] as f32).sqrt())))
+    }
+}

@@ -1,0 +1,91 @@
+//! Back ends: implementations of the physics. All give the same bits; `lanes` runs on this processor, `opencl` on a
+//! graphics card.
+
+pub mod lanes;
+#[cfg(feature = "gpu")]
+pub mod opencl;
+mod run;
+
+use std::fmt::Debug;
+
+use crate::constants::Constants;
+use crate::lattice::Lattice;
+use crate::state::State;
+use nbc_base::model::{Body, Fault, Pattern, Setting, Trajectory, Trial};
+
+/// An implementation of the physics.
+pub trait Backend: Debug + Send + Sync {
+    /// Opens a world with a robot for each body, at rest at the setting's start, its clock at zero.
+    fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock>;
+
+    /// Simulates each trial from a fresh start; result `i` is that of trial `i`. The results do not depend on threads
+    /// or on the grouping of trials.
+    fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory>;
+}
+
+/// Several robots, each alone in its own simulation with its own stimuli.
+pub trait Flock: Debug + Send {
+    /// The number of robots.
+    fn len(&self) -> usize;
+
+    /// Whether there are none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Simulates `env_steps` more env steps, with robot `i` under `patterns[i]`. The actuation clock continues from
+    /// call to call. A robot with a fault stays in its state after its last complete env step.
+    ///
+    /// # Panics
+    /// When there is not one pattern for each robot.
+    fn advance(&mut self, patterns: &[Pattern], env_steps: u32);
+
+    /// Keeps robot `i` if `keep[i]` is true, in the same order, and drops the others.
+    ///
+    /// # Panics
+    /// When there is not one entry for each robot.
+    fn retain(&mut self, keep: &[bool]);
+
+    /// The center of mass of robot `i`, in voxels: x and y.
+    fn center(&self, i: usize) -> [f64; 2];
+
+    /// The fault that ended the simulation of robot `i`, if any.
+    fn fault(&self, i: usize) -> Option<Fault>;
+
+    /// Env steps that robot `i` has done.
+    fn clock(&self, i: usize) -> u32;
+
+    /// The lattice of robot `i`.
+    fn lattice(&self, i: usize) -> &Lattice;
+
+    /// The positions of the points of robot `i`, in voxels, in the order of [`Lattice::points`].
+    fn points(&self, i: usize) -> Vec<[f64; 2]>;
+
+    /// All that the simulation of robot `i` depends on from now on; [`Flock::restore`] takes it back.
+    fn snapshot(&self, i: usize) -> Snapshot;
+
+    /// Sets robot `i` to an earlier snapshot of a robot with the same body.
+    fn restore(&mut self, i: usize, snapshot: &Snapshot);
+
+    /// Moves robot `i` to the right by that many voxels.
+    fn shift(&mut self, i: usize, voxels: f64) {
+        let (constants, mut snapshot) = (Constants::default(), self.snapshot(i));
+        let State { position, previous, .. } = &mut snapshot.state;
+        position.iter_mut().chain(previous).for_each(|point| point[0] += voxels * constants.cell);
+        snapshot.center = snapshot.state.center(&constants);
+        self.restore(i, &snapshot);
+    }
+}
+
+/// A robot's simulation at the end of an env step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Its points.
+    pub state: State,
+    /// Its center of mass, in voxels.
+    pub center: [f64; 2],
+    /// Env steps done.
+    pub clock: u32,
+    /// The fault that ended it, if any.
+    pub fault: Option<Fault>,
+}

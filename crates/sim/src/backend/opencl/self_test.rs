@@ -1,0 +1,64 @@
+//! The self-test of a device: bodies of every box of the paper, compared with this processor to the last bit.
+
+use crate::backend::Backend;
+use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting, Trajectory, Trial};
+
+/// How much a self-test simulates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SelfTest {
+    /// The sides of the boxes.
+    sides: &'static [usize],
+    /// Bodies of each box.
+    bodies: usize,
+    /// Env steps under each of two patterns.
+    steps: u32,
+}
+
+/// How the results of one box compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BoxComparison {
+    /// The side of the box.
+    pub side: usize,
+    /// The trials that were compared.
+    pub trials: usize,
+    /// Those whose results differ.
+    pub different: usize,
+}
+
+impl SelfTest {
+    /// What every device is asked when it is opened.
+    pub const QUICK: Self = Self { sides: &[3], bodies: 9, steps: 6 };
+
+    /// Every box of the paper.
+    pub const FULL: Self = Self { sides: &[5, 7, 10], bodies: 24, steps: 84 };
+
+    /// Compares the bodies of each box.
+    pub fn compare(self, device: &dyn Backend, processor: &dyn Backend) -> Vec<BoxComparison> {
+        self.sides.iter().map(|&side| self.judge(device, processor, side)).collect()
+    }
+
+    fn judge(self, device: &dyn Backend, processor: &dyn Backend, side: usize) -> BoxComparison {
+        let trials: Vec<Trial> = (0..self.bodies).map(|body| self.trial(side, body)).collect();
+        let [found, expected] = [device, processor].map(|backend| backend.run_trials(&Setting::default(), &trials));
+        let different = found.iter().zip(&expected).filter(|(found, expected)| bits(found) != bits(expected)).count();
+        BoxComparison { side, trials: trials.len(), different }
+    }
+
+    /// A body of all materials, every other one with holes, under two patterns.
+    fn trial(self, side: usize, body: usize) -> Trial {
+        let whole = Body::patchwork(side, body);
+        let holes =
+            |place: usize, code: u8| if body % 2 == 1 && (place * 7 + body).is_multiple_of(5) { 0 } else { code };
+        let codes = whole.codes().iter().enumerate().map(|(place, &code)| holes(place, code)).collect();
+        let spells = [Pattern::PAIRS[body % 4], Pattern::PAIRS[(body + 1 + body / 4) % 4]];
+        let mut schedule = Schedule::constant(spells[0], self.steps);
+        schedule.spells.extend(Schedule::constant(spells[1], self.steps).spells);
+        Trial { body: Body::new(side, side, codes, whole.palette().clone()), schedule }
+    }
+}
+
+/// A trajectory as bits.
+fn bits(trajectory: &Trajectory) -> (Vec<u64>, Option<Fault>) {
+    let numbers = trajectory.com_x.iter().chain(&trajectory.com_y);
+    (numbers.map(|number| number.to_bits()).collect(), trajectory.fault)
+}

@@ -1,0 +1,143 @@
+//! One simulation: a robot, its clock, and the schedule ahead of it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::backend::Snapshot;
+use crate::constants::Constants;
+use crate::lattice::Lattice;
+use crate::signal::Signals;
+use crate::state::State;
+use nbc_base::model::{Body, Fault, FaultKind, Palette, Pattern, Schedule, Setting};
+
+/// One simulation.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The body's points and springs.
+    pub lattice: Arc<Lattice>,
+    /// The body's number: runs of one number share a body.
+    pub body: usize,
+    /// The target widths of its materials.
+    pub signals: Arc<Signals>,
+    /// Its points. While the run is in a lane the batch has them, and these are outdated.
+    pub state: State,
+    /// Its center of mass at the end of the last whole env step, in voxels.
+    pub center: [f64; 2],
+    /// Env steps done.
+    pub clock: u32,
+    /// The fault that ended it, if any.
+    pub fault: Option<Fault>,
+    /// Spells ahead, the next one last.
+    spells: Vec<(Pattern, u32)>,
+}
+
+/// The data shared by runs of equal bodies.
+#[derive(Clone)]
+struct Build {
+    body: usize,
+    lattice: Arc<Lattice>,
+    signals: Arc<Signals>,
+}
+
+impl Run {
+    /// A body at its start, without a schedule.
+    fn new(build: &Build, start: f64, constants: &Constants) -> Self {
+        let Build { body, lattice, signals } = build.clone();
+        let state = State::start(&lattice, start, constants);
+        let center = state.center(constants);
+        Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
+    }
+
+    /// Sets its schedule.
+    pub fn assign(&mut self, schedule: &Schedule) {
+        let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
+        self.spells.clear();
+        self.spells.extend(spells.map(|spell| (spell.pattern, spell.steps)));
+    }
+
+    /// Whether its schedule is done.
+    pub fn is_done(&self) -> bool {
+        self.fault.is_some() || self.spells.is_empty()
+    }
+
+    /// The stimuli of the env step ahead.
+    ///
+    /// # Panics
+    /// When there is nothing left to do.
+    pub fn pattern(&self) -> Pattern {
+        self.spells.last().expect("a run that is not done has a spell").0
+    }
+
+    /// Records an env step: its center of mass, or its fault.
+    pub fn finish_env_step(&mut self, center: [f64; 2], is_unstable: bool) {
+        let fault = |kind| Some(Fault { env_step: self.clock + 1, kind });
+        if is_unstable {
+            self.fault = fault(FaultKind::Unstable);
+        } else if !center.iter().all(|axis| axis.is_finite()) {
+            self.fault = fault(FaultKind::NonFinite);
+        } else {
+            self.center = center;
+            self.count_down();
+        }
+    }
+
+    /// Ends it before its next env step, unless it is done.
+    pub fn stop(&mut self) {
+        if !self.is_done() {
+            self.fault = Some(Fault { env_step: self.clock + 1, kind: FaultKind::Stopped });
+        }
+    }
+
+    /// Env steps ahead.
+    #[cfg(feature = "gpu")]
+    pub fn remaining(&self) -> u32 {
+        if self.fault.is_some() { 0 } else { self.spells.iter().map(|&(_, steps)| steps).sum() }
+    }
+
+    /// The spells of at most `env_steps` env steps ahead, in order of time.
+    #[cfg(feature = "gpu")]
+    pub fn spells_ahead(&self, env_steps: u32) -> Vec<(Pattern, u32)> {
+        let mut left = env_steps;
+        let cut = |&(pattern, steps): &(Pattern, u32)| {
+            let steps = steps.min(left);
+            left -= steps;
+            (pattern, steps)
+        };
+        self.spells.iter().rev().map(cut).take_while(|&(_, steps)| steps > 0).collect()
+    }
+
+    fn count_down(&mut self) {
+        self.clock += 1;
+        let spell = self.spells.last_mut().expect("a run that is not done has a spell");
+        spell.1 -= 1;
+        if spell.1 == 0 {
+            self.spells.pop();
+        }
+    }
+
+    /// Restores a snapshot, without a schedule.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        assert_eq!(snapshot.state.position.len(), self.lattice.points().len(), "a snapshot is of the same body");
+        let Snapshot { state, center, clock, fault } = snapshot.clone();
+        self.spells.clear();
+        (self.state, self.center, self.clock, self.fault) = (state, center, clock, fault);
+    }
+}
+
+/// A run for each body, at its start, without a schedule. Equal bodies share their lattice, equal palettes their
+/// signals.
+pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
+    let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
+    let mut builds: BTreeMap<&Body, Build> = BTreeMap::new();
+    let run = |body: &'a Body| {
+        let number = builds.len();
+        let build = builds.entry(body).or_insert_with(|| {
+            let signals =
+                palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
+            let lattice = Arc::new(Lattice::with_constants(body, constants));
+            Build { body: number, lattice, signals: Arc::clone(signals) }
+        });
+        Run::new(build, setting.start_column(body.width()) as f64 + setting.shift, constants)
+    };
+    bodies.into_iter().map(run).collect()
+}

@@ -1,0 +1,330 @@
+//! A body's lattice at rest: its points, its edges with their springs, its surface (docs/physics.md 2 and 3).
+
+use std::collections::BTreeMap;
+
+use crate::constants::Constants;
+use nbc_base::model::{Body, MaterialKind};
+
+/// Corners and sides of a voxel are numbered clockwise: corner 0 top left, 1 top right, 2 bottom right, 3 bottom left;
+/// side 0 top, 1 right, 2 bottom, 3 left. So side `i` runs from corner `i` to corner `i + 1`.
+pub const CORNERS: usize = 4;
+
+/// The points, edges and voxels of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lattice {
+    width: usize,
+    height: usize,
+    points: Vec<LatticePoint>,
+    edges: Vec<Edge>,
+    voxels: Vec<Voxel>,
+    driven: Vec<DrivenEdge>,
+    active: bool,
+}
+
+/// A point of the lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LatticePoint {
+    /// Columns from the left edge of the body's box.
+    pub column: usize,
+    /// Rows from the top edge of the body's box.
+    pub row: usize,
+    /// If two voxels touch only diagonally, each has its own point here: false for the upper, true for the lower
+    /// voxel's.
+    pub twin: bool,
+}
+
+/// An edge between two points, which is a spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// One end: a point, by its number.
+    pub a: usize,
+    /// The other end.
+    pub b: usize,
+    /// Built length in meters.
+    pub rest: f64,
+    /// Stiffness in newtons per meter.
+    pub stiffness: f64,
+}
+
+/// A voxel that is not empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Voxel {
+    /// Row, 0 on top.
+    pub row: usize,
+    /// Column, 0 on the left.
+    pub column: usize,
+    /// Material code.
+    pub code: u8,
+    /// Whether its material is rigid.
+    pub rigid: bool,
+    /// Its points: top left, top right, bottom right, bottom left.
+    pub corners: [usize; CORNERS],
+    /// Whether each side is surface: top, right, bottom, left.
+    pub surface: [bool; CORNERS],
+}
+
+impl Voxel {
+    /// Whether any side is surface.
+    pub fn is_surface(&self) -> bool {
+        self.surface.contains(&true)
+    }
+}
+
+/// A horizontal edge that one or two active voxels drive (docs/physics.md 4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrivenEdge {
+    /// The edge, by its number.
+    pub edge: usize,
+    /// The material code of the first owner in reading order that is active.
+    pub first: u8,
+    /// The code of the second, if both are.
+    pub second: Option<u8>,
+}
+
+impl Lattice {
+    /// The lattice of a body.
+    pub fn new(body: &Body) -> Self {
+        Self::with_constants(body, &Constants::default())
+    }
+
+    /// The lattice under other constants.
+    pub(crate) fn with_constants(body: &Body, constants: &Constants) -> Self {
+        Builder { body, constants }.build()
+    }
+
+    /// Columns and rows of the body's box.
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// The points in order of creation (docs/physics.md 2).
+    pub fn points(&self) -> &[LatticePoint] {
+        &self.points
+    }
+
+    /// The edges, ordered by the places of their ends, row by row.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// The voxels in reading order.
+    pub fn voxels(&self) -> &[Voxel] {
+        &self.voxels
+    }
+
+    /// The edges that active voxels drive.
+    pub fn driven(&self) -> &[DrivenEdge] {
+        &self.driven
+    }
+
+    /// Whether any voxel is active: only such a body is a robot, acts, and can be unstable (docs/physics.md 1).
+    pub fn is_active(&self) -> bool {
+        self.active
+    }
+
+    /// The surface as directed edges between points, with the body to the right of each, voxel by voxel in reading
+    /// order.
+    pub fn surface_edges(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.voxels.iter().flat_map(|voxel| {
+            (0..CORNERS)
+                .filter(|&side| voxel.surface[side])
+                .map(|side| (voxel.corners[side], voxel.corners[(side + 1) % CORNERS]))
+        })
+    }
+
+    /// The start position of point `point`, in meters, for a body whose left side is `start` voxels from the start of
+    /// the ground, rounded as in docs/physics.md 2.
+    pub fn start(&self, point: usize, start: f64, constants: &Constants) -> [f64; 2] {
+        let LatticePoint { column, row, .. } = self.points[point];
+        let cell = constants.cell;
+        [start * cell + column as f64 * cell, (1.0 * cell + self.height as f64 * cell) - row as f64 * cell]
+    }
+}
+
+/// Lattice place of a corner relative to its voxel: columns, rows.
+const OFFSETS: [(usize, usize); CORNERS] = [(0, 0), (1, 0), (1, 1), (0, 1)];
+
+/// Corners in order of creation: top left, top right, bottom left, bottom right.
+const CREATION: [usize; CORNERS] = [0, 1, 3, 2];
+
+/// The neighbour across each side: columns, rows.
+const ACROSS: [(isize, isize); CORNERS] = [(0, -1), (1, 0), (0, 1), (-1, 0)];
+
+/// A lattice under construction.
+struct Builder<'a> {
+    body: &'a Body,
+    constants: &'a Constants,
+}
+
+/// An edge while its owners are being visited.
+struct Draft {
+    rest: f64,
+    stiffness: f64,
+    drivers: Vec<u8>,
+}
+
+impl Builder<'_> {
+    fn build(&self) -> Lattice {
+        let (points, voxels) = self.points_and_voxels();
+        let drafts = self.drafts(&points, &voxels);
+        let mut edges = Vec::with_capacity(drafts.len());
+        let mut driven = Vec::new();
+        for ((a, b), draft) in drafts {
+            if let Some(&first) = draft.drivers.first() {
+                driven.push(DrivenEdge { edge: edges.len(), first, second: draft.drivers.get(1).copied() });
+            }
+            edges.push(Edge { a: a.1, b: b.1, rest: draft.rest, stiffness: draft.stiffness });
+        }
+        let active = voxels.iter().any(|voxel| self.is_active(voxel.code));
+        Lattice { width: self.body.width(), height: self.body.height(), points, edges, voxels, driven, active }
+    }
+
+    fn is_active(&self, code: u8) -> bool {
+        matches!(self.body.palette().kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
+    }
+
+    fn occupied(&self, column: isize, row: isize) -> bool {
+        let inside =
+            (0..self.body.width() as isize).contains(&column) && (0..self.body.height() as isize).contains(&row);
+        inside && self.body.code(row as usize, column as usize) > 0
+    }
+
+    /// Whether the lattice point at (column, row) is two points: exactly two voxels around it, diagonal to each other.
+    fn is_split(&self, column: usize, row: usize) -> bool {
+        let (i, j) = (column as isize, row as isize);
+        let falling = [(i - 1, j - 1), (i, j)].map(|(column, row)| self.occupied(column, row));
+        let rising = [(i, j - 1), (i - 1, j)].map(|(column, row)| self.occupied(column, row));
+        (falling == [true; 2] && rising == [false; 2]) || (falling == [false; 2] && rising == [true; 2])
+    }
+
+    fn points_and_voxels(&self) -> (Vec<LatticePoint>, Vec<Voxel>) {
+        let mut points = Vec::new();
+        let mut voxels = Vec::new();
+        let mut numbers = BTreeMap::new();
+        for row in 0..self.body.height() {
+            for column in 0..self.body.width() {
+                let code = self.body.code(row, column);
+                if code == 0 {
+                    continue;
+                }
+                let mut corners = [0; CORNERS];
+                for corner in CREATION {
+                    let (i, j) = (column + OFFSETS[corner].0, row + OFFSETS[corner].1);
+                    let point = LatticePoint { column: i, row: j, twin: self.is_split(i, j) && j == row };
+                    corners[corner] = *numbers.entry(point).or_insert_with(|| {
+                        points.push(point);
+                        points.len() - 1
+                    });
+                }
+                let surface = ACROSS.map(|(i, j)| !self.occupied(column as isize + i, row as isize + j));
+                let rigid = self.body.palette().kind(code) == Some(MaterialKind::Rigid);
+                voxels.push(Voxel { row, column, code, rigid, corners, surface });
+            }
+        }
+        (points, voxels)
+    }
+
+    /// The edges under the places and numbers of their ends. A later voxel in reading order overwrites the stiffness of
+    /// a shared main edge unless it is rigid (docs/physics.md 3).
+    fn drafts(&self, points: &[LatticePoint], voxels: &[Voxel]) -> BTreeMap<(End, End), Draft> {
+        let mut drafts: BTreeMap<(End, End), Draft> = BTreeMap::new();
+        let side = self.constants.cell;
+        let diagonal = (side * side + side * side).sqrt();
+        for voxel in voxels {
+            let (main, share) = self.stiffness(voxel.code);
+            let end = |corner: usize| {
+                let point = points[voxel.corners[corner]];
+                ((point.row, point.column, point.twin), voxel.corners[corner])
+            };
+            let key = |a: usize, b: usize| if end(a) < end(b) { (end(a), end(b)) } else { (end(b), end(a)) };
+            for from in 0..CORNERS {
+                let draft = drafts.entry(key(from, (from + 1) % CORNERS)).or_insert_with(|| Draft {
+                    rest: side,
+                    stiffness: self.constants.rigid_stiffness,
+                    drivers: Vec::new(),
+                });
+                if !voxel.rigid {
+                    draft.stiffness = main;
+                }
+                if from % 2 == 0 && self.is_active(voxel.code) {
+                    draft.drivers.push(voxel.code);
+                }
+            }
+            for (a, b) in [(1, 3), (0, 2)] {
+                drafts.insert(key(a, b), Draft { rest: diagonal, stiffness: main * share, drivers: Vec::new() });
+            }
+        }
+        drafts
+    }
+
+    /// Stiffness of a voxel's main edges, and the fraction of it for its diagonals.
+    fn stiffness(&self, code: u8) -> (f64, f64) {
+        let constants = self.constants;
+        match self.body.palette().kind(code) {
+            Some(MaterialKind::Soft) => (constants.soft_stiffness, constants.soft_diagonal),
+            Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)) => {
+                (constants.active_stiffness, constants.active_diagonal)
+            }
+            Some(MaterialKind::Rigid) | None => (constants.rigid_stiffness, constants.rigid_diagonal),
+        }
+    }
+}
+
+/// An edge's end: its place (row, column, twin) and its point's number.
+type End = ((usize, usize, bool), usize);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Palette;
+
+    fn lattice(rows: &[&str]) -> Lattice {
+        Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap())
+    }
+
+    fn check(rows: &[&str], points: usize, edges: usize, surface: usize) {
+        let lattice = lattice(rows);
+        let found = (lattice.points().len(), lattice.edges().len(), lattice.surface_edges().count());
+        assert_eq!(found, (points, edges, surface), "{rows:?}");
+    }
+
+    #[test]
+    fn counts() {
+        check(&["3"], 4, 6, 4);
+        check(&["34", "12"], 9, 20, 8);
+        check(&["33333"; 5], 36, 110, 20);
+        check(&["333", "303", "333"], 16, 40, 16);
+    }
+
+    #[test]
+    fn voxels_that_meet_only_diagonally_have_points_of_their_own() {
+        check(&["30", "03"], 8, 12, 8);
+        check(&["30", "33"], 8, 16, 8);
+        let twins = lattice(&["30", "03"]);
+        let places: Vec<_> = twins.points().iter().filter(|p| (p.column, p.row) == (1, 1)).map(|p| p.twin).collect();
+        assert_eq!(places, [false, true]);
+    }
+
+    #[test]
+    fn points_are_numbered_as_voxels_create_them() {
+        let two = lattice(&["34", "12"]);
+        let places: Vec<_> = two.points().iter().map(|p| (p.column, p.row)).collect();
+        assert_eq!(places, [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (2, 1), (0, 2), (1, 2), (2, 2)]);
+    }
+
+    #[test]
+    fn shared_edges_take_the_later_compliant_owner() {
+        let stiffness = |rows: &[&str]| {
+            let two = lattice(rows);
+            let voxel = two.voxels()[1];
+            let ends = [voxel.corners[0], voxel.corners[3]];
+            let shared = two.edges().iter().find(|e| ends.contains(&e.a) && ends.contains(&e.b)).unwrap();
+            shared.stiffness
+        };
+        assert_eq!(stiffness(&["11"]), 3e8 / 3.5);
+        assert_eq!(stiffness(&["12"]), 5e7);
+        assert_eq!(stiffness(&["31"]), 6e7);
+        assert_eq!(stiffness(&["32"]), 5e7);
+        assert_eq!(stiffness(&["23"]), 6e7);
+    }
+}

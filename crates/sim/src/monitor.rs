@@ -1,0 +1,34 @@
+//! A view of running simulations for another thread, which can also end them.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// Counts the env steps of simulations while they run, and ends them on request. The physics takes no notice of it
+/// otherwise: the results up to the end are the same bits.
+#[derive(Debug, Default)]
+pub struct Monitor {
+    env_steps: AtomicU64,
+    stopped: AtomicBool,
+}
+
+impl Monitor {
+    /// Env steps done so far, of all robots together.
+    pub fn env_steps(&self) -> u64 {
+        self.env_steps.load(Ordering::Relaxed)
+    }
+
+    /// Ends the simulations before their next env step, and those that start later. Each gets the fault
+    /// [`nbc_base::model::FaultKind::Stopped`].
+    pub fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the simulations are to end.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    /// Counts an env step of that many robots.
+    pub(super) fn count(&self, robots: usize) {
+        self.env_steps.fetch_add(robots as u64, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,42 @@
+//! The simulator: the physics in the hands of a back end.
+
+use std::sync::Arc;
+
+use crate::backend::lanes::LaneBackend;
+use crate::backend::{Backend, Flock};
+use crate::monitor::Monitor;
+use nbc_base::model::{Body, Setting, Trajectory, Trial};
+
+/// The back end of simulations. The default is the fastest kernel of this processor; results do not depend on it.
+#[derive(Clone, Debug)]
+pub struct Simulator {
+    backend: Arc<dyn Backend>,
+}
+
+impl Default for Simulator {
+    fn default() -> Self {
+        Self::new(LaneBackend::default())
+    }
+}
+
+impl Simulator {
+    /// Simulation by a back end.
+    pub fn new(backend: impl Backend + 'static) -> Self {
+        Self { backend: Arc::new(backend) }
+    }
+
+    /// The default simulator, followed by `monitor`, which can end its simulations.
+    pub fn monitored(monitor: Arc<Monitor>) -> Self {
+        Self::new(LaneBackend { monitor: Some(monitor), ..LaneBackend::default() })
+    }
+
+    /// Robots that are advanced step by step, one for each body; see [`Backend::flock`].
+    pub fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
+        self.backend.flock(setting, bodies)
+    }
+
+    /// Simulates each trial from a fresh start; see [`Backend::run_trials`].
+    pub fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
+        self.backend.run_trials(setting, trials)
+    }
+}

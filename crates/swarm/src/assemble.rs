@@ -1,0 +1,236 @@
+//! From a mapped netlist and a library to a swarm: a robot for each cell, and the sources of its stimuli.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::AssembleError;
+use crate::cells::choose;
+use crate::noise::RobotNoise;
+use nbc_base::model::{Body, Column, Library, PhysicsWorld, Robot, Setting};
+use nbc_circuit::{Logic, NetId, Netlist, Node};
+use nbc_sim::{Flock, Simulator};
+
+/// The source of a stimulus or of an output port's bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StimulusSource {
+    /// A bit of the input ports, by its place among their bits.
+    Input(usize),
+    /// A member's output in the cycle before, by its place among the members.
+    Robot(usize),
+    /// A bit that never changes.
+    Constant(bool),
+}
+
+impl StimulusSource {
+    /// Its bit among the bits of the inputs and the outputs of the robots, which may be unknown ones.
+    pub(crate) fn bit<T: Copy + From<bool>>(self, inputs: &[bool], outputs: &[T]) -> T {
+        match self {
+            Self::Input(i) => inputs[i].into(),
+            Self::Robot(i) => outputs[i],
+            Self::Constant(value) => value.into(),
+        }
+    }
+}
+
+/// One robot of a swarm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member {
+    /// The net it drives.
+    pub net: String,
+    /// The robot that drives it.
+    pub robot: Robot,
+    /// The sources of stimulus 1 and stimulus 2.
+    pub senses: [StimulusSource; 2],
+    /// Its output before the first cycle.
+    pub start: bool,
+}
+
+/// A swarm ready to be simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// The circuit's name.
+    pub circuit: String,
+    /// The input ports.
+    pub inputs: Vec<Column>,
+    /// The robots, in order of the netlist's cells.
+    pub members: Vec<Member>,
+    /// The output ports.
+    pub outputs: Vec<Column>,
+    /// The source of each bit of the output ports.
+    pub shown: Vec<StimulusSource>,
+    /// The world in which it is simulated; its members have the bodies that they have there.
+    pub world: PhysicsWorld,
+}
+
+/// The fewest cycles in which robots settle into their shape after their fresh start.
+const LEAST_START: usize = 2;
+
+/// The least ground of a swarm, in voxels.
+const LEAST_GROUND: usize = 1 << 15;
+
+impl Assembly {
+    /// Cycles in which robots settle into their shape after their fresh start, and in which the slowest of them reacts
+    /// once. Their motion is ignored until the last of them is over, and the others sense their start values until
+    /// then; otherwise a latch would lose its start value (docs/physics.md 14).
+    pub fn start_cycles(&self) -> usize {
+        start_cycles(self.members.iter().map(|member| member.robot.character.clock))
+    }
+
+    /// The same swarm in a world, in which its members may have weak or dead voxels.
+    pub fn in_world(mut self, world: PhysicsWorld) -> Self {
+        for (i, member) in self.members.iter_mut().enumerate() {
+            member.robot.body = RobotNoise::new(&world.noise, i).worn(&member.robot.body);
+        }
+        Self { world, ..self }
+    }
+
+    /// Its ground and physics for this many cycles.
+    ///
+    /// In the paper's 500 voxels, a robot that holds its output reaches the end of the ground within some hundred
+    /// cycles and falls off. No robot walks its own width in a cycle, so there is ground for that distance both ways,
+    /// rounded to powers of two so that most tests of a circuit have the same ground.
+    pub fn setting(&self, cycles: usize) -> Setting {
+        let widest = self.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
+        let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_GROUND);
+        Setting { world_width, factors: self.world.factors, ..Setting::default() }
+    }
+
+    /// Its robots at their starts, with ground for this many cycles.
+    pub fn flock(&self, simulator: &Simulator, cycles: usize) -> Box<dyn Flock> {
+        let bodies: Vec<Body> = self.members.iter().map(|member| member.robot.body.clone()).collect();
+        let mut flock = simulator.flock(&self.setting(cycles), &bodies);
+        if self.world.noise.start > 0.0 {
+            (0..flock.len()).for_each(|i| flock.shift(i, RobotNoise::new(&self.world.noise, i).shift()));
+        }
+        flock
+    }
+}
+
+/// [`Assembly::start_cycles`] of robots with these clocks.
+pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
+    clocks.into_iter().map(|clock| clock as usize).max().unwrap_or(0).max(LEAST_START)
+}
+
+/// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are
+/// wired.
+///
+/// A cell is assigned the first robot of the library that computes its function, or else one that computes it with
+/// exchanged inputs. A cell of one input is connected to the stimulus that its robot depends on; the other stimulus
+/// stays absent. Robots without a start value start as if the circuit had settled with all inputs 0. Otherwise both
+/// robots of a memory element would be driven, and could keep switching each other forever.
+///
+/// # Errors
+/// [`AssembleError::MissingFunction`] when no robot fits a cell.
+///
+/// # Panics
+/// When the netlist still has wires, which `dissolve-wires` takes out.
+pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, AssembleError> {
+    let signals = number_signals(netlist);
+    let before = Logic::new(netlist);
+    let mut members = Vec::new();
+    for (id, cell) in netlist.cells() {
+        let pins: Vec<StimulusSource> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
+        let missing = AssembleError::MissingFunction { function: cell.function };
+        let (robot, exchange) = choose(library, cell.function).ok_or(missing)?;
+        let mut senses = [pins[0], pins.get(1).copied().unwrap_or(StimulusSource::Constant(false))];
+        if exchange {
+            senses.reverse();
+        }
+        members.push(Member { net: netlist.net_name(id), robot: robot.clone(), senses, start: before.value(id) });
+    }
+    Ok(Assembly {
+        circuit: netlist.name.clone(),
+        inputs: ports(netlist, netlist.inputs()),
+        members,
+        outputs: ports(netlist, netlist.outputs()),
+        shown: netlist.outputs().iter().map(|&id| signals[&netlist.pins(id)[0]]).collect(),
+        world: PhysicsWorld::default(),
+    })
+}
+
+/// The ports that have these bits.
+fn ports(netlist: &Netlist, bits: &[NetId]) -> Vec<Column> {
+    let names: Vec<String> = bits.iter().map(|&id| netlist.net_name(id)).collect();
+    Column::group(&names)
+}
+
+/// The signal of each net: inputs and robots are numbered in the netlist's order.
+fn number_signals(netlist: &Netlist) -> BTreeMap<NetId, StimulusSource> {
+    let mut signals: BTreeMap<NetId, StimulusSource> =
+        netlist.inputs().iter().enumerate().map(|(i, &id)| (id, StimulusSource::Input(i))).collect();
+    let mut robots = 0;
+    for id in netlist.ids() {
+        match netlist.node(id) {
+            Node::Constant(value) => {
+                signals.insert(id, StimulusSource::Constant(*value));
+            }
+            Node::Cell(_) => {
+                signals.insert(id, StimulusSource::Robot(robots));
+                robots += 1;
+            }
+            Node::Input(_) | Node::Output(_) => {}
+            Node::Wire { name, .. } => panic!("wire `{name}` should have been dissolved before assembly"),
+        }
+    }
+    signals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PlainMember;
+    use nbc_base::model::{Body, Function};
+
+    fn robot(function: Function) -> Robot {
+        let body = Body::parse(&["33"], &nbc_base::model::Palette::paper()).unwrap();
+        let plain = PlainMember { body, clock: 1, senses: [StimulusSource::Constant(false); 2], start: false };
+        Robot { name: function.name().to_owned(), behavior: function.into(), ..plain.nameless().robot }
+    }
+
+    fn check(function: Function, robots: &[Function], expected: Result<(&str, [StimulusSource; 2]), AssembleError>) {
+        let mut netlist = Netlist::new("one");
+        let pins: Vec<_> = (0..function.arity()).map(|i| netlist.add_input(format!("i{i}"))).collect();
+        let gate = netlist.add_gate(function, &pins);
+        netlist.add_output("y", gate);
+        let library = Library { robots: robots.iter().copied().map(robot).collect() };
+        let found = assemble(&netlist, &library).map(|assembly| {
+            assert_eq!(assembly.outputs, [Column { name: "y".to_owned(), width: 1 }]);
+            assert_eq!(assembly.shown, [StimulusSource::Robot(0)]);
+            (assembly.members[0].robot.name.clone(), assembly.members[0].senses)
+        });
+        assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses)));
+    }
+
+    #[test]
+    fn a_cell_gets_the_robot_of_its_function() {
+        let senses = [StimulusSource::Input(0), StimulusSource::Input(1)];
+        check(Function::NAND, &[Function::AND, Function::NAND], Ok(("nand", senses)));
+    }
+
+    #[test]
+    fn a_robot_with_exchanged_inputs_is_accepted() {
+        let (here, there) = (Function::new(0b0100), Function::new(0b0010));
+        check(here, &[there], Ok(("nota_and_b", [StimulusSource::Input(1), StimulusSource::Input(0)])));
+    }
+
+    #[test]
+    fn an_inverter_reads_the_stimulus_its_robot_depends_on() {
+        check(
+            Function::NOT,
+            &[Function::NOT],
+            Ok(("not", [StimulusSource::Input(0), StimulusSource::Constant(false)])),
+        );
+        check(
+            Function::NOT,
+            &[Function::NOT_B],
+            Ok(("notb", [StimulusSource::Constant(false), StimulusSource::Input(0)])),
+        );
+    }
+
+    #[test]
+    fn a_function_without_a_robot_is_reported() {
+        check(Function::XOR, &[Function::AND], Err(AssembleError::MissingFunction { function: Function::XOR }));
+    }
+}

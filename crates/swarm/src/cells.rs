@@ -1,0 +1,49 @@
+//! A robot library as a cell library for the compiler: the available functions, and the delay of each robot.
+
+use nbc_base::model::{Character, Function, Library, Pattern, Robot};
+use nbc_circuit::{CellKind, CellLibrary, MappingObjective};
+
+/// A library in which the robots that an objective prefers come first: those with the shortest clocks for the delay,
+/// and those with the widest margins for the margin. For the area all are equal, and the order stays.
+pub fn prefer(library: Library, objective: MappingObjective) -> Library {
+    let mut robots = library.robots;
+    let faster = |a: &Character, b: &Character| a.clock.cmp(&b.clock);
+    let wider = |a: &Character, b: &Character| b.margin.total_cmp(&a.margin);
+    match objective {
+        MappingObjective::Area => {}
+        MappingObjective::Delay => {
+            robots.sort_by(|a, b| faster(&a.character, &b.character).then(wider(&a.character, &b.character)));
+        }
+        MappingObjective::Margin => {
+            robots.sort_by(|a, b| wider(&a.character, &b.character).then(faster(&a.character, &b.character)));
+        }
+    }
+    Library { robots }
+}
+
+/// The cells of a library: for each function its first robot, or else the first that computes it with exchanged inputs.
+/// [`super::assemble`] makes the same choice.
+pub fn cells(library: &Library) -> CellLibrary {
+    Function::all().filter_map(|function| Some((function, kind(library, function)?))).collect()
+}
+
+/// The robot for a function, and whether its stimuli must be exchanged.
+pub(super) fn choose(library: &Library, function: Function) -> Option<(&Robot, bool)> {
+    let straight = library.robots_for(function).next().map(|robot| (robot, false));
+    straight.or_else(|| library.robots_for(function.swapped()).next().map(|robot| (robot, true)))
+}
+
+fn kind(library: &Library, function: Function) -> Option<CellKind> {
+    let (robot, exchanged) = choose(library, function)?;
+    let character = &robot.character;
+    let mut kind = CellKind::uniform(character.clock, character.margin);
+    kind.glitches = character.glitch_rate != 0.0;
+    for transition in &character.settle {
+        let index = |pattern: Pattern| {
+            let index = pattern.pair_index();
+            if exchanged { (index & 1) << 1 | index >> 1 } else { index }
+        };
+        kind.settle[index(transition.from)][index(transition.to)] = transition.cycles;
+    }
+    Some(kind)
+}

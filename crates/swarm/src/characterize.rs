@@ -1,0 +1,308 @@
+//! The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::holds::{HoldPlan, PatternHold, holds};
+use crate::noise::RobotNoise;
+use nbc_base::model::{
+    Behavior, Body, Character, Direction, Fault, Pattern, PhysicsWorld, Robot, Setting, Transition, Trial,
+};
+use nbc_sim::Simulator;
+
+/// Seed of the random sequences.
+const SEED: u64 = 0x6e62_6373;
+/// Clocks tried, from the shortest on, in cycles.
+const CLOCKS: std::ops::RangeInclusive<u32> = 1..=8;
+/// Cycles by which a hold of a random sequence may exceed the clock, because the output must also stay correct.
+const SLACK: u32 = 3;
+/// Ground columns by which starts differ: each has other roundings in the first contacts (docs/physics.md 12).
+const STARTS: [usize; 2] = [0, 1];
+/// Random sequences from each start.
+const LANES: usize = 8;
+/// Switches of a random sequence; the first hold is a start.
+const SWITCHES: usize = 64;
+/// Switches of the cheaper sequences that come first.
+const FIRST_SWITCHES: usize = 8;
+/// Cycles before a switch whose settle time is measured; there are several, so that a switch happens at different
+/// moments.
+const SETTLE_BEFORE: [u32; 2] = [6, 9];
+/// Cycles after it. A settle time of one more means that the output was wrong until the end.
+const SETTLE_AFTER: u32 = 12;
+/// Ground voxels: room to walk for the longest sequence in both directions.
+const WORLD: usize = 4000;
+/// A body whose height in a pattern falls below this fraction of its height in its first hold has toppled.
+const TOPPLED: f64 = 0.7;
+
+/// Measures the character of a body as a gate with this behavior.
+///
+/// The clock is the smallest number of cycles (from 1 to 8) such that in 1,024 random switches, held for that many to
+/// three cycles more, no output was wrong from that cycle of a hold on. If there is none, it is the one with the fewest
+/// wrong holds.
+///
+/// # Errors
+/// The fault of a simulation.
+pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
+    let probe = Probe::new(simulator, body, behavior);
+    let tally = probe.best_clock(SWITCHES)?;
+    let (settle, toppled) = probe.settle()?;
+    Ok(tally.character(settle, toppled))
+}
+
+/// As [`characterize`], but over an eighth of the switches and without settle times.
+///
+/// # Errors
+/// The fault of a simulation.
+pub fn sketch(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
+    let tally = Probe::new(simulator, body, behavior).best_clock(FIRST_SWITCHES)?;
+    Ok(tally.character(Vec::new(), false))
+}
+
+/// The smallest clock of at most `most` cycles whose first, cheap sequences have no errors, with their margin.
+///
+/// # Errors
+/// The fault of a simulation.
+pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
+    let probe = Probe::new(simulator, body, behavior);
+    for clock in 1..=most {
+        let tally = probe.random(clock, FIRST_SWITCHES)?;
+        if tally.wrong == 0 {
+            return Ok(Some((clock, tally.margin)));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether a robot has a wrong output in a world, at its clock in the first, cheap sequences.
+pub(super) fn errs(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> bool {
+    let probe = Probe { world: *world, ..Probe::new(simulator, &robot.body, robot.behavior) };
+    probe.random(robot.character.clock, FIRST_SWITCHES).map_or(true, |tally| tally.wrong > 0)
+}
+
+/// A body under test.
+struct Probe<'a> {
+    simulator: &'a Simulator,
+    setting: Setting,
+    body: &'a Body,
+    behavior: Behavior,
+    world: PhysicsWorld,
+}
+
+/// The results of random sequences at one clock.
+#[derive(Clone, Debug, PartialEq)]
+struct Tally {
+    clock: u32,
+    switches: u32,
+    /// Holds after a switch with a wrong output in the clock's cycle or later.
+    wrong: u32,
+    /// Cycles of holds whose correct output is the same as in the previous hold.
+    quiet: u32,
+    /// The wrong ones among them.
+    glitches: u32,
+    margin: f64,
+    toppled: bool,
+}
+
+impl Tally {
+    /// The character that follows from it, with settle times and whether the body fell over in those.
+    fn character(self, settle: Vec<Transition>, toppled: bool) -> Character {
+        Character {
+            clock: self.clock,
+            switches: self.switches,
+            error_rate: self.error_rate(),
+            glitch_rate: f64::from(self.glitches) / f64::from(self.quiet.max(1)),
+            margin: self.margin,
+            topples: self.toppled || toppled,
+            settle,
+            radius: None,
+        }
+    }
+
+    fn error_rate(&self) -> f64 {
+        f64::from(self.wrong) / f64::from(self.switches.max(1))
+    }
+
+    fn count(&mut self, hold: &PatternHold, behavior: Behavior) {
+        let Some(before) = hold.before else { return };
+        let right = behavior.direction(hold.pattern);
+        let is_wrong = |displacement: &&f64| Direction::of(**displacement) != right;
+        let asked = &hold.cycles[self.clock as usize - 1..];
+        self.switches += 1;
+        self.wrong += u32::from(asked.iter().any(|displacement| is_wrong(&displacement)));
+        self.margin = hold.rightward(behavior).skip(self.clock as usize - 1).fold(self.margin, f64::min);
+        if behavior.direction(before) == right {
+            self.quiet += hold.cycles.len() as u32;
+            self.glitches += hold.cycles.iter().filter(is_wrong).count() as u32;
+        }
+    }
+}
+
+impl<'a> Probe<'a> {
+    fn new(simulator: &'a Simulator, body: &'a Body, behavior: Behavior) -> Self {
+        let start_x = Some(WORLD / 2 - body.width() / 2);
+        let setting = Setting { world_width: WORLD, start_x, ..Setting::default() };
+        Self { simulator, setting, body, behavior, world: PhysicsWorld::default() }
+    }
+
+    /// Runs plans from each start.
+    fn run(&self, plans: &[HoldPlan]) -> Result<Vec<Vec<PatternHold>>, Fault> {
+        let noise = |robot| RobotNoise::new(&self.world.noise, robot);
+        let body = noise(0).worn(self.body);
+        let trial =
+            |(i, plan): (usize, &HoldPlan)| Trial { body: body.clone(), schedule: noise(i).sensed(&plan.schedule()) };
+        let trials: Vec<Trial> = plans.iter().enumerate().map(trial).collect();
+        let own = Setting { shift: noise(0).shift(), factors: self.world.factors, ..self.setting };
+        let mut found = Vec::with_capacity(plans.len() * STARTS.len());
+        for shift in STARTS {
+            let setting = Setting { start_x: own.start_x.map(|x| x + shift), ..own };
+            for (plan, trajectory) in plans.iter().zip(self.simulator.run_trials(&setting, &trials)) {
+                match trajectory.fault {
+                    Some(fault) => return Err(fault),
+                    None => found.push(holds(plan, &trajectory)),
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Random sequences at the smallest clock without errors, or at the one with the fewest errors. A clock that fails
+    /// in short sequences is not tried in ones of that many switches unless all fail.
+    fn best_clock(&self, switches: usize) -> Result<Tally, Fault> {
+        let mut best: Option<Tally> = None;
+        for clock in CLOCKS {
+            let mut tally = self.random(clock, FIRST_SWITCHES)?;
+            if tally.wrong == 0 && switches > FIRST_SWITCHES {
+                tally = self.random(clock, switches)?;
+            }
+            if tally.wrong == 0 {
+                return Ok(tally);
+            }
+            if best.as_ref().is_none_or(|best| tally.error_rate() < best.error_rate()) {
+                best = Some(tally);
+            }
+        }
+        let best = best.expect("there are clocks");
+        if best.switches as usize >= switches * LANES { Ok(best) } else { self.random(best.clock, switches) }
+    }
+
+    /// Random sequences at a clock.
+    fn random(&self, clock: u32, switches: usize) -> Result<Tally, Fault> {
+        let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+        rng.set_stream(u64::from(clock));
+        let plans: Vec<HoldPlan> =
+            (0..LANES).map(|_| HoldPlan::random(switches + 1, clock..=clock + SLACK, &mut rng)).collect();
+        let (margin, toppled) = (f64::INFINITY, false);
+        let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
+        for holds in self.run(&plans)? {
+            holds.iter().for_each(|hold| tally.count(hold, self.behavior));
+            tally.toppled |= has_toppled(&holds);
+        }
+        Ok(tally)
+    }
+
+    /// The settle times of the twelve transitions, the largest over all starts, and whether the body fell over in one.
+    fn settle(&self) -> Result<(Vec<Transition>, bool), Fault> {
+        let pairs: Vec<(Pattern, Pattern)> = Pattern::PAIRS
+            .iter()
+            .flat_map(|&from| Pattern::PAIRS.iter().map(move |&to| (from, to)))
+            .filter(|(from, to)| from != to)
+            .collect();
+        let plan = |&(from, to): &_, before| HoldPlan(vec![(from, before), (to, SETTLE_AFTER)]);
+        let plans: Vec<HoldPlan> =
+            SETTLE_BEFORE.iter().flat_map(|&before| pairs.iter().map(move |pair| plan(pair, before))).collect();
+        let runs = self.run(&plans)?;
+        let cycles =
+            |place: usize| runs.iter().skip(place).step_by(pairs.len()).map(|holds| self.settled(&holds[1])).max();
+        let transition =
+            |(place, &(from, to)): (usize, &_)| Transition { from, to, cycles: cycles(place).unwrap_or(0) };
+        Ok((pairs.iter().enumerate().map(transition).collect(), runs.iter().any(|holds| has_toppled(holds))))
+    }
+
+    /// The cycle from which on the output is correct.
+    fn settled(&self, hold: &PatternHold) -> u32 {
+        let right = self.behavior.direction(hold.pattern);
+        let last_wrong = hold.cycles.iter().rposition(|&displacement| Direction::of(displacement) != right);
+        last_wrong.map_or(1, |cycle| cycle as u32 + 2)
+    }
+}
+
+/// Whether the body is much lower in the last hold of some pattern than in its first.
+fn has_toppled(holds: &[PatternHold]) -> bool {
+    Pattern::PAIRS.iter().any(|&pattern| {
+        let mut heights = holds.iter().filter(|hold| hold.pattern == pattern).map(|hold| hold.height);
+        heights.next().is_some_and(|first| heights.next_back().is_some_and(|last| last < TOPPLED * first))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Schedule;
+
+    fn nand() -> Behavior {
+        "RRRL".parse().unwrap()
+    }
+
+    fn hold(before: usize, pattern: usize, cycles: &[f64]) -> PatternHold {
+        let pairs = Pattern::PAIRS;
+        PatternHold { before: Some(pairs[before]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 2.0 }
+    }
+
+    fn tally(clock: u32, holds: &[PatternHold]) -> Tally {
+        let (margin, toppled) = (f64::INFINITY, false);
+        let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
+        holds.iter().for_each(|hold| tally.count(hold, nand()));
+        tally
+    }
+
+    #[test]
+    fn a_hold_is_wrong_when_any_cycle_from_the_clock_on_is() {
+        let holds = [hold(0, 3, &[0.5, -0.1, -0.2]), hold(3, 0, &[-0.5, 0.3, -0.1, 0.3]), hold(0, 3, &[-0.4, 0.1])];
+        let found = |clock| {
+            let Tally { switches, wrong, margin, .. } = tally(clock, &holds);
+            (switches, wrong, margin)
+        };
+        assert_eq!(found(1), (3, 3, -0.5));
+        assert_eq!(found(2), (3, 2, -0.1), "an isolated wrong cycle in steady state counts");
+        let start = PatternHold { before: None, ..hold(0, 3, &[9.0]) };
+        assert_eq!(tally(1, &[start]).switches, 0, "a fresh start is no switch");
+    }
+
+    #[test]
+    fn glitches_are_wrong_cycles_where_the_output_should_not_change() {
+        let stays = hold(1, 2, &[-0.2, 0.1, 0.1]);
+        let changes = hold(2, 3, &[0.2, 0.1, -0.1]);
+        let Tally { quiet, glitches, .. } = tally(2, &[stays, changes]);
+        assert_eq!((quiet, glitches), (3, 1));
+    }
+
+    #[test]
+    fn a_body_has_toppled_when_it_stays_low_in_a_pattern_that_it_stood_in() {
+        let at = |pattern, height| PatternHold { height, ..hold(0, pattern, &[0.1]) };
+        assert!(has_toppled(&[at(3, 2.0), at(1, 1.9), at(3, 1.3)]));
+        assert!(!has_toppled(&[at(3, 2.0), at(1, 1.2), at(3, 1.5)]), "low in another pattern is no fall");
+    }
+
+    #[test]
+    fn all_twelve_switches_are_timed_and_a_wrong_end_shows() {
+        let body = Body::parse(&["343", "563"], &nbc_base::model::Palette::paper()).unwrap();
+        let (simulator, setting) = (Simulator::default(), Setting::default());
+        let fixed = simulator.run_trials(
+            &setting,
+            &[Trial { body: body.clone(), schedule: Schedule::constant(Pattern::PAIRS[0], 840) }],
+        );
+        let walks_right = Direction::of(fixed[0].com_x[840] - fixed[0].com_x[0]) == Direction::Right;
+        // With the opposite direction, the output is never correct.
+        let contrary: Behavior = if walks_right { "LLLL" } else { "RRRR" }.parse().unwrap();
+        let (settle, _) = Probe::new(&simulator, &body, contrary).settle().unwrap();
+        let pairs: std::collections::BTreeSet<_> =
+            settle.iter().map(|transition| (transition.from.pair_index(), transition.to.pair_index())).collect();
+        assert!(pairs.len() == 12 && pairs.iter().all(|(from, to)| from != to));
+        let back: Vec<u32> = settle.iter().filter(|t| t.to == Pattern::PAIRS[0]).map(|t| t.cycles).collect();
+        assert_eq!(back, [SETTLE_AFTER + 1; 3], "wrong to the end");
+        let probe = Probe::new(&simulator, &body, contrary);
+        let settled = |cycles: &[f64]| probe.settled(&PatternHold { cycles: cycles.to_vec(), ..hold(1, 0, &[]) });
+        let sign = if walks_right { -1.0 } else { 1.0 };
+        assert_eq!([settled(&[sign; 4]), settled(&[-sign, sign, -sign, sign])], [1, 4]);
+    }
+}

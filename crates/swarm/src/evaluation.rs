@@ -1,0 +1,73 @@
+//! One evaluation as plain data: what it depends on and what comes out, wherever it is made.
+
+use crate::evolve::{CandidateOutcome, Rivals, Search};
+use crate::noise::RobotNoise;
+use crate::{Work, WorldSample};
+use nbc_base::model::{Body, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
+
+/// The simulations of an evaluation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EvaluationProtocol {
+    /// The objective.
+    pub objective: SearchObjective,
+    /// The stimuli of the long simulation.
+    pub variable: Schedule,
+    /// The length of each simulation under one constant pattern, in env steps.
+    pub fixed_steps: u32,
+    /// The world of all simulations but those in others.
+    pub world: PhysicsWorld,
+    /// Worlds in which the gate objective tries bodies again.
+    pub others: Vec<PhysicsWorld>,
+}
+
+/// The seed of the other worlds of evolutions. `nbc test` and `nbc library verify` use 1, so that they try robots in
+/// worlds that the search has not seen.
+const SAMPLE_SEED: u64 = 0;
+
+/// The setting of each simulation in a world. Every candidate starts at the same place.
+pub(super) fn setting(world: &PhysicsWorld) -> Setting {
+    let shift = RobotNoise::new(&world.noise, 0).shift();
+    Setting { shift, factors: world.factors, ..Setting::default() }
+}
+
+/// A body to be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EvaluationTask {
+    /// Its voxels.
+    pub body: Body,
+    /// What it must beat. An evaluation ends early when it cannot.
+    pub rivals: Rivals,
+}
+
+/// The result of an evaluation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluated {
+    /// The result for the archive.
+    pub outcome: CandidateOutcome,
+    /// The simulation it took.
+    pub work: Work,
+}
+
+impl EvaluationProtocol {
+    /// The protocol of a declared run.
+    pub fn of(evolution: &Evolution) -> Self {
+        let Evolution { objective, variable, fixed_steps, world, sample, .. } = evolution;
+        let others = sample.map_or(Vec::new(), |sample| {
+            let worlds = WorldSample { variation: sample.vary, seed: SAMPLE_SEED };
+            (0..sample.worlds).map(|number| worlds.world(world, number as usize)).collect()
+        });
+        Self { objective: *objective, variable: variable.clone(), fixed_steps: *fixed_steps, world: *world, others }
+    }
+
+    /// Env steps of a full evaluation of the distance objective.
+    pub(super) fn distance_steps(&self) -> u64 {
+        4 * u64::from(self.fixed_steps) + self.variable.spells.iter().map(|spell| u64::from(spell.steps)).sum::<u64>()
+    }
+}
+
+impl EvaluationTask {
+    /// The evaluation of a body for the current archive of a search.
+    pub fn of(search: &Search, body: &Body) -> Self {
+        Self { body: body.clone(), rivals: search.rivals(body) }
+    }
+}

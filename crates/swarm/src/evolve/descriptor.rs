@@ -1,0 +1,91 @@
+//! Descriptors: the niche of a body in the archive (paper, Methods; docs/physics.md 11).
+
+use serde::{Deserialize, Serialize};
+
+use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, MaterialKind, Rules};
+
+/// A niche: the bin on each axis, from 0; on a behavior axis the bits of the function.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct NicheKey(pub Vec<u16>);
+
+/// How bodies are sorted into niches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Descriptor {
+    axes: Vec<Axis>,
+    area: usize,
+    rules: Rules,
+}
+
+impl Descriptor {
+    /// The descriptor of a declared run.
+    pub fn new(evolution: &Evolution) -> Self {
+        Self { axes: evolution.descriptors.clone(), area: evolution.width * evolution.height, rules: evolution.rules }
+    }
+
+    /// The number of niches; some can never be filled, such as all voxels active and all sensory.
+    pub fn niches(&self) -> usize {
+        self.axes.iter().map(|axis| if let Axis::Count { bins, .. } = axis { *bins } else { 16 }).product()
+    }
+
+    /// The niche of a body with that behavior.
+    pub fn niche(&self, body: &Body, behavior: Behavior) -> NicheKey {
+        let bin = |axis: &Axis| match *axis {
+            Axis::Count { of, bins } => self.bin(self.count(body, of), bins),
+            Axis::Behavior => u16::from(behavior.function().bits()),
+        };
+        NicheKey(self.axes.iter().map(bin).collect())
+    }
+
+    /// Bins are whole numbers of voxels wide, `area / bins` rounded down; the last takes the rest.
+    fn bin(&self, count: usize, bins: usize) -> u16 {
+        let width = (self.area / bins.max(1)).max(1);
+        (count / width).min(bins.saturating_sub(1)) as u16
+    }
+
+    fn count(&self, body: &Body, of: Count) -> usize {
+        body.codes().iter().filter(|&&code| code > 0 && self.counts(body.palette().kind(code), code, of)).count()
+    }
+
+    fn counts(&self, kind: Option<MaterialKind>, code: u8, of: Count) -> bool {
+        match (of, kind) {
+            (Count::Voxels, kind) => kind.is_some(),
+            (Count::Active, kind) => matches!(kind, Some(MaterialKind::Actuator(_))),
+            // The authors' code counts codes 5 and 6 alone (docs/physics.md 11).
+            (Count::Sensory, kind) => {
+                matches!(kind, Some(MaterialKind::Sensor(_))) && (self.rules == Rules::Paper || matches!(code, 5 | 6))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evolve::search::tests::evolution;
+    use nbc_base::model::Palette;
+
+    fn check(rules: Rules, rows: &[&str], expected: [u16; 4]) {
+        let descriptor = Descriptor::new(&Evolution { rules, ..evolution() });
+        let body = Body::parse(rows, &Palette::paper()).unwrap();
+        assert_eq!(descriptor.niche(&body, "RRRL".parse().unwrap()).0, expected);
+    }
+
+    #[test]
+    fn counts_fall_into_bins_of_a_quarter_of_the_box() {
+        check(Rules::Paper, &["33333", "55555", "00000", "00000", "00000"], [1, 0, 0, 7]);
+        check(Rules::Paper, &["33333", "35555", "51000", "00000", "00000"], [2, 1, 0, 7]);
+        check(Rules::Paper, &["33333"; 5], [3, 3, 0, 7]);
+    }
+
+    #[test]
+    fn the_code_counts_two_of_the_four_sensors() {
+        let rows = ["77777", "88888", "33300", "00000", "00000"];
+        check(Rules::Paper, &rows, [2, 0, 1, 7]);
+        check(Rules::Code, &rows, [2, 0, 0, 7]);
+    }
+
+    #[test]
+    fn the_papers_archive_has_1024_niches() {
+        assert_eq!(Descriptor::new(&evolution()).niches(), 1024);
+    }
+}

@@ -1,0 +1,87 @@
+//! The elites that a body must beat to enter an archive, as plain data.
+
+use nbc_base::model::{Behavior, Niche};
+
+/// The fitnesses of the elites in the niches that a body could enter, one entry for each behavior that it may show.
+/// This is all that an evaluation needs to know of an archive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rivals {
+    niche: Niche,
+    /// For each behavior, in order of the functions' bits, the niches that it leads to; none if one of them is empty.
+    behaviors: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+impl Rivals {
+    /// The rivals in each niche of each behavior.
+    ///
+    /// # Panics
+    /// When there is not one entry for each of the sixteen behaviors.
+    pub fn new(niche: Niche, behaviors: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
+        assert_eq!(behaviors.len(), Behavior::all().count(), "each behavior has an entry");
+        let is_open = |niches: &Vec<Vec<[f64; 2]>>| niches.iter().any(Vec::is_empty);
+        let behaviors = behaviors.into_iter().map(|niches| if is_open(&niches) { Vec::new() } else { niches });
+        Self { niche, behaviors: behaviors.collect() }
+    }
+
+    /// No rivals: everything enters an empty archive.
+    pub fn none() -> Self {
+        Self::new(Niche::default(), Behavior::all().map(|_| Vec::new()).collect())
+    }
+
+    /// The elites that each niche keeps.
+    pub fn niche(&self) -> Niche {
+        self.niche
+    }
+
+    /// The rivals in each niche of each behavior.
+    pub fn behaviors(&self) -> &[Vec<Vec<[f64; 2]>>] {
+        &self.behaviors
+    }
+
+    /// Whether a body with that behavior and fitnesses of at most `bound` could enter the archive.
+    pub fn admit(&self, behavior: Behavior, bound: &[f64; 2]) -> bool {
+        let niches = &self.behaviors[usize::from(behavior.function().bits())];
+        niches.is_empty() || niches.iter().any(|rivals| has_room(self.niche, rivals, bound))
+    }
+}
+
+/// Whether a body with fitnesses of at most `bound` could enter a niche with these fitnesses.
+fn has_room(niche: Niche, rivals: &[[f64; 2]], bound: &[f64; 2]) -> bool {
+    match niche {
+        Niche::Dominance => rivals.iter().all(|there| exceeds(bound, there)),
+        Niche::Pareto(_) => !rivals.iter().any(|there| reaches(there, bound)),
+    }
+}
+
+/// Greater in both.
+pub(super) fn exceeds(a: &[f64; 2], b: &[f64; 2]) -> bool {
+    a[0] > b[0] && a[1] > b[1]
+}
+
+/// No less in either.
+pub(super) fn reaches(a: &[f64; 2], b: &[f64; 2]) -> bool {
+    a[0] >= b[0] && a[1] >= b[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rivals(niche: Niche, niches: &[&[[f64; 2]]]) -> Rivals {
+        let niches: Vec<Vec<[f64; 2]>> = niches.iter().map(|elites| elites.to_vec()).collect();
+        Rivals::new(niche, Behavior::all().map(|_| niches.clone()).collect())
+    }
+
+    #[test]
+    fn a_body_enters_where_one_of_its_niches_has_room() {
+        let nand: Behavior = "RRRL".parse().unwrap();
+        let one = rivals(Niche::Dominance, &[&[[1.0, 1.0]]]);
+        assert!(one.admit(nand, &[2.0, 2.0]) && !one.admit(nand, &[2.0, 1.0]));
+        let two = rivals(Niche::Dominance, &[&[[1.0, 1.0]], &[[0.5, 0.5]]]);
+        assert!(two.admit(nand, &[0.6, 0.6]) && !two.admit(nand, &[0.5, 0.6]));
+        assert!(rivals(Niche::Dominance, &[&[[1.0, 1.0]], &[]]).admit(nand, &[0.0, 0.0]));
+        assert!(Rivals::none().admit(nand, &[0.0, 0.0]));
+        let front = rivals(Niche::Pareto(3), &[&[[1.0, 0.0], [0.0, 1.0]]]);
+        assert!(front.admit(nand, &[0.5, 0.5]) && !front.admit(nand, &[1.0, 0.0]));
+    }
+}

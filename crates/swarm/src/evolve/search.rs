@@ -1,0 +1,477 @@
+//! The search: it is asked for candidates and told their results, generation by generation (paper, Methods;
+//! docs/physics.md 11).
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::evolve::mutate::pick;
+use crate::evolve::{
+    AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Rivals, Scores, cppn, develop,
+    mirrored, mutate, phenotype, recodings, validate,
+};
+use nbc_base::model::{Behavior, Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
+
+/// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
+const MOST_ATTEMPTS: u32 = 20_000;
+
+/// The origin of a candidate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CandidateOrigin {
+    /// A new random network.
+    Random,
+    /// From an elite of that niche by mutation.
+    Offspring(NicheKey),
+    /// The mirror image of a body that entered the archive in the previous generation.
+    Mirror,
+}
+
+/// A body to be tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Its place in the generation.
+    pub index: u32,
+    /// How the candidate was made.
+    pub origin: CandidateOrigin,
+    /// Its network.
+    pub genotype: Genotype,
+    /// Its voxels.
+    pub body: Body,
+    /// Networks drawn before it whose bodies could not be tried.
+    pub undeveloped: u32,
+}
+
+/// A MAP-Elites search in progress. Everything it will do follows from the declaration, the seed and its state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
+    evolution: Evolution,
+    recodings: Vec<Recoding>,
+    archive: Archive,
+    seed: u64,
+    generation: u32,
+    counts: Counts,
+    mirrors: Vec<Genotype>,
+}
+
+/// The state needed to continue a search later.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SearchState {
+    /// The run's seed.
+    pub seed: u64,
+    /// Generations done.
+    pub generation: u32,
+    /// Counts of the results.
+    pub counts: Counts,
+    /// Networks whose bodies are mirror images to be tried next.
+    pub mirrors: Vec<Genotype>,
+    /// Filled niches and their elites.
+    pub niches: Vec<(NicheKey, Vec<Elite>)>,
+}
+
+impl SearchState {
+    /// Whether a run of this declaration can reach this state: every body is what its network develops into, is valid,
+    /// and is in its niche.
+    pub fn fits(&self, evolution: &Evolution) -> bool {
+        let Evolution { palette, rules, width, height, .. } = evolution;
+        let descriptor = Descriptor::new(evolution);
+        let is_foreign =
+            |kind| matches!(kind, NodeKind::Output(code, _) if usize::from(code) > palette.materials().len());
+        let develops = |genotype: &Genotype| match genotype.nodes.iter().any(|&(_, kind)| is_foreign(kind)) {
+            true => None,
+            false => develop(genotype, palette, *rules, *width, *height).ok(),
+        };
+        let holds = |key: &NicheKey, elite: &Elite| {
+            develops(&elite.genotype).as_ref() == Some(&elite.body)
+                && descriptor.niche(&elite.body, elite.behavior) == *key
+        };
+        self.mirrors.iter().all(|genotype| develops(genotype).is_some())
+            && self.niches.iter().all(|(key, elites)| elites.iter().all(|elite| holds(key, elite)))
+    }
+}
+
+impl Search {
+    /// A new search.
+    pub fn new(evolution: &Evolution, seed: u64) -> Self {
+        Self {
+            evolution: evolution.clone(),
+            recodings: match evolution.symmetry {
+                Symmetry::None => Vec::new(),
+                Symmetry::Npn => recodings(&evolution.palette),
+            },
+            archive: Archive::new(evolution),
+            seed,
+            generation: 0,
+            counts: Counts::default(),
+            mirrors: Vec::new(),
+        }
+    }
+
+    /// The search in the state that [`Search::state`] gave.
+    pub fn resume(evolution: &Evolution, state: SearchState) -> Self {
+        Self {
+            archive: Archive::with_niches(evolution, state.niches),
+            generation: state.generation,
+            counts: state.counts,
+            mirrors: state.mirrors,
+            ..Self::new(evolution, state.seed)
+        }
+    }
+
+    /// Its state, as plain data.
+    pub fn state(&self) -> SearchState {
+        SearchState {
+            seed: self.seed,
+            generation: self.generation,
+            counts: self.counts,
+            mirrors: self.mirrors.clone(),
+            niches: self.archive.niches().map(|(key, elites)| (key.clone(), elites.to_vec())).collect(),
+        }
+    }
+
+    /// The declaration it follows.
+    pub fn evolution(&self) -> &Evolution {
+        &self.evolution
+    }
+
+    /// The archive.
+    pub fn archive(&self) -> &Archive {
+        &self.archive
+    }
+
+    /// The run's seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Generations done.
+    pub fn generation(&self) -> u32 {
+        self.generation
+    }
+
+    /// Counts of the results.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Whether all declared generations are done.
+    pub fn is_done(&self) -> bool {
+        self.generation >= self.evolution.generations
+    }
+
+    /// The candidates of the next generation. Calling it twice returns the same candidates.
+    pub fn ask(&self) -> Vec<Candidate> {
+        let parents = self.parents();
+        let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
+        let offspring = parents.iter().map(|(key, elite)| (CandidateOrigin::Offspring((*key).clone()), Some(*elite)));
+        let newcomers = std::iter::repeat_n((CandidateOrigin::Random, None), fresh);
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for (index, (origin, parent)) in (0..).zip(offspring.chain(newcomers)) {
+            candidates.extend(self.draw(index, origin, parent));
+        }
+        let next = candidates.len() as u32;
+        candidates.extend((next..).zip(&self.mirrors).map(|(index, genotype)| self.mirror(index, genotype)));
+        candidates
+    }
+
+    /// Takes the outcomes of a generation's candidates, in their order.
+    ///
+    /// # Panics
+    /// When there is not one outcome for each candidate.
+    pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[CandidateOutcome]) {
+        assert_eq!(candidates.len(), outcomes.len(), "each candidate has one outcome");
+        self.mirrors.clear();
+        self.generation += 1;
+        for (candidate, outcome) in candidates.iter().zip(outcomes) {
+            self.counts.evaluations += 1;
+            self.counts.undeveloped += u64::from(candidate.undeveloped);
+            match outcome {
+                CandidateOutcome::Measured(scores) => self.take(candidate, scores),
+                CandidateOutcome::Surpassed => self.counts.surpassed += 1,
+                CandidateOutcome::Inconsistent => self.counts.inconsistent += 1,
+                CandidateOutcome::Faulty(_) => self.counts.faults += 1,
+            }
+        }
+    }
+
+    /// The elites that a body, or an image of it that its evaluation also fills, must beat.
+    pub fn rivals(&self, body: &Body) -> Rivals {
+        let images: Vec<(Option<&Recoding>, Body)> = match self.recodings.as_slice() {
+            [] => vec![(None, body.clone())],
+            recodings => recodings.iter().map(|recoding| (Some(recoding), recoding.body(body))).collect(),
+        };
+        let in_niche = |behavior: Behavior, (recoding, image): &(Option<&Recoding>, Body)| {
+            let shown = recoding.map_or(behavior, |recoding| recoding.behavior(behavior));
+            self.archive.fitnesses(image, shown)
+        };
+        let niches = |behavior| images.iter().map(|image| in_niche(behavior, image)).collect();
+        Rivals::new(self.archive.niche(), Behavior::all().map(niches).collect())
+    }
+
+    fn take(&mut self, candidate: &Candidate, scores: &Scores) {
+        let elite = Elite {
+            fitness: scores.fitness,
+            behavior: scores.behavior,
+            displacement: scores.displacement,
+            body: candidate.body.clone(),
+            genotype: candidate.genotype.clone(),
+            generation: self.generation,
+            evaluations: self.counts.evaluations,
+        };
+        let taken = self.offer(elite);
+        if taken && self.evolution.symmetry == Symmetry::Npn && candidate.origin != CandidateOrigin::Mirror {
+            self.mirrors.push(mirrored(&candidate.genotype));
+        }
+    }
+
+    /// Offers an elite and its images; returns whether any entered the archive.
+    fn offer(&mut self, elite: Elite) -> bool {
+        let images: Vec<Elite> = match self.recodings.as_slice() {
+            [] => vec![elite],
+            recodings => recodings.iter().map(|recoding| image(recoding, &elite)).collect(),
+        };
+        let mut taken = false;
+        for image in images {
+            let status = self.archive.add(image);
+            self.counts.new += u64::from(status == AddStatus::New);
+            self.counts.improved += u64::from(status == AddStatus::Improved);
+            taken |= status != AddStatus::Rejected;
+        }
+        taken
+    }
+
+    /// Distinct niches, drawn evenly without replacement, and an elite of each.
+    fn parents(&self) -> Vec<(&NicheKey, &Elite)> {
+        let mut rng = self.stream(u32::MAX);
+        let mut niches: Vec<_> = self.archive.niches().collect();
+        let wanted = self.evolution.batch.min(niches.len());
+        let mut parents = Vec::with_capacity(wanted);
+        while parents.len() < wanted {
+            let Some(at) = pick(niches.len(), &mut rng) else { break };
+            let (key, elites) = niches.remove(at);
+            parents.extend(pick(elites.len(), &mut rng).map(|at| (key, &elites[at])));
+        }
+        parents
+    }
+
+    /// Mutates until the body is valid; `None` if this seems impossible.
+    fn draw(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
+        let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
+        let mut rng = self.stream(index);
+        let start =
+            parent.map_or_else(|| cppn::start(palette.materials().len(), *rules), |elite| elite.genotype.clone());
+        let mut genotype = start.clone();
+        for undeveloped in 0..MOST_ATTEMPTS {
+            mutate(&mut genotype, mutation, *rules, &mut rng);
+            let body = phenotype(&genotype, palette, *rules, *width, *height);
+            match judge(*rules, parent.map(|elite| &elite.body), &body) {
+                Attempt::Done => return Some(Candidate { index, origin, genotype, body, undeveloped }),
+                Attempt::GoOn => {}
+                Attempt::Undo => genotype.clone_from(&start),
+            }
+        }
+        None
+    }
+
+    fn mirror(&self, index: u32, genotype: &Genotype) -> Candidate {
+        let Evolution { palette, rules, width, height, .. } = &self.evolution;
+        let body = phenotype(genotype, palette, *rules, *width, *height);
+        Candidate { index, origin: CandidateOrigin::Mirror, genotype: genotype.clone(), body, undeveloped: 0 }
+    }
+
+    /// The random stream of a place in the coming generation.
+    fn stream(&self, index: u32) -> ChaCha8Rng {
+        stream(self.seed, self.generation, index)
+    }
+}
+
+/// The random stream of a place in a generation of a run.
+pub fn stream(seed: u64, generation: u32, index: u32) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(u64::from(generation) << 32 | u64::from(index));
+    rng
+}
+
+/// The next action after a mutation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Attempt {
+    /// The body is tried.
+    Done,
+    /// Mutate again.
+    GoOn,
+    /// Undo all mutations so far.
+    Undo,
+}
+
+/// By the paper's text, a mutation without a valid body is undone, and an offspring differs from its parent. In the
+/// authors' code, mutations accumulate until the body is valid, even if it is the parent's.
+fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
+    match (validate(body), rules, parent) {
+        (Ok(()), Rules::Paper, Some(parent)) if parent == body => Attempt::GoOn,
+        (Ok(()), _, _) => Attempt::Done,
+        (Err(_), Rules::Paper, Some(_)) => Attempt::Undo,
+        (Err(_), _, _) => Attempt::GoOn,
+    }
+}
+
+/// The image of an elite under a recoding.
+fn image(recoding: &Recoding, elite: &Elite) -> Elite {
+    if recoding.is_identity() {
+        return elite.clone();
+    }
+    Elite {
+        behavior: recoding.behavior(elite.behavior),
+        displacement: recoding.displacement(&elite.displacement),
+        body: recoding.body(&elite.body),
+        genotype: recoding.genotype(&elite.genotype),
+        ..elite.clone()
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use nbc_base::model::{
+        Axis, Count, MutationWeights, Niche, Palette, Pattern, PhysicsWorld, Schedule, SearchObjective, Spell,
+    };
+
+    /// The paper's run in a 5 x 5 box.
+    pub(crate) fn evolution() -> Evolution {
+        let spells = Pattern::PAIRS.map(|pattern| Spell { pattern, steps: 840 }).to_vec();
+        let count = |of| Axis::Count { of, bins: 4 };
+        Evolution {
+            name: "gates".to_owned(),
+            width: 5,
+            height: 5,
+            palette: Palette::paper(),
+            mutation: MutationWeights::default(),
+            variable: Schedule { spells },
+            fixed_steps: 840,
+            descriptors: vec![count(Count::Voxels), count(Count::Active), count(Count::Sensory), Axis::Behavior],
+            batch: 16,
+            newcomers: 0,
+            generations: 30,
+            seeds: vec![1],
+            rules: Rules::Paper,
+            objective: SearchObjective::Distance,
+            symmetry: Symmetry::None,
+            niche: Niche::Dominance,
+            world: PhysicsWorld::default(),
+            sample: None,
+        }
+    }
+
+    /// A made-up outcome that depends on the body alone.
+    pub(crate) fn outcome(body: &Body) -> CandidateOutcome {
+        let weight = |k: usize| {
+            body.codes().iter().enumerate().map(|(i, &c)| ((i * k + 3) % 7 * usize::from(c)) as f64).sum::<f64>()
+        };
+        let displacement = [1, 2, 3, 5].map(|k| weight(k) % 11.0 - 5.0);
+        let fitness =
+            [displacement.iter().map(|d| d.abs()).sum(), displacement.iter().map(|d| d.abs()).fold(9.0, f64::min)];
+        CandidateOutcome::Measured(Scores { fitness, behavior: Behavior::of(&displacement), displacement })
+    }
+
+    fn advance(search: &mut Search) {
+        let candidates = search.ask();
+        let outcomes: Vec<CandidateOutcome> = candidates.iter().map(|candidate| outcome(&candidate.body)).collect();
+        search.tell(&candidates, &outcomes);
+    }
+
+    #[test]
+    fn every_candidate_is_valid_and_differs_from_its_parent() {
+        let mut search = Search::new(&evolution(), 1);
+        for _ in 0..20 {
+            for candidate in search.ask() {
+                assert_eq!(validate(&candidate.body), Ok(()));
+                if let CandidateOrigin::Offspring(key) = &candidate.origin {
+                    let (_, elites) = search.archive().niches().find(|(niche, _)| *niche == key).unwrap();
+                    assert_ne!(elites[0].body, candidate.body);
+                }
+            }
+            advance(&mut search);
+        }
+        assert!(search.archive().stats().filled > 16, "the search finds its way");
+    }
+
+    #[test]
+    fn equal_seeds_give_equal_searches_and_different_seeds_different_ones() {
+        let run = |seed| {
+            let mut search = Search::new(&evolution(), seed);
+            (0..15).for_each(|_| advance(&mut search));
+            search
+        };
+        assert_eq!(run(1), run(1));
+        assert_ne!(run(1).archive(), run(2).archive());
+    }
+
+    #[test]
+    fn invalid_mutations_are_undone_by_the_text_and_add_up_by_the_code() {
+        use Attempt::{Done, GoOn, Undo};
+        let [same, other, apart] = ["3330", "3331", "3303"].map(|row| Body::parse(&[row], &Palette::paper()).unwrap());
+        let check = |rules, parent: Option<&Body>, expected: [Attempt; 3]| {
+            let found = [&same, &other, &apart].map(|found| judge(rules, parent, found));
+            assert_eq!(found, expected, "{rules:?}, {parent:?}");
+        };
+        check(Rules::Paper, Some(&same), [GoOn, Done, Undo]);
+        check(Rules::Code, Some(&same), [Done, Done, GoOn]);
+        check(Rules::Paper, None, [Done, Done, GoOn]);
+        check(Rules::Code, None, [Done, Done, GoOn]);
+    }
+
+    #[test]
+    fn a_resumed_search_continues_exactly() {
+        for symmetry in [Symmetry::None, Symmetry::Npn] {
+            let evolution = Evolution { symmetry, rules: Rules::Code, ..evolution() };
+            let mut straight = Search::new(&evolution, 7);
+            (0..12).for_each(|_| advance(&mut straight));
+            let mut resumed = Search::resume(&evolution, straight.state());
+            for search in [&mut straight, &mut resumed] {
+                (0..12).for_each(|_| advance(search));
+            }
+            assert_eq!(straight, resumed);
+        }
+    }
+
+    #[test]
+    fn an_impossible_state_is_rejected() {
+        let evolution = Evolution { symmetry: Symmetry::Npn, ..evolution() };
+        let mut search = Search::new(&evolution, 3);
+        (0..4).for_each(|_| advance(&mut search));
+        let state = search.state();
+        assert!(state.fits(&evolution));
+        let check = |change: fn(&mut SearchState)| {
+            let mut changed = state.clone();
+            change(&mut changed);
+            assert!(!changed.fits(&evolution));
+        };
+        check(|state| state.niches[0].0.0[0] += 1);
+        check(|state| state.niches[0].1[0].body = Body::new(5, 5, vec![3; 25], Palette::paper()));
+        check(|state| state.niches[0].1[0].genotype.links.clear());
+        check(|state| state.mirrors[0].nodes.clear());
+        let poorer = Arc::new(Palette::new(Palette::paper().materials()[..4].to_vec()));
+        assert!(!state.fits(&Evolution { palette: poorer, ..evolution.clone() }));
+    }
+
+    #[test]
+    fn images_enter_the_niches_of_their_class_and_develop_from_their_networks() {
+        let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 3);
+        (0..6).for_each(|_| advance(&mut search));
+        for elite in search.archive().elites() {
+            assert_eq!(phenotype(&elite.genotype, &Palette::paper(), Rules::Paper, 5, 5), elite.body);
+            for recoding in recodings(&Palette::paper()) {
+                let (body, behavior) = (recoding.body(&elite.body), recoding.behavior(elite.behavior));
+                let held = !search.rivals(&body).admit(behavior, &elite.fitness);
+                assert!(held, "the image's niche holds something as good");
+            }
+        }
+        assert!(search.ask().iter().any(|candidate| candidate.origin == CandidateOrigin::Mirror));
+    }
+
+    #[test]
+    fn a_palette_that_cannot_walk_ends_the_search_without_candidates() {
+        let palette = Arc::new(Palette::new(Palette::paper().materials()[..2].to_vec()));
+        let search = Search::new(&Evolution { palette, batch: 1, width: 2, height: 2, ..evolution() }, 1);
+        assert!(search.ask().is_empty());
+    }
+}

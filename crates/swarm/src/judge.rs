@@ -1,0 +1,298 @@
+//! Judges whether a circuit passes a test, row by row, and which robots were wrong if it failed.
+
+use std::ops::Range;
+
+use crate::assemble::start_cycles;
+use crate::{Lapse, RowVerdict, SwarmTrace};
+use nbc_base::model::{CircuitTest, TestRow};
+use nbc_circuit::{Logic, Netlist};
+
+/// Cycles over which an output must have had its value when its row ends.
+pub const STEADY_CYCLES: usize = 2;
+
+/// The hold of a test's row, and what is known of its outputs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Demand {
+    /// Cycles for which the row is held.
+    pub hold: usize,
+    /// Cycles for which `hold: auto` would hold it.
+    pub needed: usize,
+    /// For each output bit, whether it comes to rest at the level of logic.
+    pub rests: Vec<bool>,
+}
+
+/// Judges a row by the outputs at its end, and by which of them were steady. Every row of every test is judged here.
+fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
+    let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
+        expected.is_none_or(|expected| expected == output && steady)
+    };
+    let mut bits = steady.iter();
+    let values = |bits: &[Option<bool>]| row.output_values(&test.inputs, &test.outputs, bits.iter().copied());
+    RowVerdict {
+        row: row.row,
+        line: row.line,
+        inputs: row.input_values(&test.inputs),
+        expected: values(&row.expected),
+        observed: values(&outputs.iter().copied().map(Some).collect::<Vec<_>>()),
+        steady: test
+            .outputs
+            .iter()
+            .map(|port| bits.by_ref().take(port.width).fold(true, |all, &bit| all & bit))
+            .collect(),
+        cycles: None,
+        needed: None,
+        passed: row.expected.iter().zip(outputs).zip(steady).all(meets),
+        lapses: Vec::new(),
+        late: Vec::new(),
+    }
+}
+
+/// Judges the rows of a test at the level of logic: each is held until nothing changes. A circuit that oscillates fails
+/// if the row checks an output that keeps changing.
+pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> Vec<RowVerdict> {
+    let mut logic = Logic::new(netlist);
+    let judge = |row: &TestRow| {
+        let steady = rests(&mut logic, row);
+        judge_row(test, row, &logic.outputs(), &steady)
+    };
+    rows.iter().map(judge).collect()
+}
+
+/// For each row, which output bits come to rest at the level of logic. In physics an output that keeps changing may
+/// have one value for the last cycles of a row by chance.
+pub fn resting_outputs(rows: &[TestRow], netlist: &Netlist) -> Vec<Vec<bool>> {
+    let mut logic = Logic::new(netlist);
+    rows.iter().map(|row| rests(&mut logic, row)).collect()
+}
+
+/// Holds the inputs of a row; which output bits come to rest.
+fn rests(logic: &mut Logic, row: &TestRow) -> Vec<bool> {
+    match logic.settle(&row.inputs) {
+        Ok(outputs) => vec![true; outputs.len()],
+        Err(_) => logic.steady_outputs(),
+    }
+}
+
+/// Whether a row passes that ends with the last cycle of a trace.
+///
+/// # Panics
+/// When the trace is shorter than the row.
+pub fn passes(test: &CircuitTest, row: &TestRow, demand: &Demand, trace: &SwarmTrace) -> bool {
+    let end = trace.cycles.len();
+    let steady = steady_outputs(trace, &(end - demand.hold..end), demand);
+    judge_row(test, row, &trace.cycles[end - 1].outputs, &steady).passed
+}
+
+/// Judges a trace whose cycles are the rows of a test one after another, with the given holds; `clocks[k]` is the clock
+/// of robot `k` in cycles. If the trace ends early, only complete rows are judged.
+///
+/// # Panics
+/// When a row has no cycle.
+pub fn judge_swarm(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    demands: &[Demand],
+    trace: &SwarmTrace,
+    clocks: &[u32],
+) -> Vec<RowVerdict> {
+    let mut start = 0;
+    let judge = |(row, demand): (&TestRow, &Demand)| {
+        let cycles = start..start + demand.hold;
+        start = cycles.end;
+        if cycles.end > trace.cycles.len() {
+            return None;
+        }
+        let last = &trace.cycles[cycles.end - 1];
+        let steady = steady_outputs(trace, &cycles, demand);
+        let verdict = judge_row(test, row, &last.outputs, &steady);
+        let mut wrong = if verdict.passed { Vec::new() } else { wrong(trace, cycles.clone(), clocks) };
+        let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
+        let late = late.filter(|lapse| lapse.cycle + 1 == cycles.end).collect();
+        let lapses = wrong.into_iter().map(|(lapse, _)| lapse).collect();
+        Some(RowVerdict { cycles: Some(demand.hold), needed: Some(demand.needed), lapses, late, ..verdict })
+    };
+    rows.iter().zip(demands).map_while(judge).collect()
+}
+
+/// Which outputs had one value over the last cycles of a row, and not by chance.
+fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>, demand: &Demand) -> Vec<bool> {
+    let last = &trace.cycles[cycles.end - 1].outputs;
+    let end = &trace.cycles[cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end];
+    let had_one_value = |bit: usize| end.iter().all(|cycle| cycle.outputs[bit] == last[bit]);
+    demand.rests.iter().enumerate().map(|(bit, &rests)| rests && had_one_value(bit)).collect()
+}
+
+/// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had been stable long
+/// enough.
+fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse, bool)> {
+    let start = start_cycles(clocks.iter().copied());
+    let robots = || trace.robots.iter().zip(clocks).enumerate();
+    let of_cycle = |cycle: usize| {
+        robots().filter_map(move |(k, (robot, &clock))| {
+            let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
+            let (net, name) = (robot.net.clone(), robot.robot.clone());
+            let lapse = || Lapse { net, robot: name, cycle, sensed, output };
+            let settled = || cycle + 1 >= start && is_settled(trace, cycle, k, clock as usize);
+            (output != robot.function.output(sensed[0], sensed[1])).then(|| (lapse(), settled()))
+        })
+    };
+    cycles.flat_map(of_cycle).collect()
+}
+
+/// The margins of robots whose stimuli have been the same for at least their clocks, over a window of cycles: the
+/// cycle, the robot, and voxels a cycle in the correct direction, in order of cycles.
+pub(super) fn settled_margins(trace: &SwarmTrace, clocks: &[u32], window: usize) -> Vec<(usize, usize, f64)> {
+    let start = start_cycles(clocks.iter().copied());
+    let first = start.saturating_sub(1);
+    let margin = |cycle: usize, k: usize| {
+        let (robot, [a, b]) = (&trace.robots[k], trace.cycles[cycle].sensed[k]);
+        let from = (cycle + 1).saturating_sub(window);
+        let moved: f64 = (from..=cycle).map(|cycle| trace.displacement(k, cycle)).sum();
+        let sign = if robot.function.output(a, b) { 1.0 } else { -1.0 };
+        (cycle, k, sign * moved / (cycle + 1 - from) as f64)
+    };
+    let settled = |cycle: usize, k: usize| is_settled(trace, cycle, k, clocks[k] as usize + window - 1);
+    let robots = |cycle| (0..clocks.len()).filter(move |&k| settled(cycle, k)).map(move |k| margin(cycle, k));
+    (first..trace.cycles.len()).flat_map(robots).collect()
+}
+
+/// Whether robot `k` had sensed the same for `clock` cycles when this cycle ended.
+fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool {
+    let sensed = trace.cycles[cycle].sensed[k];
+    cycle + 1 >= clock && trace.cycles[cycle + 1 - clock..=cycle].iter().all(|cycle| cycle.sensed[k] == sensed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{CycleTrace, Recording, RobotTrace, StimulusSource};
+    use nbc_base::model::{Base, Column, Function, Stimulation};
+    use nbc_base::source::{FileId, Span};
+
+    fn port(name: &str) -> Column {
+        Column { name: name.to_owned(), width: 1 }
+    }
+
+    /// An inverter's trace with these inputs and outputs in each cycle.
+    fn inverter(cycles: &[(bool, bool)]) -> SwarmTrace {
+        SwarmTrace {
+            circuit: "inverter".to_owned(),
+            inputs: vec![port("a")],
+            outputs: vec![port("y")],
+            shown: vec![StimulusSource::Robot(0)],
+            samples_per_cycle: 1,
+            robots: vec![RobotTrace {
+                net: "y".to_owned(),
+                function: Function::NOT,
+                robot: "not_1".to_owned(),
+                senses: [StimulusSource::Input(0), StimulusSource::Constant(false)],
+                sensed_nets: ["a".to_owned(), "0".to_owned()],
+                com_x: vec![0.0; cycles.len() + 1],
+                fault: None,
+            }],
+            cycles: cycles
+                .iter()
+                .map(|&(a, y)| CycleTrace {
+                    inputs: vec![a],
+                    sensed: vec![[a, false]],
+                    bits: vec![y],
+                    outputs: vec![y],
+                })
+                .collect(),
+            recording: Recording::default(),
+        }
+    }
+
+    fn test() -> CircuitTest {
+        CircuitTest {
+            circuit: "inverter".into(),
+            title: String::new(),
+            span: Span::new(FileId(0), 0, 0),
+            file: "a.nb".to_owned(),
+            line: 1,
+            inputs: vec![port("a")],
+            outputs: vec![port("y")],
+            stimulation: Stimulation::Rows(Vec::new()),
+            world: None,
+        }
+    }
+
+    fn row(input: bool, expected: Option<bool>) -> TestRow {
+        let span = Span::new(FileId(0), 0, 0);
+        let bases = vec![Base::Bits; 2];
+        TestRow { inputs: vec![input], expected: vec![expected], bases, hold: None, span, line: 3, row: 1 }
+    }
+
+    fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> RowVerdict {
+        let demand = Demand { hold: cycles.len(), needed: 4, rests: vec![true] };
+        let row = row(cycles[0].0, expected);
+        judge_swarm(&test(), &[row], &[demand], &inverter(cycles), &[clock]).remove(0)
+    }
+
+    #[test]
+    fn an_oscillation_fails_only_where_a_row_asks_for_it() {
+        let mut netlist = Netlist::new("ring");
+        let a = netlist.add_input("a");
+        let wire = netlist.add_wire("q", Some(false), None);
+        let ring = netlist.add_gate(Function::NOT, &[wire]);
+        netlist.drive(wire, 0, ring);
+        let still = netlist.add_gate(Function::NOT, &[a]);
+        let passed = |output, expected| {
+            let mut netlist = netlist.clone();
+            netlist.add_output("y", output);
+            judge_logic(&test(), &[row(true, expected)], &netlist)[0].passed
+        };
+        assert!(passed(ring, None) && !passed(ring, Some(true)) && !passed(ring, Some(false)));
+        assert!(passed(still, Some(false)) && !passed(still, Some(true)), "an output that rests beside the ring");
+    }
+
+    fn check(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32, passed: bool, wrong_cycles: &[usize]) {
+        let verdict = judged(cycles, expected, clock);
+        assert_eq!(verdict.passed, passed);
+        let found: Vec<usize> = verdict.lapses.iter().map(|lapse| lapse.cycle).collect();
+        assert_eq!(found, wrong_cycles);
+    }
+
+    #[test]
+    fn a_row_passes_on_its_last_two_cycles() {
+        check(&[(true, true), (true, false), (true, false)], Some(false), 1, true, &[]);
+        check(&[(true, false), (true, true), (true, false)], Some(false), 1, false, &[1]);
+    }
+
+    #[test]
+    fn an_output_that_keeps_changing_fails_even_if_it_had_one_value_for_a_while() {
+        let (row, trace) = (row(true, Some(false)), inverter(&[(true, false); 3]));
+        let passed = |rests: bool| {
+            let demand = Demand { hold: 3, needed: 3, rests: vec![rests] };
+            let passed = passes(&test(), &row, &demand, &trace);
+            assert_eq!(judge_swarm(&test(), std::slice::from_ref(&row), &[demand], &trace, &[1])[0].passed, passed);
+            passed
+        };
+        assert!(passed(true) && !passed(false));
+    }
+
+    #[test]
+    fn an_output_without_an_expected_value_is_not_checked() {
+        check(&[(true, true), (true, true)], None, 1, true, &[]);
+    }
+
+    #[test]
+    fn a_robot_that_has_not_settled_is_not_to_blame() {
+        check(&[(true, true), (true, true), (true, true)], Some(false), 3, false, &[2]);
+    }
+
+    #[test]
+    fn margins_are_those_of_settled_robots() {
+        let mut trace = inverter(&[(false, true), (false, true), (true, true), (true, false)]);
+        trace.robots[0].com_x = vec![0.0, 0.5, 0.75, 1.0, 0.5];
+        assert_eq!(settled_margins(&trace, &[2], 1), [(1, 0, 0.25), (3, 0, 0.5)]);
+        assert_eq!(settled_margins(&trace, &[1], 2)[0], (1, 0, 0.375));
+    }
+
+    #[test]
+    fn a_robot_without_time_is_late() {
+        let late = |cycles: &[(bool, bool)]| judged(cycles, Some(false), 2).late.len();
+        assert_eq!(late(&[(false, true), (true, true)]), 1);
+        assert_eq!(late(&[(true, true), (true, true)]), 0);
+    }
+}

@@ -1,0 +1,180 @@
+//! A swarm in full physics that is simulated cycle by cycle. Every robot has its own simulation and senses in each
+//! cycle the outputs of the others in the previous cycle.
+
+use std::collections::BTreeSet;
+
+use crate::sensing::Sensing;
+use crate::{Assembly, CycleTrace, Recording, RobotTrace, Room, SwarmTrace};
+use nbc_base::model::{CYCLE_STEPS, Pattern};
+use nbc_sim::{Flock, Simulator, Snapshot};
+
+/// Env steps from sample to sample.
+const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SwarmTrace::SAMPLES_PER_CYCLE as u32;
+
+/// A swarm during its simulation.
+#[derive(Debug)]
+pub struct LiveSwarm {
+    flock: Box<dyn Flock>,
+    /// Cycles over which a displacement is measured; its sign is the output.
+    window: usize,
+    sensing: Sensing,
+    /// Env steps of a cycle at whose end something is read, in order.
+    stops: BTreeSet<u32>,
+    /// Env steps from frame to frame of the recording.
+    stride: u32,
+    trace: SwarmTrace,
+    /// Cycles that were simulated and are no longer in the trace.
+    forgotten: usize,
+}
+
+/// A swarm at the end of a cycle, with its trace and recording.
+#[derive(Clone, Debug)]
+pub struct SwarmSnapshot {
+    robots: Vec<Snapshot>,
+    sensing: Sensing,
+    trace: SwarmTrace,
+    forgotten: usize,
+}
+
+impl SwarmSnapshot {
+    /// The robots.
+    pub fn robots(&self) -> &[Snapshot] {
+        &self.robots
+    }
+}
+
+impl LiveSwarm {
+    /// A swarm at its start, in a world that is wide enough for `cycles`. An output is the sign of the displacement
+    /// over the last `window` cycles. Poses are recorded if there is room for them.
+    ///
+    /// # Panics
+    /// When the window is empty.
+    pub fn new(simulator: &Simulator, assembly: &Assembly, cycles: usize, window: usize, poses: Option<Room>) -> Self {
+        assert!(window > 0, "an output is read over one cycle at least");
+        let flock = assembly.flock(simulator, cycles);
+        let mut trace = SwarmTrace::begin(assembly);
+        trace.robots.iter_mut().enumerate().for_each(|(i, robot)| robot.com_x.push(flock.center(i)[0]));
+        let stride = match poses {
+            Some(room) => begin_recording(&mut trace, room, &*flock, cycles),
+            None => CYCLE_STEPS,
+        };
+        Self { flock, window, sensing: Sensing::of(assembly), stops: stops(stride), stride, trace, forgotten: 0 }
+    }
+
+    /// The cycles simulated so far.
+    pub fn cycles(&self) -> usize {
+        self.forgotten + self.trace.cycles.len()
+    }
+
+    /// Forgets the recorded poses, and the trace but for the cycles that the next outputs depend on, so that a swarm
+    /// may run for any time in the same memory.
+    pub fn forget(&mut self) {
+        let past = self.trace.cycles.len().saturating_sub(self.window);
+        self.trace.forget_first(past);
+        self.forgotten += past;
+        self.trace.recording.restart(&*self.flock);
+    }
+
+    /// As [`LiveSwarm::forget`], and records poses from here on for `cycles`, if there is room for them.
+    pub fn record(&mut self, room: Room, cycles: usize) {
+        self.forget();
+        self.stride = begin_recording(&mut self.trace, room, &*self.flock, cycles);
+        self.stops = stops(self.stride);
+    }
+
+    /// Simulates a cycle with these bits on the input ports.
+    ///
+    /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0. From the
+    /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper,
+    /// section 4).
+    ///
+    /// # Panics
+    /// When there are not as many bits as the input ports have.
+    pub fn step(&mut self, inputs: &[bool]) -> &CycleTrace {
+        let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
+        assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
+        let sensed = self.sensing.sense(&self.trace, self.cycles(), inputs);
+        self.advance(&sensed);
+        let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
+        let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
+        self.sensing.take(self.cycles(), &bits);
+        for (i, robot) in self.trace.robots.iter_mut().enumerate() {
+            robot.fault = self.flock.fault(i);
+        }
+        self.trace.cycles.push(CycleTrace { inputs: inputs.to_vec(), sensed, bits, outputs });
+        &self.trace.cycles[self.trace.cycles.len() - 1]
+    }
+
+    /// The trace so far.
+    pub fn trace(&self) -> &SwarmTrace {
+        &self.trace
+    }
+
+    /// The final trace.
+    pub fn into_trace(self) -> SwarmTrace {
+        self.trace
+    }
+
+    /// The swarm as it is now, to come back to.
+    pub fn snapshot(&self) -> SwarmSnapshot {
+        let robots = (0..self.flock.len()).map(|robot| self.flock.snapshot(robot)).collect();
+        let (sensing, trace, forgotten) = (self.sensing.clone(), self.trace.clone(), self.forgotten);
+        SwarmSnapshot { robots, sensing, trace, forgotten }
+    }
+
+    /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
+    ///
+    /// # Panics
+    /// When the snapshot is of another number of robots.
+    pub fn restore(&mut self, snapshot: &SwarmSnapshot) {
+        assert_eq!(snapshot.robots.len(), self.flock.len(), "a snapshot is of the same swarm");
+        for (i, robot) in snapshot.robots.iter().enumerate() {
+            self.flock.restore(i, robot);
+        }
+        self.sensing.clone_from(&snapshot.sensing);
+        self.trace.clone_from(&snapshot.trace);
+        self.forgotten = snapshot.forgotten;
+    }
+
+    /// Simulates a cycle under what the robots sense, from stop to stop.
+    fn advance(&mut self, sensed: &[[bool; 2]]) {
+        let patterns: Vec<Pattern> = sensed.iter().map(|bits| Pattern::new(bits)).collect();
+        let mut done = 0;
+        for &stop in &self.stops {
+            self.flock.advance(&patterns, stop - done);
+            done = stop;
+            if stop % SAMPLE_STRIDE == 0 {
+                for (i, robot) in self.trace.robots.iter_mut().enumerate() {
+                    robot.com_x.push(self.flock.center(i)[0]);
+                }
+            }
+            if stop % self.stride == 0 {
+                self.trace.recording.record(&*self.flock);
+            }
+        }
+    }
+}
+
+/// The env steps of a cycle at whose end something is read.
+fn stops(stride: u32) -> BTreeSet<u32> {
+    let steps = |stride: u32| (1..=CYCLE_STEPS / stride).map(move |stop| stop * stride);
+    steps(SAMPLE_STRIDE).chain(steps(stride)).collect()
+}
+
+/// Starts a recording of the robots for which there is room, the most interesting first. Returns its stride.
+fn begin_recording(trace: &mut SwarmTrace, room: Room, flock: &dyn Flock, cycles: usize) -> u32 {
+    let order = trace.by_interest();
+    let points: Vec<usize> = order.iter().map(|&robot| flock.lattice(robot).points().len()).collect();
+    let (stride, count) = room.fit(&points, cycles);
+    let robots: BTreeSet<usize> = order.into_iter().take(count).collect();
+    trace.recording = Recording::new(flock, robots, stride);
+    trace.recording.record(flock);
+    stride
+}
+
+/// Whether a robot moved in +x over its last `window` cycles, or over all of them if there are fewer.
+fn moved_right(robot: &RobotTrace, window: usize) -> bool {
+    let last = robot.com_x.len() - 1;
+    let before = last.saturating_sub(window * SwarmTrace::SAMPLES_PER_CYCLE);
+    robot.com_x[last] > robot.com_x[before]
+}

@@ -1,0 +1,183 @@
+//! What goes wrong for a robot in a world with noise (docs/physics.md 15). Everything is drawn from a stream of its own
+//! for each robot, so it depends on the world and the robot's number only.
+
+use std::sync::Arc;
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use nbc_base::model::{
+    Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Pattern, Response, Schedule, WorldNoise,
+};
+
+/// The name of the material of voxels that never move.
+const DEAD: &str = "dead";
+
+/// The noise of a world for one robot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RobotNoise<'a> {
+    noise: &'a WorldNoise,
+    robot: u64,
+}
+
+/// What is drawn; each has its own stream.
+#[derive(Clone, Copy)]
+enum Draw {
+    Start,
+    Missed,
+    Dead,
+}
+
+impl<'a> RobotNoise<'a> {
+    /// The noise for robot `robot`.
+    pub(crate) fn new(noise: &'a WorldNoise, robot: usize) -> Self {
+        Self { noise, robot: robot as u64 }
+    }
+
+    fn rng(self, draw: Draw) -> ChaCha8Rng {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.noise.seed);
+        rng.set_stream(self.robot * 4 + draw as u64);
+        rng
+    }
+
+    /// Voxels by which it starts to the right of its place.
+    pub(crate) fn shift(self) -> f64 {
+        if self.noise.start > 0.0 { self.noise.start * (2.0 * unit(&mut self.rng(Draw::Start)) - 1.0) } else { 0.0 }
+    }
+
+    /// Whether it misses its stimuli in a cycle. There is nothing to keep in the first.
+    pub(crate) fn misses(self, cycle: usize) -> bool {
+        if self.noise.missed <= 0.0 || cycle == 0 {
+            return false;
+        }
+        let mut rng = self.rng(Draw::Missed);
+        // A number takes two words of the stream.
+        rng.set_word_pos(2 * cycle as u128);
+        unit(&mut rng) < self.noise.missed
+    }
+
+    /// A schedule as it senses it.
+    pub(crate) fn sensed(self, schedule: &Schedule) -> Schedule {
+        if self.noise.missed <= 0.0 {
+            return schedule.clone();
+        }
+        let mut steps: Vec<Pattern> =
+            schedule.spells.iter().flat_map(|spell| std::iter::repeat_n(spell.pattern, spell.steps as usize)).collect();
+        for start in (0..steps.len()).step_by(CYCLE_STEPS as usize) {
+            if self.misses(start / CYCLE_STEPS as usize) {
+                let (before, end) = (steps[start - 1], steps.len().min(start + CYCLE_STEPS as usize));
+                steps[start..end].fill(before);
+            }
+        }
+        let spells = steps.chunk_by(|a, b| a == b);
+        Schedule {
+            spells: spells.map(|same| nbc_base::model::Spell { pattern: same[0], steps: same.len() as u32 }).collect(),
+        }
+    }
+
+    /// A body as it is in the world: its actuators and sensors move less, and some not at all.
+    pub(crate) fn worn(self, body: &Body) -> Body {
+        let WorldNoise { weak, dead, .. } = *self.noise;
+        if weak <= 0.0 && dead <= 0.0 {
+            return body.clone();
+        }
+        let mut materials: Vec<Material> = body.palette().materials().iter().map(|own| weakened(own, weak)).collect();
+        let mut codes = body.codes().to_vec();
+        let mut rng = self.rng(Draw::Dead);
+        // A palette without room for another material has no dead voxels.
+        let code = (materials.len() < Palette::MAX_MATERIALS).then_some(materials.len() as u8 + 1);
+        for voxel in codes.iter_mut().filter(|voxel| is_active(body, **voxel)) {
+            if unit(&mut rng) < dead {
+                *voxel = code.unwrap_or(*voxel);
+            }
+        }
+        if code.is_some_and(|code| codes.contains(&code)) {
+            materials.push(dead_material());
+        }
+        Body::new(body.width(), body.height(), codes, Arc::new(Palette::new(materials)))
+    }
+}
+
+/// A number from 0 to 1.
+fn unit(rng: &mut impl Rng) -> f64 {
+    rng.random()
+}
+
+fn is_active(body: &Body, code: u8) -> bool {
+    matches!(body.palette().kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
+}
+
+/// A material whose width changes less.
+fn weakened(material: &Material, weak: f64) -> Material {
+    let less = |width: f64| 1.0 + (width - 1.0) * (1.0 - weak);
+    let kind = match material.kind {
+        MaterialKind::Actuator(Drive { low, high, period, phase }) => {
+            MaterialKind::Actuator(Drive { low: less(low), high: less(high), period, phase })
+        }
+        MaterialKind::Sensor(Response { stimulus, absent, present }) => {
+            MaterialKind::Sensor(Response { stimulus, absent: less(absent), present: less(present) })
+        }
+        other => other,
+    };
+    Material { name: material.name.clone(), kind }
+}
+
+/// An actuator that stays at its rest width, as stiff as others.
+fn dead_material() -> Material {
+    let still = Drive { period: 1, phase: 0.0, low: 1.0, high: 1.0 };
+    Material { name: DEAD.to_owned(), kind: MaterialKind::Actuator(still) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Spell;
+
+    const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.5, weak: 0.5, dead: 0.5, seed: 7 };
+
+    fn robot(noise: &WorldNoise, robot: usize) -> RobotNoise<'_> {
+        RobotNoise::new(noise, robot)
+    }
+
+    #[test]
+    fn robots_start_to_either_side_within_the_bound() {
+        let shifts: Vec<f64> = (0..100).map(|i| robot(&NOISE, i).shift()).collect();
+        assert!(shifts.iter().all(|shift| shift.abs() <= 0.5));
+        assert!(shifts.iter().any(|shift| *shift < -0.25) && shifts.iter().any(|shift| *shift > 0.25));
+        assert_eq!(robot(&NOISE, 3).shift(), robot(&NOISE, 3).shift());
+        assert_eq!(robot(&WorldNoise::default(), 3).shift(), 0.0);
+    }
+
+    #[test]
+    fn about_half_of_the_cycles_are_missed_and_keep_the_stimuli_before() {
+        let missed = (1..1000).filter(|&cycle| robot(&NOISE, 0).misses(cycle)).count();
+        assert!((450..550).contains(&missed), "{missed}");
+        let spell = |pair: usize| Spell { pattern: Pattern::PAIRS[pair], steps: CYCLE_STEPS };
+        let schedule = Schedule { spells: (0..100).map(|cycle| spell(cycle % 4)).collect() };
+        let sensed = robot(&NOISE, 0).sensed(&schedule);
+        assert_eq!(sensed.steps(), schedule.steps());
+        let mut at = 0;
+        let cycles: Vec<Pattern> =
+            sensed.spells.iter().flat_map(|spell| vec![spell.pattern; (spell.steps / CYCLE_STEPS) as usize]).collect();
+        while at < 100 {
+            let expected = if robot(&NOISE, 0).misses(at) { cycles[at - 1] } else { Pattern::PAIRS[at % 4] };
+            assert_eq!(cycles[at], expected, "cycle {at}");
+            at += 1;
+        }
+        assert_eq!(robot(&WorldNoise::default(), 0).sensed(&schedule), schedule);
+    }
+
+    #[test]
+    fn active_voxels_weaken_or_die() {
+        let body = Body::patchwork(10, 0);
+        let worn = robot(&NOISE, 0).worn(&body);
+        let pairs: Vec<(u8, u8)> = body.codes().iter().copied().zip(worn.codes().iter().copied()).collect();
+        assert!(pairs.iter().all(|(own, now)| own == now || *now == 9 && *own > 2));
+        let dead = pairs.iter().filter(|(_, now)| *now == 9).count();
+        assert!((20..60).contains(&dead), "{dead}");
+        let MaterialKind::Actuator(Drive { low, high, .. }) = worn.palette().kind(3).unwrap() else { panic!() };
+        assert_eq!([low, high], [0.8, 1.3]);
+        assert_eq!(robot(&WorldNoise::default(), 0).worn(&body), body);
+        assert_ne!(worn, robot(&NOISE, 1).worn(&body), "each robot has its own dead voxels");
+    }
+}

@@ -1,0 +1,124 @@
+//! Checks of a result that was made elsewhere, without simulating.
+
+use crate::evolve::{CandidateOutcome, Scores};
+use crate::gate;
+use crate::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, Task, TaskResult};
+use nbc_base::model::{Behavior, SearchObjective};
+
+/// Whether the task can have this result.
+pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
+    match (result, task) {
+        (TaskResult::Evaluation(evaluated), Task::Evaluation(protocol, task)) => can_be(evaluated, protocol, task),
+        (TaskResult::Screening(Ok(Some((clock, margin)))), Task::Screening { most, .. }) => {
+            (1..=*most).contains(clock) && !margin.is_nan()
+        }
+        (TaskResult::Measurement(Ok(measurement)), Task::Measurement(_)) => is_possible(measurement),
+        (TaskResult::Screening(_), Task::Screening { .. }) | (TaskResult::Measurement(_), Task::Measurement(_)) => true,
+        (TaskResult::Swarm(bits), Task::Swarm(swarm)) => {
+            bits.cycles.len() == swarm.cycles() && bits.cycles.iter().all(|cycle| cycle.len() == swarm.robots())
+        }
+        _ => false,
+    }
+}
+
+/// Whether the numbers belong together, and are not NaN, which equals nothing.
+fn is_possible(Measurement { displacement, behavior, character }: &Measurement) -> bool {
+    let rates = [character.error_rate, character.glitch_rate];
+    displacement.iter().all(|number| number.is_finite())
+        && Behavior::of(displacement) == *behavior
+        && rates.iter().all(|rate| (0.0..=1.0).contains(rate))
+        && !character.margin.is_nan()
+        && character.settle.len() == SETTLE_TIMES
+}
+
+/// Whether an evaluation of the task by the protocol can have this result.
+fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &EvaluationTask) -> bool {
+    let steps = match protocol.objective {
+        SearchObjective::Distance => protocol.distance_steps(),
+        SearchObjective::Gate => gate::steps(protocol),
+    };
+    let is_complete = evaluated.work.env_steps.checked_add(evaluated.work.left_out) == Some(steps);
+    let CandidateOutcome::Measured(scores) = &evaluated.outcome else { return is_complete };
+    let could_enter = match protocol.objective {
+        SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
+        SearchObjective::Gate => task.rivals.admit(scores.behavior, &scores.fitness),
+    };
+    is_complete && could_enter && is_sound(scores) && evaluated.work.left_out == 0
+}
+
+/// The transitions between different patterns of two stimuli.
+const SETTLE_TIMES: usize = 12;
+
+/// Whether the numbers are finite and belong to the behavior.
+fn is_sound(scores: &Scores) -> bool {
+    let finite = scores.fitness.iter().chain(&scores.displacement).all(|number| number.is_finite());
+    finite && Behavior::of(&scores.displacement) == scores.behavior
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evolve::Search;
+    use crate::{Work, evaluate_tasks, measure};
+    use nbc_base::model::Evolution;
+    use nbc_base::model::{Body, Palette};
+    use nbc_sim::Simulator;
+
+    /// Displacements of the opposite behavior.
+    fn opposite(displacement: [f64; 4]) -> [f64; 4] {
+        displacement.map(|d| if d > 0.0 { -1.0 } else { 1.0 })
+    }
+
+    #[test]
+    fn results_of_both_objectives_are_plausible_and_changed_ones_are_not() {
+        for objective in [SearchObjective::Distance, SearchObjective::Gate] {
+            let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
+            let search = Search::new(&evolution, 1);
+            let tasks: Vec<EvaluationTask> =
+                search.ask().iter().take(6).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
+            let protocol = EvaluationProtocol::of(&evolution);
+            for (done, task) in evaluate_tasks(&Simulator::default(), &protocol, &tasks).iter().zip(&tasks) {
+                assert!(can_be(done, &protocol, task), "{done:?}");
+                let longer = Work { env_steps: done.work.env_steps + 1, ..done.work };
+                assert!(!can_be(&Evaluated { work: longer, ..*done }, &protocol, task));
+                let CandidateOutcome::Measured(scores) = done.outcome else { continue };
+                let other = Scores { displacement: opposite(scores.displacement), ..scores };
+                let other = Evaluated { outcome: CandidateOutcome::Measured(other), ..*done };
+                assert!(!can_be(&other, &protocol, task));
+            }
+        }
+    }
+
+    #[test]
+    fn a_measurement_and_a_screening_are_plausible_and_changed_ones_are_not() {
+        let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
+        let measurement = measure(&Simulator::default(), &body).unwrap();
+        let task = Task::Measurement(body.clone());
+        let plausible =
+            |measurement: &Measurement| is_plausible(&TaskResult::Measurement(Ok(measurement.clone())), &task);
+        assert!(plausible(&measurement));
+        let away = opposite(measurement.displacement);
+        assert!(!plausible(&Measurement { displacement: away, ..measurement.clone() }));
+        let mut rate = measurement.clone();
+        rate.character.error_rate = f64::NAN;
+        assert!(!plausible(&rate));
+        let task = Task::Screening { body, behavior: measurement.behavior, most: 2 };
+        let plausible = |screened| is_plausible(&TaskResult::Screening(Ok(screened)), &task);
+        assert!(plausible(None) && plausible(Some((2, 0.1))) && !plausible(Some((3, 0.1))));
+        assert!(!is_plausible(&TaskResult::Measurement(Ok(measurement)), &task), "another kind");
+    }
+
+    #[test]
+    fn a_task_alone_and_among_others_has_the_same_result() {
+        for objective in [SearchObjective::Distance, SearchObjective::Gate] {
+            let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
+            let search = Search::new(&evolution, 2);
+            let tasks: Vec<EvaluationTask> =
+                search.ask().iter().take(3).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
+            let (simulator, protocol) = (Simulator::default(), EvaluationProtocol::of(&evolution));
+            let alone = |task: &EvaluationTask| evaluate_tasks(&simulator, &protocol, std::slice::from_ref(task))[0];
+            let together = evaluate_tasks(&simulator, &protocol, &tasks);
+            assert_eq!(tasks.iter().map(alone).collect::<Vec<_>>(), together);
+        }
+    }
+}

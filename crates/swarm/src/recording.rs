@@ -1,0 +1,128 @@
+//! Recordings: poses of robots over time as small numbers, for pages that play them. They are made while the robots are
+//! simulated.
+
+use nbc_base::model::CYCLE_STEPS;
+use nbc_sim::Flock;
+
+/// How large a recording may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Room {
+    /// The most bytes, so that a page with a few recordings stays below five megabytes.
+    bytes: usize,
+    /// Strides in env steps to choose from, the smoothest first.
+    strides: &'static [u32],
+}
+
+impl Room {
+    /// For a swarm: better a jerky film than one without all robots.
+    pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
+    /// For a swarm that is watched while it runs: all robots, smooth; the recording is taken away cycle by cycle.
+    pub const LIVE: Self = Self { bytes: usize::MAX, strides: &[7] };
+    /// For gaits of elites: some smooth ones are better than many jerky ones.
+    pub const GAITS: Self = Self { bytes: 2_400_000, strides: &[7, 12, 14] };
+
+    /// The stride, and the number of robots, for which there is room; `points` are those of each robot.
+    pub fn fit(self, points: &[usize], cycles: usize) -> (u32, usize) {
+        let bytes = |points: usize, stride: u32| points * 4 * (cycles * (CYCLE_STEPS / stride) as usize + 1);
+        let all: usize = points.iter().sum();
+        let jerkiest = self.strides[self.strides.len() - 1];
+        let stride = self.strides.iter().copied().find(|&stride| bytes(all, stride) <= self.bytes).unwrap_or(jerkiest);
+        let mut used = 0;
+        let fitting = points.iter().take_while(|&&points| {
+            used += bytes(points, stride);
+            used <= self.bytes
+        });
+        (stride, fitting.count())
+    }
+}
+
+/// Some robots of a flock over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// Poses in each cycle, evenly spaced.
+    pub frames_per_cycle: u32,
+    /// The recorded robots.
+    pub robots: Vec<Recorded>,
+}
+
+/// One robot over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recorded {
+    /// Its place in the flock.
+    pub robot: usize,
+    /// Each voxel's points, by their numbers, and its material code.
+    pub voxels: Vec<([usize; 4], u8)>,
+    /// The number of points.
+    pub points: usize,
+    /// Hundredths of a voxel: x from the robot's start and height above the ground, point by point, frame by frame.
+    pub frames: Vec<i16>,
+    /// The origin of its x: its leftmost point at the start of the recording.
+    start: f64,
+}
+
+impl Recording {
+    /// An empty recording of these robots of a flock at its start, with a frame every `stride` env steps.
+    pub fn new(flock: &dyn Flock, robots: impl IntoIterator<Item = usize>, stride: u32) -> Self {
+        let robots = robots.into_iter().map(|robot| Recorded::new(flock, robot)).collect();
+        Self { frames_per_cycle: CYCLE_STEPS / stride, robots }
+    }
+
+    /// Forgets the frames. The origin of each robot's x is now its leftmost point, so that it never leaves the range
+    /// of the numbers, however far it walks.
+    pub fn restart(&mut self, flock: &dyn Flock) {
+        for recorded in &mut self.robots {
+            recorded.frames.clear();
+            recorded.start = leftmost(&flock.points(recorded.robot));
+        }
+    }
+
+    /// Adds a frame with the current positions of the robots.
+    pub fn record(&mut self, flock: &dyn Flock) {
+        for recorded in &mut self.robots {
+            let (points, start) = (flock.points(recorded.robot), recorded.start);
+            recorded.frames.extend(points.into_iter().flat_map(|[x, y]| [hundredths(x - start), hundredths(y - 1.0)]));
+        }
+    }
+}
+
+impl Recorded {
+    /// The origin of its x, in voxels of the world.
+    pub fn origin(&self) -> f64 {
+        self.start
+    }
+
+    fn new(flock: &dyn Flock, robot: usize) -> Self {
+        let (lattice, points) = (flock.lattice(robot), flock.points(robot));
+        Self {
+            robot,
+            voxels: lattice.voxels().iter().map(|voxel| (voxel.corners, voxel.code)).collect(),
+            points: points.len(),
+            frames: Vec::new(),
+            start: leftmost(&points),
+        }
+    }
+}
+
+fn leftmost(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min)
+}
+
+/// Hundredths; a value that is out of range or not a number is clamped.
+fn hundredths(voxels: f64) -> i16 {
+    (voxels * 100.0).round() as i16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_recording_has_room_for_what_fits() {
+        assert_eq!(Room::SWARM.fit(&[36; 5], 60), (7, 5));
+        let (stride, robots) = Room::SWARM.fit(&[36; 100], 300);
+        assert!(stride > 7 && robots <= 100);
+        assert_eq!(Room::SWARM.fit(&[100_000_000], 1000).1, 0);
+        let (stride, robots) = Room::GAITS.fit(&[26; 1024], 8);
+        assert!(stride <= 14 && robots > 300, "{robots} gaits every {stride} steps");
+    }
+}

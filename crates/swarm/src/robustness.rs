@@ -1,0 +1,179 @@
+//! A test in many worlds: in how many it passes, which robots fail first, and how far the others are from it.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::judge::settled_margins;
+use crate::{Proportion, SwarmTrace, TestVerdict};
+use nbc_base::model::{PhysicsWorld, Variation};
+
+/// A robot's displacement in the correct direction over a cycle in which its output should be correct; negative if
+/// the output was wrong.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RobotMargin {
+    /// The net that it drives.
+    pub net: String,
+    /// Its name in the library.
+    pub robot: String,
+    /// The cycle, from 0 at the test's start.
+    pub cycle: usize,
+    /// Voxels a cycle.
+    pub margin: f64,
+}
+
+/// The result of a test in one world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldTrial {
+    /// The sampled world.
+    pub world: PhysicsWorld,
+    /// The row that failed first, and its line in the source; `None` if the test passed.
+    pub failed: Option<(usize, usize)>,
+    /// The robot that failed first; `None` if the test passed, or if each robot did what its stimuli require, but some
+    /// had missed theirs or had no time.
+    pub culprit: Option<RobotMargin>,
+    /// The smallest margin.
+    pub least: Option<RobotMargin>,
+}
+
+impl WorldTrial {
+    /// The result of a test that ran in a world, with these clocks of its robots and this window of their outputs.
+    pub fn new(world: PhysicsWorld, verdict: &TestVerdict, trace: &SwarmTrace, clocks: &[u32], window: usize) -> Self {
+        let margins = settled_margins(trace, clocks, window);
+        let named = |&(cycle, k, margin): &(usize, usize, f64)| RobotMargin {
+            net: trace.robots[k].net.clone(),
+            robot: trace.robots[k].robot.clone(),
+            cycle,
+            margin,
+        };
+        let least = margins.iter().min_by(|a, b| a.2.total_cmp(&b.2)).map(named);
+        let mut end = 0;
+        let failed = verdict.rows.iter().find(|row| {
+            end += row.cycles.unwrap_or(0);
+            !row.passed
+        });
+        let start = end - failed.and_then(|row| row.cycles).unwrap_or(0);
+        let wrong = || margins.iter().filter(|(cycle, _, margin)| *margin <= 0.0 && *cycle < end);
+        // An error in an earlier row may show up late, as a wrong bit that was stored.
+        let first = wrong().find(|(cycle, ..)| *cycle >= start).or_else(|| wrong().next_back());
+        let culprit = failed.and(first).map(named);
+        Self { world, failed: failed.map(|row| (row.row, row.line)), culprit, least }
+    }
+}
+
+/// A test in a sample of worlds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Robustness {
+    /// The path of the source file, as given.
+    pub file: String,
+    /// The line of the test in its file, from 1.
+    pub line: usize,
+    /// The tested circuit, with the values of its parameters.
+    pub circuit: String,
+    /// The test's title; empty if it has none.
+    pub title: String,
+    /// The declared swarm, if it is one.
+    pub swarm: Option<String>,
+    /// The number of its robots.
+    pub robots: usize,
+    /// How much the worlds vary.
+    pub variation: Variation,
+    /// The factor of the requested variation.
+    pub scale: f64,
+    /// The share of worlds in which the test passes.
+    #[serde(rename = "yield")]
+    pub passed: Proportion,
+    /// The robots that fail first, those of most worlds first.
+    pub fails_first: Vec<Culprit>,
+    /// The smallest margin in the worlds in which the test passes, with the number of its world.
+    pub least: Option<WorldMargin>,
+    /// The worlds in which the test fails.
+    pub failures: Vec<WorldFailure>,
+}
+
+/// A robot that fails first in some worlds.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Culprit {
+    /// The net that the robot drives.
+    pub net: String,
+    /// The robot's name in its library.
+    pub robot: String,
+    /// The number of these worlds.
+    pub worlds: usize,
+}
+
+/// A margin in a world.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorldMargin {
+    /// The number of the world.
+    pub world: usize,
+    #[serde(flatten)]
+    /// The smallest margin in that world.
+    pub margin: RobotMargin,
+}
+
+/// A world in which a test fails.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorldFailure {
+    /// The number of the world in the sample.
+    pub world: usize,
+    /// The world itself.
+    pub physics: PhysicsWorld,
+    /// The row that failed first.
+    pub row: usize,
+    /// The line of the failing row in its file, from 1.
+    pub line: usize,
+    /// The robot that failed first, if one did.
+    pub first: Option<RobotMargin>,
+}
+
+impl Robustness {
+    /// Sums up the results in the worlds of a sample, in order; `verdict` is that of any of them.
+    pub fn of(
+        verdict: &TestVerdict,
+        robots: usize,
+        (variation, scale): (Variation, f64),
+        trials: &[WorldTrial],
+    ) -> Self {
+        let numbered = || trials.iter().enumerate();
+        let failure = |(world, trial): (usize, &WorldTrial)| {
+            let (row, line) = trial.failed?;
+            Some(WorldFailure { world, physics: trial.world, row, line, first: trial.culprit.clone() })
+        };
+        let margin = |(world, trial): (usize, &WorldTrial)| {
+            let margin = trial.least.clone().filter(|_| trial.failed.is_none())?;
+            Some(WorldMargin { world, margin })
+        };
+        let failures: Vec<WorldFailure> = numbered().filter_map(failure).collect();
+        Self {
+            file: verdict.file.clone(),
+            line: verdict.line,
+            circuit: verdict.circuit.clone(),
+            title: verdict.title.clone(),
+            swarm: verdict.swarm.clone(),
+            robots,
+            variation,
+            scale,
+            passed: Proportion { successes: trials.len() - failures.len(), attempts: trials.len() },
+            fails_first: culprits(&failures),
+            least: numbered().filter_map(margin).min_by(|a, b| a.margin.margin.total_cmp(&b.margin.margin)),
+            failures,
+        }
+    }
+}
+
+fn culprits(failures: &[WorldFailure]) -> Vec<Culprit> {
+    let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for first in failures.iter().filter_map(|failure| failure.first.as_ref()) {
+        *counts.entry((&first.net, &first.robot)).or_default() += 1;
+    }
+    let culprit = |((net, robot), worlds): ((&str, &str), usize)| Culprit {
+        net: net.to_owned(),
+        robot: robot.to_owned(),
+        worlds,
+    };
+    let mut culprits: Vec<Culprit> = counts.into_iter().map(culprit).collect();
+    culprits.sort_by_key(|culprit| Reverse(culprit.worlds));
+    culprits
+}

@@ -1,0 +1,225 @@
+//! Selects the best robot of a behavior among the elites of evolution runs: many are screened in short sequences, few
+//! measured in full.
+
+use std::cmp::Ordering;
+
+use crate::evolve::Elite;
+use crate::{Laboratory, Measurement, Task, TaskResult};
+use nbc_base::model::{Behavior, Fault, Provenance, Robot};
+
+/// The longest clock of a gate that is measured in full, in cycles.
+const LONGEST_CLOCK: u32 = 4;
+/// The cost of a full measurement, in screenings.
+const MEASUREMENT_COST: u64 = 4;
+
+/// The effort of a selection and the accepted errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Selection {
+    /// Elites of a behavior that are screened, the fittest first.
+    pub tries: usize,
+    /// The number of these that are measured in full.
+    pub finalists: usize,
+    /// The highest accepted error rate.
+    pub max_error: f64,
+}
+
+/// An elite with its run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nominee {
+    /// The elite that is to become a robot.
+    pub elite: Elite,
+    /// Its run.
+    pub provenance: Provenance,
+}
+
+/// The result for a behavior.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Selected {
+    /// The best robot.
+    Robot(Box<Robot>),
+    /// A robot with more errors than accepted.
+    Erring(Box<Robot>),
+    /// The best elite walks otherwise in the paper's fixed simulations.
+    Other(Behavior),
+    /// The simulation of the best elite failed.
+    Faulty(Fault),
+    /// There is no elite with this behavior.
+    Missing,
+}
+
+impl Selection {
+    /// Chooses the elites to be screened: the fittest, each body once.
+    pub fn nominate(&self, mut nominees: Vec<Nominee>) -> Vec<Nominee> {
+        nominees.sort_by(|a, b| worth(&b.elite).total_cmp(&worth(&a.elite)));
+        let mut chosen: Vec<Nominee> = Vec::new();
+        for nominee in nominees {
+            if chosen.len() < self.tries && chosen.iter().all(|known| known.elite.body != nominee.elite.body) {
+                chosen.push(nominee);
+            }
+        }
+        chosen
+    }
+
+    /// The amount of work for this many nominees, in the unit reported by [`Selection::select`].
+    pub fn cost(&self, nominees: usize) -> u64 {
+        nominees as u64 + MEASUREMENT_COST * nominees.min(self.finalists) as u64
+    }
+
+    /// Screens the nominees, measures the best of them, and takes the best of those; reports the work done to
+    /// `observe`.
+    pub fn select(
+        &self,
+        laboratory: &dyn Laboratory,
+        behavior: Behavior,
+        nominees: &[Nominee],
+        observe: &dyn Fn(u64),
+    ) -> Selected {
+        let screening = |nominee: &Nominee| {
+            let body = nominee.elite.body.clone();
+            Task::Screening { body, behavior, most: LONGEST_CLOCK }
+        };
+        let screenings: Vec<Task> = nominees.iter().map(screening).collect();
+        let screened = laboratory.perform(&screenings, &|| observe(1));
+        let ranks = screened.into_iter().zip(nominees).map(|(result, nominee)| (Rank::of(result, nominee), nominee));
+        let mut ranked: Vec<(Rank, &Nominee)> = ranks.collect();
+        ranked.sort_by(|(a, _), (b, _)| a.compare(b));
+        let finalists: Vec<&Nominee> = ranked.into_iter().take(self.finalists).map(|(_, nominee)| nominee).collect();
+        let measurements: Vec<Task> =
+            finalists.iter().map(|nominee| Task::Measurement(nominee.elite.body.clone())).collect();
+        let measured = laboratory.perform(&measurements, &|| observe(MEASUREMENT_COST));
+        let judged = measured.into_iter().zip(finalists).map(|(result, nominee)| self.judge(result, behavior, nominee));
+        judged.min_by(Selected::compare).unwrap_or(Selected::Missing)
+    }
+
+    fn judge(&self, result: TaskResult, behavior: Behavior, nominee: &Nominee) -> Selected {
+        let measurement = match result.measured() {
+            Ok(measurement) => measurement,
+            Err(fault) => return Selected::Faulty(fault),
+        };
+        if measurement.behavior != behavior {
+            return Selected::Other(measurement.behavior);
+        }
+        let robot = Box::new(robot(nominee, measurement));
+        if robot.character.error_rate <= self.max_error { Selected::Robot(robot) } else { Selected::Erring(robot) }
+    }
+}
+
+impl Selected {
+    /// The better one first.
+    fn compare(&self, other: &Self) -> Ordering {
+        let place = |found: &Self| match found {
+            Self::Robot(_) => 0,
+            Self::Erring(_) => 1,
+            Self::Other(_) => 2,
+            Self::Faulty(_) => 3,
+            Self::Missing => 4,
+        };
+        match (self, other) {
+            (Self::Robot(a) | Self::Erring(a), Self::Robot(b) | Self::Erring(b)) => a.character.compare(&b.character),
+            _ => place(self).cmp(&place(other)),
+        }
+    }
+}
+
+/// The result of a nominee in short sequences: its clock and margin, or its fitness if no clock was without errors.
+struct Rank {
+    clock: u32,
+    margin: f64,
+}
+
+impl Rank {
+    fn of(result: TaskResult, nominee: &Nominee) -> Self {
+        match result.screened() {
+            Ok(Some((clock, margin))) => Self { clock, margin },
+            // A fault or errors at every clock: ranked last.
+            Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&nominee.elite) },
+        }
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        self.clock.cmp(&other.clock).then(other.margin.total_cmp(&self.margin))
+    }
+}
+
+/// The rank of elites before screening: both fitnesses have equal weight.
+fn worth(elite: &Elite) -> f64 {
+    elite.fitness[0] + elite.fitness[1]
+}
+
+fn robot(nominee: &Nominee, measurement: Measurement) -> Robot {
+    let Measurement { displacement, behavior, character } = measurement;
+    let (body, function) = (&nominee.elite.body, behavior.function());
+    Robot {
+        name: format!("{function}_{}x{}", body.width(), body.height()),
+        behavior,
+        body: body.clone(),
+        displacement,
+        character,
+        provenance: nominee.provenance.clone(),
+        genotype: Some(nominee.elite.genotype.clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+    use crate::measure;
+    use nbc_base::model::{Body, Genotype, Palette};
+    use nbc_sim::Simulator;
+
+    const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };
+
+    fn nominee(rows: &[&str], fitness: f64) -> Nominee {
+        let elite = Elite {
+            fitness: [fitness, 0.0],
+            behavior: "RRRR".parse().unwrap(),
+            displacement: [0.0; 4],
+            body: Body::parse(rows, &Palette::paper()).unwrap(),
+            genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+            generation: 1,
+            evaluations: 1,
+        };
+        let (program, version, evolution) = ("nbc".to_owned(), "0".to_owned(), "small".to_owned());
+        Nominee {
+            elite,
+            provenance: Provenance { program, version, evolution, seed: 1, generation: 1, evaluations: 1 },
+        }
+    }
+
+    #[test]
+    fn the_fittest_are_screened_each_body_once() {
+        let nominees = [(["33"], 1.0), (["34"], 3.0), (["34"], 2.0), (["43"], 2.5), (["44"], 0.5)];
+        let chosen = SELECTION.nominate(nominees.map(|(rows, fitness)| nominee(&rows, fitness)).to_vec());
+        let fitnesses: Vec<f64> = chosen.iter().map(|nominee| nominee.elite.fitness[0]).collect();
+        assert_eq!(fitnesses, [3.0, 2.5, 1.0]);
+    }
+
+    #[test]
+    fn the_work_reported_is_the_work_announced() {
+        let nominees = [nominee(&["33"], 1.0), nominee(&["3"], 2.0), nominee(&["34"], 0.0)];
+        let done = Cell::new(0);
+        let observe = |more| done.set(done.get() + more);
+        SELECTION.select(&Simulator::default(), "RRRR".parse().unwrap(), &nominees, &observe);
+        assert_eq!(done.get(), SELECTION.cost(nominees.len()));
+        let found =
+            SELECTION.select(&Simulator::default(), "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
+        assert_eq!((found, SELECTION.cost(0)), (Selected::Missing, 0));
+    }
+
+    #[test]
+    fn a_robot_that_errs_is_left_out_unless_it_is_allowed_to() {
+        let body = Body::parse(&["34"], &Palette::paper()).unwrap();
+        let measured = measure(&Simulator::default(), &body).unwrap();
+        let judge = |behavior, max_error| {
+            let result = TaskResult::Measurement(Ok(measured.clone()));
+            Selection { max_error, ..SELECTION }.judge(result, behavior, &nominee(&["34"], 1.0))
+        };
+        let own = measured.behavior;
+        assert!(matches!(judge(own, measured.character.error_rate), Selected::Robot(_)));
+        assert!(matches!(judge(own, -1.0), Selected::Erring(robot) if robot.behavior == own));
+        let other = ["RRRR", "LLLL"].map(|word| word.parse().unwrap()).into_iter().find(|&other| other != own).unwrap();
+        assert_eq!(judge(other, 1.0), Selected::Other(own));
+    }
+}

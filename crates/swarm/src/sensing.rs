@@ -1,0 +1,45 @@
+//! What the robots of a swarm sense of each other.
+
+use crate::noise::RobotNoise;
+use crate::{Assembly, SwarmTrace};
+use nbc_base::model::WorldNoise;
+
+/// The outputs that the robots sense.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sensing {
+    /// Cycles at the start in which robots sense the start values of the others.
+    start: usize,
+    /// Each robot's output as sensed by the others.
+    outputs: Vec<bool>,
+    /// What goes wrong in their world.
+    noise: WorldNoise,
+}
+
+impl Sensing {
+    /// Before the first cycle of a swarm.
+    pub fn of(assembly: &Assembly) -> Self {
+        let outputs = assembly.members.iter().map(|member| member.start).collect();
+        Self { start: assembly.start_cycles(), outputs, noise: assembly.world.noise }
+    }
+
+    /// The stimuli of each robot during the cycle with this number, from 0, with these bits on the input ports.
+    pub fn sense(&self, trace: &SwarmTrace, cycle: usize, inputs: &[bool]) -> Vec<[bool; 2]> {
+        (0..trace.robots.len()).map(|robot| self.sensed(trace, cycle, robot, inputs)).collect()
+    }
+
+    /// The stimuli of a robot. If it misses them, it keeps those of the cycle before.
+    fn sensed(&self, trace: &SwarmTrace, cycle: usize, robot: usize, inputs: &[bool]) -> [bool; 2] {
+        match trace.cycles.last() {
+            Some(last) if RobotNoise::new(&self.noise, robot).misses(cycle) => last.sensed[robot],
+            _ => trace.robots[robot].senses.map(|signal| signal.bit(inputs, &self.outputs)),
+        }
+    }
+
+    /// Takes the robots' outputs at the end of the cycle with this number, from 0.
+    pub fn take(&mut self, cycle: usize, bits: &[bool]) {
+        if cycle + 1 >= self.start {
+            self.outputs.clear();
+            self.outputs.extend_from_slice(bits);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! How long a swarm takes to settle after its inputs switch, whatever its robots do before they have settled: ternary
+//! simulation with bounded delays.
+//!
+//! The output of a robot is correct once its stimuli have been the same for as many cycles as its clock. Until then it
+//! is unknown, unless the robot does not glitch and its previous output was the same and correct. A robot with an
+//! unknown stimulus has an unknown output, unless the other stimulus decides it. A row has settled when no output is
+//! unknown and none changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic
+//! simulation" (1989).
+
+use crate::{Assembly, Member};
+use nbc_circuit::known::{TernaryBit, answer};
+
+/// A swarm during the rows of a test; its outputs are known as far as the clocks of its robots determine them.
+#[derive(Clone, Debug)]
+pub struct Settling<'a> {
+    members: &'a [Member],
+    /// Cycles after which the output of each robot is correct, with the window over which it is measured.
+    clocks: Vec<usize>,
+    /// Cycles at the start in which robots sense the start values of the others.
+    start: usize,
+    /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
+    sensed: Vec<([TernaryBit; 2], usize)>,
+    bits: Vec<TernaryBit>,
+    cycles: usize,
+}
+
+impl<'a> Settling<'a> {
+    /// A swarm before its first cycle, whose outputs are read over `window` cycles.
+    pub fn new(assembly: &'a Assembly, window: usize) -> Self {
+        let members = &assembly.members[..];
+        let clock = |member: &Member| member.robot.character.clock as usize + window - 1;
+        Self {
+            members,
+            clocks: members.iter().map(clock).collect(),
+            start: assembly.start_cycles(),
+            sensed: vec![([None; 2], 0); members.len()],
+            bits: vec![None; members.len()],
+            cycles: 0,
+        }
+    }
+
+    /// The number of cycles of these inputs after which every robot's output is correct and stays correct; `None` if
+    /// that is not certain after `most` cycles. The swarm is not changed.
+    pub fn cycles_to_settle(&self, inputs: &[bool], most: usize) -> Option<usize> {
+        let mut ahead = self.clone();
+        let mut settled = 1;
+        let longest = self.clocks.iter().copied().max().unwrap_or(1).max(self.start);
+        for cycle in 1..=most + longest {
+            let before = ahead.bits.clone();
+            ahead.advance(inputs);
+            if ahead.bits != before {
+                settled = cycle;
+            } else if ahead.is_at_rest() {
+                return (settled <= most).then_some(settled);
+            }
+        }
+        None
+    }
+
+    /// Holds inputs for some cycles.
+    pub fn hold(&mut self, inputs: &[bool], cycles: usize) {
+        (0..cycles).for_each(|_| self.advance(inputs));
+    }
+
+    /// The known output of each robot at the end of the last cycle.
+    pub fn bits(&self) -> &[Option<bool>] {
+        &self.bits
+    }
+
+    /// One cycle. In the first ones robots sense the start values of the others.
+    fn advance(&mut self, inputs: &[bool]) {
+        let starting = self.cycles < self.start;
+        let others: Vec<TernaryBit> = match starting {
+            true => self.members.iter().map(|member| Some(member.start)).collect(),
+            false => self.bits.clone(),
+        };
+        for (i, member) in self.members.iter().enumerate() {
+            let pattern = member.senses.map(|signal| signal.bit(inputs, &others));
+            let (before, held) = self.sensed[i];
+            let held = match pattern {
+                [Some(_), Some(_)] if pattern == before => held + 1,
+                [Some(_), Some(_)] => 1,
+                _ => 0,
+            };
+            self.sensed[i] = (pattern, held);
+            self.bits[i] = self.output(i, pattern, held);
+        }
+        self.cycles += 1;
+    }
+
+    /// The known output of a robot at the end of a cycle.
+    fn output(&self, robot: usize, pattern: [TernaryBit; 2], held: usize) -> TernaryBit {
+        let member = &self.members[robot];
+        let answer = answer(member.robot.function(), pattern);
+        let clock = self.clocks[robot];
+        let keeps = self.bits[robot] == answer && member.robot.character.glitch_rate == 0.0;
+        // In one cycle a robot may react to its stimuli of that cycle, whatever it sensed before.
+        let is_right = held >= clock || clock == 1 || keeps;
+        if self.cycles + 1 < self.start || !is_right { None } else { answer }
+    }
+
+    /// Whether every robot has sensed the same for as long as it needs. If its outputs were the same in the cycle
+    /// before, they stay.
+    fn is_at_rest(&self) -> bool {
+        self.cycles > self.start && self.sensed.iter().zip(&self.clocks).all(|((_, held), clock)| held >= clock)
+    }
+}

@@ -1,0 +1,34 @@
+//! A swarm in full physics from its start to the end of its stimulation.
+
+use crate::{Assembly, LiveSwarm, Room, SwarmTrace};
+use nbc_sim::Simulator;
+
+/// The conditions of a simulation: inputs, schedule, and how motion is read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exposure {
+    /// The input ports' bits in each cycle.
+    pub inputs: Vec<Vec<bool>>,
+    /// Cycles over which a displacement is measured; its sign is the output. The paper's is one.
+    pub window: usize,
+    /// The room for a recording of poses, if one is made.
+    pub poses: Option<Room>,
+}
+
+/// Simulates a swarm in its world through an exposure, calling `observe` with the number of finished cycles after each.
+///
+/// # Panics
+/// When a cycle's inputs are not as many as the assembly's, or the window is empty.
+pub fn simulate(
+    simulator: &Simulator,
+    assembly: &Assembly,
+    exposure: &Exposure,
+    observe: &mut dyn FnMut(usize),
+) -> SwarmTrace {
+    let Exposure { inputs, window, poses } = exposure;
+    let mut swarm = LiveSwarm::new(simulator, assembly, inputs.len(), *window, *poses);
+    for (cycle, inputs) in inputs.iter().enumerate() {
+        swarm.step(inputs);
+        observe(cycle + 1);
+    }
+    swarm.into_trace()
+}

@@ -1,0 +1,170 @@
+//! The simulation of a swarm as plain data: bodies, wires and inputs go in, the robots' bits come out.
+
+use crate::sensing::Sensing;
+use crate::{Assembly, CycleTrace, Exposure, Member, StimulusSource, SwarmTrace, simulate};
+use nbc_base::model::{Behavior, Body, Character, Column, PhysicsWorld, Provenance, Robot};
+use nbc_sim::Simulator;
+
+/// A swarm to be simulated: what its bits depend on, without names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SwarmTask {
+    /// The robots and their wiring.
+    pub assembly: Assembly,
+    /// The inputs of each cycle, and over how many cycles displacements are measured.
+    pub exposure: Exposure,
+}
+
+/// The output of each robot at the end of each cycle.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SwarmBits {
+    /// The cycles in order; fewer than those of the task if it was stopped.
+    pub cycles: Vec<Vec<bool>>,
+}
+
+/// What the bits of a swarm depend on in one of its robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlainMember {
+    /// Its voxels.
+    pub body: Body,
+    /// The clock of its character, in cycles.
+    pub clock: u32,
+    /// The sources of stimulus 1 and stimulus 2.
+    pub senses: [StimulusSource; 2],
+    /// Its output before the first cycle.
+    pub start: bool,
+}
+
+impl SwarmTask {
+    /// The simulation of a swarm under these bits of the input ports in each cycle, with displacements measured over
+    /// `window` cycles.
+    pub fn of(assembly: &Assembly, inputs: Vec<Vec<bool>>, window: usize) -> Self {
+        let plain = |member: &Member| PlainMember {
+            body: member.robot.body.clone(),
+            clock: member.robot.character.clock,
+            senses: member.senses,
+            start: member.start,
+        };
+        Self::new(assembly.members.iter().map(plain).collect(), assembly.world, inputs, window)
+    }
+
+    /// The simulation of these robots, with the bodies that they have in this world.
+    pub fn new(members: Vec<PlainMember>, world: PhysicsWorld, inputs: Vec<Vec<bool>>, window: usize) -> Self {
+        let width = inputs.first().map_or(0, Vec::len);
+        let ports = (width > 0).then(|| Column { name: String::new(), width });
+        let assembly = Assembly {
+            circuit: String::new(),
+            inputs: ports.into_iter().collect(),
+            members: members.into_iter().map(PlainMember::nameless).collect(),
+            outputs: Vec::new(),
+            shown: Vec::new(),
+            world,
+        };
+        Self { assembly, exposure: Exposure { inputs, window, poses: None } }
+    }
+
+    /// The number of robots.
+    pub fn robots(&self) -> usize {
+        self.assembly.members.len()
+    }
+
+    /// The number of cycles.
+    pub fn cycles(&self) -> usize {
+        self.exposure.inputs.len()
+    }
+}
+
+impl PlainMember {
+    /// The robot with nothing but what its simulation needs.
+    pub(super) fn nameless(self) -> Member {
+        let none = String::new;
+        let character = Character {
+            clock: self.clock,
+            switches: 0,
+            error_rate: 0.0,
+            glitch_rate: 0.0,
+            margin: 0.0,
+            topples: false,
+            settle: Vec::new(),
+            radius: None,
+        };
+        let provenance =
+            Provenance { program: none(), version: none(), evolution: none(), seed: 0, generation: 0, evaluations: 0 };
+        let behavior = Behavior::of(&[0.0; 4]);
+        let (name, displacement) = (none(), [0.0; 4]);
+        let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
+        Member { net: none(), robot, senses: self.senses, start: self.start }
+    }
+}
+
+impl SwarmBits {
+    /// Simulates a swarm.
+    pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
+        let trace = simulate(simulator, &task.assembly, &task.exposure, &mut |_| ());
+        Self { cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
+    }
+
+    /// The trace of the swarm through these inputs, without the paths of its robots.
+    ///
+    /// # Panics
+    /// When the bits belong to another swarm.
+    pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
+        let mut trace = SwarmTrace::begin(assembly);
+        let mut sensing = Sensing::of(assembly);
+        for (bits, inputs) in self.cycles.iter().zip(inputs) {
+            let sensed = sensing.sense(&trace, trace.cycles.len(), inputs);
+            sensing.take(trace.cycles.len(), bits);
+            let outputs = trace.shown.iter().map(|&signal| signal.bit(inputs, bits)).collect();
+            trace.cycles.push(CycleTrace { inputs: inputs.clone(), sensed, bits: bits.clone(), outputs });
+        }
+        trace
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::{Palette, WorldFactors, WorldNoise};
+
+    /// A latch of two robots, with a start value, in a world with everything that can go wrong.
+    fn latch() -> Assembly {
+        let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
+        let member = |net: &str, senses, start| Member {
+            net: net.to_owned(),
+            ..PlainMember { body: body.clone(), clock: 3, senses, start }.nameless()
+        };
+        let column = |name: &str| Column { name: name.to_owned(), width: 1 };
+        Assembly {
+            circuit: "latch".to_owned(),
+            inputs: vec![column("s"), column("r")],
+            members: vec![
+                member("q", [StimulusSource::Input(0), StimulusSource::Robot(1)], true),
+                member("nq", [StimulusSource::Robot(0), StimulusSource::Input(1)], false),
+            ],
+            outputs: vec![column("q"), column("s")],
+            shown: vec![StimulusSource::Robot(0), StimulusSource::Input(0)],
+            world: PhysicsWorld::default(),
+        }
+        .in_world(PhysicsWorld {
+            factors: WorldFactors { friction: 0.9, ..WorldFactors::default() },
+            noise: WorldNoise { start: 0.5, missed: 0.4, weak: 0.1, dead: 0.1, seed: 3 },
+        })
+    }
+
+    #[test]
+    fn the_trace_of_bits_is_that_of_the_swarm_without_paths() {
+        let (assembly, simulator) = (latch(), Simulator::default());
+        let inputs: Vec<Vec<bool>> = (0..6).map(|cycle| vec![cycle % 2 == 0, cycle > 2]).collect();
+        for window in [1, 2] {
+            let exposure = Exposure { inputs: inputs.clone(), window, poses: None };
+            let full = simulate(&simulator, &assembly, &exposure, &mut |_| ());
+            let bits = SwarmBits::simulate(&simulator, &SwarmTask::of(&assembly, inputs.clone(), window));
+            let trace = bits.trace(&assembly, &inputs);
+            assert_eq!((trace.cycles, trace.shown, trace.inputs), (full.cycles, full.shown, full.inputs));
+            let without_path = |robot: &crate::RobotTrace| {
+                let (com_x, fault) = (Vec::new(), None);
+                crate::RobotTrace { com_x, fault, ..robot.clone() }
+            };
+            assert_eq!(trace.robots, full.robots.iter().map(without_path).collect::<Vec<_>>());
+        }
+    }
+}

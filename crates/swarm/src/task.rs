@@ -1,0 +1,100 @@
+//! Work as plain data: what its result depends on and what comes out, wherever it is made.
+
+use std::sync::Arc;
+
+use crate::evolve::CandidateOutcome;
+use crate::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, SwarmBits, SwarmTask, Work};
+use nbc_base::model::{Behavior, Body, Fault, FaultKind};
+
+/// Work whose result depends on it alone.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Task {
+    /// The evaluation of a candidate of a search.
+    Evaluation(Arc<EvaluationProtocol>, EvaluationTask),
+    /// A body tried in short sequences as a gate with a behavior, with clocks of at most `most` cycles (see
+    /// [`screen`](crate::screen)).
+    Screening {
+        /// The body to be screened.
+        body: Body,
+        /// The behavior that it should have.
+        behavior: Behavior,
+        /// The slowest clock that is of use, in cycles.
+        most: u32,
+    },
+    /// All measurements of a body for its robot file (see [`measure`](crate::measure)).
+    Measurement(Body),
+    /// A swarm simulated through its inputs.
+    Swarm(SwarmTask),
+}
+
+/// The result of a task of the same kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TaskResult {
+    /// What the candidate is worth.
+    Evaluation(Evaluated),
+    /// The clock and the margin, if there is a clock without errors.
+    Screening(Result<Option<(u32, f64)>, Fault>),
+    /// The character of the body and its walk, unless it became unstable.
+    Measurement(Result<Measurement, Fault>),
+    /// What the robots showed.
+    Swarm(SwarmBits),
+}
+
+impl Task {
+    /// The result when the work is stopped.
+    pub fn stopped(&self) -> TaskResult {
+        let fault = Fault { env_step: 1, kind: FaultKind::Stopped };
+        match self {
+            Self::Evaluation(..) => {
+                let outcome = CandidateOutcome::Faulty(fault);
+                TaskResult::Evaluation(Evaluated { outcome, work: Work::default() })
+            }
+            Self::Screening { .. } => TaskResult::Screening(Err(fault)),
+            Self::Measurement(_) => TaskResult::Measurement(Err(fault)),
+            Self::Swarm(_) => TaskResult::Swarm(SwarmBits::default()),
+        }
+    }
+}
+
+impl TaskResult {
+    /// That of an evaluation.
+    ///
+    /// # Panics
+    /// When it is of another task, as in all methods here.
+    pub fn evaluated(self) -> Evaluated {
+        match self {
+            Self::Evaluation(evaluated) => evaluated,
+            other => panic!("{other:?} is not of an evaluation"),
+        }
+    }
+
+    /// That of a screening.
+    ///
+    /// # Errors
+    /// The fault of a simulation.
+    pub fn screened(self) -> Result<Option<(u32, f64)>, Fault> {
+        match self {
+            Self::Screening(screened) => screened,
+            other => panic!("{other:?} is not of a screening"),
+        }
+    }
+
+    /// That of a measurement.
+    ///
+    /// # Errors
+    /// The fault of a simulation.
+    pub fn measured(self) -> Result<Measurement, Fault> {
+        match self {
+            Self::Measurement(measured) => measured,
+            other => panic!("{other:?} is not of a measurement"),
+        }
+    }
+
+    /// That of a swarm.
+    pub fn bits(self) -> SwarmBits {
+        match self {
+            Self::Swarm(bits) => bits,
+            other => panic!("{other:?} is not of a swarm"),
+        }
+    }
+}

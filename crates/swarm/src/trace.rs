@@ -1,0 +1,141 @@
+//! The trace of a swarm: every robot's path, and every net's bit in every cycle.
+
+use serde::Serialize;
+
+use crate::{Assembly, Member, Recording, StimulusSource};
+use nbc_base::model::{Column, Fault, Function, Value};
+
+/// A swarm's run from its start to the end of its stimulation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SwarmTrace {
+    /// The circuit's name.
+    pub circuit: String,
+    /// The input ports.
+    pub inputs: Vec<Column>,
+    /// The output ports.
+    pub outputs: Vec<Column>,
+    /// The source of each bit of the output ports.
+    pub shown: Vec<StimulusSource>,
+    /// Samples of the robots' paths in one cycle.
+    pub samples_per_cycle: usize,
+    /// The robots, in order of the assembly's members.
+    pub robots: Vec<RobotTrace>,
+    /// The cycles, first to last.
+    pub cycles: Vec<CycleTrace>,
+    /// The recorded poses of its robots, if requested.
+    #[serde(skip)]
+    pub recording: Recording,
+}
+
+/// One robot's part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RobotTrace {
+    /// The net whose bit it is.
+    pub net: String,
+    /// The gate it plays, of `senses[0]` and `senses[1]`.
+    #[serde(serialize_with = "as_text")]
+    pub function: Function,
+    /// The robot's name in its library.
+    pub robot: String,
+    /// The sources of stimulus 1 and stimulus 2.
+    pub senses: [StimulusSource; 2],
+    /// The names of the nets it senses, likewise.
+    pub sensed_nets: [String; 2],
+    /// Horizontal place of the center of mass in voxels: the start, then `samples_per_cycle` samples a cycle.
+    pub com_x: Vec<f64>,
+    /// The fault that stopped it, if any; from then on it stands still.
+    pub fault: Option<Fault>,
+}
+
+/// The bits of one cycle.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CycleTrace {
+    /// The bits of the input ports during the cycle.
+    pub inputs: Vec<bool>,
+    /// The stimuli of each robot during the cycle, stimulus 1 first.
+    pub sensed: Vec<[bool; 2]>,
+    /// Each robot's output at the cycle's end.
+    pub bits: Vec<bool>,
+    /// The bits of the output ports at the cycle's end.
+    pub outputs: Vec<bool>,
+}
+
+impl SwarmTrace {
+    /// Samples of a robot's path that a trace keeps of each cycle.
+    pub(super) const SAMPLES_PER_CYCLE: usize = 12;
+
+    /// The trace before the first cycle, without the places of the robots.
+    pub(super) fn begin(assembly: &Assembly) -> Self {
+        let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
+        let net_name = |signal| match signal {
+            StimulusSource::Input(i) => inputs[i].clone(),
+            StimulusSource::Robot(i) => assembly.members[i].net.clone(),
+            StimulusSource::Constant(value) => u8::from(value).to_string(),
+        };
+        let robot = |member: &Member| RobotTrace {
+            net: member.net.clone(),
+            function: member.robot.function(),
+            robot: member.robot.name.clone(),
+            senses: member.senses,
+            sensed_nets: member.senses.map(net_name),
+            com_x: Vec::new(),
+            fault: None,
+        };
+        Self {
+            circuit: assembly.circuit.clone(),
+            inputs: assembly.inputs.clone(),
+            outputs: assembly.outputs.clone(),
+            shown: assembly.shown.clone(),
+            samples_per_cycle: Self::SAMPLES_PER_CYCLE,
+            robots: assembly.members.iter().map(robot).collect(),
+            cycles: Vec::new(),
+            recording: Recording::default(),
+        }
+    }
+
+    /// The values of the input ports during a cycle.
+    pub fn input_values(&self, cycle: usize) -> Vec<Value> {
+        Value::of_ports(&self.inputs, self.cycles[cycle].inputs.iter().copied().map(Some), &[])
+    }
+
+    /// Forgets the first cycles. Recorded poses stay.
+    pub fn forget_first(&mut self, cycles: usize) {
+        self.cycles.drain(..cycles);
+        for robot in &mut self.robots {
+            robot.com_x.drain(..cycles * self.samples_per_cycle);
+        }
+    }
+
+    /// Voxels that robot `k` walked in a cycle.
+    pub fn displacement(&self, k: usize, cycle: usize) -> f64 {
+        let path = &self.robots[k].com_x;
+        path[(cycle + 1) * self.samples_per_cycle] - path[cycle * self.samples_per_cycle]
+    }
+
+    /// All robots, the most interesting first: those shown by outputs, those of named nets (outer ones before those
+    /// inside circuits), then the others.
+    pub fn by_interest(&self) -> Vec<usize> {
+        let rank = |robot: usize| {
+            let net = &self.robots[robot].net;
+            let is_shown = self.shown.contains(&StimulusSource::Robot(robot));
+            (!is_shown, is_unnamed(net), net.matches('/').count())
+        };
+        let mut robots: Vec<usize> = (0..self.robots.len()).collect();
+        robots.sort_by_key(|&robot| rank(robot));
+        robots
+    }
+
+    /// The values of the output ports at the end of a cycle.
+    pub fn output_values(&self, cycle: usize) -> Vec<Value> {
+        Value::of_ports(&self.outputs, self.cycles[cycle].outputs.iter().copied().map(Some), &[])
+    }
+}
+
+/// Whether a net has a compiler-made name: `n` and a number.
+fn is_unnamed(net: &str) -> bool {
+    net.strip_prefix('n').is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+fn as_text<S: serde::Serializer>(value: &impl std::fmt::Display, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(value)
+}

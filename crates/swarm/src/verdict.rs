@@ -1,0 +1,96 @@
+//! The verdict of a test as plain data for text, JSON and pages, at the level of logic and in physics.
+
+use serde::Serialize;
+
+use crate::WeakRobot;
+use nbc_base::model::{Column, Value};
+
+/// The level of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// Gates.
+    Logic,
+    /// Robots.
+    Physics,
+}
+
+impl Level {
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Logic => "logic",
+            Self::Physics => "physics",
+        }
+    }
+}
+
+/// The verdict of a test.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TestVerdict {
+    /// The file of the test.
+    pub file: String,
+    /// The line at which the test is declared.
+    pub line: usize,
+    /// The circuit under test.
+    pub circuit: String,
+    /// The test's title; empty if it has none.
+    pub title: String,
+    /// The declared swarm, if it is one.
+    pub swarm: Option<String>,
+    /// Whether robots were simulated or only logic.
+    pub level: Level,
+    /// Whether all rows passed.
+    pub passed: bool,
+    /// The input ports.
+    pub inputs: Vec<Column>,
+    /// The output ports.
+    pub outputs: Vec<Column>,
+    /// Robots of the swarm with errors or a thin margin.
+    pub weak_robots: Vec<WeakRobot>,
+    /// The rows in order.
+    pub rows: Vec<RowVerdict>,
+}
+
+/// The verdict of a test's row.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct RowVerdict {
+    /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
+    pub row: usize,
+    /// Its line in the source.
+    pub line: usize,
+    /// The values of the input ports.
+    pub inputs: Vec<Value>,
+    /// The expected values of the output ports.
+    pub expected: Vec<Value>,
+    /// The values of the output ports at the end of the row.
+    pub observed: Vec<Value>,
+    /// For each output port, whether it was steady: over the last two cycles in physics, forever at the level of logic.
+    pub steady: Vec<bool>,
+    /// Cycles for which the row was held; none at the level of logic.
+    pub cycles: Option<usize>,
+    /// Cycles for which `hold: auto` would hold it; none at the level of logic.
+    pub needed: Option<usize>,
+    /// Whether every checked output had its expected value and kept it.
+    pub passed: bool,
+    /// If the row failed: robots that were wrong although their stimuli had been stable for at least their clock.
+    pub lapses: Vec<Lapse>,
+    /// If the row failed: robots that were wrong in its last cycle and whose stimuli had been stable for less than
+    /// their clock.
+    pub late: Vec<Lapse>,
+}
+
+/// A robot whose output was not its function of its stimuli.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Lapse {
+    /// The net with the wrong bit.
+    pub net: String,
+    /// The robot's name.
+    pub robot: String,
+    /// The cycle, from 0 at the test's start.
+    pub cycle: usize,
+    /// Its stimuli.
+    pub sensed: [bool; 2],
+    /// The bit that the robot showed.
+    pub output: bool,
+}
