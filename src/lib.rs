@@ -321,7 +321,7 @@ pub use nbc_session::read_schedule;
 /// report.assert_passed();
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
-pub use nbc_session::RunReport;
+pub use nbc_session::{RunList, RunReport};
 
 /// ```no_run
 /// nbc::run_file("circuits/latch.nb", &nbc::CompileOptions::default())?.assert_passed();

@@ -150,7 +150,9 @@ impl Program {
         let options = compiling.options(py, &self.session, &watch)?;
         let (session, checked) = (self.session.clone(), self.checked.clone());
         let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
-            let report = session.run_checked(&checked, &options, &mut watch.observer());
+            let list = nbc::RunList::all(&checked.program);
+            let options = TestOptions { level: Some(Level::Physics), compile: options };
+            let report = session.run_list(&checked, &list, &options, &mut watch.observer());
             report.map(|report| (report.page(&checked.path, crate::bodies::scheme(safe_colors)), report))
         })?;
         let records = |(page, report): (String, RunReport)| {

@@ -1,7 +1,6 @@
 //! `nbc explain`: the page of a diagnostic's code.
 
 use clap::Args;
-use include_dir::{Dir, include_dir};
 use serde_json::json;
 
 use crate::cli::wording::UsageError;
@@ -9,9 +8,6 @@ use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::diag::{Code, Suggestion};
 use nbc_lang::check::PRELUDE;
 use nbc_session::report::Schema;
-
-/// The pages, one for each code.
-static PAGES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs/errors");
 
 /// Explain an error code, or print the declarations available to every program
 #[derive(Args)]
@@ -46,7 +42,7 @@ impl ExplainArguments {
             let meant = Suggestion::near(&word, Code::ALL.iter().map(|code| code.word()));
             return Err(UsageError::UnknownCode { word, meant }.into());
         };
-        let page = page(*code);
+        let page = nbc_session::error_page(*code);
         match context.format {
             OutputFormat::Json => context.print_json(
                 Schema::Explain,
@@ -58,11 +54,6 @@ impl ExplainArguments {
         }
         Ok(Status::Done)
     }
-}
-
-pub(super) fn page(code: Code) -> &'static str {
-    let file = PAGES.get_file(format!("{code}.md")).expect("every code has its page");
-    file.contents_utf8().expect("pages are text")
 }
 
 fn list(context: &mut Context) -> Result<Status, Failure> {
@@ -79,17 +70,4 @@ fn list(context: &mut Context) -> Result<Status, Failure> {
         context.print(format_args!("{code:width$}  {}\n", code.meaning()))?;
     }
     Ok(Status::Done)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_code_has_its_page_and_every_page_its_code() {
-        for code in Code::ALL {
-            assert!(page(*code).starts_with(&format!("# `{code}`\n")), "the page of `{code}` begins with its name");
-        }
-        assert_eq!(PAGES.files().count(), Code::ALL.len(), "pages without a code");
-    }
 }

@@ -7,7 +7,9 @@ use std::path::Path;
 use crate::cli::wording::DeviceFailure;
 #[cfg(not(feature = "gpu"))]
 use crate::cli::wording::NoDevices;
-use crate::cli::wording::{ClusterError, DrawError, PlayError, ServerError, SubjectError, UsageError};
+#[cfg(not(feature = "play"))]
+use crate::cli::wording::NoPage;
+use crate::cli::wording::{ClusterError, DrawError, SubjectError, UsageError};
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_base::source::Sources;
 
@@ -79,14 +81,22 @@ impl From<NoDevices> for Failure {
     }
 }
 
-impl From<PlayError> for Failure {
-    fn from(error: PlayError) -> Self {
+#[cfg(feature = "play")]
+impl From<nbc_play::PlayError> for Failure {
+    fn from(error: nbc_play::PlayError) -> Self {
         Self::plain(error.into())
     }
 }
 
-impl From<ServerError> for Failure {
-    fn from(error: ServerError) -> Self {
+#[cfg(not(feature = "play"))]
+impl From<NoPage> for Failure {
+    fn from(error: NoPage) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+impl From<nbc_lsp::ServerError> for Failure {
+    fn from(error: nbc_lsp::ServerError) -> Self {
         Self::plain(error.into())
     }
 }

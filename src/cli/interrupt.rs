@@ -8,10 +8,9 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use crate::cli::Status;
-use crate::cli::cancellable::Cancellable;
 use nbc_circuit::CancelFlag;
-use nbc_session::Observer;
 use nbc_session::store::{DiskWorld, GuardedWorld};
+use nbc_session::{Cancellable, Observer};
 
 /// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,6 @@
 
 mod bench;
 mod build;
-mod cancellable;
 mod check;
 #[cfg(feature = "cluster")]
 mod cluster;

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use clap::Args;
 
-use crate::cli::wording::PlayError;
+use crate::cli::wording::NoPage;
 use crate::cli::{Context, Failure, Status};
 
 /// Show robots live in a browser (not in this build)
@@ -23,6 +23,6 @@ impl NoPlayArguments {
     /// Always.
     pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
         let _ = self.rest;
-        Err(PlayError::NotBuilt.into())
+        Err(NoPage.into())
     }
 }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::cancellable::{complete_simulation, complete_test};
 use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::OpenDevice;
 use crate::cli::mapping::GoalArguments;
@@ -14,12 +13,13 @@ use crate::cli::timings::{Chore, Timings};
 use crate::cli::wording::SubjectError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{CircuitTest, Simulation};
 use nbc_session::report::{
     self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
 };
 use nbc_session::store::{self, ResultPlace};
-use nbc_session::{Checked, CompileOptions, RUNS, Session, SimulationRun, SwarmRun, TestOptions, TestRun};
+use nbc_session::{
+    Checked, CompileOptions, RUNS, RunList, RunReport, Session, SimulationRun, SwarmRun, TestOptions, TestRun,
+};
 use nbc_swarm::{Level, Room};
 
 /// Run the tests and simulations of a file in physics, with pictures and a report
@@ -71,6 +71,12 @@ struct Drawn<'a> {
 }
 
 impl Ran {
+    /// All results of a report, in their order.
+    pub(super) fn all(report: RunReport) -> Vec<Self> {
+        let simulations = report.simulations.into_iter().map(Self::Simulation);
+        report.tests.into_iter().map(Self::Test).chain(simulations).collect()
+    }
+
     pub(super) fn swarm(&self) -> &SwarmRun {
         match self {
             Self::Test(run) => run.swarm.as_ref().expect("the test was run in physics"),
@@ -109,22 +115,17 @@ impl RunArguments {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             file => file?,
         };
-        let (tests, simulations) = self.chosen(&file)?;
+        let list = self.chosen(&file)?;
         let folder = self.folder();
         folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
-        let options = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
-        let all = tests.len() + simulations.len();
-        let mut runs = Vec::new();
-        for test in tests {
-            runs.extend(run_test(&session, &file, test, &options, &interrupt)?.into_iter().map(Ran::Test));
-        }
-        for simulation in simulations {
-            runs.extend(run_simulation(&session, &file, simulation, &options, &interrupt)?.map(Ran::Simulation));
-        }
+        let compile = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
+        let report = run_list(&session, &file, &list, compile, &interrupt)?;
         device.end(context)?;
+        let (all, left) = (list.len(), report.left);
+        let runs = Ran::all(report);
         context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
         if interrupt.is_raised() {
-            context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", runs.len()));
+            context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", all - left));
             if runs.is_empty() {
                 return Ok(Status::Interrupted);
             }
@@ -136,16 +137,13 @@ impl RunArguments {
     }
 
     /// The requested tests and simulations.
-    fn chosen<'f>(&'f self, file: &'f Checked) -> Result<(Vec<&'f CircuitTest>, Vec<&'f Simulation>), Failure> {
+    fn chosen<'f>(&'f self, file: &'f Checked) -> Result<RunList<'f>, Failure> {
         let only = self.only.as_deref();
-        let (tests, simulations): (Vec<_>, Vec<_>) = match only {
-            Some(name) => (file.tests(name).collect(), file.simulations(name).collect()),
-            None => (file.program.tests.iter().collect(), file.program.simulations.iter().collect()),
+        let list = match only {
+            Some(name) => RunList { tests: file.tests(name).collect(), simulations: file.simulations(name).collect() },
+            None => RunList::all(&file.program),
         };
-        if tests.is_empty() && simulations.is_empty() {
-            return Err(nothing_to_run(file, only).into());
-        }
-        Ok((tests, simulations))
+        if list.is_empty() { Err(nothing_to_run(file, only).into()) } else { Ok(list) }
     }
 
     fn folder(&self) -> ResultPlace {
@@ -211,30 +209,17 @@ pub(super) fn names_of_tests(file: &Checked) -> BTreeSet<String> {
     tests.iter().map(|test| test.circuit.to_string()).chain(titles).collect()
 }
 
-/// Runs a test in physics, once for each swarm of its circuit, or only as the swarm that is chosen. Runs that a signal
-/// ended are left out.
-pub(super) fn run_test(
+/// Runs tests and simulations in physics, with a bar.
+pub(super) fn run_list(
     session: &Session,
     file: &Checked,
-    test: &CircuitTest,
-    options: &CompileOptions,
+    list: &RunList<'_>,
+    compile: CompileOptions,
     interrupt: &Interrupt,
-) -> Result<Vec<TestRun>, Failure> {
+) -> Result<RunReport, Failure> {
     let bar = Progress::new("simulating", 0);
-    let options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
-    Ok(complete_test(session, file, test, &options, &mut interrupt.observe(bar.whole()))?)
-}
-
-/// Runs a simulation; `None` if a signal ended it.
-pub(super) fn run_simulation(
-    session: &Session,
-    file: &Checked,
-    simulation: &Simulation,
-    options: &CompileOptions,
-    interrupt: &Interrupt,
-) -> Result<Option<SimulationRun>, Failure> {
-    let bar = Progress::new("simulating", 0);
-    Ok(complete_simulation(session, file, simulation, options, &mut interrupt.observe(bar.whole()))?)
+    let options = TestOptions { level: Some(Level::Physics), compile };
+    Ok(session.run_list(file, list, &options, &mut interrupt.observe(bar.whole()))?)
 }
 
 /// The names of the runs' files: the circuit's, with the swarm's if a test has several, and a number for repeated

@@ -33,49 +33,16 @@ pub(in crate::cli) enum UsageError {
     Setting(SettingError),
 }
 
-/// A client of the language server that breaks the protocol.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::cli) enum ServerError {
-    /// What is wrong.
-    Protocol(String),
-}
+/// A live page asked for in a program that was built without it.
+#[cfg(not(feature = "play"))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::cli) struct NoPage;
 
-impl From<ServerError> for Diagnostic {
-    fn from(error: ServerError) -> Self {
-        let ServerError::Protocol(reason) = error;
-        let message = format!("the client does not speak the Language Server Protocol: {reason}");
-        Self::without_place(Code::Unreadable, message)
-            .with_help("editors start `nbc lsp` themselves: see docs/editors.md")
-    }
-}
-
-/// A page that cannot be served.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(not(feature = "play"), expect(dead_code, reason = "only some builds can serve"))]
-pub(in crate::cli) enum PlayError {
-    /// A program that was built without the server.
-    #[cfg(not(feature = "play"))]
-    NotBuilt,
-    /// An address at which nothing can listen.
-    Address { host: String, port: u16, reason: String },
-    /// A file that cannot be found.
-    File { path: String, reason: String },
-}
-
-impl From<PlayError> for Diagnostic {
-    fn from(error: PlayError) -> Self {
-        match error {
-            #[cfg(not(feature = "play"))]
-            PlayError::NotBuilt => Self::without_place(Code::BadValue, "this program was built without the live page")
-                .with_help("build it with `cargo build --release`, whose default features include `play`"),
-            PlayError::Address { host, port, reason } => {
-                let message = format!("cannot listen at {host}, port {port}: {reason}");
-                Self::without_place(Code::BadValue, message).with_help("`--port 0` takes any free port")
-            }
-            PlayError::File { path, reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {reason}"))
-            }
-        }
+#[cfg(not(feature = "play"))]
+impl From<NoPage> for Diagnostic {
+    fn from(_: NoPage) -> Self {
+        Self::without_place(Code::BadValue, "this program was built without the live page")
+            .with_help("build it with `cargo build --release`, whose default features include `play`")
     }
 }
 

@@ -1,8 +1,15 @@
 //! Progress and cancellation of long work.
 
+use nbc_circuit::CancelFlag;
+
 /// Follows long work. A door implements it for its bar, its page or its protocol. `()` ignores progress, and a closure
 /// receives it.
 pub trait Observer {
+    /// One of several tests and simulations begins, counted from 0; the progress that follows is its own.
+    fn begin(&mut self, part: usize, parts: usize) {
+        let _ = (part, parts);
+    }
+
     /// `done` parts of `all` are done.
     fn progress(&mut self, done: u64, all: u64) {
         let _ = (done, all);
@@ -19,5 +26,40 @@ impl Observer for () {}
 impl<F: FnMut(u64, u64)> Observer for F {
     fn progress(&mut self, done: u64, all: u64) {
         self(done, all);
+    }
+}
+
+/// An observer that hands on the progress, and stops the work when the flag is raised.
+pub struct Cancellable<F> {
+    /// The request to stop.
+    pub cancel: CancelFlag,
+    /// Receives the progress.
+    pub progress: F,
+}
+
+impl<F: FnMut(u64, u64)> Observer for Cancellable<F> {
+    fn progress(&mut self, done: u64, all: u64) {
+        (self.progress)(done, all);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancel.is_raised()
+    }
+}
+
+/// Follows one of several cases of a test, of which `before` is done of `all`.
+pub(super) struct CaseObserver<'a> {
+    pub(super) whole: &'a mut dyn Observer,
+    pub(super) before: u64,
+    pub(super) all: u64,
+}
+
+impl Observer for CaseObserver<'_> {
+    fn progress(&mut self, done: u64, _: u64) {
+        self.whole.progress(self.before + done, self.all);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.whole.is_cancelled()
     }
 }

@@ -11,7 +11,8 @@ use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
 use crate::{
-    Checked, CompileOptions, Compiled, Formatted, Mapping, RunReport, compile, formatted, plan, store, swarm_run,
+    Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, run, store,
+    swarm_run,
 };
 use nbc_base::diag::Diagnostics;
 use nbc_base::model::{CircuitTest, Instance, Library, RegisterStyle, Simulation};
@@ -212,7 +213,7 @@ impl Session {
     /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
     ///
     /// # Errors
-    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
+    /// As [`Session::cases`]. A test that fails is no error, and a run that is cancelled is left out.
     pub fn test(
         &self,
         checked: &Checked,
@@ -220,8 +221,7 @@ impl Session {
         options: &TestOptions,
         observer: &mut dyn Observer,
     ) -> Result<Vec<TestRun>, Diagnostics> {
-        let cases = self.cases(checked, test, options)?;
-        Ok(cases.into_iter().map(|case| self.run_case(case, observer)).collect())
+        Ok(run::run_test(self, checked, test, options, observer)?.0)
     }
 
     /// Runs a declared simulation in physics.
@@ -261,28 +261,22 @@ impl Session {
         observer: &mut dyn Observer,
     ) -> Result<RunReport, Diagnostics> {
         let checked = self.open(path)?;
-        self.run_checked(&checked, options, observer)
+        let options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
+        self.run_list(&checked, &RunList::all(&checked.program), &options, observer)
     }
 
-    /// Runs every test and every simulation of a checked source in physics.
+    /// Runs tests and simulations of a checked source, in order. Tests run at the level of the options.
     ///
     /// # Errors
-    /// When its circuits cannot be compiled. A test that fails is no error.
-    pub fn run_checked(
+    /// When a circuit cannot be compiled. A test that fails is no error, and what is cancelled is left out.
+    pub fn run_list(
         &self,
         checked: &Checked,
-        options: &CompileOptions,
+        list: &RunList<'_>,
+        options: &TestOptions,
         observer: &mut dyn Observer,
     ) -> Result<RunReport, Diagnostics> {
-        let test_options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
-        let mut report = RunReport { tests: Vec::new(), simulations: Vec::new() };
-        for test in &checked.program.tests {
-            report.tests.extend(self.test(checked, test, &test_options, observer)?);
-        }
-        for simulation in &checked.program.simulations {
-            report.simulations.push(self.simulate(checked, simulation, options, observer)?);
-        }
-        Ok(report)
+        run::run(self, checked, list, options, observer)
     }
 }
 

@@ -1,13 +1,13 @@
 //! The circuit of a source file to be drawn, and the run of its swarm.
 
 use crate::cli::draw::order::Order;
-use crate::cli::run::{Ran, names_of_tests, run_simulation, run_test};
+use crate::cli::run::{Ran, names_of_tests, run_list};
 use crate::cli::wording::DrawError;
 use crate::cli::{Failure, Interrupt};
 use nbc_base::model::{CircuitTest, Instance};
 use nbc_circuit::is_same_instance;
 use nbc_session::store::DiskWorld;
-use nbc_session::{Checked, CompileOptions, Compiled, Session};
+use nbc_session::{Checked, CompileOptions, Compiled, RunList, Session};
 use nbc_swarm::Room;
 
 impl Order {
@@ -47,8 +47,7 @@ impl Order {
         if let Some(test) = test {
             let clear = nbc_session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
             clear.map_err(Failure::plain)?;
-            let runs = run_test(&session, &file, test, &options, &Interrupt::default())?;
-            return Ok(Ran::Test(runs.into_iter().next().expect("nothing interrupts it")));
+            return run_one(&session, &file, &RunList { tests: vec![test], ..RunList::default() }, options);
         }
         let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");
         let simulation = program.simulations.iter().find(|simulation| {
@@ -57,8 +56,8 @@ impl Order {
         });
         match simulation {
             Some(simulation) => {
-                let run = run_simulation(&session, &file, simulation, &options, &Interrupt::default())?;
-                Ok(Ran::Simulation(run.expect("nothing interrupts it")))
+                let list = RunList { simulations: vec![simulation], ..RunList::default() };
+                run_one(&session, &file, &list, options)
             }
             None => {
                 let what = chosen.map_or_else(|| self.what.clone(), |circuit| circuit.to_string());
@@ -66,6 +65,12 @@ impl Order {
             }
         }
     }
+}
+
+/// The first run of a list.
+fn run_one(session: &Session, file: &Checked, list: &RunList<'_>, options: CompileOptions) -> Result<Ran, Failure> {
+    let report = run_list(session, file, list, options, &Interrupt::default())?;
+    Ok(Ran::all(report).into_iter().next().expect("nothing interrupts it"))
 }
 
 /// The first test of that title or circuit.

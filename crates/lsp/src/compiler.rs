@@ -1,0 +1,143 @@
+//! Compiles on a thread of its own, so that diagnostics never wait for it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Weak};
+use std::thread;
+
+use crossbeam_channel::{Receiver, Sender, unbounded};
+
+use crate::figures::{Figures, Subject};
+use nbc_base::source::SharedWorld;
+use nbc_circuit::CancelFlag;
+use nbc_session::{Checked, Session};
+
+/// A subject of a source.
+type Key = (String, Subject);
+
+/// The most figures that are kept.
+const MOST: usize = 4096;
+
+/// What is known, and the thread that finds out more.
+pub(super) struct Compiler {
+    jobs: Sender<Job>,
+    results: Receiver<Compilation>,
+    /// Keeps the channel of results open.
+    _outbox: Sender<Compilation>,
+    known: BTreeMap<Key, (Weak<Checked>, Option<Figures>)>,
+    /// What the thread has not yet done.
+    asked: BTreeSet<Key>,
+    /// What ends the jobs that are not yet done, by their sources.
+    flags: Vec<(Weak<Checked>, CancelFlag)>,
+}
+
+/// A subject of a source that may have changed since.
+struct Job {
+    checked: Weak<Checked>,
+    key: Key,
+    cancel: CancelFlag,
+}
+
+/// A job that is done; without a source if it was stale.
+pub(super) struct Compilation {
+    checked: Weak<Checked>,
+    key: Key,
+    figures: Option<Figures>,
+}
+
+/// What is known of a subject.
+pub(super) enum FigureState<'a> {
+    /// It is being compiled.
+    NotYet,
+    /// The figures; `None` if it cannot be compiled.
+    Done(Option<&'a Figures>),
+}
+
+impl Compiler {
+    pub(super) fn start(world: SharedWorld) -> Self {
+        let (jobs, inbox) = unbounded();
+        let (outbox, results) = unbounded();
+        // It ends with the channel of jobs.
+        let results_to = outbox.clone();
+        thread::spawn(move || work(world, &inbox, &results_to));
+        Self { jobs, results, _outbox: outbox, known: BTreeMap::new(), asked: BTreeSet::new(), flags: Vec::new() }
+    }
+
+    /// The jobs that are done.
+    pub(super) fn results(&self) -> &Receiver<Compilation> {
+        &self.results
+    }
+
+    /// What is known of a subject; what is not known will be.
+    pub(super) fn ask(&mut self, checked: &Arc<Checked>, subject: &Subject) -> FigureState<'_> {
+        let key = (checked.path.clone(), subject.clone());
+        if checked.has_errors() {
+            return FigureState::Done(None);
+        }
+        let is_known = self.known.get(&key).is_some_and(|(of, _)| is_same(of, checked));
+        if is_known {
+            return FigureState::Done(self.known[&key].1.as_ref());
+        }
+        if self.asked.insert(key.clone()) {
+            let cancel = CancelFlag::default();
+            self.flags.push((Arc::downgrade(checked), cancel.clone()));
+            let _ = self.jobs.send(Job { checked: Arc::downgrade(checked), key, cancel });
+        }
+        FigureState::NotYet
+    }
+
+    /// The figures of a subject that was asked for; `None` if it is still being compiled.
+    pub(super) fn known(&self, path: &str, subject: &Subject) -> Option<Option<&Figures>> {
+        let key = (path.to_owned(), subject.clone());
+        if self.asked.contains(&key) { None } else { Some(self.known.get(&key).and_then(|(_, found)| found.as_ref())) }
+    }
+
+    /// Keeps the figures of a job that is done.
+    pub(super) fn keep(&mut self, done: Compilation) {
+        let Compilation { checked, key, figures } = done;
+        self.asked.remove(&key);
+        if self.asked.is_empty() {
+            self.flags.clear();
+        }
+        if self.known.len() >= MOST {
+            self.known.retain(|_, (of, _)| of.strong_count() > 0);
+        }
+        self.known.insert(key, (checked, figures));
+    }
+
+    /// Ends the jobs of sources that have changed: those that nobody holds any more but the thread.
+    pub(super) fn cancel_stale(&mut self) {
+        self.flags.retain(|(checked, flag)| {
+            let is_stale = checked.strong_count() <= 1;
+            if is_stale {
+                flag.raise();
+            }
+            !is_stale
+        });
+    }
+
+    /// Whether nothing is being compiled.
+    pub(super) fn is_idle(&self) -> bool {
+        self.asked.is_empty()
+    }
+}
+
+fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
+    std::ptr::eq(of.as_ptr(), Arc::as_ptr(checked))
+}
+
+/// Does one job after another. A source that nobody holds any more has changed, and its jobs are stale.
+fn work(world: SharedWorld, jobs: &Receiver<Job>, results: &Sender<Compilation>) {
+    let session = Session::new(world);
+    for Job { checked, key, cancel } in jobs {
+        // A bug in compiling one circuit must not end the thread.
+        let compile = |checked: Arc<Checked>| {
+            catch_unwind(AssertUnwindSafe(|| key.1.compile(&session, &checked, &cancel))).unwrap_or_default()
+        };
+        // A compilation that was cancelled may have more robots than needed.
+        let figures = checked.upgrade().and_then(compile).filter(|_| !cancel.is_raised());
+        if results.send(Compilation { checked, key, figures }).is_err() {
+            return;
+        }
+    }
+}

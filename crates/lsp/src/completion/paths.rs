@@ -1,0 +1,58 @@
+//! Paths of files and folders, between quotes.
+
+use std::fs::{self, DirEntry};
+
+use gen_lsp_types::{CompletionItem, CompletionItemKind, TextEdit};
+
+use crate::completion::item::item;
+use crate::spot::Spot;
+use nbc_base::source::Span;
+use nbc_lang::check::{beside, is_usable};
+
+/// What a path leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PathKind {
+    /// A file that a program can use.
+    Source,
+    Folder,
+}
+
+/// The most entries of a folder that are offered.
+const MOST: usize = 1000;
+
+/// What the name at a place may be, in a path that begins at the byte `start`. A folder may lead to more.
+pub(super) fn items(spot: &Spot<'_>, start: usize, kind: PathKind) -> Vec<CompletionItem> {
+    let typed = &spot.text()[start..spot.offset];
+    let (folder, name) = typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1));
+    let own = &spot.files.checked.sources.file(spot.file).name;
+    let place = Span::new(spot.file, spot.offset - name.len(), spot.offset);
+    let offer = |(label, kind): (String, CompletionItemKind)| {
+        let edit = TextEdit { range: spot.files.range(place), new_text: label.clone() };
+        let detail = if kind == CompletionItemKind::Folder { "folder" } else { "file" };
+        CompletionItem { text_edit: Some(edit.into()), ..item(&label, kind, detail) }
+    };
+    let is_own = |label: &str| beside(own, &format!("{folder}{label}")) == *own;
+    let listed = match (beside(own, if folder.is_empty() { "." } else { folder }), own.starts_with('/')) {
+        (path, _) if !path.is_empty() => entries(&path, kind),
+        (_, true) => entries("/", kind),
+        (_, false) => entries(".", kind),
+    };
+    let shown = listed.into_iter().filter(|(label, _)| label.starts_with('.') <= name.starts_with('.'));
+    shown.filter(|(label, _)| !is_own(label)).map(offer).collect()
+}
+
+/// The entries of a folder that are or contain what is wanted, in order.
+fn entries(folder: &str, kind: PathKind) -> Vec<(String, CompletionItemKind)> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().take(MOST);
+    let mut found: Vec<_> = entries.filter_map(|entry| labeled(&entry, kind)).collect();
+    found.sort_by(|(one, _), (other, _)| one.cmp(other));
+    found
+}
+
+fn labeled(entry: &DirEntry, kind: PathKind) -> Option<(String, CompletionItemKind)> {
+    let name = entry.file_name().into_string().ok().filter(|name| !name.contains('"'))?;
+    if entry.path().is_dir() {
+        return Some((name + "/", CompletionItemKind::Folder));
+    }
+    (kind == PathKind::Source && is_usable(&name)).then_some((name, CompletionItemKind::File))
+}

@@ -1,0 +1,280 @@
+//! Where in a declaration a place is, read from the tokens before it, because a text that is being written seldom
+//! parses.
+
+use std::ops::Range;
+
+use crate::completion::fields;
+use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
+
+/// A place in a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Place<'t> {
+    /// Between declarations.
+    Outside,
+    /// Where the name of a new thing is written.
+    NewName,
+    /// Where a unit is expected after a number, or `for` a time.
+    Unit,
+    /// Where a field of a record is expected.
+    Field(&'t str),
+    /// In the value of a field of a record.
+    Value(&'t str, &'t str),
+    /// Where a field of the record is expected that is the value of this field.
+    Inside(&'t str),
+    /// At the start of a statement.
+    Statement,
+    /// Where a value is expected in an expression.
+    Operand,
+    /// After a value in an expression.
+    Infix,
+    /// In a width, an index or the parameters of a call.
+    Size,
+    /// Where a circuit is named: by a test, or after `against`.
+    Circuit,
+    /// In the header of a test of the circuit of that name, or of the columns of a simulation of that swarm.
+    Columns(&'t str),
+    /// In a row of a test, a spell of a schedule.
+    Row,
+    /// Where a test or a simulation names its world.
+    World,
+    /// Where a simulation names its swarm, and its schedule.
+    Swarm,
+    Schedule,
+    /// Where a schedule lists its stimuli.
+    Stimulus,
+    /// Where a file is named that is used.
+    UsedFile,
+}
+
+/// The tokens of the declaration before a place.
+pub(super) struct Before<'t> {
+    pub(super) text: &'t str,
+    /// From the keyword on; without the word that is being written.
+    pub(super) tokens: &'t [Token],
+    /// The brackets that are open, as indices.
+    open: Vec<usize>,
+}
+
+impl<'t> Before<'t> {
+    /// The tokens before a byte.
+    pub(super) fn of(text: &'t str, tokens: &'t [Token], offset: usize) -> Self {
+        let is_before = |token: &Token| match token.kind {
+            TokenKind::Word | TokenKind::Number => token.range.end < offset,
+            _ => token.range.end <= offset,
+        };
+        let end = tokens.iter().take_while(|token| is_before(token)).count();
+        let start = (0..end).rev().find(|&at| begins(text, tokens, at)).unwrap_or(end);
+        let tokens = &tokens[start..end];
+        let mut open = Vec::new();
+        for (at, token) in tokens.iter().enumerate() {
+            match &text[token.range.clone()] {
+                "{" | "(" | "[" => open.push(at),
+                "}" | ")" | "]" => _ = open.pop(),
+                _ => {}
+            }
+        }
+        Self { text, tokens, open }
+    }
+
+    fn word(&self, at: usize) -> &'t str {
+        self.tokens.get(at).map_or("", |token| &self.text[token.range.clone()])
+    }
+
+    fn last(&self) -> &'t str {
+        self.tokens.len().checked_sub(1).map_or("", |last| self.word(last))
+    }
+
+    /// The innermost open bracket.
+    fn bracket(&self) -> &'t str {
+        self.open.last().map_or("", |&at| self.word(at))
+    }
+
+    /// The place after these tokens, at this byte.
+    pub(super) fn place(&self, offset: usize) -> Place<'t> {
+        let is_number = self.tokens.last().is_some_and(|token| token.kind == TokenKind::Number);
+        match self.word(0) {
+            "" => Place::Outside,
+            _ if self.is_complete(offset) => Place::Outside,
+            "use" => Place::UsedFile,
+            "circuit" => self.in_circuit(offset),
+            "test" => self.in_test(offset),
+            "simulate" | "schedule" if is_number && self.last_word_before() == "for" => Place::Unit,
+            "simulate" => self.in_simulation(),
+            "schedule" => match self.bracket() {
+                "(" => Place::Stimulus,
+                "{" => Place::Row,
+                _ => Place::NewName,
+            },
+            "material" | "evolution" | "library" | "swarm" | "world" => self.in_record(is_number),
+            _ => Place::NewName,
+        }
+    }
+
+    fn last_word_before(&self) -> &'t str {
+        self.tokens.len().checked_sub(2).map_or("", |at| self.word(at))
+    }
+
+    /// Whether the declaration has ended on an earlier line.
+    fn is_complete(&self, offset: usize) -> bool {
+        let has_braces = self.tokens.iter().any(|token| &self.text[token.range.clone()] == "{");
+        let has_ended = self.open.is_empty() && (has_braces || matches!(self.word(0), "use" | "stimulus"));
+        has_ended && self.is_first(offset)
+    }
+
+    /// Whether a byte begins a line, apart from spaces and the word that is being written.
+    fn is_first(&self, offset: usize) -> bool {
+        let last = self.tokens.last().map_or(0, |token| token.range.end);
+        self.text[last.min(offset)..offset].contains('\n')
+    }
+
+    fn in_circuit(&self, offset: usize) -> Place<'t> {
+        let body = self.open.iter().position(|&at| self.word(at) == "{");
+        match (body, self.bracket()) {
+            (None, "[") => Place::Size,
+            (None, _) => Place::NewName,
+            (Some(_), "[") => Place::Size,
+            (Some(_), _) => self.in_body(offset),
+        }
+    }
+
+    fn in_body(&self, offset: usize) -> Place<'t> {
+        let last = self.last();
+        let is_value = self.tokens.last().is_some_and(|token| match token.kind {
+            TokenKind::Number => true,
+            TokenKind::Word => !WORDS_BEFORE_VALUES.contains(&last),
+            _ => matches!(last, ")" | "]" | "}"),
+        });
+        match last {
+            "net" => Place::NewName,
+            "in" | "init" | ".." => Place::Size,
+            "{" if self.is_block() => Place::Statement,
+            _ if self.bracket() == "{" && self.is_block() && self.is_first(offset) && (is_value || last == "}") => {
+                Place::Statement
+            }
+            _ if is_value => Place::Infix,
+            _ => Place::Operand,
+        }
+    }
+
+    /// Whether the innermost bracket is that of statements: of the body, of a loop, or of a test's reference.
+    fn is_block(&self) -> bool {
+        let Some(&at) = self.open.last() else { return false };
+        let line = self.text[..self.tokens[at].range.start].rfind('\n').map_or(0, |end| end + 1);
+        let is_loop = self.text[line..].trim_start().starts_with("for ");
+        self.open.len() == 1 || is_loop
+    }
+
+    fn in_test(&self, offset: usize) -> Place<'t> {
+        let has = |word: &str| (1..self.tokens.len()).any(|at| self.word(at) == word);
+        match self.open.first().map(|&at| self.word(at)) {
+            _ if self.tokens.len() == 1 || self.last() == "against" => Place::Circuit,
+            None if self.last() == "in" => Place::World,
+            Some("{") if has("all") && has("inputs") => self.in_body(offset),
+            Some("{") if has("|") && self.is_row(offset) => match self.tokens.last().map(|token| token.kind) {
+                Some(TokenKind::Number) if self.last_word_before() == "for" => Place::Unit,
+                _ => Place::Row,
+            },
+            Some("{") => Place::Columns(self.word(1)),
+            Some(_) => Place::Size,
+            None => Place::NewName,
+        }
+    }
+
+    /// Whether the line of a byte comes after the line of the first bar.
+    fn is_row(&self, offset: usize) -> bool {
+        let bar = self.tokens.iter().find(|token| &self.text[token.range.clone()] == "|");
+        bar.is_some_and(|bar| self.text[bar.range.end..offset].contains('\n'))
+    }
+
+    fn in_simulation(&self) -> Place<'t> {
+        match (self.tokens.len(), self.last(), self.bracket()) {
+            (1, ..) => Place::Swarm,
+            (_, "in", _) => Place::World,
+            (_, "with", _) => Place::Schedule,
+            (.., "(") => Place::Columns(self.word(1)),
+            (.., "{") => Place::Row,
+            _ => Place::NewName,
+        }
+    }
+
+    fn in_record(&self, is_number: bool) -> Place<'t> {
+        let Some(&brace) = self.open.first() else { return Place::NewName };
+        if is_number {
+            return Place::Unit;
+        }
+        // The last field whose colon is directly in the record.
+        let mut field = None;
+        let mut depth = 0;
+        for at in brace + 1..self.tokens.len() {
+            match self.word(at) {
+                "{" | "[" | "(" => depth += 1,
+                "}" | "]" | ")" => depth -= 1,
+                ":" if depth == 0 => field = Some(self.word(at - 1)),
+                "," if depth == 0 => field = None,
+                _ => {}
+            }
+        }
+        match field {
+            Some(field) if depth > 0 && !fields::inside(field).is_empty() => Place::Inside(field),
+            Some(_) if depth == 0 && self.last() != ":" => Place::Field(self.word(0)),
+            Some(field) => Place::Value(self.word(0), field),
+            None => Place::Field(self.word(0)),
+        }
+    }
+}
+
+/// Words after which a value is expected.
+const WORDS_BEFORE_VALUES: [&str; 10] = ["and", "else", "if", "nand", "nor", "not", "or", "then", "xnor", "xor"];
+
+/// Whether a token is a keyword that begins a declaration: the first of its line, and not inside one that is complete.
+fn begins(text: &str, tokens: &[Token], at: usize) -> bool {
+    let Range { start, .. } = tokens[at].range;
+    KEYWORDS.contains(&&text[tokens[at].range.clone()]) && (start == 0 || text[..start].ends_with(['\n', '\r']))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tokens::tokens;
+
+    /// The place of the `$` in a text.
+    fn place(text: &str) -> String {
+        let offset = text.find('$').unwrap();
+        let text = text.replace('$', "");
+        format!("{:?}", Before::of(&text, &tokens(&text), offset).place(offset))
+    }
+
+    #[test]
+    fn places_of_circuits() {
+        let body = |rest: &str| place(&format!("circuit f(a, b) -> (q) {{\n    {rest}"));
+        assert_eq!([body("$"), body("q = a\n    $"), body("for i in 0..2 {\n    $")], ["Statement"; 3]);
+        assert_eq!([body("q = $"), body("q = a and $"), body("q = f(a, $"), body("q = {a, $")], ["Operand"; 4]);
+        assert_eq!([body("q = a $"), body("q = f(a) $"), body("q = if a $")], ["Infix"; 3]);
+        assert_eq!([body("q = a[$"), body("q init $"), body("for i in 0..$")], ["Size"; 3]);
+        assert_eq!([body("net $"), place("circuit $"), place("circuit f($")], ["NewName"; 3]);
+    }
+
+    #[test]
+    fn places_of_other_declarations() {
+        assert_eq!([place("$"), place("use \"a\"\n$"), place("circuit f(a) -> (q) { q = a }\n\n$")], ["Outside"; 3]);
+        assert_eq!(place("use $"), "UsedFile");
+        assert_eq!([place("test $"), place("test f for all inputs against $")], ["Circuit"; 2]);
+        assert_eq!(place("test f {\n    a $"), "Columns(\"f\")");
+        assert_eq!(place("test f {\n    a | q\n    0 $"), "Row");
+        assert_eq!(place("test f {\n    a | q\n    0 | 1 for 3 $"), "Unit");
+        assert_eq!(place("test f for all inputs {\n    q = $"), "Operand");
+        assert_eq!(place("swarm s { $"), "Field(\"swarm\")");
+        assert_eq!(place("swarm s { circuit: $"), "Value(\"swarm\", \"circuit\")");
+        assert_eq!(place("swarm s {\n    circuit: f\n    $"), "Field(\"swarm\")");
+        assert_eq!(place("library l { from: shipped, behaviors: [nand, $"), "Value(\"library\", \"behaviors\")");
+        assert_eq!(place("evolution e { mutation: { $"), "Inside(\"mutation\")");
+        assert_eq!(place("evolution e { vary: { all: 5%, $"), "Inside(\"vary\")");
+        assert_eq!(place("material m { period: 3 $"), "Unit");
+        assert_eq!([place("simulate $"), place("simulate s with $")], ["Swarm", "Schedule"]);
+        assert_eq!(place("simulate s with schedule ($"), "Columns(\"s\")");
+        assert_eq!([place("simulate s in $"), place("test f \"t\" in $")], ["World"; 2]);
+        assert_eq!(place("world w { from: $"), "Value(\"world\", \"from\")");
+        assert_eq!([place("schedule s($"), place("schedule s(a) {\n    $")], ["Stimulus", "Row"]);
+        assert_eq!(place("schedule s(a) {\n    0 for 3 $"), "Unit");
+    }
+}

@@ -1,0 +1,168 @@
+//! The meaning of keywords and fields, from the manual of the language.
+
+use nbc_lang::syntax::tree::RecordKeyword;
+
+const MANUAL: &str = include_str!("../../language.md");
+
+/// Keywords with the sections of the manual that define them.
+const KEYWORDS: [(&str, &str); 37] = [
+    ("against", "Tests"),
+    ("all", "Tests"),
+    ("and", "Expressions"),
+    ("bins", "Evolutions"),
+    ("circuit", "Circuits"),
+    ("cycles", "Units"),
+    ("deg", "Units"),
+    ("else", "Expressions"),
+    ("evolution", "Evolutions"),
+    ("for", "Parameters and `for`"),
+    ("if", "Expressions"),
+    ("in", "Parameters and `for`"),
+    ("init", "Memory"),
+    ("inputs", "Tests"),
+    ("library", "Libraries, swarms and simulations"),
+    ("log2", "Parameters and `for`"),
+    ("material", "Stimuli and materials"),
+    ("ms", "Units"),
+    ("nand", "Expressions"),
+    ("net", "Constants and buses"),
+    ("nor", "Expressions"),
+    ("not", "Expressions"),
+    ("or", "Expressions"),
+    ("s", "Units"),
+    ("schedule", "Schedules"),
+    ("simulate", "Libraries, swarms and simulations"),
+    ("steps", "Units"),
+    ("stimulus", "Stimuli and materials"),
+    ("swarm", "Libraries, swarms and simulations"),
+    ("table", "Truth tables"),
+    ("test", "Tests"),
+    ("then", "Expressions"),
+    ("use", "Files"),
+    ("with", "Libraries, swarms and simulations"),
+    ("world", "Worlds"),
+    ("xnor", "Expressions"),
+    ("xor", "Expressions"),
+];
+
+/// The meaning of a keyword, with an example.
+pub(super) fn keyword(word: &str) -> Option<String> {
+    let (_, heading) = KEYWORDS.iter().find(|(keyword, _)| *keyword == word)?;
+    meaning(heading, word, None)
+}
+
+/// The meaning of a field of a declaration, or of a word that is its value.
+pub(super) fn field(of: RecordKeyword, word: &str) -> Option<String> {
+    let heading = match of {
+        RecordKeyword::Material => "Stimuli and materials",
+        RecordKeyword::Evolution => "Evolutions",
+        RecordKeyword::World => "Worlds",
+        RecordKeyword::Library | RecordKeyword::Swarm => "Libraries, swarms and simulations",
+    };
+    let is_there = section(heading)?.contains(&format!("`{word}`"));
+    if is_there { meaning(heading, word, row(heading, word)) } else { keyword(word) }
+}
+
+/// The row of the table of a section whose first column names a word, below the heads of the table.
+fn row(heading: &str, word: &str) -> Option<String> {
+    let blocks = blocks(section(heading)?);
+    blocks.iter().filter(|block| block.starts_with('|')).find_map(|block| {
+        let row = block.lines().skip(2).find(|row| row.split('|').nth(1).is_some_and(|cell| names(cell, word)))?;
+        Some(block.lines().take(2).chain([row]).collect::<Vec<_>>().join("\n"))
+    })
+}
+
+/// Whether a text has a word in code.
+fn names(text: &str, word: &str) -> bool {
+    text.split(&format!("`{word}")).skip(1).any(|rest| !rest.starts_with(is_word))
+}
+
+/// What a section says of a word: `row`, or the paragraph that names it, or else its first paragraph; and the first
+/// example with the word, of the section or else of the manual.
+fn meaning(heading: &str, word: &str, row: Option<String>) -> Option<String> {
+    let blocks = blocks(section(heading)?);
+    let mut prose = blocks.iter().filter(|block| !block.starts_with('|') && !block.starts_with("```"));
+    let paragraph = prose.clone().find(|block| names(block, word)).or(prose.next());
+    let text = row.or_else(|| paragraph.map(|block| block.to_string()))?;
+    let whole = self::blocks(MANUAL);
+    let has_word = |block: &&&str| block.starts_with("```nb") && block.split(|c| !is_word(c)).any(|part| part == word);
+    let example = blocks.iter().find(has_word).or_else(|| whole.iter().find(has_word));
+    let example = example.map_or(String::new(), |block| format!("\n{block}\n"));
+    Some(format!("{}\n{example}", without_links(&text)))
+}
+
+fn is_word(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_'
+}
+
+/// The text of a section, without those inside it.
+fn section(heading: &str) -> Option<&'static str> {
+    let start = MANUAL.find(&format!("# {heading}\n"))?;
+    let body = &MANUAL[start..];
+    let body = &body[body.find('\n')?..];
+    Some(body.find("\n#").map_or(body, |end| &body[..end]))
+}
+
+/// The paragraphs, tables and examples of a section.
+fn blocks(section: &str) -> Vec<&str> {
+    let mut blocks = Vec::new();
+    let mut rest = section.trim();
+    while !rest.is_empty() {
+        let end = match rest.strip_prefix("```") {
+            Some(inner) => inner.find("\n```").map(|end| end + "```".len() + "\n```".len()),
+            None => rest.find("\n\n"),
+        };
+        let end = end.unwrap_or(rest.len());
+        blocks.push(&rest[..end]);
+        rest = rest[end..].trim_start();
+    }
+    blocks
+}
+
+/// Links to pages of the manual lead nowhere from an editor.
+fn without_links(text: &str) -> String {
+    let mut parts = text.split("](");
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        match part.split_once(')').filter(|(target, _)| target.ends_with(".md")) {
+            Some((_, rest)) => {
+                let open = plain.rfind('[').unwrap_or(plain.len());
+                plain.replace_range(open..(open + 1).min(plain.len()), "");
+                plain.push_str(rest);
+            }
+            // A call of a circuit with parameters is no link.
+            None => plain.push_str(&format!("]({part}")),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_lang::syntax;
+
+    #[test]
+    fn every_keyword_has_its_meaning_and_an_example() {
+        for (word, _) in KEYWORDS {
+            let text = keyword(word).unwrap_or_else(|| panic!("{word}"));
+            let is_unit = ["bins", "cycles", "deg", "ms", "s", "steps"].contains(&word);
+            assert!(is_unit || text.contains("```nb"), "{word}: {text}");
+        }
+        assert!(syntax::KEYWORDS.iter().all(|word| keyword(word).is_some()));
+    }
+
+    #[test]
+    fn a_field_is_explained_by_its_row_or_paragraph() {
+        let period = field(RecordKeyword::Material, "period").unwrap();
+        assert!(period.starts_with("| field | used by | meaning |\n|---|---|---|\n| `period` | actuator | a time |\n"));
+        assert!(field(RecordKeyword::Swarm, "window").unwrap().contains("`window` is the number of cycles"));
+        assert_eq!(field(RecordKeyword::Swarm, "nonsense"), None);
+    }
+
+    #[test]
+    fn links_become_their_text() {
+        assert_eq!(without_links("see ([physics](physics.md), 11) `a[3]`"), "see (physics, 11) `a[3]`");
+        assert_eq!(without_links("`register[start = 5](d, clk)`"), "`register[start = 5](d, clk)`");
+    }
+}

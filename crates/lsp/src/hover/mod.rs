@@ -1,0 +1,84 @@
+//! What an editor shows about a place: the meaning of a name, of a keyword, of a field or of a constant.
+
+mod circuit;
+mod constant;
+mod declaration;
+mod manual;
+mod net;
+mod picture;
+mod robots;
+mod waves;
+
+use crate::figures::Subject;
+use crate::spot::Spot;
+use crate::tokens;
+use nbc_base::model::Operator;
+use nbc_base::source::Span;
+use nbc_lang::check::{NameKind, NameUse};
+use nbc_lang::syntax::TokenKind;
+use nbc_lang::syntax::tree::DeclarationKind;
+use nbc_session::Session;
+
+/// What is shown about a place.
+pub(super) struct Shown {
+    /// The place that it is about.
+    pub(super) place: Span,
+    /// Markdown.
+    pub(super) text: String,
+    /// What would have to be compiled to say more.
+    pub(super) subject: Option<Subject>,
+}
+
+/// What is known about a place without compiling anything.
+pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option<Shown> {
+    if let Some(found) = spot.name() {
+        return Some(of_name(spot, found, session, pictures));
+    }
+    let text = spot.text();
+    let tokens = tokens::tokens(text);
+    let token = tokens::at(&tokens, spot.offset)?;
+    let word = &text[token.range.clone()];
+    let shown = match token.kind {
+        TokenKind::Number => constant::text(word),
+        TokenKind::Word => of_word(spot, word, session, pictures),
+        _ => None,
+    }?;
+    let place = Span::new(spot.file, token.range.start, token.range.end);
+    Some(Shown { place, text: shown, subject: None })
+}
+
+fn of_name(spot: &Spot<'_>, found: NameUse, session: &Session, pictures: bool) -> Shown {
+    let mut text = declaration::text(&spot.files, found);
+    let name = spot.files.checked.sources.text(found.declared);
+    let (more, subject) = match found.kind {
+        NameKind::Circuit => circuit::text(&spot.files, found.declared),
+        NameKind::Net => net::text(&spot.files, found.declared),
+        NameKind::Swarm => (None, circuit::of_swarm(&spot.files, name)),
+        NameKind::Material => (waves::material(&spot.files, name, pictures), None),
+        NameKind::Schedule => (waves::schedule(&spot.files, name, pictures), None),
+        NameKind::Library => (robots::of_library(&spot.files, session, name, pictures), None),
+        _ => (None, None),
+    };
+    if let Some(more) = more {
+        text.push_str(&format!("\n{more}\n"));
+    }
+    Shown { place: found.place, text, subject }
+}
+
+/// A word of the language: a field of its declaration, a keyword, or a function, which is also a robot.
+fn of_word(spot: &Spot<'_>, word: &str, session: &Session, pictures: bool) -> Option<String> {
+    let around = spot.around();
+    if let Some(DeclarationKind::Record(record)) = around.map(|around| &around.kind)
+        && spot.offset > record.name.span.end as usize
+    {
+        let robot = robots::of_behavior(&spot.files, session, &record.name.text, word, pictures);
+        return robot.or_else(|| manual::field(record.keyword, word));
+    }
+    let mut text = manual::keyword(word)?;
+    if Operator::parse(word).is_some()
+        && let Some(robot) = robots::of_operator(spot, session, around, word, pictures)
+    {
+        text.push_str(&format!("\n{robot}"));
+    }
+    Some(text)
+}

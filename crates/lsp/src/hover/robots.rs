@@ -1,0 +1,85 @@
+//! Robots: a function is a robot, and a library is many.
+
+use std::collections::BTreeSet;
+
+use crate::files::Files;
+use crate::hover::picture::image;
+use crate::spot::Spot;
+use nbc_base::model::{Behavior, Function, Library, Robot};
+use nbc_lang::syntax::tree::{Declaration, DeclarationKind};
+use nbc_session::report::{self, Listing, Portrait, Scheme};
+use nbc_session::{CompileOptions, Session};
+
+/// The robots of a declared library: the best for each function.
+pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictures: bool) -> Option<String> {
+    let library = session.robots(files.checked, Some(name), &CompileOptions::default()).ok()?;
+    let mut seen = BTreeSet::new();
+    let best: Vec<&Robot> = library.robots.iter().filter(|robot| seen.insert(robot.function())).collect();
+    let count = library.robots.len();
+    let mut text = format!("{} robots for {} functions; the best for each:\n\n{}", count, best.len(), table(&best));
+    if pictures && !best.is_empty() {
+        let portrait = |robot: &&Robot| Portrait {
+            title: robot.function().name().to_owned(),
+            subtitle: robot.name.clone(),
+            body: robot.body.clone(),
+        };
+        let portraits: Vec<Portrait> = best.iter().map(portrait).collect();
+        text.push_str(&format!("\n{}", image(name, &report::draw_portraits(name, &portraits, Scheme::default()))));
+    }
+    Some(text)
+}
+
+/// The robot that an operator of a circuit becomes: that of the circuit's swarm, or of the default library.
+pub(super) fn of_operator(
+    spot: &Spot<'_>,
+    session: &Session,
+    around: Option<&Declaration>,
+    word: &str,
+    pictures: bool,
+) -> Option<String> {
+    let checked = spot.files.checked;
+    let circuit = around.and_then(|around| match &around.kind {
+        DeclarationKind::Circuit(circuit) => Some(circuit.name.text.as_str()),
+        DeclarationKind::Test(test) => Some(test.circuit.name.text.as_str()),
+        _ => None,
+    });
+    let swarm = checked.program.swarms.iter().find(|swarm| Some(swarm.circuit.circuit.as_str()) == circuit);
+    let library = swarm.map(|swarm| swarm.library.as_str());
+    let library = session.robots(checked, library, &CompileOptions::default()).ok()?;
+    best(&library, Function::parse(word)?, pictures)
+}
+
+/// The robot for a function or a behavior of a library's list.
+pub(super) fn of_behavior(
+    files: &Files<'_>,
+    session: &Session,
+    library: &str,
+    word: &str,
+    pictures: bool,
+) -> Option<String> {
+    let function = Function::parse(word).or_else(|| word.parse().ok().map(Behavior::function))?;
+    files.checked.program.library(library)?;
+    let library = session.robots(files.checked, Some(library), &CompileOptions::default()).ok()?;
+    best(&library, function, pictures)
+}
+
+/// The best robot for a function.
+fn best(library: &Library, function: Function, pictures: bool) -> Option<String> {
+    let robot = library.robots_for(function).next()?;
+    let mut text = format!("The best robot for `{function}`:\n\n{}", table(&[robot]));
+    if pictures {
+        text.push_str(&format!("\n{}", image(&robot.name, &report::draw_sprite(robot, Scheme::default()))));
+    }
+    Some(text)
+}
+
+/// Robots as a table: their gates, boxes, clocks, margins and errors.
+fn table(robots: &[&Robot]) -> String {
+    let row = |robot: &&Robot| {
+        let Listing { name, function, bounds, clock, margin, error_rate, switches, .. } = Listing::of(robot);
+        let errors = error_rate * 100.0;
+        format!("| {function} | `{name}` | {bounds} | {clock} | {margin:.3} | {errors:.2} % of {switches} |\n")
+    };
+    let rows: String = robots.iter().map(row).collect();
+    format!("| function | robot | box | clock | margin | errors |\n|---|---|---|---|---|---|\n{rows}")
+}

@@ -1,0 +1,40 @@
+//! Files and folders that a source names, as links.
+
+use std::path::Path;
+
+use gen_lsp_types::DocumentLink;
+
+use crate::files::Files;
+use crate::uri;
+use nbc_base::source::{FileId, Span};
+use nbc_lang::check::beside;
+use nbc_lang::syntax::tree::{DeclarationKind, RecordKeyword, ValueKind};
+
+/// The links of a file to others that exist.
+pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {
+    let declarations = files.checked.tree(file).into_iter().flat_map(|tree| &tree.declarations);
+    let named = declarations.filter_map(|declaration| match &declaration.kind {
+        DeclarationKind::Use(path) => Some((path.text.as_str(), path.span)),
+        DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => {
+            let from = record.record.field("from")?;
+            match &from.value.kind {
+                ValueKind::Text(folder) => Some((folder.as_str(), from.value.span)),
+                _ => None,
+            }
+        }
+        _ => None,
+    });
+    named.filter_map(|(path, place)| link(files, path, place)).collect()
+}
+
+fn link(files: &Files<'_>, path: &str, place: Span) -> Option<DocumentLink> {
+    let path = beside(&files.checked.sources.file(place.file).name, path);
+    // Without the quotes.
+    let inner = Span { start: place.start + 1, end: place.end - 1, ..place };
+    Path::new(&path).exists().then(|| DocumentLink {
+        range: files.range(inner),
+        target: Some(uri::uri(&path)),
+        tooltip: None,
+        data: None,
+    })
+}

@@ -1,0 +1,113 @@
+//! Requests about the names of a source: declarations, uses, new names.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use gen_lsp_types::{
+    self as lsp, DefinitionRequest, DocumentHighlightRequest, PrepareRenameRequest, ReferencesRequest, RenameRequest,
+    TextDocumentPositionParams, WorkspaceEdit, WorkspaceSymbolRequest,
+};
+
+use crate::navigation;
+use crate::rename::Rename;
+use crate::server::{Reply, Server};
+use crate::uri;
+use nbc_lang::check::NameUse;
+use nbc_session::Checked;
+
+/// The most symbols of an answer.
+const MOST_SYMBOLS: usize = 1000;
+
+impl Server<'_> {
+    /// The name at a place, with its source.
+    pub(super) fn name(&mut self, place: &TextDocumentPositionParams) -> Option<(Arc<Checked>, NameUse)> {
+        let checked = self.checked(&place.text_document.uri)?;
+        let file = checked.file?;
+        let offset = self.files(&checked).lines(file).offset(place.position);
+        let found = checked.uses.at(file, offset)?;
+        Some((checked, found))
+    }
+
+    pub(super) fn definition(&mut self, asked: lsp::DefinitionParams) -> Reply<DefinitionRequest> {
+        Ok(self.name(&asked.text_document_position_params).map(|(checked, found)| {
+            let location = self.files(&checked).location(found.declared);
+            lsp::DefinitionResponse::Definition(location.into())
+        }))
+    }
+
+    /// The uses of a name in all open texts and in the files of the workspace.
+    fn uses(&mut self, checked: &Checked, found: NameUse, with_declaration: bool) -> Vec<lsp::Location> {
+        let home = self.files(checked).uri(found.declared.file);
+        let mut places: Vec<lsp::Location> = Vec::new();
+        for other in self.all_sources() {
+            places.extend(navigation::uses(&self.files(&other), &home, found.declared, with_declaration));
+        }
+        places.sort_by(|a, b| (&a.uri.0, a.range).cmp(&(&b.uri.0, b.range)));
+        places.dedup();
+        places
+    }
+
+    /// Every open text and every file of the workspace, as it is now.
+    pub(super) fn all_sources(&mut self) -> Vec<Arc<Checked>> {
+        let open: BTreeSet<String> = self.buffers.iter().map(|buffer| buffer.path.clone()).collect();
+        let names: BTreeSet<String> = open.iter().map(|path| uri::uri(path).0).collect();
+        let closed = self.workspace.files().into_iter().filter(|path| !names.contains(&uri::uri(path).0));
+        let mut sources: Vec<_> = closed.map(|path| self.on_disk(&path)).collect();
+        sources.extend(open.iter().map(|path| self.session.checked(path)));
+        sources
+    }
+
+    /// A file that is not open, read again if it has changed.
+    fn on_disk(&mut self, path: &str) -> Arc<Checked> {
+        let checked = self.session.checked(path);
+        let known = checked.file.map(|file| checked.sources.file(file).text.as_str());
+        if std::fs::read_to_string(path).ok().as_deref() == known {
+            return checked;
+        }
+        self.session.close(path);
+        self.session.checked(path)
+    }
+
+    /// The declarations of all sources whose names contain a text.
+    pub(super) fn find(&mut self, asked: lsp::WorkspaceSymbolParams) -> Reply<WorkspaceSymbolRequest> {
+        let sources = self.all_sources();
+        let found = sources.iter().flat_map(|checked| navigation::declarations(&self.files(checked), &asked.query));
+        Ok(Some(found.take(MOST_SYMBOLS).collect::<Vec<_>>().into()))
+    }
+
+    pub(super) fn references(&mut self, asked: lsp::ReferenceParams) -> Reply<ReferencesRequest> {
+        let found = self.name(&asked.text_document_position_params);
+        Ok(found.map(|(checked, found)| self.uses(&checked, found, asked.context.include_declaration)))
+    }
+
+    pub(super) fn highlights(&mut self, asked: lsp::DocumentHighlightParams) -> Reply<DocumentHighlightRequest> {
+        let found = self.name(&asked.text_document_position_params);
+        Ok(found.map(|(checked, found)| navigation::highlights(&self.files(&checked), found)))
+    }
+
+    pub(super) fn prepare_rename(&mut self, asked: lsp::PrepareRenameParams) -> Reply<PrepareRenameRequest> {
+        let found = self.name(&asked.text_document_position_params);
+        let Some((checked, found)) = found else { return Ok(None) };
+        let files = self.files(&checked);
+        match files.prelude(found.declared.file) {
+            Some(_) => Ok(None),
+            None => Ok(Some(files.range(found.place).into())),
+        }
+    }
+
+    /// A new name for a declaration in all sources, or why that is not possible.
+    pub(super) fn renamed(&mut self, checked: &Checked, found: NameUse, new: &str) -> Result<WorkspaceEdit, String> {
+        let mut rename = Rename::new(&self.files(checked), found, new);
+        self.all_sources().into_iter().for_each(|source| rename.add(source));
+        rename.finish(&self.buffers, self.world.clone())
+    }
+
+    pub(super) fn rename(&mut self, asked: lsp::RenameParams) -> Reply<RenameRequest> {
+        let found = self.name(&asked.text_document_position_params);
+        let Some((checked, found)) = found else { return Ok(None) };
+        if let Some(reason) = navigation::refusal(&self.files(&checked), found, &asked.new_name) {
+            return Err(reason);
+        }
+        self.renamed(&checked, found, &asked.new_name).map(Some)
+    }
+}

@@ -1,0 +1,79 @@
+//! From a name to its uses, and new names.
+
+use gen_lsp_types::{
+    BaseSymbolInformation, DocumentHighlight, DocumentHighlightKind, Location, SymbolKind, TextEdit, Uri,
+    WorkspaceEdit, WorkspaceSymbol,
+};
+
+use crate::files::Files;
+use nbc_base::source::Span;
+use nbc_circuit::formats::is_word;
+use nbc_lang::check::{NameKind, NameUse};
+
+/// The places in the file of a name that mean the same.
+pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighlight> {
+    let same = files.checked.uses.of(found.declared).filter(|other| other.place.file == found.place.file);
+    let highlight = |other: NameUse| DocumentHighlight {
+        range: files.range(other.place),
+        kind: Some(match other.place == other.declared {
+            true => DocumentHighlightKind::Write,
+            false => DocumentHighlightKind::Read,
+        }),
+    };
+    same.map(highlight).collect()
+}
+
+/// The uses of a declaration in a source and the files that it uses; `home` and `declared` are the declaration's file
+/// and place.
+pub(super) fn uses(files: &Files<'_>, home: &Uri, declared: Span, with_declaration: bool) -> Vec<Location> {
+    let own = files.checked.sources.iter().filter(|source| files.uri(source.id) == *home);
+    let declared = own.map(|source| Span { file: source.id, ..declared });
+    let places = declared.flat_map(|declared| {
+        let used = files.checked.uses.of(declared);
+        used.filter(move |found| with_declaration || found.place != declared).map(|found| found.place)
+    });
+    places.map(|place| files.location(place)).collect()
+}
+
+/// The named declarations of a source itself whose names contain a text, in any case.
+pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbol> {
+    let query = query.to_lowercase();
+    let Some(file) = files.checked.file else { return Vec::new() };
+    let symbol = |found: NameUse| {
+        let kind = match found.kind {
+            NameKind::Net | NameKind::Number => return None,
+            NameKind::Circuit => SymbolKind::Function,
+            NameKind::Stimulus => SymbolKind::Event,
+            NameKind::Material => SymbolKind::Constant,
+            NameKind::Schedule => SymbolKind::Array,
+            NameKind::Evolution => SymbolKind::Class,
+            NameKind::Library => SymbolKind::Package,
+            NameKind::Swarm => SymbolKind::Object,
+            NameKind::World => SymbolKind::Namespace,
+        };
+        let name = files.checked.sources.text(found.place).to_owned();
+        let is_wanted = found.place == found.declared && name.to_lowercase().contains(&query);
+        is_wanted.then(|| WorkspaceSymbol {
+            location: files.location(found.place).into(),
+            data: None,
+            base_symbol_information: BaseSymbolInformation { name, kind, tags: None, container_name: None },
+        })
+    };
+    files.checked.uses.of_file(file).filter_map(symbol).collect()
+}
+
+/// Why a name cannot be changed.
+pub(super) fn refusal(files: &Files<'_>, found: NameUse, new: &str) -> Option<String> {
+    if files.prelude(found.declared.file).is_some() {
+        return Some("the prelude declares this name".to_owned());
+    }
+    (!is_word(new)).then(|| format!("`{new}` is not a name: expected letters, digits and `_`, and no reserved word"))
+}
+
+/// Edits of several files.
+pub(super) fn workspace_edit(edits: impl Iterator<Item = (Uri, TextEdit)>) -> WorkspaceEdit {
+    let mut edit = WorkspaceEdit::default();
+    let changes = edit.changes.get_or_insert_default();
+    edits.for_each(|(uri, edit)| changes.entry(uri).or_default().push(edit));
+    edit
+}

@@ -1,0 +1,132 @@
+//! A new name for a declaration, in all files that use it, and the proof that nothing else changes its meaning.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use gen_lsp_types::{TextEdit, Uri, WorkspaceEdit};
+
+use crate::buffers::Buffers;
+use crate::files::Files;
+use crate::navigation::workspace_edit;
+use crate::position::Encoding;
+use crate::uri;
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::SharedWorld;
+use nbc_base::source::Span;
+use nbc_lang::check::NameUse;
+use nbc_session::{Checked, Session};
+
+/// A new name for a declaration.
+pub(super) struct Rename<'a> {
+    new: &'a str,
+    /// The file of the declaration, and its place there.
+    home: Uri,
+    declared: Span,
+    encoding: Encoding,
+    /// The files that change, by URI.
+    files: BTreeMap<String, RenamedFile>,
+    /// The sources in which the name is used, with the number of its uses.
+    sources: Vec<(Arc<Checked>, usize)>,
+}
+
+/// A file and the places of the name in it.
+struct RenamedFile {
+    text: String,
+    places: BTreeSet<(u32, u32)>,
+    edits: Vec<TextEdit>,
+}
+
+impl<'a> Rename<'a> {
+    pub(super) fn new(files: &Files<'_>, found: NameUse, new: &'a str) -> Self {
+        let (home, declared) = (files.uri(found.declared.file), found.declared);
+        Self { new, home, declared, encoding: files.encoding, files: BTreeMap::new(), sources: Vec::new() }
+    }
+
+    /// Adds the uses in a source and the files that it uses.
+    pub(super) fn add(&mut self, checked: Arc<Checked>) {
+        let files = Files { checked: &checked, encoding: self.encoding };
+        let Some(declared) = self.declared_in(&files, self.declared) else { return };
+        let mut count = 0;
+        for found in checked.uses.of(declared) {
+            count += 1;
+            let source = checked.sources.file(found.place.file);
+            let file = self.files.entry(files.uri(source.id).0).or_insert_with(|| RenamedFile {
+                text: source.text.clone(),
+                places: BTreeSet::new(),
+                edits: Vec::new(),
+            });
+            if file.places.insert((found.place.start, found.place.end)) {
+                file.edits.push(TextEdit { range: files.range(found.place), new_text: self.new.to_owned() });
+            }
+        }
+        if count > 0 {
+            self.sources.push((checked, count));
+        }
+    }
+
+    /// The place of the declaration among the files of a source.
+    fn declared_in(&self, files: &Files<'_>, declared: Span) -> Option<Span> {
+        let home = files.checked.sources.iter().find(|source| files.uri(source.id) == self.home)?;
+        Some(Span { file: home.id, ..declared })
+    }
+
+    /// What would change, or why that is not possible: the program has an error that it did not have, or another name
+    /// gets or loses a meaning.
+    pub(super) fn finish(self, buffers: &Buffers, world: SharedWorld) -> Result<WorkspaceEdit, String> {
+        let mut session = Session::new(world);
+        for buffer in buffers.iter() {
+            session.update(&buffer.path, 0, buffer.text.clone());
+        }
+        for (name, file) in &self.files {
+            let path = uri::path(&Uri(name.clone())).unwrap_or_else(|| name.clone());
+            session.update(&path, 1, file.renamed(self.new));
+        }
+        for (before, count) in &self.sources {
+            let after = session.checked(&before.path);
+            if let Some(fault) = new_error(before, &after) {
+                return Err(format!("`{}` cannot be the new name: {}", self.new, fault.message));
+            }
+            let files = Files { checked: &after, encoding: self.encoding };
+            let declared = self.declared_in(&files, self.moved());
+            if declared.map(|declared| after.uses.of(declared).count()) != Some(*count) {
+                return Err(format!("`{}` has another meaning where the name is used", self.new));
+            }
+        }
+        let edits = self
+            .files
+            .into_iter()
+            .flat_map(|(uri, file)| file.edits.into_iter().map(move |edit| (Uri(uri.clone()), edit)));
+        Ok(workspace_edit(edits))
+    }
+
+    /// The place of the declaration after the change.
+    fn moved(&self) -> Span {
+        let places = self.files.get(&self.home.0).into_iter().flat_map(|file| &file.places);
+        let before = places.take_while(|(start, _)| *start < self.declared.start);
+        let length = |start: u32, end: u32| i64::from(end) - i64::from(start);
+        let more: i64 = before.map(|&(start, end)| self.new.len() as i64 - length(start, end)).sum();
+        let start = (i64::from(self.declared.start) + more) as usize;
+        Span::new(self.declared.file, start, start + self.new.len())
+    }
+}
+
+impl RenamedFile {
+    fn renamed(&self, new: &str) -> String {
+        let mut text = self.text.clone();
+        for &(start, end) in self.places.iter().rev() {
+            text.replace_range(start as usize..end as usize, new);
+        }
+        text
+    }
+}
+
+/// An error that a source did not have before.
+fn new_error<'c>(before: &Checked, after: &'c Checked) -> Option<&'c Diagnostic> {
+    let errors = |checked: &Checked| checked.diagnostics.iter().filter(|fault| fault.is_error()).count();
+    if errors(after) <= errors(before) {
+        return None;
+    }
+    let is_new = |fault: &&Diagnostic| !before.diagnostics.iter().any(|known| known.message == fault.message);
+    let mut now = after.diagnostics.iter().filter(|fault| fault.is_error());
+    now.clone().find(is_new).or_else(|| now.next())
+}

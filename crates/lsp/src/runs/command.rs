@@ -1,0 +1,10 @@
+//! The commands by their names.
+
+/// The commands.
+pub(crate) const RUN: &str = "nbc.run";
+pub(crate) const TEST: &str = "nbc.test";
+pub(crate) const SCHEMATIC: &str = "nbc.schematic";
+pub(crate) const TIMING: &str = "nbc.timing";
+
+/// All commands.
+pub(crate) const COMMANDS: [&str; 4] = [RUN, TEST, SCHEMATIC, TIMING];

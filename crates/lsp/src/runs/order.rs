@@ -1,0 +1,79 @@
+//! What a command is to run.
+
+use std::fmt;
+
+use gen_lsp_types::{ExecuteCommandParams, Uri};
+use serde_json::Value;
+
+use crate::runs::command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
+use nbc_session::{Checked, Choice};
+use nbc_swarm::Level;
+
+/// What to do with a source.
+#[derive(Clone, Debug)]
+pub(crate) struct RunOrder {
+    /// The source.
+    pub(crate) uri: Uri,
+    pub(super) task: RunTask,
+}
+
+/// The kinds of work.
+#[derive(Clone, Debug)]
+pub(super) enum RunTask {
+    /// Tests and simulations of these numbers; all tests, and in physics all simulations, if there are none.
+    Run { level: Level, test: Option<usize>, simulation: Option<usize> },
+    /// The picture of a circuit made of robots.
+    Schematic(Choice),
+    /// The times of a circuit's robots.
+    Timing(Choice),
+}
+
+/// Why a command cannot be run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum OrderError {
+    Command(String),
+    Arguments,
+    Closed(String),
+}
+
+impl fmt::Display for OrderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Command(name) => {
+                write!(f, "`{name}` is not a command of this server; expected one of {}", COMMANDS.join(", "))
+            }
+            Self::Arguments => f.write_str("expected an object with the `uri` of an open text"),
+            Self::Closed(uri) => write!(f, "`{uri}` is not open"),
+        }
+    }
+}
+
+impl RunOrder {
+    /// Reads a command and its arguments.
+    pub(crate) fn read(asked: &ExecuteCommandParams) -> Result<Self, OrderError> {
+        let argument = asked.arguments.as_deref().and_then(<[Value]>::first).ok_or(OrderError::Arguments)?;
+        let text = |name: &str| argument.get(name).and_then(Value::as_str).map(str::to_owned);
+        let number = |name: &str| argument.get(name).and_then(Value::as_u64).map(|number| number as usize);
+        let uri = Uri(text("uri").ok_or(OrderError::Arguments)?);
+        let choice = Choice { circuit: text("circuit"), swarm: text("swarm") };
+        let run = |level| RunTask::Run { level, test: number("test"), simulation: number("simulation") };
+        let task = match asked.command.as_str() {
+            RUN => run(Level::Physics),
+            TEST => run(Level::Logic),
+            SCHEMATIC => RunTask::Schematic(choice),
+            TIMING => RunTask::Timing(choice),
+            other => return Err(OrderError::Command(other.to_owned())),
+        };
+        Ok(Self { uri, task })
+    }
+
+    /// A title for the progress.
+    pub(crate) fn title(&self, checked: &Checked) -> String {
+        let file = checked.path.rsplit('/').next().unwrap_or_default();
+        match &self.task {
+            RunTask::Run { level: Level::Physics, .. } => format!("simulating {file}"),
+            RunTask::Run { .. } => format!("testing {file}"),
+            RunTask::Schematic(_) | RunTask::Timing(_) => format!("compiling {file}"),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Follows a run: tells its progress, and stops it.
+
+use crossbeam_channel::Sender;
+use gen_lsp_types::ProgressToken;
+use lsp_server::RequestId;
+
+use crate::runs::outcome::RunOutcome;
+use nbc_circuit::CancelFlag;
+use nbc_session::Observer;
+
+/// What a run tells.
+pub(crate) enum RunEvent {
+    Progress { token: ProgressToken, percentage: u32, message: String },
+    Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, String> },
+}
+
+/// Tells the progress of a run, and whether it is to stop.
+pub(super) struct Watcher {
+    pub(super) token: Option<ProgressToken>,
+    pub(super) outbox: Sender<RunEvent>,
+    pub(super) stop: CancelFlag,
+    /// The part of the run that is being done, from 0, and the number of parts.
+    pub(super) part: (u64, u64),
+    /// The percentage that was told last.
+    pub(super) told: u32,
+}
+
+impl Observer for Watcher {
+    fn begin(&mut self, part: usize, parts: usize) {
+        self.part = (part as u64, parts as u64);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.stop.is_raised()
+    }
+
+    fn progress(&mut self, done: u64, all: u64) {
+        let (part, parts) = self.part;
+        let percentage = ((part * all + done) * 100 / (parts * all).max(1)).min(100) as u32;
+        let Some(token) = self.token.clone().filter(|_| percentage > self.told) else { return };
+        self.told = percentage;
+        let message = format!("{} of {parts}", part + 1);
+        let _ = self.outbox.send(RunEvent::Progress { token, percentage, message });
+    }
+}

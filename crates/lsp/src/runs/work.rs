@@ -1,0 +1,120 @@
+//! The work of a command, and its result.
+
+use std::path::{Path, PathBuf};
+
+use crate::runs::order::{RunOrder, RunTask};
+use crate::runs::outcome::RunOutcome;
+use crate::runs::watcher::Watcher;
+use nbc_base::diag::Diagnostics;
+use nbc_base::source::SharedWorld;
+use nbc_session::report::{self, Scheme};
+use nbc_session::store;
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunList, RunReport, Session, TestOptions};
+use nbc_swarm::{Level, Room};
+
+/// Does what is ordered; an error is a message for people.
+pub(super) fn perform(
+    world: SharedWorld,
+    checked: &Checked,
+    order: &RunOrder,
+    results: &Path,
+    watcher: &mut Watcher,
+) -> Result<RunOutcome, String> {
+    if checked.has_errors() {
+        return Err("the source has errors".to_owned());
+    }
+    let session = Session::new(world).with_poses(Room::SWARM);
+    match &order.task {
+        RunTask::Run { level, test, simulation } => {
+            let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
+            finish(checked, *level, &report, results)
+        }
+        RunTask::Schematic(choice) => {
+            let picture = compile(&session, checked, choice, watcher)?.schematic(Scheme::default());
+            let path = written(checked, results, "schematic.svg", &picture.finish())?;
+            Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path)))
+        }
+        RunTask::Timing(choice) => {
+            let timing = compile(&session, checked, choice, watcher)?.swarm_timing();
+            Ok(RunOutcome::new(None, timing.describe(), None))
+        }
+    }
+}
+
+fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watcher) -> Result<Compiled, String> {
+    let circuit = checked.circuit(choice).map_err(|faults| said(&faults))?;
+    let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
+    let swarm = choice.swarm.clone().or_else(first);
+    let options = CompileOptions { swarm, ..options(watcher) };
+    let compiled = session.compile(checked, &circuit, &options).map_err(|faults| said(&faults))?;
+    going(watcher).map(|()| compiled)
+}
+
+/// Runs the chosen tests and simulations.
+fn run(
+    session: &Session,
+    checked: &Checked,
+    level: Level,
+    (test, simulation): (Option<usize>, Option<usize>),
+    watcher: &mut Watcher,
+) -> Result<RunReport, String> {
+    let program = &checked.program;
+    let is_chosen = |chosen: Option<usize>, at: usize| match (test, simulation) {
+        (None, None) => true,
+        _ => chosen == Some(at),
+    };
+    let tests = program.tests.iter().enumerate().filter(|(at, _)| is_chosen(test, *at)).map(|(_, test)| test);
+    let simulations = program.simulations.iter().enumerate().filter(|(at, _)| is_chosen(simulation, *at));
+    let simulations = simulations.filter(|_| level == Level::Physics).map(|(_, simulation)| simulation);
+    let list = RunList { tests: tests.collect(), simulations: simulations.collect() };
+    if list.is_empty() {
+        return Err("there is no such test or simulation".to_owned());
+    }
+    let options = TestOptions { level: Some(level), compile: options(watcher) };
+    let report = session.run_list(checked, &list, &options, watcher).map_err(|faults| said(&faults))?;
+    going(watcher).map(|()| report)
+}
+
+/// The default options; compiling ends early when the run is stopped.
+fn options(watcher: &Watcher) -> CompileOptions {
+    CompileOptions { cancel: watcher.stop.clone(), ..CompileOptions::default() }
+}
+
+const CANCELLED: &str = "cancelled";
+
+fn going(watcher: &Watcher) -> Result<(), String> {
+    if watcher.stop.is_raised() { Err(CANCELLED.to_owned()) } else { Ok(()) }
+}
+
+/// Writes the page of a report.
+fn finish(checked: &Checked, level: Level, report: &RunReport, results: &Path) -> Result<RunOutcome, String> {
+    let verdicts: Vec<_> = report.tests.iter().map(|run| &run.verdict).collect();
+    let source = checked.path.rsplit('/').next().unwrap_or_default();
+    let page = match level {
+        Level::Physics => report.page(source, Scheme::default()),
+        Level::Logic => report::draw_logic_page(source, &verdicts),
+    };
+    let path = written(checked, results, "report.html", &page)?;
+    let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
+    let text = match verdicts.len() {
+        0 => "simulated".to_owned(),
+        all => format!("{}: {passed} of {all} passed", if passed == all { "pass" } else { "FAIL" }),
+    };
+    Ok(RunOutcome::new((!verdicts.is_empty()).then_some(passed == verdicts.len()), text, Some(path)))
+}
+
+/// Writes a result among those of the server, in the folder of its source.
+fn written(checked: &Checked, results: &Path, name: &str, text: &str) -> Result<PathBuf, String> {
+    let source = checked.path.rsplit('/').next().unwrap_or_default();
+    let stem: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let folder = results.join(stem);
+    let path = folder.join(name);
+    let done = store::create_folder(&folder).and_then(|()| store::write(&path, text.as_bytes()));
+    done.map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
+    Ok(path)
+}
+
+/// Faults as a message: the first of them.
+fn said(faults: &Diagnostics) -> String {
+    faults.list.first().map_or_else(String::new, |fault| fault.message.clone())
+}

@@ -1,0 +1,45 @@
+//! A place in a checked source.
+
+use gen_lsp_types::Position;
+
+use crate::files::Files;
+use nbc_base::source::{FileId, Span};
+use nbc_lang::check::NameUse;
+use nbc_lang::syntax::tree::Declaration;
+
+/// A byte of a file of a checked source.
+#[derive(Clone, Copy)]
+pub(super) struct Spot<'a> {
+    pub(super) files: Files<'a>,
+    pub(super) file: FileId,
+    pub(super) offset: usize,
+}
+
+impl<'a> Spot<'a> {
+    /// A position in the source itself.
+    pub(super) fn of(files: Files<'a>, position: Position) -> Option<Self> {
+        let file = files.checked.file?;
+        Some(Self { files, file, offset: files.lines(file).offset(position) })
+    }
+
+    /// The text of the file.
+    pub(super) fn text(&self) -> &'a str {
+        &self.files.checked.sources.file(self.file).text
+    }
+
+    /// The name at the place, if it has a meaning.
+    pub(super) fn name(&self) -> Option<NameUse> {
+        self.files.checked.uses.at(self.file, self.offset)
+    }
+
+    /// The declaration around the place, if it could be parsed.
+    pub(super) fn around(&self) -> Option<&'a Declaration> {
+        let declarations = &self.files.checked.tree(self.file)?.declarations;
+        declarations.iter().find(|declaration| self.is_in(declaration.span))
+    }
+
+    /// Whether a span covers the place, or ends there.
+    pub(super) fn is_in(&self, span: Span) -> bool {
+        span.file == self.file && (span.start as usize..=span.end as usize).contains(&self.offset)
+    }
+}

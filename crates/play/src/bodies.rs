@@ -1,0 +1,192 @@
+//! Robots and bodies for a page: the library's cards, how a body walks, and robot files.
+
+use serde_json::{Value, json};
+
+use crate::files::PageFiles;
+use crate::history::FRAMES;
+use crate::jobs::{Job, JobEnd};
+use crate::refusal::Refused;
+use crate::request::KeepRequest;
+use crate::served::SCHEME;
+use nbc_base::model::{
+    Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,
+};
+use nbc_circuit::formats::is_word;
+use nbc_session::report::{self, Looks, Stage, describe_material};
+use nbc_session::store;
+use nbc_session::{Checked, CompileOptions, Session};
+use nbc_swarm::evolve;
+use nbc_swarm::{Recorded, measure, sketch, walk};
+
+/// The largest side of a body that is simulated for a page.
+const MOST_SIDE: usize = 20;
+/// The most cycles of a gait.
+const MOST_CYCLES: u32 = 20;
+/// The folder of robot files that a page writes.
+const FOLDER: &str = "robots";
+
+/// The built-in robots, and those of the libraries that a program declares.
+///
+/// # Errors
+/// When robots cannot be read.
+pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Value, Refused> {
+    let mut all = session.shipped().robots.clone();
+    let shipped = all.len();
+    if let Some(checked) = checked {
+        for library in &checked.program.libraries {
+            let Library { robots } = session.robots(checked, Some(&library.name), &CompileOptions::default())?;
+            let new: Vec<_> = robots.into_iter().filter(|robot| !all.contains(robot)).collect();
+            all.extend(new);
+        }
+    }
+    let looks = Looks::of(all.iter().map(|robot| &robot.body), SCHEME);
+    let cards: Vec<Value> = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &looks)).collect();
+    Ok(json!({ "robots": cards, "looks": report::look_data(&looks), "palette": palette(&looks) }))
+}
+
+fn card(robot: &Robot, shipped: bool, looks: &Looks) -> Value {
+    let recorded = stage(&robot.body, Pattern::PAIRS[0], 0).record(1).robots.swap_remove(0);
+    json!({
+        "name": robot.name,
+        "function": robot.function().name(),
+        "letters": robot.behavior.to_string(),
+        "about": report::describe_robot(robot),
+        "body": robot.body.rows(),
+        "width": robot.body.width(),
+        "height": robot.body.height(),
+        "voxels": report::voxel_data(&recorded, &robot.body, looks),
+        "points": recorded.points,
+        "clock": robot.character.clock,
+        "margin": robot.character.margin,
+        "errors": robot.character.error_rate,
+        "shipped": shipped,
+    })
+}
+
+/// The paper's materials, which a page can paint with.
+fn palette(looks: &Looks) -> Vec<Value> {
+    let palette = Palette::paper();
+    let materials = (1..).zip(palette.materials());
+    let one = |(code, material)| {
+        json!({
+            "code": code,
+            "name": palette.material(code).map(|known| known.name.clone()),
+            "about": describe_material(material),
+            "look": looks.index(&palette, code),
+        })
+    };
+    materials.map(one).collect()
+}
+
+/// A body of the paper's materials that can be simulated.
+///
+/// # Errors
+/// The reason why it cannot.
+pub(super) fn body(rows: &[String]) -> Result<Body, Refused> {
+    let body = Body::parse(rows, &Palette::paper()).map_err(|error| Refused::Body(error.to_string()))?;
+    if body.width().max(body.height()) > MOST_SIDE {
+        return Err(Refused::Body(format!("a body has at most {MOST_SIDE} rows and columns here")));
+    }
+    evolve::validate(&body).map_err(|error| Refused::Body(error.to_string()))?;
+    Ok(body)
+}
+
+fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
+    let schedule = Schedule::constant(pattern, cycles * CYCLE_STEPS);
+    Stage::of_trial(&Setting::default(), body, &schedule, CYCLE_STEPS / FRAMES)
+}
+
+/// How a body walks, and which gate it is.
+///
+/// # Errors
+/// When it cannot be simulated.
+pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> JobEnd {
+    let body = body(rows)?;
+    let cycles = cycles.clamp(1, MOST_CYCLES);
+    let gaits: Vec<Recorded> =
+        Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
+    job.check()?;
+    let (displacement, behavior, sketched) = measured(&body, is_whole, job)?;
+    let looks = Looks::of([&body], SCHEME);
+    let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
+    Ok(Some(json!({
+        "gaits": gaits.iter().map(gait).collect::<Vec<_>>(),
+        "letters": behavior.to_string(),
+        "function": behavior.function().name(),
+        "displacement": displacement,
+        "character": sketched.as_ref().map(character),
+        "points": gaits[0].points,
+        "voxels": report::voxel_data(&gaits[0], &body, &looks),
+        "looks": report::look_data(&looks),
+    })))
+}
+
+/// Displacements and behavior of a body, and a sketch of its character if it is asked for, which takes longer.
+fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Character>), Refused> {
+    let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
+    let simulator = job.simulator();
+    let displacement = walk(&simulator, std::slice::from_ref(body)).remove(0).map_err(stopped)?;
+    let behavior = Behavior::of(&displacement);
+    let character = is_whole.then(|| sketch(&simulator, body, behavior)).transpose().map_err(stopped)?;
+    Ok((displacement, behavior, character))
+}
+
+fn character(character: &Character) -> Value {
+    json!({
+        "clock": character.clock,
+        "margin": character.margin,
+        "errors": character.error_rate,
+        "switches": character.switches,
+        "glitches": character.glitch_rate,
+        "topples": character.topples,
+    })
+}
+
+/// Measures a body and writes its robot file, into a folder beside the program that is to use it.
+///
+/// # Errors
+/// When the name is not that of a robot, there is one already, the body cannot be simulated, or nothing can be written.
+pub(super) fn keep(request: &KeepRequest, files: &PageFiles, job: &Job) -> JobEnd {
+    if !is_word(&request.name) {
+        return Err(Refused::Name(request.name.clone()));
+    }
+    let body = body(&request.body)?;
+    let (beside, _) = request.path.as_deref().unwrap_or_default().rsplit_once('/').unwrap_or_default();
+    let folder = if beside.is_empty() { FOLDER.to_owned() } else { format!("{beside}/{FOLDER}") };
+    let place = |name: &str| format!("{folder}/{name}.yaml");
+    let path = place(&request.name);
+    if files.has(&path) && request.replace != Some(true) {
+        let free = (2..).map(|number| format!("{}_{number}", request.name)).find(|name| !files.has(&place(name)));
+        return Err(Refused::RobotExists { path, free: free.expect("there are more numbers than files") });
+    }
+    // What can fail at once does so before the body is measured, which takes long.
+    files.folder_of(&path)?;
+    let text = robot_file(&request.name, body, job)?;
+    files.make_folder(&path)?;
+    files.write(&path, &text)?;
+    Ok(Some(json!({ "path": path, "use": format!("library own {{ from: \"{FOLDER}\" }}") })))
+}
+
+/// The text of a robot file.
+fn robot_file(name: &str, body: Body, job: &Job) -> Result<String, Refused> {
+    let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
+    let measured = measure(&job.simulator(), &body).map_err(stopped)?;
+    let provenance = Provenance {
+        program: nbc_base::PROGRAM.to_owned(),
+        version: nbc_base::VERSION.to_owned(),
+        evolution: "play".to_owned(),
+        seed: 0,
+        generation: 0,
+        evaluations: 0,
+    };
+    let robot = Robot {
+        name: name.to_owned(),
+        behavior: measured.behavior,
+        body,
+        displacement: measured.displacement,
+        character: measured.character,
+        provenance,
+        genotype: None,
+    };
+    Ok(store::print_robot(&robot))
+}

@@ -1,0 +1,178 @@
+//! A search for gates around a body, shown while it runs.
+
+use rand::RngExt;
+use rayon::ThreadPool;
+use serde_json::{Value, json};
+
+use crate::bodies;
+use crate::jobs::{Job, JobEnd};
+use crate::refusal::Refused;
+use crate::request::EvolveRequest;
+use nbc_base::model::{Axis, Behavior, Body, Evolution, Fault, Genotype};
+use nbc_base::source::MemoryWorld;
+use nbc_session::report::axis_word;
+use nbc_session::{Observer, Session};
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::{Archive, CandidateOutcome, Elite, NicheKey, Scores, Search, neighbor, stream};
+use nbc_swarm::{evaluate_bodies, walk};
+
+/// The largest and the smallest side of a box, and the most generations.
+const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
+const MOST_GENERATIONS: u32 = 1000;
+/// Bodies of a generation.
+const BATCH: u32 = 16;
+/// Generations of neighbors of a start none of which is a gate. After them random bodies are tried.
+const NEARBY: u32 = 3;
+
+/// Searches for gates.
+///
+/// # Errors
+/// When the body is not one, or the box is too small or too large.
+pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut Job) -> JobEnd {
+    let start = request.body.as_deref().map(bodies::body).transpose()?;
+    let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
+    if !SIDES.contains(&width) || !SIDES.contains(&height) {
+        return Err(Refused::Body(format!("expected a box of {} to {} voxels a side", SIDES.start(), SIDES.end())));
+    }
+    let generations = request.generations.clamp(1, MOST_GENERATIONS);
+    let evolution = declared(width, height, generations);
+    let mut tending = Tending { archive: Archive::new(&evolution), evolution, seed: request.seed, evaluations: 0 };
+    for generation in 0..generations {
+        if job.is_cancelled() {
+            break;
+        }
+        let simulator = job.simulator();
+        let changed = background.install(|| tending.advance(&simulator, generation, start.as_ref()));
+        job.outbox.tell(&tending.event(job.id, generation + 1, &changed));
+        job.progress(u64::from(generation) + 1, u64::from(generations));
+    }
+    job.check()?;
+    Ok(Some(json!({ "generations": generations, "evaluations": tending.evaluations })))
+}
+
+/// The declaration of the search.
+fn declared(width: usize, height: usize, generations: u32) -> Evolution {
+    let text = format!(
+        "evolution play {{ from: gates, objective: gate, box: {width} x {height}, batch: {BATCH}, \
+         descriptors: [active in 8 bins, behavior], generations: {generations} }}"
+    );
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("play.nb", 1, text);
+    let checked = session.open("play.nb").unwrap_or_else(|found| panic!("the declaration is correct: {found:?}"));
+    checked.program.evolution("play").expect("it is declared above").clone()
+}
+
+/// Those bodies that walk for long as they do in the short holds of the search: in the designer the others would be of
+/// another kind than the square that was clicked.
+fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Scores)> {
+    let bodies: Vec<Body> = measured.iter().map(|(body, _)| body.clone()).collect();
+    let walked = walk(simulator, &bodies);
+    let is_steady = |scores: &Scores, walked: Result<[f64; 4], Fault>| {
+        walked.is_ok_and(|displacement| Behavior::of(&displacement) == scores.behavior)
+    };
+    let both = measured.into_iter().zip(walked);
+    both.filter(|((_, scores), walked)| is_steady(scores, *walked)).map(|(measured, _)| measured).collect()
+}
+
+/// An archive that is being filled.
+struct Tending {
+    evolution: Evolution,
+    archive: Archive,
+    seed: u64,
+    evaluations: u64,
+}
+
+impl Tending {
+    /// Does a generation, and returns the niches that have changed.
+    fn advance(&mut self, simulator: &Simulator, generation: u32, start: Option<&Body>) -> Vec<NicheKey> {
+        let bodies = self.candidates(generation, start);
+        let outcomes = evaluate_bodies(simulator, &self.evolution, bodies.clone());
+        let before: Vec<(NicheKey, [f64; 2])> = self.best().map(|(key, elite)| (key.clone(), elite.fitness)).collect();
+        self.evaluations += bodies.len() as u64;
+        let measured = bodies.into_iter().zip(outcomes).filter_map(|(body, outcome)| match outcome {
+            CandidateOutcome::Measured(scores) => Some((body, scores)),
+            _ => None,
+        });
+        for (body, scores) in steady(simulator, measured.collect()) {
+            self.archive.add(Elite {
+                fitness: scores.fitness,
+                behavior: scores.behavior,
+                displacement: scores.displacement,
+                body,
+                genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+                generation,
+                evaluations: self.evaluations,
+            });
+        }
+        let is_new = |(key, elite): &(&NicheKey, &Elite)| !before.contains(&((*key).clone(), elite.fitness));
+        self.best().filter(is_new).map(|(key, _)| key.clone()).collect()
+    }
+
+    /// The bodies of a generation: neighbors of elites; at first those of the start, or random ones.
+    fn candidates(&self, generation: u32, start: Option<&Body>) -> Vec<Body> {
+        let elites: Vec<&Body> = self.archive.elites().map(|elite| &elite.body).collect();
+        if elites.is_empty() && (start.is_none() || generation >= NEARBY) {
+            let seed = self.seed.wrapping_add(u64::from(generation));
+            return Search::new(&self.evolution, seed).ask().into_iter().map(|candidate| candidate.body).collect();
+        }
+        let drawn = (0..BATCH).map(|index| {
+            let mut rng = stream(self.seed, generation, index);
+            let parent = match start {
+                Some(start) if elites.is_empty() => start,
+                _ => elites[rng.random_range(0..elites.len())],
+            };
+            neighbor(parent, &mut rng)
+        });
+        start.filter(|_| generation == 0).into_iter().cloned().chain(drawn).collect()
+    }
+
+    fn best(&self) -> impl Iterator<Item = (&NicheKey, &Elite)> {
+        let best = |elites: &'_ [Elite]| {
+            (0..elites.len()).max_by(|&a, &b| elites[a].fitness[0].total_cmp(&elites[b].fitness[0]))
+        };
+        self.archive.niches().filter_map(move |(key, elites)| Some((key, &elites[best(elites)?])))
+    }
+
+    fn event(&self, id: u64, generation: u32, changed: &[NicheKey]) -> Value {
+        let axis = |axis: &Axis| match axis {
+            Axis::Count { bins, .. } => json!([axis_word(*axis), bins]),
+            Axis::Behavior => json!([axis_word(*axis), 16]),
+        };
+        let niche = |(key, elite): (&NicheKey, &Elite)| {
+            json!({
+                "place": key.0,
+                "fitness": elite.fitness,
+                "body": elite.body.rows(),
+                "letters": elite.behavior.to_string(),
+                "function": elite.behavior.function().name(),
+            })
+        };
+        let niches: Vec<Value> = self.best().filter(|(key, _)| changed.contains(key)).map(niche).collect();
+        let axes: Vec<Value> = self.evolution.descriptors.iter().map(axis).collect();
+        json!({
+            "event": "archive",
+            "id": id,
+            "generation": generation,
+            "axes": axes,
+            "niches": niches,
+            "evaluations": self.evaluations,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Palette;
+
+    #[test]
+    fn a_start_without_gates_around_it_is_given_up() {
+        let evolution = declared(3, 3, 10);
+        let tending = Tending { archive: Archive::new(&evolution), evolution, seed: 1, evaluations: 0 };
+        let start = Body::parse(&["333", "343", "333"], &Palette::paper()).unwrap();
+        let differing = |body: &Body| body.codes().iter().zip(start.codes()).filter(|(a, b)| a != b).count();
+        let around = tending.candidates(NEARBY - 1, Some(&start));
+        assert!(around.iter().all(|body| (1..=3).contains(&differing(body))), "{around:?}");
+        assert_eq!(tending.candidates(NEARBY, Some(&start)), tending.candidates(NEARBY, None));
+    }
+}

@@ -1,0 +1,145 @@
+//! The files of the served folder: read, saved, watched, and the examples that come with the program.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use include_dir::{Dir, File, include_dir};
+use serde_json::{Value, json};
+
+use crate::refusal::Refused;
+use nbc_base::source::SourceWorld;
+use nbc_session::store::{self, FolderWorld};
+
+const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
+
+/// The files that a page has read, with the stamps that it knows.
+pub(super) struct PageFiles {
+    world: FolderWorld,
+    known: BTreeMap<String, Option<String>>,
+}
+
+impl PageFiles {
+    pub(super) fn new(world: FolderWorld) -> Self {
+        Self { world, known: BTreeMap::new() }
+    }
+
+    /// The programs below the folder.
+    pub(super) fn list(&self) -> Vec<Value> {
+        let root = self.world.root();
+        let one = |path: String| {
+            let size = fs::metadata(&path).map_or(0, |about| about.len());
+            let path = Path::new(&path).strip_prefix(root).ok()?.to_string_lossy().into_owned();
+            Some(json!({ "path": path, "size": size }))
+        };
+        store::source_files([root.to_owned()]).into_iter().filter_map(one).collect()
+    }
+
+    /// The text of a file, which is watched from now on.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub(super) fn read(&mut self, path: String) -> Result<Value, Refused> {
+        let stamp = self.stamp(&path);
+        let text = self.world.read(&path).map_err(|error| Refused::Unreadable { path: path.clone(), error })?;
+        self.known.insert(path.clone(), stamp.clone());
+        Ok(json!({ "path": path, "text": text, "stamp": stamp }))
+    }
+
+    /// Saves a program, if nobody else has changed it since the page last knew it.
+    ///
+    /// # Errors
+    /// When it was changed, or cannot be written there.
+    pub(super) fn save(&mut self, path: String, text: &str, known: Option<&str>) -> Result<Value, Refused> {
+        if !path.ends_with(".nb") {
+            return Err(Refused::Ending { path, expected: ".nb" });
+        }
+        if self.stamp(&path).as_deref() != known {
+            return Err(Refused::Changed { path });
+        }
+        self.write(&path, text)?;
+        let stamp = self.stamp(&path);
+        self.known.insert(path, stamp.clone());
+        Ok(json!({ "stamp": stamp }))
+    }
+
+    /// Whether there is a file of that path.
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.world.existing(path).is_ok()
+    }
+
+    /// Writes a file below the folder.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(super) fn write(&self, path: &str, text: &str) -> Result<(), Refused> {
+        let place = self.world.writable(path);
+        let place = place.map_err(|error| Refused::Unreadable { path: path.to_owned(), error })?;
+        store::write(&place, text.as_bytes()).map_err(|error| Refused::unwritable(path, &error))
+    }
+
+    /// The folder of a file, which need not be there. The folder around it must be.
+    ///
+    /// # Errors
+    /// When it is not, or is outside of the served folder.
+    pub(super) fn folder_of(&self, path: &str) -> Result<PathBuf, Refused> {
+        let folder = Path::new(path).parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
+        self.world.writable(&folder).map_err(|error| Refused::Unreadable { path: folder, error })
+    }
+
+    /// Makes the folder of a file.
+    ///
+    /// # Errors
+    /// When it cannot be made.
+    pub(super) fn make_folder(&self, path: &str) -> Result<(), Refused> {
+        store::create_folder(&self.folder_of(path)?).map_err(|error| Refused::unwritable(path, &error))
+    }
+
+    /// The files that have other stamps than the page knows, as events.
+    pub(super) fn changes(&mut self) -> Vec<(String, Value)> {
+        let stamps: Vec<_> = self.known.keys().map(|path| (path.clone(), self.stamp(path))).collect();
+        let mut changed = Vec::new();
+        for (path, stamp) in stamps {
+            if self.known.get(&path) != Some(&stamp) {
+                let event = json!({ "event": "changed", "path": path, "stamp": stamp });
+                self.known.insert(path.clone(), stamp);
+                changed.push((path, event));
+            }
+        }
+        changed
+    }
+
+    /// A text that changes with the file.
+    fn stamp(&self, path: &str) -> Option<String> {
+        let about = fs::metadata(self.world.existing(path).ok()?).ok()?;
+        let time = about.modified().ok()?.duration_since(UNIX_EPOCH).unwrap_or_default();
+        Some(format!("{}.{}", time.as_nanos(), about.len()))
+    }
+}
+
+/// The examples: names and what they are about.
+pub(super) fn examples() -> Vec<Value> {
+    let mut files: Vec<_> =
+        EXAMPLES.files().filter(|file| file.path().extension().is_some_and(|e| e == "nb")).collect();
+    files.sort_by_key(|file| file.path());
+    let about = |text: &str| {
+        let comment = text.lines().next().and_then(|line| line.trim_start().strip_prefix("//"));
+        comment.unwrap_or_default().trim_start_matches(['/', '!']).trim().to_owned()
+    };
+    let one = |file: &File<'_>| {
+        let text = file.contents_utf8().unwrap_or_default();
+        json!({ "name": file.path().to_string_lossy(), "about": about(text) })
+    };
+    files.into_iter().map(one).collect()
+}
+
+/// An example as if it were read.
+///
+/// # Errors
+/// When there is none of that name.
+pub(super) fn example(name: &str) -> Result<Value, Refused> {
+    let text = EXAMPLES.get_file(name).and_then(File::contents_utf8);
+    let text = text.ok_or_else(|| Refused::NoExample(name.to_owned()))?;
+    Ok(json!({ "path": name, "text": text, "stamp": null }))
+}

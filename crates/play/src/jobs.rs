@@ -1,0 +1,146 @@
+//! Long requests, each on a thread of its own, with progress, and to be cancelled.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::outbox::Outbox;
+use crate::refusal::Refused;
+use nbc_circuit::CancelFlag;
+use nbc_session::Observer;
+use nbc_sim::{Monitor, Simulator};
+
+/// The most requests of a page that run at once.
+const MOST: usize = 4;
+/// The time after which a request is stopped.
+const TIME: Duration = Duration::from_secs(600);
+
+/// The requests of a page that run.
+pub(super) struct Jobs {
+    running: Arc<Mutex<BTreeMap<u64, Running>>>,
+    outbox: Outbox,
+}
+
+/// How a request can be stopped.
+struct Running {
+    stop: CancelFlag,
+    monitor: Arc<Monitor>,
+    end: Instant,
+}
+
+impl Running {
+    fn stop(&self) {
+        self.stop.raise();
+        self.monitor.stop();
+    }
+}
+
+/// A request that runs: its progress, and whether it is to stop.
+pub(super) struct Job {
+    pub(super) id: u64,
+    pub(super) outbox: Outbox,
+    pub(super) stop: CancelFlag,
+    monitor: Arc<Monitor>,
+    end: Instant,
+    /// The percentage that was told last.
+    told: u64,
+}
+
+/// How a request ended: with an answer, or it left the answer to another thread.
+pub(super) type JobEnd = Result<Option<Value>, Refused>;
+
+impl Jobs {
+    pub(super) fn new(outbox: Outbox) -> Self {
+        Self { running: Arc::default(), outbox }
+    }
+
+    /// Starts a request.
+    pub(super) fn start(&self, id: u64, work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) {
+        let (stop, monitor, end) = (CancelFlag::default(), Arc::new(Monitor::default()), Instant::now() + TIME);
+        {
+            let mut running = lock(&self.running);
+            // Otherwise it could not be cancelled, and the end of one would count as that of the other.
+            if running.contains_key(&id) {
+                return self.outbox.answer(id, Err(Refused::NumberInUse { id }.into()));
+            }
+            if running.len() >= MOST {
+                return self.outbox.answer(id, Err(Refused::Busy { most: MOST }.into()));
+            }
+            running.insert(id, Running { stop: stop.clone(), monitor: monitor.clone(), end });
+        }
+        let (running, outbox) = (self.running.clone(), self.outbox.clone());
+        let mut job = Job { id, outbox, stop, monitor, end, told: 0 };
+        thread::spawn(move || {
+            let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
+            lock(&running).remove(&id);
+            match ended.unwrap_or(Err(Refused::Internal)) {
+                Ok(None) => {}
+                Ok(Some(value)) => job.outbox.answer(id, Ok(value)),
+                Err(refused) => job.outbox.answer(id, Err(job.reason(refused).into())),
+            }
+        });
+    }
+
+    /// Stops a request.
+    pub(super) fn cancel(&self, id: u64) {
+        lock(&self.running).get(&id).into_iter().for_each(Running::stop);
+    }
+
+    /// Stops the requests that take too long.
+    pub(super) fn end_late(&self) {
+        let now = Instant::now();
+        lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop);
+    }
+}
+
+impl Drop for Jobs {
+    /// Nobody waits for them any more.
+    fn drop(&mut self) {
+        lock(&self.running).values().for_each(Running::stop);
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Job {
+    /// A simulator whose simulations end when it is stopped.
+    pub(super) fn simulator(&self) -> Simulator {
+        Simulator::monitored(self.monitor.clone())
+    }
+
+    /// Ends it if it is to stop.
+    ///
+    /// # Errors
+    /// When it is to stop.
+    pub(super) fn check(&self) -> Result<(), Refused> {
+        if self.stop.is_raised() { Err(self.reason(Refused::Cancelled)) } else { Ok(()) }
+    }
+
+    /// Work that was stopped because it took too long says so.
+    fn reason(&self, refused: Refused) -> Refused {
+        match refused {
+            Refused::Cancelled if self.end < Instant::now() => Refused::TimedOut { seconds: TIME.as_secs() },
+            other => other,
+        }
+    }
+}
+
+impl Observer for Job {
+    fn progress(&mut self, done: u64, all: u64) {
+        let percentage = done * 100 / all.max(1);
+        if percentage > self.told {
+            self.told = percentage;
+            self.outbox.tell(&json!({ "id": self.id, "progress": [done, all] }));
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.stop.is_raised()
+    }
+}

@@ -1,0 +1,93 @@
+//! The socket of the language server: the one that editors start, for the texts of the page.
+
+use std::sync::Arc;
+use std::thread;
+
+use axum::extract::ws::{Utf8Bytes, WebSocket};
+use crossbeam_channel::bounded;
+use lsp_server::{Connection, ErrorCode, Message};
+use serde_json::{Value, json};
+use tokio::sync::mpsc;
+
+use crate::outbox::outbox;
+use crate::served::Served;
+use crate::socket::{WAITING, pump};
+
+/// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and
+/// answers that may.
+const READ: usize = 2;
+const ANSWERS: usize = 16;
+
+/// Serves one page until it is gone.
+pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
+    let (requests, mut waiting) = mpsc::channel::<Utf8Bytes>(WAITING);
+    let (inbox, outgoing) = outbox();
+    let (sender, receiver) = bounded(READ);
+    let (answer, answers) = bounded(ANSWERS);
+    let world = served.world.clone();
+    // A page that breaks the protocol is left alone: it sees that nothing is answered.
+    thread::spawn(move || _ = nbc_lsp::serve(Connection { sender: answer, receiver }, world));
+    let told = inbox.clone();
+    thread::spawn(move || answers.into_iter().for_each(|message| told.send(written(&message))));
+    let folder = served.clone();
+    thread::spawn(move || {
+        while let Some(text) = waiting.blocking_recv() {
+            let sent = match read(&text, &folder) {
+                Ok(message) => message.map_or(Ok(()), |message| sender.send(message)),
+                Err(refusal) => {
+                    inbox.tell(&refusal);
+                    Ok(())
+                }
+            };
+            if sent.is_err() {
+                return;
+            }
+        }
+    });
+    pump(socket, requests, outgoing, &served.waiting).await;
+}
+
+/// A message of the page; none if it is not for the server. Whatever folders it names, it works in the served one.
+///
+/// # Errors
+/// The answer to what is no message.
+fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
+    if text.is_empty() {
+        return Ok(None);
+    }
+    let mut value: Value =
+        serde_json::from_str(text).map_err(|error| refusal(&Value::Null, ErrorCode::ParseError, &error.to_string()))?;
+    if value["method"] == "initialize" {
+        let id = value["id"].clone();
+        let Some(params) = value["params"].as_object_mut() else {
+            return Err(refusal(&id, ErrorCode::InvalidParams, "the parameters of `initialize` must be an object"));
+        };
+        params.insert("rootUri".to_owned(), json!(served.root));
+        // The user has opened this folder with `nbc play`.
+        params.insert("initializationOptions".to_owned(), trusting(params.get("initializationOptions")));
+        params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.root, "name": "play" }]));
+    }
+    if value["method"] == "workspace/didChangeWorkspaceFolders" {
+        return Ok(None);
+    }
+    let id = value.get("id").cloned().unwrap_or_default();
+    let message = serde_json::from_value(value);
+    message.map(Some).map_err(|error| refusal(&id, ErrorCode::InvalidRequest, &error.to_string()))
+}
+
+fn refusal(id: &Value, code: ErrorCode, message: &str) -> Value {
+    json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
+}
+
+/// The options of a page, with trust in the Verilog of the folder.
+fn trusting(options: Option<&Value>) -> Value {
+    let mut options = options.filter(|options| options.is_object()).cloned().unwrap_or_else(|| json!({}));
+    options["verilog"] = json!({ "trusted": true });
+    options
+}
+
+fn written(message: &Message) -> String {
+    let mut value = serde_json::to_value(message).expect("messages are data");
+    value["jsonrpc"] = json!("2.0");
+    value.to_string()
+}

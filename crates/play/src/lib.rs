@@ -1,0 +1,172 @@
+//! The live page: a server that runs swarms, and a page in a browser that draws them (docs/play-protocol.md).
+
+mod bodies;
+mod connections;
+mod evolving;
+mod files;
+mod frame;
+mod history;
+mod jobs;
+mod language;
+mod live;
+mod outbox;
+mod page;
+mod programs;
+mod refusal;
+mod request;
+mod runner;
+mod served;
+mod server;
+mod socket;
+mod takes;
+mod taking;
+mod visit;
+mod wording;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use nbc_base::diag::io_words;
+use nbc_session::store::{FolderWorld, PrivateFile};
+use tokio::net::TcpListener;
+use tokio::runtime::{Builder, Runtime};
+
+pub use wording::PlayError;
+
+use page::Page;
+use served::Served;
+
+/// The time between two looks for a request to stop.
+const LOOK: Duration = Duration::from_millis(100);
+/// The file that a browser is told to open. So the token is in no list of processes.
+const REDIRECT: (&str, &str) = ("open-", ".html");
+/// Bytes of a random token.
+const TOKEN: usize = 16;
+
+/// What is served, and where.
+#[derive(Clone, Debug, Default)]
+pub struct PlayOptions {
+    /// The program to open first. The page can read and write only below the current folder, or the file's folder if
+    /// that is elsewhere.
+    pub file: Option<PathBuf>,
+    /// The address to listen at, such as `127.0.0.1`.
+    pub host: String,
+    /// The port; 0 is any free one.
+    pub port: u16,
+    /// A folder with a page of its own, instead of the built-in one.
+    pub page: Option<PathBuf>,
+    /// The secret part of the address ([`is_token`]), instead of a random one.
+    pub token: Option<String>,
+}
+
+/// A server that listens.
+pub struct PlayServer {
+    runtime: Runtime,
+    listener: TcpListener,
+    served: Arc<Served>,
+}
+
+impl PlayServer {
+    /// Listens at the address.
+    ///
+    /// # Errors
+    /// When the file or the page cannot be found, or the address cannot be listened at.
+    pub fn bind(options: &PlayOptions) -> Result<Self, PlayError> {
+        let runtime = Builder::new_current_thread().enable_all().build().map_err(system)?;
+        let (folder, file) = place(options.file.as_deref())?;
+        let token = options.token.clone().map_or_else(random_token, Ok)?;
+        let root = nbc_lsp::file_uri(&folder.root().to_string_lossy());
+        let page = Page::of(options.page.as_deref()).map_err(|error| {
+            let folder = options.page.clone().unwrap_or_default();
+            missing(&folder, &error)
+        })?;
+        let refused = |error: io::Error| PlayError::Address {
+            host: options.host.clone(),
+            port: options.port,
+            reason: io_words(&error),
+        };
+        let bound = runtime.block_on(TcpListener::bind((options.host.as_str(), options.port)));
+        let listener = bound.map_err(refused)?;
+        let port = listener.local_addr().map_err(system)?.port();
+        let served = Served { page, host: options.host.clone(), port, ..Served::new(folder, root, file, token) };
+        Ok(Self { runtime, listener, served: Arc::new(served) })
+    }
+
+    /// The address of the page, for a browser on this computer.
+    pub fn address(&self) -> String {
+        self.served.address()
+    }
+
+    /// The address for other computers, if they can reach the server.
+    pub fn address_elsewhere(&self) -> Option<String> {
+        self.served.address_elsewhere()
+    }
+
+    /// Opens the page in a browser, through a file that must stay until the browser has read it; `None` if no browser
+    /// could be opened.
+    pub fn open_browser(&self) -> Option<PrivateFile> {
+        let file = PrivateFile::create(REDIRECT.0, REDIRECT.1, &redirect(&self.address())).ok()?;
+        open::that_detached(file.path()).ok().map(|()| file)
+    }
+
+    /// Serves until `is_stopped`.
+    pub fn serve(self, is_stopped: impl Fn() -> bool) {
+        let Self { runtime, listener, served } = self;
+        let stopped = async {
+            while !is_stopped() {
+                tokio::time::sleep(LOOK).await;
+            }
+        };
+        runtime.block_on(async {
+            tokio::select! {
+                never = connections::serve(listener, server::router(served)) => match never {},
+                () = stopped => {}
+            }
+        });
+    }
+}
+
+/// Whether a text can be the secret part of an address.
+pub fn is_token(text: &str) -> bool {
+    text.len() >= 16 && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+fn system(error: io::Error) -> PlayError {
+    PlayError::System { reason: io_words(&error) }
+}
+
+fn missing(path: &Path, error: &io::Error) -> PlayError {
+    PlayError::File { path: path.display().to_string(), reason: io_words(error) }
+}
+
+/// A page that leads to another one.
+fn redirect(address: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"referrer\" content=\"no-referrer\">\n\
+         <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<title>nbc</title>\n\
+         <p><a href=\"{address}\">Open the page of nbc play</a></p>\n"
+    )
+}
+
+/// The folder to serve, and the file in it.
+fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), PlayError> {
+    let open = |folder: &Path| FolderWorld::new(folder).map_err(|error| missing(folder, &error));
+    let here = open(Path::new("."))?;
+    let Some(file) = file else { return Ok((here, None)) };
+    let whole = file.canonicalize().map_err(|error| missing(file, &error))?;
+    let folder = match whole.parent() {
+        Some(parent) if !whole.starts_with(here.root()) => open(parent)?,
+        _ => here,
+    };
+    let path = whole.strip_prefix(folder.root()).ok().map(|path| path.to_string_lossy().into_owned());
+    Ok((folder, path))
+}
+
+fn random_token() -> Result<String, PlayError> {
+    let mut bytes = [0; TOKEN];
+    getrandom::fill(&mut bytes).map_err(|error| PlayError::System { reason: error.to_string() })?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}

@@ -1,0 +1,182 @@
+//! What a page is still to be sent. Texts wait in a queue; of the swarm's frames only the newest waits, so that a slow
+//! page never holds up the swarm.
+
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+
+use axum::extract::ws::{Message, Utf8Bytes};
+use serde_json::{Value, json};
+use tokio::sync::{Notify, mpsc};
+
+use crate::refusal::Refusal;
+
+/// Texts that may wait, and their bytes, unless one alone has more. Work that has more to tell waits until the page has
+/// received some.
+const ROOM: usize = 256;
+const MOST_BYTES: usize = 4 << 20;
+
+/// The end at which a session puts messages. Clones put them into the same box.
+#[derive(Clone)]
+pub(super) struct Outbox {
+    texts: mpsc::Sender<Utf8Bytes>,
+    load: Arc<Load>,
+    frame: Arc<FrameSlot>,
+}
+
+/// The end from which a socket takes them.
+pub(super) struct Outgoing {
+    texts: mpsc::Receiver<Utf8Bytes>,
+    load: Arc<Load>,
+    frame: Arc<FrameSlot>,
+}
+
+#[derive(Default)]
+struct FrameSlot {
+    frame: Mutex<Option<Vec<u8>>>,
+    filled: Notify,
+}
+
+impl FrameSlot {
+    fn with<T>(&self, work: impl FnOnce(&mut Option<Vec<u8>>) -> T) -> T {
+        work(&mut self.frame.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// The bytes of the texts that wait; none once the page is gone, when nobody needs to wait any more.
+struct Load {
+    bytes: Mutex<Option<usize>>,
+    less: Condvar,
+}
+
+impl Load {
+    /// Adds a text as soon as there is room.
+    fn add(&self, size: usize) {
+        let bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_full = |bytes: &mut Option<usize>| bytes.is_some_and(|bytes| bytes > 0 && bytes + size > MOST_BYTES);
+        let mut bytes = self.less.wait_while(bytes, is_full).unwrap_or_else(PoisonError::into_inner);
+        *bytes = bytes.map(|bytes| bytes + size);
+    }
+
+    /// Takes texts away: one of that size, or all for ever.
+    fn take(&self, size: Option<usize>) {
+        let mut bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
+        *bytes = bytes.zip(size).map(|(bytes, size)| bytes.saturating_sub(size));
+        self.less.notify_all();
+    }
+}
+
+/// The two ends of a new box.
+pub(super) fn outbox() -> (Outbox, Outgoing) {
+    let (texts, incoming) = mpsc::channel(ROOM);
+    let load = Arc::new(Load { bytes: Mutex::new(Some(0)), less: Condvar::new() });
+    let frame = Arc::new(FrameSlot::default());
+    (Outbox { texts, load: load.clone(), frame: frame.clone() }, Outgoing { texts: incoming, load, frame })
+}
+
+impl Outbox {
+    /// Tells an event, or the progress of a request. Nobody reads it when the page is gone.
+    pub(super) fn tell(&self, message: &Value) {
+        self.send(message.to_string());
+    }
+
+    /// Sends a text as it is.
+    pub(super) fn send(&self, text: String) {
+        self.load.add(text.len());
+        let _ = self.texts.blocking_send(text.into());
+    }
+
+    /// Answers the request `id`.
+    pub(super) fn answer(&self, id: u64, result: Result<Value, Refusal>) {
+        self.tell(&match result {
+            Ok(value) => json!({ "id": id, "ok": value }),
+            Err(refusal) => json!({ "id": id, "error": refusal }),
+        });
+    }
+
+    /// Whether a frame can be put.
+    pub(super) fn has_room(&self) -> bool {
+        self.frame.with(|frame| frame.is_none())
+    }
+
+    /// Puts a frame in place of one that still waits.
+    pub(super) fn put(&self, frame: Vec<u8>) {
+        self.frame.with(|slot| *slot = Some(frame));
+        self.frame.filled.notify_one();
+    }
+
+    /// Takes back the frame that waits; whether there was one.
+    pub(super) fn clear(&self) -> bool {
+        self.frame.with(|slot| slot.take().is_some())
+    }
+}
+
+impl Outgoing {
+    /// The next message, texts first; `None` when nobody can put any more. No message is lost when the wait is given
+    /// up.
+    pub(super) async fn next(&mut self) -> Option<Message> {
+        loop {
+            tokio::select! {
+                biased;
+                text = self.texts.recv() => {
+                    self.load.take(text.as_ref().map(|text| text.len()));
+                    return text.map(Message::Text);
+                }
+                () = self.frame.filled.notified() => {
+                    if let Some(frame) = self.frame.with(Option::take) {
+                        return Some(Message::Binary(frame.into()));
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Drop for Outgoing {
+    fn drop(&mut self) {
+        self.load.take(None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn take(outgoing: &mut Outgoing) -> Message {
+        tokio::runtime::Builder::new_current_thread().build().unwrap().block_on(outgoing.next()).unwrap()
+    }
+
+    #[test]
+    fn texts_keep_their_order_and_go_before_the_newest_frame() {
+        let (outbox, mut outgoing) = outbox();
+        outbox.put(vec![1]);
+        assert!(!outbox.has_room());
+        outbox.put(vec![2]);
+        outbox.tell(&json!("a"));
+        outbox.answer(7, Ok(json!({})));
+        assert_eq!(take(&mut outgoing), Message::Text("\"a\"".into()));
+        assert_eq!(take(&mut outgoing), Message::Text("{\"id\":7,\"ok\":{}}".into()));
+        assert_eq!(take(&mut outgoing), Message::Binary(vec![2].into()));
+        assert!(outbox.has_room());
+    }
+
+    #[test]
+    fn texts_wait_for_room_until_the_page_is_gone() {
+        let (outbox, mut outgoing) = outbox();
+        let large = "x".repeat(MOST_BYTES - 1);
+        // One alone may be as large as it likes.
+        outbox.send("x".repeat(2 * MOST_BYTES));
+        let (told, tells) = std::sync::mpsc::channel();
+        let teller = std::thread::spawn(move || {
+            for _ in 0..3 {
+                outbox.send(large.clone());
+                told.send(()).unwrap();
+            }
+        });
+        let pause = std::time::Duration::from_millis(50);
+        assert!(tells.recv_timeout(pause).is_err());
+        take(&mut outgoing);
+        tells.recv().unwrap();
+        assert!(tells.recv_timeout(pause).is_err());
+        drop(outgoing);
+        teller.join().unwrap();
+    }
+}

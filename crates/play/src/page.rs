@@ -1,0 +1,131 @@
+//! The page: what `web/` builds, in the program or in a folder. A browser keeps scripts and styles, because their names
+//! have a hash of their contents.
+
+use std::borrow::Cow;
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use axum::http::{HeaderMap, HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
+/// What a browser may keep for as long as it likes.
+const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
+
+/// The texts of the page.
+pub(super) struct Page {
+    html: Part,
+    script: Part,
+    style: Part,
+}
+
+/// A text of the page, also compressed.
+struct Part {
+    /// The last part of its address.
+    name: String,
+    kind: &'static str,
+    text: Cow<'static, str>,
+    packed: Vec<u8>,
+}
+
+impl Default for Page {
+    /// The one in the program.
+    fn default() -> Self {
+        Self::new(
+            include_str!("../page/index.html"),
+            include_str!("../page/app.js").into(),
+            include_str!("../page/app.css").into(),
+        )
+    }
+}
+
+impl Page {
+    /// The page in a folder, or else the one in the program.
+    ///
+    /// # Errors
+    /// When a part of it cannot be read.
+    pub(super) fn of(folder: Option<&Path>) -> io::Result<Self> {
+        let Some(folder) = folder else { return Ok(Self::default()) };
+        let read = |name: &str| fs::read_to_string(folder.join(name));
+        Ok(Self::new(&read("index.html")?, read("app.js")?.into(), read("app.css")?.into()))
+    }
+
+    fn new(html: &str, script: Cow<'static, str>, style: Cow<'static, str>) -> Self {
+        let script = Part::new(hashed("app", "js", &script), "text/javascript; charset=utf-8", script);
+        let style = Part::new(hashed("app", "css", &style), "text/css; charset=utf-8", style);
+        let html = html.replace("\"app.js\"", &format!("\"{}\"", script.name));
+        let html = html.replace("\"app.css\"", &format!("\"{}\"", style.name));
+        Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
+    }
+
+    /// The document, which a browser asks for each time.
+    pub(super) fn document(&self, request: &HeaderMap) -> Response {
+        self.html.answer(request)
+    }
+
+    /// A script or a style by its name.
+    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
+        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name)?;
+        let mut response = part.answer(request);
+        response.headers_mut().insert(header::CACHE_CONTROL, IMMUTABLE);
+        Some(response)
+    }
+}
+
+impl Part {
+    fn new(name: String, kind: &'static str, text: Cow<'static, str>) -> Self {
+        let mut packing = GzEncoder::new(Vec::new(), Compression::default());
+        packing.write_all(text.as_bytes()).expect("memory takes any bytes");
+        Self { name, kind, packed: packing.finish().expect("memory takes any bytes"), text }
+    }
+
+    fn answer(&self, request: &HeaderMap) -> Response {
+        let packs = accepts_gzip(request);
+        let bytes = if packs { self.packed.clone() } else { self.text.as_bytes().to_vec() };
+        let mut response = bytes.into_response();
+        let headers = response.headers_mut();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(self.kind));
+        headers.insert(header::VARY, HeaderValue::from_static("accept-encoding"));
+        if packs {
+            headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));
+        }
+        response
+    }
+}
+
+/// A name with a hash of the text.
+fn hashed(stem: &str, ending: &str, text: &str) -> String {
+    format!("{stem}-{:08x}.{ending}", crc32fast::hash(text.as_bytes()))
+}
+
+fn accepts_gzip(request: &HeaderMap) -> bool {
+    let accepted = request.get(header::ACCEPT_ENCODING).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    accepted.split(',').map(|coding| coding.replace(' ', "")).any(|coding| {
+        let (name, quality) = coding.split_once(";q=").unwrap_or((&coding, "1"));
+        name == "gzip" && quality.parse::<f64>().is_ok_and(|quality| quality > 0.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_text_has_another_name_and_the_document_names_it() {
+        let page = |script: &'static str| Page::new("<script src=\"app.js\">", script.into(), "".into());
+        let (one, two) = (page("a"), page("b"));
+        assert_ne!(one.script.name, two.script.name);
+        assert_eq!(one.html.text, format!("<script src=\"{}\">", one.script.name));
+        assert!(one.part("app.js", &HeaderMap::new()).is_none());
+    }
+
+    #[test]
+    fn only_those_who_can_read_it_get_compressed_text() {
+        let accepts =
+            |text: &str| accepts_gzip(&[(header::ACCEPT_ENCODING, text.parse().unwrap())].into_iter().collect());
+        assert!(accepts("br, gzip") && accepts("gzip;q=0.5") && accepts("gzip"));
+        assert!(!accepts("br") && !accepts("gzip;q=0") && !accepts("") && !accepts_gzip(&HeaderMap::new()));
+    }
+}

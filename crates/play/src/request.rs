@@ -1,0 +1,128 @@
+//! The requests of a page; docs/play-protocol.md describes them.
+
+use serde::Deserialize;
+
+use crate::runner::Change;
+use nbc_swarm::Level;
+
+/// A request with its number.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub(super) struct Request {
+    pub(super) id: u64,
+    #[serde(flatten)]
+    pub(super) verb: Verb,
+}
+
+/// What is requested.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(tag = "do", rename_all = "lowercase")]
+pub(super) enum Verb {
+    Hello,
+    Files,
+    Read { path: Option<String>, example: Option<String> },
+    Save { path: String, text: String, stamp: Option<String> },
+    Program { path: String, text: String },
+    Compile { path: String, circuit: String, swarm: Option<String> },
+    Test { path: String, test: usize, level: TestLevel },
+    Replay { path: String, test: usize, swarm: Option<String>, row: usize },
+    Inputs { bits: String },
+    Clock { bit: usize, half: Option<u32> },
+    Run { speed: Option<f64> },
+    Pause,
+    Step { cycles: u32 },
+    Reset,
+    Seek { cycle: u32 },
+    View { robots: Vec<usize> },
+    Robots { path: Option<String> },
+    Probe { body: Vec<String>, cycles: u32, character: Option<bool> },
+    Keep(KeepRequest),
+    Evolve(EvolveRequest),
+    Take { what: TakeKind, cycles: u32 },
+    Cancel { of: u64 },
+}
+
+/// A level of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum TestLevel {
+    Logic,
+    Physics,
+}
+
+/// A body to keep as a robot.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub(super) struct KeepRequest {
+    /// The program that is to use it. Its robots are beside it.
+    pub(super) path: Option<String>,
+    pub(super) name: String,
+    pub(super) body: Vec<String>,
+    /// Whether a robot of that name is replaced.
+    pub(super) replace: Option<bool>,
+}
+
+/// A search for bodies.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub(super) struct EvolveRequest {
+    /// The body to start from, if it is not a random one.
+    pub(super) body: Option<Vec<String>>,
+    /// Columns and rows.
+    #[serde(rename = "box")]
+    pub(super) bounds: [usize; 2],
+    pub(super) generations: u32,
+    pub(super) seed: u64,
+}
+
+/// Files that a page can take away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum TakeKind {
+    Page,
+    Gif,
+    Png,
+    Svg,
+    Vcd,
+    Csv,
+}
+
+impl From<TestLevel> for Level {
+    fn from(level: TestLevel) -> Self {
+        match level {
+            TestLevel::Logic => Self::Logic,
+            TestLevel::Physics => Self::Physics,
+        }
+    }
+}
+
+impl Verb {
+    /// The change of the swarm that is requested, if it is one; or the request itself.
+    pub(super) fn change(self) -> Result<Change, Self> {
+        Ok(match self {
+            Self::Inputs { bits } => Change::Inputs(bits.bytes().map(|digit| digit == b'1').collect()),
+            Self::Clock { bit, half } => Change::Clock { bit, half },
+            Self::Run { speed } => Change::Run { speed },
+            Self::Pause => Change::Pause,
+            Self::Step { cycles } => Change::Step { cycles },
+            Self::Reset => Change::Reset,
+            Self::Seek { cycle } => Change::Seek { cycle },
+            Self::View { robots } => Change::View { robots },
+            other => return Err(other),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn requests_are_read_and_changes_of_the_swarm_told_apart() {
+        let read = |text: &str| serde_json::from_str::<Request>(text);
+        let step = read(r#"{ "id": 3, "do": "step", "cycles": 2 }"#).unwrap();
+        assert_eq!((step.id, step.verb.change()), (3, Ok(Change::Step { cycles: 2 })));
+        let inputs = read(r#"{ "id": 4, "do": "inputs", "bits": "01" }"#).unwrap();
+        assert_eq!(inputs.verb.change(), Ok(Change::Inputs(vec![false, true])));
+        let compile = read(r#"{ "id": 5, "do": "compile", "path": "a.nb", "circuit": "a", "swarm": null }"#).unwrap();
+        assert!(compile.verb.change().is_err());
+        assert!(read(r#"{ "id": 6, "do": "fly" }"#).is_err() && read("[]").is_err());
+    }
+}

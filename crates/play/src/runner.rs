@@ -1,0 +1,405 @@
+//! The thread that runs a page's swarm at its pace, remembers its last cycles, and shows it.
+
+use std::collections::VecDeque;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::frame::SwarmFrame;
+use crate::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory};
+use crate::outbox::Outbox;
+use crate::refusal::{Refusal, Refused};
+use nbc_circuit::CancelFlag;
+use nbc_session::{Compiled, Excerpt, Session};
+use nbc_swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
+
+/// The least time between two frames: screens show no more.
+const FRAME_TIME: Duration = Duration::from_millis(15);
+/// The time by which a swarm may be late without catching up.
+const LATE: Duration = Duration::from_millis(250);
+/// Voxels of ground that are left when a swarm is stopped.
+const GROUND_LEFT: f64 = 64.0;
+/// The most cycles whose times are averaged for the pace.
+const PACE_CYCLES: usize = 64;
+
+/// A swarm to run, from its start.
+pub(super) struct LoadedSwarm {
+    pub(super) number: u32,
+    pub(super) compiled: Compiled,
+    pub(super) swarm: LiveSwarm,
+    /// Inputs to run it through at once.
+    pub(super) inputs: Vec<Vec<bool>>,
+    /// The request to answer when that is done, and the answer.
+    pub(super) request: u64,
+    pub(super) answer: Value,
+    pub(super) stop: CancelFlag,
+}
+
+/// What a page wants of its swarm.
+pub(super) enum SwarmOrder {
+    Load(Box<LoadedSwarm>),
+    /// With the request to answer.
+    Change(u64, Change),
+    /// The last cycles up to now, for work on another thread.
+    Excerpt(u32, Sender<Option<Excerpt>>),
+}
+
+/// A change of a swarm or of its pace.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Change {
+    Inputs(Vec<bool>),
+    Clock { bit: usize, half: Option<u32> },
+    Run { speed: Option<f64> },
+    Pause,
+    Step { cycles: u32 },
+    Reset,
+    Seek { cycle: u32 },
+    View { robots: Vec<usize> },
+}
+
+/// Starts the thread. It ends when nobody can order any more.
+pub(super) fn start(outbox: Outbox) -> Sender<SwarmOrder> {
+    let (sender, orders) = channel();
+    thread::spawn(move || Runner { orders, outbox, shown: None }.run());
+    sender
+}
+
+struct Runner {
+    orders: Receiver<SwarmOrder>,
+    outbox: Outbox,
+    shown: Option<Shown>,
+}
+
+/// The pace of a swarm that runs.
+struct Pace {
+    /// Cycles a second; none for as many as can be.
+    speed: Option<f64>,
+    /// Cycles after which it pauses.
+    left: Option<u32>,
+    /// The time of the next cycle.
+    next: Instant,
+}
+
+/// A swarm with its history.
+struct Shown {
+    number: u32,
+    compiled: Compiled,
+    swarm: LiveSwarm,
+    history: SwarmHistory,
+    start: SwarmSnapshot,
+    /// The input bits of the next cycle.
+    inputs: Vec<bool>,
+    /// An input bit that changes by itself, the cycles from change to change, and the cycle of the last one.
+    clock: Option<(usize, u32, u32)>,
+    pace: Option<Pace>,
+    /// When the last cycles were done.
+    times: VecDeque<Instant>,
+    starts: Vec<[f64; 2]>,
+    poses: Vec<Poses>,
+    view: Vec<usize>,
+    /// The last cycle that the page knows.
+    sent: u32,
+    /// The last one that it knew before the newest frame.
+    sent_before: u32,
+    /// Whether the page does not know the current state.
+    is_new: bool,
+    last_frame: Option<Instant>,
+    /// The width of its world, in voxels.
+    world: f64,
+}
+
+impl Runner {
+    fn run(mut self) {
+        loop {
+            let order = match self.shown.as_ref().map_or(Wait::Forever, Shown::wait) {
+                Wait::Forever => self.orders.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Wait::For(time) => self.orders.recv_timeout(time),
+            };
+            match order {
+                Ok(order) => self.obey(order),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+            let Some(shown) = &mut self.shown else { continue };
+            if shown.is_due()
+                && let Some(reason) = shown.go_on()
+            {
+                self.outbox.tell(&json!({ "event": "stopped", "reason": reason }));
+            }
+            shown.show(&self.outbox);
+        }
+    }
+
+    fn obey(&mut self, order: SwarmOrder) {
+        match order {
+            SwarmOrder::Load(loaded) => self.load(*loaded),
+            SwarmOrder::Change(id, change) => {
+                // A frame of before would come after the answer, and the page would take it for what follows.
+                if let Some(shown) = self.shown.as_mut().filter(|_| self.outbox.clear()) {
+                    shown.take_back();
+                }
+                let done = self.shown.as_mut().ok_or(Refused::NoSwarm).and_then(|shown| shown.change(change));
+                self.outbox.answer(id, done.map(|()| json!({})).map_err(Refusal::from));
+            }
+            SwarmOrder::Excerpt(cycles, reply) => {
+                let _ = reply.send(self.shown.as_ref().map(|shown| shown.excerpt(cycles)));
+            }
+        }
+    }
+
+    fn load(&mut self, loaded: LoadedSwarm) {
+        let LoadedSwarm { number, compiled, swarm, inputs, request, answer, stop } = loaded;
+        let mut shown = Shown::new(number, compiled, swarm);
+        let all = inputs.len();
+        for (done, bits) in inputs.into_iter().enumerate() {
+            if stop.is_raised() {
+                return self.outbox.answer(request, Err(Refused::Cancelled.into()));
+            }
+            shown.inputs = bits;
+            shown.cycle();
+            if done % 8 == 7 {
+                self.outbox.tell(&json!({ "id": request, "progress": [done + 1, all] }));
+            }
+        }
+        // A frame of the swarm before would come after the answer.
+        self.outbox.clear();
+        self.outbox.answer(request, Ok(answer));
+        self.shown = Some(shown);
+    }
+}
+
+/// How long a runner waits for an order.
+enum Wait {
+    Forever,
+    For(Duration),
+}
+
+impl Shown {
+    fn new(number: u32, compiled: Compiled, swarm: LiveSwarm) -> Self {
+        let trace = swarm.trace();
+        let lefts = trace.recording.robots.iter().map(|robot| robot.origin());
+        let starts = trace.robots.iter().zip(lefts).map(|(robot, left)| [robot.com_x[0], left]).collect();
+        let robots = trace.robots.len();
+        Self {
+            number,
+            history: SwarmHistory::new(&swarm, MEMORY),
+            start: swarm.snapshot(),
+            inputs: vec![false; trace.inputs.iter().map(|port| port.width).sum()],
+            clock: None,
+            pace: None,
+            times: VecDeque::new(),
+            starts,
+            poses: Poses::of(&swarm),
+            view: (0..robots).collect(),
+            sent: 0,
+            sent_before: 0,
+            is_new: true,
+            last_frame: None,
+            world: compiled.assembly.setting(Session::LIVE_CYCLES).world_width as f64,
+            compiled,
+            swarm,
+        }
+    }
+
+    fn now(&self) -> u32 {
+        self.swarm.cycles() as u32
+    }
+
+    fn wait(&self) -> Wait {
+        let until_cycle = self.pace.as_ref().map(|pace| pace.next.saturating_duration_since(Instant::now()));
+        let until_frame = self.is_new.then_some(FRAME_TIME);
+        match until_cycle.into_iter().chain(until_frame).min() {
+            Some(time) => Wait::For(time),
+            None => Wait::Forever,
+        }
+    }
+
+    fn is_due(&self) -> bool {
+        self.pace.as_ref().is_some_and(|pace| pace.next <= Instant::now())
+    }
+
+    /// Does a cycle of its pace. Returns the reason if it cannot go on.
+    fn go_on(&mut self) -> Option<String> {
+        let fault = self.cycle().or_else(|| self.ground_ends());
+        if fault.is_some() {
+            self.pace = None;
+        }
+        let Some(pace) = &mut self.pace else { return fault };
+        let now = Instant::now();
+        pace.next = match pace.speed {
+            Some(speed) => (pace.next + Duration::from_secs_f64(1.0 / speed)).max(now - LATE),
+            None => now,
+        };
+        pace.left = pace.left.map(|left| left - 1);
+        if pace.left == Some(0) {
+            self.pace = None;
+        }
+        None
+    }
+
+    /// Simulates a cycle with the inputs. Returns the reason if a robot became unstable in it.
+    fn cycle(&mut self) -> Option<String> {
+        let now = self.now();
+        if let Some((bit, half, last)) = &mut self.clock
+            && now >= last.saturating_add(*half)
+        {
+            self.inputs[*bit] = !self.inputs[*bit];
+            *last = now;
+        }
+        let faults = |swarm: &LiveSwarm| swarm.trace().robots.iter().filter(|robot| robot.fault.is_some()).count();
+        let before = faults(&self.swarm);
+        self.swarm.step(&self.inputs);
+        let logged = LoggedCycle::last_of(&self.swarm);
+        self.poses = Poses::of(&self.swarm);
+        self.swarm.forget();
+        self.sent = self.sent.min(now);
+        self.history.push(now + 1, logged, &self.swarm);
+        self.is_new = true;
+        self.times.push_back(Instant::now());
+        if self.times.len() > PACE_CYCLES {
+            self.times.pop_front();
+        }
+        (faults(&self.swarm) > before).then(|| "a robot became unstable".to_owned())
+    }
+
+    fn ground_ends(&self) -> Option<String> {
+        let at_end = |robot: &RobotTrace| {
+            let x = robot.com_x[robot.com_x.len() - 1];
+            x < GROUND_LEFT || x > self.world - GROUND_LEFT
+        };
+        self.swarm.trace().robots.iter().any(at_end).then(|| "a robot has reached the end of its ground".to_owned())
+    }
+
+    fn change(&mut self, change: Change) -> Result<(), Refused> {
+        match change {
+            Change::Inputs(bits) if bits.len() != self.inputs.len() => {
+                return Err(Refused::Bits { expected: self.inputs.len() });
+            }
+            Change::Inputs(bits) => self.set_inputs(bits),
+            Change::Clock { bit, .. } if bit >= self.inputs.len() => {
+                return Err(Refused::Bits { expected: self.inputs.len() });
+            }
+            Change::Clock { bit, half } => self.clock = half.map(|half| (bit, half.max(1), self.now())),
+            Change::Run { speed } => self.set_pace(speed, None),
+            Change::Pause => self.set_paused(),
+            Change::Step { cycles } => self.set_pace(None, Some(cycles.clamp(1, 1000))),
+            Change::Reset => self.reset(),
+            Change::Seek { cycle } => self.seek(cycle)?,
+            Change::View { robots } => {
+                let count = self.starts.len();
+                self.view = robots.into_iter().filter(|&robot| robot < count).collect();
+                self.view.sort_unstable();
+                self.view.dedup();
+                self.is_new = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the inputs, but for one that changes by itself.
+    fn set_inputs(&mut self, bits: Vec<bool>) {
+        let kept = self.clock.map(|(bit, ..)| (bit, self.inputs[bit]));
+        self.inputs = bits;
+        if let Some((bit, value)) = kept {
+            self.inputs[bit] = value;
+        }
+    }
+
+    fn set_pace(&mut self, speed: Option<f64>, left: Option<u32>) {
+        let speed = speed.filter(|speed| speed.is_finite()).map(|speed| speed.clamp(0.01, 10_000.0));
+        self.pace = Some(Pace { speed, left, next: Instant::now() });
+        self.times.clear();
+        self.is_new = true;
+    }
+
+    fn set_paused(&mut self) {
+        self.pace = None;
+        self.is_new = true;
+    }
+
+    /// Back to a new start.
+    fn reset(&mut self) {
+        self.set_paused();
+        self.swarm.restore(&self.start);
+        self.history = SwarmHistory::new(&self.swarm, MEMORY);
+        self.poses = Poses::of(&self.swarm);
+        self.clock = self.clock.map(|(bit, half, _)| (bit, half, 0));
+        self.sent = 0;
+    }
+
+    /// Shows the swarm as it was after a cycle.
+    fn seek(&mut self, cycle: u32) -> Result<(), Refused> {
+        let (first, last) = (self.history.earliest(), self.history.last());
+        if !(first..=last).contains(&cycle) {
+            return Err(Refused::Cycle { first, last });
+        }
+        self.set_paused();
+        // One cycle earlier, because the poses are those of the last cycle.
+        let (from, mark) = self.history.mark(cycle.saturating_sub(1));
+        let inputs = self.history.inputs(from, cycle);
+        self.swarm.restore(mark);
+        for bits in &inputs {
+            self.swarm.forget();
+            self.swarm.step(bits);
+        }
+        self.poses = Poses::of(&self.swarm);
+        if from > 0 || !inputs.is_empty() {
+            self.swarm.forget();
+        }
+        if let Some(bits) = inputs.last() {
+            self.inputs.clone_from(bits);
+        }
+        self.clock = self.clock.map(|(bit, half, _)| (bit, half, cycle));
+        Ok(())
+    }
+
+    /// The last cycles, from a snapshot on.
+    fn excerpt(&self, cycles: u32) -> Excerpt {
+        let now = self.now();
+        let (from, start) = self.history.mark(now.saturating_sub(cycles));
+        Excerpt { compiled: self.compiled.clone(), start: start.clone(), inputs: self.history.inputs(from, now) }
+    }
+
+    /// Notes that the page will not get the newest frame.
+    fn take_back(&mut self) {
+        self.sent = self.sent.min(self.sent_before);
+        self.is_new = true;
+    }
+
+    /// Sends a frame if there is something new and the page can receive it.
+    fn show(&mut self, outbox: &Outbox) {
+        let too_soon = self.last_frame.is_some_and(|last| last.elapsed() < FRAME_TIME);
+        if !self.is_new || too_soon || !outbox.has_room() {
+            return;
+        }
+        let frame = SwarmFrame {
+            number: self.number,
+            frames: FRAMES,
+            now: self.now(),
+            first: self.history.earliest(),
+            last: self.history.last(),
+            pace: self.measured(),
+            runs: self.pace.is_some(),
+            logged: self.history.after(self.sent),
+            starts: &self.starts,
+            poses: &self.poses,
+            view: &self.view,
+        };
+        outbox.put(frame.encode());
+        self.sent_before = self.sent;
+        self.sent = self.history.last();
+        self.is_new = false;
+        self.last_frame = Some(Instant::now());
+    }
+
+    /// Cycles a second over the last cycles.
+    fn measured(&self) -> f32 {
+        let (Some(first), Some(last), true) = (self.times.front(), self.times.back(), self.pace.is_some()) else {
+            return 0.0;
+        };
+        let seconds = last.duration_since(*first).as_secs_f64();
+        if seconds > 0.0 { ((self.times.len() - 1) as f64 / seconds) as f32 } else { 0.0 }
+    }
+}

@@ -1,0 +1,182 @@
+//! What all pages of a server share: the folder, the address, and who may come in.
+
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, UdpSocket};
+use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
+
+use axum::http::{HeaderMap, header};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use tokio::sync::Semaphore;
+
+use crate::page::Page;
+use crate::takes::Takes;
+use nbc_session::report::Scheme;
+use nbc_session::store::FolderWorld;
+
+/// The colors of materials on the page, and of what is taken from it.
+pub(super) const SCHEME: Scheme = Scheme::Safe;
+/// The largest message that a page may send, in bytes.
+pub(super) const MOST_BYTES: usize = 1 << 20;
+/// The most sockets at once, and those of a page.
+const MOST_SOCKETS: usize = 32;
+const SOCKETS_OF_PAGE: usize = 2;
+
+/// What is served, and to whom.
+pub(super) struct Served {
+    pub(super) world: FolderWorld,
+    /// The `file:` URI of the folder.
+    pub(super) root: String,
+    /// The file that pages open first, relative to the folder.
+    pub(super) file: Option<String>,
+    /// The secret in the address.
+    pub(super) token: String,
+    /// The address at which the server listens, as the user gave it, and the port.
+    pub(super) host: String,
+    pub(super) port: u16,
+    pub(super) page: Page,
+    pub(super) takes: Takes,
+    pub(super) sockets: Arc<Semaphore>,
+    /// The bytes of all messages that wait to be handled.
+    pub(super) waiting: AtomicUsize,
+    /// Threads for searches and measurements, so that swarms never wait for these.
+    pub(super) background: ThreadPool,
+}
+
+impl Served {
+    pub(super) fn new(world: FolderWorld, root: String, file: Option<String>, token: String) -> Self {
+        let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let background = ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
+        Self {
+            world,
+            root,
+            file,
+            token,
+            host: String::new(),
+            port: 0,
+            page: Page::default(),
+            takes: Takes::default(),
+            sockets,
+            waiting: AtomicUsize::new(0),
+            background: background.expect("the system has threads"),
+        }
+    }
+
+    /// The address of the page, for a browser on this computer.
+    pub(super) fn address(&self) -> String {
+        match self.everywhere() {
+            Some(IpAddr::V4(_)) => self.address_at(&Ipv4Addr::LOCALHOST.to_string()),
+            Some(IpAddr::V6(_)) => self.address_at(&Ipv6Addr::LOCALHOST.to_string()),
+            None => self.address_at(&self.host),
+        }
+    }
+
+    /// The address of the page for other computers, if the server listens at all addresses of this one and it has one
+    /// in a network.
+    pub(super) fn address_elsewhere(&self) -> Option<String> {
+        // Nothing is sent: the system only chooses the address that it would send from. The target is one of those that
+        // are kept for documents.
+        let (any, target) = match self.everywhere()? {
+            IpAddr::V4(_) => ("0.0.0.0:0", "192.0.2.1:9"),
+            IpAddr::V6(_) => ("[::]:0", "[2001:db8::1]:9"),
+        };
+        let socket = UdpSocket::bind(any).ok()?;
+        socket.connect(target).ok()?;
+        let own = socket.local_addr().ok()?.ip();
+        (!own.is_loopback()).then(|| self.address_at(&own.to_string()))
+    }
+
+    fn address_at(&self, host: &str) -> String {
+        let host = if host.contains(':') { format!("[{host}]") } else { host.to_owned() };
+        format!("http://{host}:{}/{}/", self.port, self.token)
+    }
+
+    /// The address that stands for all of this computer, if the server listens there.
+    fn everywhere(&self) -> Option<IpAddr> {
+        self.host.parse().ok().filter(IpAddr::is_unspecified)
+    }
+
+    /// Whether there is no room for the sockets of another page.
+    pub(super) fn is_full(&self) -> bool {
+        self.sockets.available_permits() < SOCKETS_OF_PAGE
+    }
+
+    /// Whether a path begins with the token. Takes the same time for any wrong one.
+    pub(super) fn knows(&self, token: &str) -> bool {
+        let differ = token.bytes().zip(self.token.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
+        token.len() == self.token.len() && differ == 0
+    }
+
+    /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
+    /// another site that points to this computer is not, and its `Origin`, if it has one, is the same.
+    pub(super) fn trusts(&self, headers: &HeaderMap) -> bool {
+        let text = |name| headers.get(name).map(|value: &axum::http::HeaderValue| value.to_str().unwrap_or(""));
+        let Some(host) = text(header::HOST).filter(|host| self.is_own(host)) else { return false };
+        text(header::ORIGIN).is_none_or(|origin| origin.strip_prefix("http://") == Some(host))
+    }
+
+    fn is_own(&self, host: &str) -> bool {
+        let port = format!(":{}", self.port);
+        let Some(name) = host.strip_suffix(&port) else { return false };
+        let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
+        let everywhere = self.everywhere().is_some();
+        name == "localhost"
+            || name == self.host
+            || address.is_ok_and(|address| everywhere || address.is_loopback() || address.to_string() == self.host)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn served(host: &str) -> Served {
+        let folder = tempfile::tempdir().unwrap();
+        let world = FolderWorld::new(folder.path()).unwrap();
+        let served = Served::new(world, String::new(), None, "secret".to_owned());
+        Served { host: host.to_owned(), port: 80, ..served }
+    }
+
+    fn headers(host: &str, origin: Option<&str>) -> HeaderMap {
+        let mut headers = HeaderMap::new();
+        headers.insert(header::HOST, host.parse().unwrap());
+        origin.into_iter().for_each(|origin| _ = headers.insert(header::ORIGIN, origin.parse().unwrap()));
+        headers
+    }
+
+    #[test]
+    fn only_the_own_page_is_trusted() {
+        let local = served("127.0.0.1");
+        for host in ["127.0.0.1:80", "localhost:80", "[::1]:80"] {
+            assert!(local.trusts(&headers(host, None)));
+            assert!(local.trusts(&headers(host, Some(&format!("http://{host}")))));
+            assert!(!local.trusts(&headers(host, Some("http://evil.example"))));
+        }
+        for host in ["evil.example:80", "127.0.0.1:81", "192.168.0.7:80", "localhost", ""] {
+            assert!(!local.trusts(&headers(host, None)), "{host}");
+        }
+        assert!(!local.trusts(&HeaderMap::new()));
+        let open = served("0.0.0.0");
+        assert!(open.trusts(&headers("192.168.0.7:80", Some("http://192.168.0.7:80"))));
+        assert!(!open.trusts(&headers("evil.example:80", None)));
+    }
+
+    #[test]
+    fn the_token_must_be_right() {
+        let served = served("::1");
+        assert_eq!(served.address(), "http://[::1]:80/secret/");
+        assert_eq!(served.address_elsewhere(), None);
+        assert!(served.knows("secret"));
+        assert!(!served.knows("secreT") && !served.knows("secret1") && !served.knows(""));
+    }
+
+    #[test]
+    fn an_address_that_a_browser_accepts_is_told() {
+        for (host, own) in [("0.0.0.0", "127.0.0.1"), ("::", "[::1]"), ("192.168.0.7", "192.168.0.7")] {
+            let served = served(host);
+            assert_eq!(served.address(), format!("http://{own}:80/secret/"));
+            let elsewhere = served.address_elsewhere().unwrap_or_default();
+            assert!(!elsewhere.contains("0.0.0.0") && !elsewhere.contains("[::]"), "{elsewhere}");
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The server: the page, its two sockets, and the files that it takes away.
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::extract::ws::{WebSocket, WebSocketUpgrade};
+use axum::extract::{Path, Request, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::{Html, IntoResponse, Response};
+use axum::routing::{any, get};
+
+use crate::served::{MOST_BYTES, Served};
+use crate::{language, live};
+
+/// What a page may load and do: only what comes from here.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: \
+                      blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; \
+                      frame-ancestors 'none'";
+
+/// What a visitor reads while there are too many pages. It asks again by itself, because one that was left may count
+/// for a moment.
+const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+                    <meta http-equiv=\"refresh\" content=\"5\">\n<title>nbc is full</title>\n\
+                    <h1>This server has no room for another page</h1>\n\
+                    <p>Close a page of it that nobody uses. This one tries again every five seconds.</p>\n";
+
+/// The routes. Every address begins with the token.
+pub(super) fn router(served: Arc<Served>) -> Router {
+    Router::new()
+        .route("/{token}/", get(document))
+        .route("/{token}/{name}", get(part))
+        .route("/{token}/live", any(live_socket))
+        .route("/{token}/language", any(language_socket))
+        .route("/{token}/take/{number}/{name}", get(take))
+        .layer(middleware::from_fn_with_state(served.clone(), guard))
+        .with_state(served)
+}
+
+async fn document(State(served): State<Arc<Served>>, headers: HeaderMap) -> Response {
+    if served.is_full() {
+        return (StatusCode::SERVICE_UNAVAILABLE, Html(FULL)).into_response();
+    }
+    served.page.document(&headers)
+}
+
+async fn part(
+    State(served): State<Arc<Served>>,
+    Path((_, name)): Path<(String, String)>,
+    headers: HeaderMap,
+) -> Response {
+    served.page.part(&name, &headers).unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
+}
+
+/// Lets in only this server's page, by its token, its host and its origin, and adds what keeps others out.
+async fn guard(State(served): State<Arc<Served>>, request: Request, next: Next) -> Response {
+    let token = request.uri().path().split('/').nth(1).unwrap_or_default();
+    let known = served.knows(token);
+    let mut response = match (known, served.trusts(request.headers())) {
+        (true, true) => next.run(request).await,
+        (false, _) => StatusCode::NOT_FOUND.into_response(),
+        (true, false) => StatusCode::FORBIDDEN.into_response(),
+    };
+    let headers = [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+    ];
+    for (name, value) in headers {
+        response.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    // What may be kept says so itself.
+    response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
+    for name in ["cross-origin-opener-policy", "cross-origin-resource-policy"] {
+        response.headers_mut().insert(name, HeaderValue::from_static("same-origin"));
+    }
+    response
+}
+
+async fn live_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUpgrade) -> Response {
+    accept(served, upgrade, live::serve)
+}
+
+async fn language_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUpgrade) -> Response {
+    accept(served, upgrade, language::serve)
+}
+
+/// Opens a socket if there are not too many.
+fn accept<F: Future<Output = ()> + Send + 'static>(
+    served: Arc<Served>,
+    upgrade: WebSocketUpgrade,
+    serve: impl FnOnce(Arc<Served>, WebSocket) -> F + Send + 'static,
+) -> Response {
+    let Ok(place) = served.sockets.clone().try_acquire_owned() else {
+        return StatusCode::SERVICE_UNAVAILABLE.into_response();
+    };
+    upgrade.max_message_size(MOST_BYTES).max_frame_size(MOST_BYTES).on_upgrade(async move |socket| {
+        serve(served, socket).await;
+        drop(place);
+    })
+}
+
+async fn take(State(served): State<Arc<Served>>, Path((_, number, name)): Path<(String, u64, String)>) -> Response {
+    let Some(take) = served.takes.fetch(number, &name) else { return StatusCode::NOT_FOUND.into_response() };
+    let mut headers = HeaderMap::new();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(take.kind));
+    headers.insert(header::CONTENT_DISPOSITION, HeaderValue::from_static("attachment"));
+    (headers, take.bytes).into_response()
+}

@@ -1,0 +1,184 @@
+//! One web socket: texts in at a bounded rate and in bounded number, messages out.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, close_code};
+use tokio::sync::mpsc;
+use tokio::time::{interval, sleep, timeout};
+
+use crate::outbox::Outgoing;
+
+/// The time for which a page may not read before it is disconnected.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// Messages a second that a page may send for long, and how many at once.
+const RATE: f64 = 200.0;
+const BURST: f64 = 2000.0;
+
+/// Messages of a page that may wait for the one before.
+pub(super) const WAITING: usize = 64;
+/// The bytes of messages that may wait for one page, and for all together. One message of a page may always wait.
+const MOST_BYTES: usize = 4 << 20;
+const MOST_IN_ALL: usize = 32 << 20;
+/// The time between two pauses, of which whoever handles the messages hears.
+const PAUSE: Duration = Duration::from_millis(500);
+/// The time between two looks for room.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// The messages of a page that wait to be handled. While there are too many, no more are read, and the page's own
+/// computer keeps what it sends.
+struct Backlog<'a> {
+    /// The oldest first.
+    sizes: VecDeque<usize>,
+    bytes: usize,
+    /// The bytes of all pages.
+    all: &'a AtomicUsize,
+}
+
+impl<'a> Backlog<'a> {
+    fn new(all: &'a AtomicUsize) -> Self {
+        Self { sizes: VecDeque::new(), bytes: 0, all }
+    }
+
+    fn push(&mut self, size: usize) {
+        self.sizes.push_back(size);
+        self.bytes += size;
+        self.all.fetch_add(size, Ordering::Relaxed);
+    }
+
+    /// Notes that only this many still wait.
+    fn settle(&mut self, waiting: usize) {
+        while self.sizes.len() > waiting
+            && let Some(size) = self.sizes.pop_front()
+        {
+            self.bytes -= size;
+            self.all.fetch_sub(size, Ordering::Relaxed);
+        }
+    }
+
+    fn has_room(&self) -> bool {
+        self.bytes == 0 || self.bytes < MOST_BYTES && self.all.load(Ordering::Relaxed) < MOST_IN_ALL
+    }
+}
+
+impl Drop for Backlog<'_> {
+    fn drop(&mut self) {
+        self.settle(0);
+    }
+}
+
+/// Passes texts of a page to `requests` and sends it what is `outgoing`, until it is gone. An empty text is a pause.
+pub(super) async fn pump(
+    mut socket: WebSocket,
+    requests: mpsc::Sender<Utf8Bytes>,
+    mut outgoing: Outgoing,
+    all: &AtomicUsize,
+) {
+    let mut allowance = Allowance::new(Instant::now());
+    let mut backlog = Backlog::new(all);
+    let mut pause = interval(PAUSE);
+    // A text for which there is no place yet. Meanwhile answers still go out, for which their maker may wait.
+    let mut next = None;
+    loop {
+        backlog.settle(WAITING - requests.capacity());
+        tokio::select! {
+            text = receive(&mut socket, &mut allowance), if next.is_none() && backlog.has_room() => match text {
+                Some(text) => next = Some(text),
+                None => return,
+            },
+            place = requests.reserve(), if next.is_some() => match (place, next.take()) {
+                (Ok(place), Some(text)) => {
+                    backlog.push(text.len());
+                    place.send(text);
+                }
+                _ => return,
+            },
+            message = outgoing.next() => match message {
+                Some(message) => if !send(&mut socket, message).await { return },
+                None => return,
+            },
+            () = sleep(LOOK), if !backlog.has_room() => {}
+            _ = pause.tick() => {
+                if requests.try_send(Utf8Bytes::default()).is_ok() {
+                    backlog.push(0);
+                }
+            }
+        }
+    }
+}
+
+/// Messages that may still be sent.
+struct Allowance {
+    left: f64,
+    at: Instant,
+}
+
+impl Allowance {
+    fn new(now: Instant) -> Self {
+        Self { left: BURST, at: now }
+    }
+
+    /// Takes one message, if there is one left.
+    fn take(&mut self, now: Instant) -> bool {
+        let earned = now.saturating_duration_since(self.at).as_secs_f64() * RATE;
+        self.left = (self.left + earned).min(BURST) - 1.0;
+        self.at = now;
+        self.left >= 0.0
+    }
+}
+
+/// The text of the next message; `None` when the page is gone, broke the protocol, or sends too much.
+async fn receive(socket: &mut WebSocket, allowance: &mut Allowance) -> Option<Utf8Bytes> {
+    loop {
+        let message = socket.recv().await?.ok()?;
+        if !allowance.take(Instant::now()) {
+            let frame = CloseFrame { code: close_code::POLICY, reason: "too many messages".into() };
+            let _ = timeout(PATIENCE, socket.send(Message::Close(Some(frame)))).await;
+            return None;
+        }
+        match message {
+            Message::Text(text) => return Some(text),
+            Message::Close(_) => return None,
+            Message::Binary(_) | Message::Ping(_) | Message::Pong(_) => {}
+        }
+    }
+}
+
+/// Sends a message; false when the page is gone or does not read.
+async fn send(socket: &mut WebSocket, message: Message) -> bool {
+    matches!(timeout(PATIENCE, socket.send(message)).await, Ok(Ok(())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_may_send_bursts_but_not_forever() {
+        let start = Instant::now();
+        let mut allowance = Allowance::new(start);
+        assert!((0..2000).all(|_| allowance.take(start)));
+        assert!(!allowance.take(start));
+        assert!(allowance.take(start + Duration::from_secs(1)));
+    }
+
+    #[test]
+    fn what_waits_is_bounded_for_each_and_for_all_but_one_message_always_may() {
+        let all = AtomicUsize::new(0);
+        let mut first = Backlog::new(&all);
+        first.push(MOST_BYTES - 1);
+        assert!(first.has_room());
+        first.push(1);
+        assert!(!first.has_room());
+        first.settle(1);
+        assert!(first.has_room() && all.load(Ordering::Relaxed) == 1);
+        let mut second = Backlog::new(&all);
+        second.push(MOST_IN_ALL);
+        assert!(!first.has_room() && Backlog::new(&all).has_room());
+        drop(second);
+        assert!(first.has_room());
+        drop(first);
+        assert_eq!(all.load(Ordering::Relaxed), 0);
+    }
+}

@@ -1,0 +1,286 @@
+//! What one socket of a page can do: its texts, its swarm, its requests. It has a thread of its own.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::time::{Duration, Instant};
+
+use axum::extract::ws::Utf8Bytes;
+use serde_json::{Value, json};
+use tokio::sync::mpsc;
+
+use crate::files::{PageFiles, example, examples};
+use crate::history::MEMORY;
+use crate::jobs::{Job, JobEnd, Jobs};
+use crate::outbox::Outbox;
+use crate::refusal::{Refusal, Refused};
+use crate::request::{Request, TakeKind, Verb};
+use crate::runner::{self, SwarmOrder};
+use crate::served::{MOST_BYTES, Served};
+use crate::{bodies, evolving, programs, taking};
+use nbc_circuit::CancelFlag;
+use nbc_session::store::GuardedWorld;
+use nbc_session::{Checked, Choice, Compiled, Session};
+use nbc_swarm::Room;
+
+/// The time between two looks at the files that the page has read.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// A page that is connected.
+pub(super) struct Visit {
+    served: Arc<Served>,
+    session: Session,
+    /// Counts the texts of the page, so that each has a later revision than the one before.
+    revision: u64,
+    files: PageFiles,
+    jobs: Jobs,
+    runner: Sender<SwarmOrder>,
+    outbox: Outbox,
+    swarms: u32,
+    looked: Instant,
+}
+
+impl Visit {
+    /// A page that has come; `gone` is raised when it leaves.
+    pub(super) fn new(served: Arc<Served>, outbox: Outbox, gone: CancelFlag) -> Self {
+        let world = served.world.clone();
+        Self {
+            session: Session::new(GuardedWorld::until(world.clone(), gone)),
+            revision: 0,
+            files: PageFiles::new(world),
+            jobs: Jobs::new(outbox.clone()),
+            runner: runner::start(outbox.clone()),
+            outbox,
+            served,
+            swarms: 0,
+            looked: Instant::now(),
+        }
+    }
+
+    /// Answers requests until the page is gone. An empty message is a pause in which nothing came.
+    pub(super) fn serve(mut self, mut requests: mpsc::Receiver<Utf8Bytes>) {
+        while let Some(text) = requests.blocking_recv() {
+            if !text.is_empty() {
+                self.receive(&text);
+            }
+            if self.looked.elapsed() >= LOOK {
+                self.look();
+            }
+        }
+    }
+
+    fn receive(&mut self, text: &str) {
+        match serde_json::from_str::<Request>(text) {
+            Ok(Request { id, verb }) => self.request(id, verb),
+            Err(error) => {
+                let id = serde_json::from_str::<Value>(text).ok().and_then(|value| value.get("id")?.as_u64());
+                self.outbox.answer(id.unwrap_or(0), Err(Refused::Message(error.to_string()).into()));
+            }
+        }
+    }
+
+    /// Tells of files that were changed.
+    fn look(&mut self) {
+        self.looked = Instant::now();
+        for (path, event) in self.files.changes() {
+            self.session.close(&path);
+            self.outbox.tell(&event);
+        }
+        self.jobs.end_late();
+    }
+
+    fn request(&mut self, id: u64, verb: Verb) {
+        let verb = match verb.change() {
+            Ok(change) => return self.order(SwarmOrder::Change(id, change)),
+            Err(verb) => verb,
+        };
+        let answer = match verb {
+            Verb::Hello => Ok(self.hello()),
+            Verb::Files => Ok(json!(self.files.list())),
+            Verb::Read { path: Some(path), .. } => self.files.read(path),
+            Verb::Read { example: name, .. } => example(&name.unwrap_or_default()),
+            Verb::Save { path, text, stamp } => self.files.save(path, &text, stamp.as_deref()),
+            Verb::Program { path, text } => {
+                self.revision += 1;
+                self.session.update(&path, self.revision, text);
+                Ok(programs::program(&self.session.checked(&path)))
+            }
+            Verb::Cancel { of } => {
+                self.jobs.cancel(of);
+                Ok(json!({}))
+            }
+            long => return self.start(id, long),
+        };
+        self.outbox.answer(id, answer.map_err(Refusal::from));
+    }
+
+    /// Starts a long request.
+    fn start(&mut self, id: u64, verb: Verb) {
+        let work = match verb {
+            Verb::Compile { path, circuit, swarm } => {
+                let choice = Choice { circuit: Some(circuit), swarm };
+                return self.run_swarm(id, &path, move |session, checked, job| {
+                    let (circuit, options) = programs::chosen(checked, &choice, job)?;
+                    Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
+                });
+            }
+            Verb::Replay { path, test, swarm, row } => {
+                return self.run_swarm(id, &path, move |session, checked, job| {
+                    programs::until_row(session, checked, (test, swarm.as_deref(), row), job)
+                });
+            }
+            Verb::Test { path, test, level } => self.with_program(&path, move |session, checked, job| {
+                programs::run_test(session, checked, test, level.into(), job)
+            }),
+            Verb::Robots { path } => {
+                let checked = path.map(|path| self.session.checked(&path));
+                let session = self.fresh();
+                Ok(boxed(move |_| bodies::robots(&session, checked.as_deref()).map(Some)))
+            }
+            Verb::Probe { body, cycles, character } => {
+                let served = self.served.clone();
+                let is_whole = character.unwrap_or(true);
+                Ok(boxed(move |job| served.background.install(|| bodies::probe(&body, cycles, is_whole, job))))
+            }
+            Verb::Evolve(request) => {
+                let served = self.served.clone();
+                Ok(boxed(move |job| evolving::evolve(&request, &served.background, job)))
+            }
+            Verb::Keep(request) => {
+                let served = self.served.clone();
+                let files = PageFiles::new(served.world.clone());
+                Ok(boxed(move |job| served.background.install(|| bodies::keep(&request, &files, job))))
+            }
+            Verb::Take { what, cycles } => Ok(self.take(what, cycles)),
+            other => unreachable!("{other:?} is answered at once"),
+        };
+        match work {
+            Ok(work) => self.jobs.start(id, work),
+            Err(refused) => self.outbox.answer(id, Err(refused.into())),
+        }
+    }
+
+    fn hello(&self) -> Value {
+        let name = self.served.world.root().file_name().unwrap_or_default().to_string_lossy();
+        json!({
+            "version": nbc_base::VERSION,
+            "folder": name,
+            "root": self.served.root,
+            "file": self.served.file,
+            "files": self.files.list(),
+            "examples": examples(),
+            "limits": {
+                "robots": programs::MOST_ROBOTS,
+                "cycles": MEMORY,
+                "message": MOST_BYTES,
+            },
+            "cycle_seconds": 0.25,
+        })
+    }
+
+    /// Compiles on another thread, and gives the swarm to the runner, which answers.
+    fn run_swarm(
+        &mut self,
+        id: u64,
+        path: &str,
+        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Vec<Vec<bool>>), Refused> + Send + 'static,
+    ) {
+        self.swarms += 1;
+        let (number, runner) = (self.swarms, self.runner.clone());
+        let work = self.with_program(path, move |session, checked, job| {
+            let (compiled, inputs) = compile(session, checked, job)?;
+            let loaded = programs::loaded(session, compiled, inputs, (number, job))?;
+            let _ = runner.send(SwarmOrder::Load(Box::new(loaded)));
+            Ok(None)
+        });
+        match work {
+            Ok(work) => self.jobs.start(id, work),
+            Err(refused) => self.outbox.answer(id, Err(refused.into())),
+        }
+    }
+
+    /// Work on a program without errors.
+    fn with_program(
+        &mut self,
+        path: &str,
+        work: impl FnOnce(&Session, &Checked, &mut Job) -> JobEnd + Send + 'static,
+    ) -> Result<Work, Refused> {
+        let checked = self.session.open(path)?;
+        let session = self.fresh();
+        Ok(boxed(move |job| work(&session, &checked, job)))
+    }
+
+    /// A session for another thread.
+    fn fresh(&self) -> Session {
+        Session::new(self.served.world.clone()).with_poses(Room::LIVE)
+    }
+
+    fn take(&self, what: TakeKind, cycles: u32) -> Work {
+        let (reply, excerpt) = channel();
+        self.order(SwarmOrder::Excerpt(cycles.clamp(1, what.most()), reply));
+        let (session, served) = (self.fresh(), self.served.clone());
+        boxed(move |job| {
+            let excerpt = excerpt.recv().ok().flatten().ok_or(Refused::NoSwarm)?;
+            let bytes = taking::make(&session, &excerpt, what, job)?;
+            let (ending, kind) = what.ending();
+            let name = format!("{}.{ending}", excerpt.compiled.plan.circuit.circuit);
+            Ok(Some(json!({ "url": served.takes.keep(&name, kind, bytes), "name": name })))
+        })
+    }
+
+    fn order(&self, order: SwarmOrder) {
+        // The runner lives as long as this end.
+        let _ = self.runner.send(order);
+    }
+}
+
+/// The work of a long request.
+type Work = Box<dyn FnOnce(&mut Job) -> JobEnd + Send>;
+
+fn boxed(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Work {
+    Box::new(work)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
+    use super::*;
+    use crate::outbox::outbox;
+    use nbc_session::store::FolderWorld;
+
+    const VERBS: [&str; 16] = [
+        "hello", "files", "read", "save", "program", "inputs", "clock", "run", "pause", "step", "reset", "seek",
+        "view", "cancel", "robots", "nonsense",
+    ];
+    const TEXTS: [&str; 6] = ["a.nb", "../a", "", "circuit f(a) -> (q) { q = a }", "é\u{0}", "01"];
+
+    fn number() -> impl Strategy<Value = Value> {
+        select(vec![json!(0), json!(1), json!(-1), json!(1.5), json!(1e300), json!(u64::MAX), json!("x"), Value::Null])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn any_requests_are_answered_without_a_fault(
+            sent in prop::collection::vec((select(VERBS.to_vec()), select(TEXTS.to_vec()), number(), number()), 0..12),
+            broken in ".{0,30}",
+        ) {
+            let folder = tempfile::tempdir().unwrap();
+            let world = FolderWorld::new(folder.path()).unwrap();
+            let served = Arc::new(Served::new(world, String::new(), None, "secret".to_owned()));
+            let (inbox, outgoing) = outbox();
+            let mut visit = Visit::new(served, inbox, CancelFlag::default());
+            // Nobody reads the answers.
+            drop(outgoing);
+            visit.receive(&broken);
+            for (verb, text, one, two) in sent {
+                let request = json!({
+                    "id": one, "do": verb, "path": text, "text": text, "example": text, "stamp": null, "bits": text,
+                    "bit": two, "half": one, "speed": two, "cycles": one, "cycle": two, "robots": [one], "of": two,
+                });
+                visit.receive(&request.to_string());
+            }
+        }
+    }
+}

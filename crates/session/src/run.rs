@@ -1,0 +1,193 @@
+//! Tests and simulations, run one after the other: the loop of every door.
+
+use nbc_base::diag::Diagnostics;
+use nbc_base::model::{CircuitTest, Program, Simulation};
+
+use crate::observer::{CaseObserver, Observer};
+use crate::simulation::SimulationRun;
+use crate::swarm_run::RunEnd;
+use crate::test::{TestCase, TestOptions, TestRun};
+use crate::{Checked, Session, report};
+
+/// What is to be run, in this order.
+#[derive(Clone, Debug, Default)]
+pub struct RunList<'a> {
+    /// The tests.
+    pub tests: Vec<&'a CircuitTest>,
+    /// The simulations, which come after all tests.
+    pub simulations: Vec<&'a Simulation>,
+}
+
+impl<'a> RunList<'a> {
+    /// All tests and simulations of a program.
+    pub fn all(program: &'a Program) -> Self {
+        Self { tests: program.tests.iter().collect(), simulations: program.simulations.iter().collect() }
+    }
+
+    /// The number of tests and simulations.
+    pub fn len(&self) -> usize {
+        self.tests.len() + self.simulations.len()
+    }
+
+    /// Whether there is nothing to run.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The results of tests and simulations. What was cancelled before its end has none.
+#[derive(Clone, Debug, Default)]
+pub struct RunReport {
+    /// The tests in order, each once for each swarm of its circuit.
+    pub tests: Vec<TestRun>,
+    /// The simulations in order.
+    pub simulations: Vec<SimulationRun>,
+    /// The number of tests and simulations that were cancelled or not begun.
+    pub left: usize,
+}
+
+impl RunReport {
+    /// Whether every test passed.
+    pub fn passed(&self) -> bool {
+        self.tests.iter().all(|test| test.verdict.passed)
+    }
+
+    /// Asserts that every test passed.
+    ///
+    /// # Panics
+    /// With the truth tables of the tests that failed.
+    pub fn assert_passed(&self) {
+        let failed = self.tests.iter().filter(|test| !test.verdict.passed);
+        let tables: String = failed.map(|test| report::describe_test(&test.verdict)).collect();
+        assert!(tables.is_empty(), "tests of the swarm failed\n{tables}");
+    }
+}
+
+/// Runs a list at the level of the options; simulations are always in physics.
+///
+/// # Errors
+/// When a circuit cannot be compiled.
+pub(super) fn run(
+    session: &Session,
+    checked: &Checked,
+    list: &RunList<'_>,
+    options: &TestOptions,
+    observer: &mut dyn Observer,
+) -> Result<RunReport, Diagnostics> {
+    let mut report = RunReport { left: list.len(), ..RunReport::default() };
+    for (part, test) in list.tests.iter().enumerate() {
+        observer.begin(part, list.len());
+        let (runs, is_whole) = run_test(session, checked, test, options, observer)?;
+        report.tests.extend(runs);
+        report.left -= usize::from(is_whole);
+    }
+    for (part, simulation) in (list.tests.len()..).zip(&list.simulations) {
+        // After a request to stop, circuits are compiled with little effort, so that nothing more is begun.
+        if observer.is_cancelled() {
+            break;
+        }
+        observer.begin(part, list.len());
+        let run = session.simulate(checked, simulation, &options.compile, observer)?;
+        if run.end == RunEnd::Complete {
+            report.simulations.push(run);
+            report.left -= 1;
+        }
+    }
+    Ok(report)
+}
+
+/// Runs a test, once for each swarm of its circuit, or only as the swarm that is chosen: the complete runs, and whether
+/// these are all.
+///
+/// # Errors
+/// As [`Session::cases`].
+pub(super) fn run_test(
+    session: &Session,
+    checked: &Checked,
+    test: &CircuitTest,
+    options: &TestOptions,
+    observer: &mut dyn Observer,
+) -> Result<(Vec<TestRun>, bool), Diagnostics> {
+    if observer.is_cancelled() {
+        return Ok((Vec::new(), false));
+    }
+    let cases = session.cases(checked, test, options)?;
+    let (count, all) = (cases.len(), cases.iter().map(TestCase::work).sum());
+    let (mut runs, mut before) = (Vec::new(), 0);
+    for case in cases {
+        // A circuit that was compiled meanwhile may have more robots than needed.
+        if observer.is_cancelled() {
+            break;
+        }
+        let work = case.work();
+        runs.push(session.run_case(case, &mut CaseObserver { whole: observer, before, all }));
+        before += work;
+    }
+    runs.retain(|run| run.end == RunEnd::Complete);
+    let is_whole = runs.len() == count;
+    Ok((runs, is_whole))
+}
+
+#[cfg(test)]
+mod tests {
+    use nbc_base::source::MemoryWorld;
+    use nbc_circuit::CancelFlag;
+
+    use super::*;
+
+    const TEXT: &str = "circuit f(a) -> (q) { q = not a }\nswarm one { circuit: f }\nswarm two { circuit: f }\n\
+                        test f {\n a | q\n 0 | 1 for 3 cycles\n}\nsimulate one with schedule (a) { 0 for 3 cycles }\n";
+
+    /// Notes all that it is told, and stops the work after so many steps.
+    struct Notes {
+        told: Vec<(u64, u64)>,
+        parts: Vec<(usize, usize)>,
+        most: usize,
+        cancel: CancelFlag,
+    }
+
+    impl Observer for Notes {
+        fn begin(&mut self, part: usize, parts: usize) {
+            self.parts.push((part, parts));
+        }
+
+        fn progress(&mut self, done: u64, all: u64) {
+            self.told.push((done, all));
+            if self.told.len() == self.most {
+                self.cancel.raise();
+            }
+        }
+
+        fn is_cancelled(&self) -> bool {
+            self.cancel.is_raised()
+        }
+    }
+
+    fn check(most: usize) -> (Notes, RunReport) {
+        let mut world = MemoryWorld::default();
+        world.insert("a.nb", TEXT);
+        let mut session = Session::new(world);
+        let checked = session.checked("a.nb");
+        let mut notes = Notes { told: Vec::new(), parts: Vec::new(), most, cancel: CancelFlag::default() };
+        let list = RunList::all(&checked.program);
+        let report = session.run_list(&checked, &list, &TestOptions::default(), &mut notes).unwrap();
+        (notes, report)
+    }
+
+    #[test]
+    fn progress_is_of_the_whole_test_and_of_each_simulation() {
+        let (notes, report) = check(100);
+        assert_eq!(notes.told, [(1, 6), (2, 6), (3, 6), (4, 6), (5, 6), (6, 6), (1, 3), (2, 3), (3, 3)]);
+        assert_eq!(notes.parts, [(0, 2), (1, 2)]);
+        assert_eq!((report.tests.len(), report.simulations.len(), report.left), (2, 1, 0));
+    }
+
+    #[test]
+    fn cancelled_runs_have_no_result() {
+        let (notes, report) = check(4);
+        assert_eq!(notes.told, [(1, 6), (2, 6), (3, 6), (4, 6)]);
+        assert_eq!((report.tests.len(), report.simulations.len(), report.left), (1, 0, 2));
+        let (notes, report) = check(3);
+        assert_eq!((notes.told.len(), report.tests.len()), (3, 1), "the second case does not begin");
+    }
+}
