@@ -18,7 +18,7 @@ use nbc_session::report::{
 };
 use nbc_session::store::{self, ResultPlace};
 use nbc_session::{
-    Checked, CompileOptions, RUNS, RunList, RunReport, Session, SimulationRun, SwarmRun, TestOptions, TestRun,
+    Checked, CompileOptions, RUNS, RunEnd, RunList, RunReport, Session, SimulationRun, SwarmRun, TestOptions, TestRun,
 };
 use nbc_swarm::{Level, Room};
 
@@ -71,10 +71,11 @@ struct Drawn<'a> {
 }
 
 impl Ran {
-    /// All results of a report, in their order.
-    pub(super) fn all(report: RunReport) -> Vec<Self> {
-        let simulations = report.simulations.into_iter().map(Self::Simulation);
-        report.tests.into_iter().map(Self::Test).chain(simulations).collect()
+    /// The complete results of a report, in their order.
+    pub(super) fn complete(report: RunReport) -> Vec<Self> {
+        let tests = report.tests.into_iter().filter(|run| run.end == RunEnd::Complete).map(Self::Test);
+        let simulations = report.simulations.into_iter().filter(|run| run.end == RunEnd::Complete);
+        tests.chain(simulations.map(Self::Simulation)).collect()
     }
 
     pub(super) fn swarm(&self) -> &SwarmRun {
@@ -122,7 +123,7 @@ impl RunArguments {
         let report = run_list(&session, &file, &list, compile, &interrupt)?;
         device.end(context)?;
         let (all, left) = (list.len(), report.left);
-        let runs = Ran::all(report);
+        let runs = Ran::complete(report);
         context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
         if interrupt.is_raised() {
             context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", all - left));

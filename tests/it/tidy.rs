@@ -87,8 +87,13 @@ const DISK: [&str; 11] = [
     "store/verilog/yosys.rs",
 ];
 
+/// The program and the doors with crates of their own.
+fn is_door(path: &Path) -> bool {
+    matches!(place(path).0.as_str(), "nbc" | "nbc_lsp" | "nbc_play" | "nbc_cluster")
+}
+
 fn is_shell(path: &Path) -> bool {
-    matches!(folder(path).as_str(), "cli" | "main") || DISK.iter().any(|name| path.ends_with(name))
+    is_door(path) || DISK.iter().any(|name| path.ends_with(name))
 }
 
 #[test]
@@ -118,7 +123,7 @@ fn the_core_has_no_statics() {
 #[test]
 fn the_papers_materials_are_a_default() {
     let rule = "a body has its own palette; the paper's stands where a file, a speed test or the designer names none";
-    let defaults = ["model/palette.rs", "model/body.rs", "store/robot.rs", "store/shape.rs", "play/bodies.rs"];
+    let defaults = ["model/palette.rs", "model/body.rs", "store/robot.rs", "store/shape.rs", "play/src/bodies.rs"];
     forbid(rule, &["Palette::paper", "Setting::paper"], |path| defaults.iter().any(|name| path.ends_with(name)));
 }
 
@@ -142,19 +147,8 @@ fn each_outer_crate_has_one_home() {
     let in_folder = |name: &'static str| move |path: &Path| folder(path) == name;
     forbid("only diag/render.rs names miette", &["miette"], |path| path.ends_with("diag/render.rs"));
     forbid("only store/ names YAML", &["serde_yaml"], in_folder("store"));
-    let shell = |path: &Path| matches!(folder(path).as_str(), "cli" | "main");
-    let program = ["clap::", "indicatif", "signal_hook", "crossbeam_channel", "gen_lsp_types", "lsp_server"];
-    let server = ["axum", "flate2", "hyper::", "hyper_util", "open::"];
-    forbid("only cli/play names the crates of the server", &server, |path| path.to_string_lossy().contains("cli/play"));
-    let cluster = ["async_nats", "futures_util", "postcard"];
-    forbid("only cli/cluster names the crates of the queue", &cluster, |path| {
-        path.to_string_lossy().contains("cli/cluster")
-    });
-    let network = |path: &Path| ["cli/play", "cli/cluster"].iter().any(|part| path.to_string_lossy().contains(part));
-    forbid("only cli/play and cli/cluster name the network's crates", &["tokio", "getrandom"], network);
-    forbid("only cli/ names clap, indicatif, signals and the language server's crates", &program, shell);
-    let threads = |path: &Path| shell(path) || path.ends_with("lanes/threads.rs");
-    forbid("only cli/ and one file of sim/ name rayon", &["rayon"], threads);
+    let threads = |path: &Path| is_door(path) || path.ends_with("lanes/threads.rs");
+    forbid("only doors and one file of sim/ name rayon", &["rayon"], threads);
     forbid("only two files of sim/backend/opencl name the driver's crate", &["opencl3"], |path| {
         ["card.rs", "listing.rs"].iter().any(|name| path.ends_with(Path::new("opencl").join(name)))
     });
@@ -162,7 +156,8 @@ fn each_outer_crate_has_one_home() {
     let pixels = |path: &Path| drawing.iter().any(|name| path.ends_with(name));
     let painters = ["tiny_skia", "ttf_parser", "gif::", "png::"];
     forbid("only three files of report/ name what draws pixels", &painters, pixels);
-    forbid("only store/ names what writes files", &["tempfile", "rustix", "crc32fast"], in_folder("store"));
+    let files = |path: &Path| folder(path) == "store" || is_door(path);
+    forbid("only store/ and doors name what writes files", &["tempfile", "rustix", "crc32fast"], files);
 }
 
 #[test]

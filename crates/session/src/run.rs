@@ -35,7 +35,7 @@ impl<'a> RunList<'a> {
     }
 }
 
-/// The results of tests and simulations. What was cancelled before its end has none.
+/// The results of tests and simulations. One that was cancelled has what was done before, and says so in its `end`.
 #[derive(Clone, Debug, Default)]
 pub struct RunReport {
     /// The tests in order, each once for each swarm of its circuit.
@@ -77,9 +77,9 @@ pub(super) fn run(
     let mut report = RunReport { left: list.len(), ..RunReport::default() };
     for (part, test) in list.tests.iter().enumerate() {
         observer.begin(part, list.len());
-        let (runs, is_whole) = run_test(session, checked, test, options, observer)?;
+        let (runs, is_complete) = run_test(session, checked, test, options, observer)?;
         report.tests.extend(runs);
-        report.left -= usize::from(is_whole);
+        report.left -= usize::from(is_complete);
     }
     for (part, simulation) in (list.tests.len()..).zip(&list.simulations) {
         // After a request to stop, circuits are compiled with little effort, so that nothing more is begun.
@@ -88,16 +88,14 @@ pub(super) fn run(
         }
         observer.begin(part, list.len());
         let run = session.simulate(checked, simulation, &options.compile, observer)?;
-        if run.end == RunEnd::Complete {
-            report.simulations.push(run);
-            report.left -= 1;
-        }
+        report.left -= usize::from(run.end == RunEnd::Complete);
+        report.simulations.push(run);
     }
     Ok(report)
 }
 
-/// Runs a test, once for each swarm of its circuit, or only as the swarm that is chosen: the complete runs, and whether
-/// these are all.
+/// Runs a test, once for each swarm of its circuit, or only as the swarm that is chosen: the runs, and whether all
+/// came to their end.
 ///
 /// # Errors
 /// As [`Session::cases`].
@@ -113,7 +111,7 @@ pub(super) fn run_test(
     }
     let cases = session.cases(checked, test, options)?;
     let (count, all) = (cases.len(), cases.iter().map(TestCase::work).sum());
-    let (mut runs, mut before) = (Vec::new(), 0);
+    let (mut runs, mut before) = (Vec::<TestRun>::new(), 0);
     for case in cases {
         // A circuit that was compiled meanwhile may have more robots than needed.
         if observer.is_cancelled() {
@@ -123,9 +121,8 @@ pub(super) fn run_test(
         runs.push(session.run_case(case, &mut CaseObserver { whole: observer, before, all }));
         before += work;
     }
-    runs.retain(|run| run.end == RunEnd::Complete);
-    let is_whole = runs.len() == count;
-    Ok((runs, is_whole))
+    let is_complete = runs.len() == count && runs.iter().all(|run| run.end == RunEnd::Complete);
+    Ok((runs, is_complete))
 }
 
 #[cfg(test)]
@@ -183,10 +180,11 @@ mod tests {
     }
 
     #[test]
-    fn cancelled_runs_have_no_result() {
+    fn nothing_begins_after_a_request_to_stop() {
         let (notes, report) = check(4);
         assert_eq!(notes.told, [(1, 6), (2, 6), (3, 6), (4, 6)]);
-        assert_eq!((report.tests.len(), report.simulations.len(), report.left), (1, 0, 2));
+        assert_eq!((report.tests.len(), report.simulations.len(), report.left), (2, 0, 2));
+        assert_eq!([0, 1].map(|run| report.tests[run].end), [RunEnd::Complete, RunEnd::Cancelled]);
         let (notes, report) = check(3);
         assert_eq!((notes.told.len(), report.tests.len()), (3, 1), "the second case does not begin");
     }

@@ -213,7 +213,7 @@ impl Session {
     /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
     ///
     /// # Errors
-    /// As [`Session::cases`]. A test that fails is no error, and a run that is cancelled is left out.
+    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
     pub fn test(
         &self,
         checked: &Checked,
@@ -268,7 +268,7 @@ impl Session {
     /// Runs tests and simulations of a checked source, in order. Tests run at the level of the options.
     ///
     /// # Errors
-    /// When a circuit cannot be compiled. A test that fails is no error, and what is cancelled is left out.
+    /// When a circuit cannot be compiled. A test that fails or is cancelled is no error.
     pub fn run_list(
         &self,
         checked: &Checked,

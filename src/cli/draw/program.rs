@@ -70,7 +70,7 @@ impl Order {
 /// The first run of a list.
 fn run_one(session: &Session, file: &Checked, list: &RunList<'_>, options: CompileOptions) -> Result<Ran, Failure> {
     let report = run_list(session, file, list, options, &Interrupt::default())?;
-    Ok(Ran::all(report).into_iter().next().expect("nothing interrupts it"))
+    Ok(Ran::complete(report).into_iter().next().expect("nothing interrupts it"))
 }
 
 /// The first test of that title or circuit.
