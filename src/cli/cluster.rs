@@ -27,18 +27,19 @@ impl NatsArguments {
     }
 }
 
-/// The workers at a server. They stop when a signal arrives; notes on their progress go to `note`.
+/// The workers, if they do the work, until a signal arrives. Notes on their progress go to `note`.
 ///
 /// # Errors
 /// When the server cannot be used.
 pub fn open_queue(
-    address: &str,
     arguments: &QueueArguments,
     interrupt: &Interrupt,
     note: impl Fn(String) + Send + 'static,
-) -> Result<QueueExecutor, Failure> {
+) -> Result<Option<QueueExecutor>, Failure> {
+    let Some(address) = &arguments.nats else { return Ok(None) };
     let (server, trust_workers) = (server(address, &arguments.access), arguments.trust_workers);
-    Ok(QueueExecutor::open(QueueOptions { server, trust_workers, cancel: interrupt.cancel(), log }, note)?)
+    let options = QueueOptions { server, trust_workers, cancel: interrupt.cancel(), log };
+    Ok(Some(QueueExecutor::open(options, note)?))
 }
 
 /// Writes a line to standard error.

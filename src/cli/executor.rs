@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::cli::cluster::QueueExecutor;
+use crate::cli::cluster::{QueueExecutor, open_queue};
 use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::OpenDevice;
 use crate::cli::queue::QueueArguments;
@@ -33,7 +33,7 @@ impl OpenExecutor {
         interrupt: &Interrupt,
         note: impl Fn(String) + Send + 'static,
     ) -> Result<Self, Failure> {
-        let queue = queue.open(interrupt, note)?;
+        let queue = open_queue(queue, interrupt, note)?;
         Ok(Self { simulator: device.simulator(), device, queue, interrupt: interrupt.clone() })
     }
 

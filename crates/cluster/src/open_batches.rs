@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::sync::mpsc::Sender;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::message::TaskKey;
 use crate::task_batch::TaskBatch;
 use nbc_swarm::{Task, TaskResult};
+
+/// The time for which a run without a batch is still in progress: it may be about to hand in the next.
+const BETWEEN: Duration = Duration::from_secs(1);
 
 /// Tasks that are handed in together. Their results are passed on when all can be used.
 pub struct BatchRequest {
@@ -23,8 +26,16 @@ pub struct BatchRequest {
 pub struct OpenBatches {
     /// By their run and their number in it.
     open: BTreeMap<(u32, u32), Waiting>,
-    /// The number of batches that each run has handed in.
-    handed_in: BTreeMap<u32, u32>,
+    runs: BTreeMap<u32, Run>,
+}
+
+/// What a run has handed in.
+struct Run {
+    /// The number of its batches, and that of those that are open.
+    batches: u32,
+    open: u32,
+    /// When it handed in a batch or received results.
+    seen: Instant,
 }
 
 /// A batch, and who waits for it.
@@ -38,12 +49,13 @@ impl OpenBatches {
     /// Adds a batch and returns the keys of its tasks.
     pub fn add(&mut self, request: BatchRequest) -> Vec<TaskKey> {
         let BatchRequest { run, tasks, reply } = request;
-        let number = self.handed_in.entry(run).or_default();
+        let entry = self.runs.entry(run).or_insert_with(|| Run { batches: 0, open: 0, seen: Instant::now() });
+        let number = entry.batches;
+        *entry = Run { batches: number + 1, open: entry.open + 1, seen: Instant::now() };
         let (places, tasks): (Vec<usize>, Vec<Task>) = tasks.into_iter().unzip();
-        let batch = TaskBatch::new(run, *number, tasks);
+        let batch = TaskBatch::new(run, number, tasks);
         let keys = batch.keys();
-        self.open.insert((run, *number), Waiting { batch, places, reply });
-        *number += 1;
+        self.open.insert((run, number), Waiting { batch, places, reply });
         keys
     }
 
@@ -62,6 +74,9 @@ impl OpenBatches {
         // Whoever no longer waits needs no result.
         places.iter().zip(results).for_each(|(&place, result)| _ = reply.send((place, result)));
         self.open.remove(&batch);
+        if let Some(run) = self.runs.get_mut(&key.run) {
+            *run = Run { open: run.open - 1, seen: Instant::now(), ..*run };
+        }
         workers
     }
 
@@ -85,6 +100,11 @@ impl OpenBatches {
     /// The number of tasks without a result.
     pub fn missing(&self) -> usize {
         self.open.values().map(|waiting| waiting.batch.missing()).sum()
+    }
+
+    /// The number of runs in progress.
+    pub fn runs(&self) -> usize {
+        self.runs.values().filter(|run| run.open > 0 || run.seen.elapsed() < BETWEEN).count()
     }
 
     /// The number of batches.

@@ -87,8 +87,8 @@ impl Queue {
         handle.block_on(async {
             while !cancel.is_raised() && self.checker.unsound().is_none() && self.is_wanted(&requests) {
                 self.look().await;
-                let (batches, refused) = (self.batches.len(), self.checker.refused());
-                self.reports.tell(batches, self.batches.missing(), refused).await;
+                let (runs, waiting) = (self.batches.runs(), self.batches.missing());
+                self.reports.tell(runs, waiting, self.checker.refused()).await;
                 self.receive(&mut requests).await;
                 note(self.describe());
             }

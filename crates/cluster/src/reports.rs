@@ -54,9 +54,9 @@ impl Reports {
         Some(UnfitWorker { name, reason })
     }
 
-    /// Tells those who watch, now and then, about this number of batches, of tasks without a result and of refused
-    /// workers.
-    pub async fn tell(&mut self, batches: usize, waiting: usize, refused: usize) {
+    /// Tells those who watch, now and then, about these numbers of runs in progress, of tasks without a result and
+    /// of refused workers.
+    pub async fn tell(&mut self, runs: usize, waiting: usize, refused: usize) {
         if self.reported.is_some_and(|reported| reported.elapsed() < REPORT) {
             return;
         }
@@ -66,7 +66,7 @@ impl Reports {
             name: self.search.clone(),
             program: PROGRAM.to_owned(),
             physics: self.physics.0,
-            runs: batches as u32,
+            runs: runs as u32,
             workers: summary.workers as u32,
             evaluations: summary.evaluations,
             per_kilosecond: (summary.rate * 1000.0) as u64,

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use crate::cli::cluster::open_queue;
 use crate::cli::executor::threads;
 use crate::cli::mapping::GoalArguments;
 use crate::cli::ordered::in_order;
@@ -184,7 +185,7 @@ fn run_cases(
 ) -> Result<Vec<TestVerdict>, Failure> {
     let bar = Arc::new(Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum()));
     let shown = Arc::clone(&bar);
-    let workers = queue.open(interrupt, move |note| shown.note(note))?;
+    let workers = open_queue(queue, interrupt, move |note| shown.note(note))?;
     // The trace is dropped, because it is large and not needed.
     let run = |place: usize, (file, case): &Numbered<'_>| {
         // After an interruption circuits are compiled with little effort, so their tests are not begun.
