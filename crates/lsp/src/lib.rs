@@ -55,6 +55,7 @@ use nbc_base::source::VerilogError;
 use nbc_session::store::{DiskWorld, GuardedWorld, VerilogFiles};
 use pending::Pending;
 use server::Server;
+pub use wire::{NO_MESSAGE, message};
 
 /// Serves an editor on standard input and output until it says goodbye or vanishes.
 ///
