@@ -165,9 +165,14 @@ impl Context {
 
     /// Writes diagnostics to standard error, with excerpts of the sources.
     pub fn tell(&self, diagnostics: &[Diagnostic], sources: &Sources) {
-        // The user's text is made visible by `render`; the colors are ours.
-        let _ = io::stderr().write_all(render::text(diagnostics, sources, self.color).as_bytes());
+        tell(diagnostics, sources, self.color);
     }
+}
+
+/// Writes diagnostics to standard error, as [`Context::tell`], from any thread.
+pub(super) fn tell(diagnostics: &[Diagnostic], sources: &Sources, color: bool) {
+    // The user's text is made visible by `render`; the colors are ours.
+    let _ = io::stderr().write_all(render::text(diagnostics, sources, color).as_bytes());
 }
 
 /// A text in which a word at the begin or end of a line that says that something passed or failed is green or red.

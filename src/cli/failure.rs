@@ -5,11 +5,13 @@ use std::path::Path;
 
 #[cfg(feature = "gpu")]
 use crate::cli::wording::DeviceFailure;
+#[cfg(not(feature = "cluster"))]
+use crate::cli::wording::NoCluster;
 #[cfg(not(feature = "gpu"))]
 use crate::cli::wording::NoDevices;
 #[cfg(not(feature = "play"))]
 use crate::cli::wording::NoPage;
-use crate::cli::wording::{ClusterError, DrawError, SubjectError, UsageError};
+use crate::cli::wording::{DrawError, SubjectError, UsageError};
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_base::source::Sources;
 
@@ -61,8 +63,16 @@ impl From<UsageError> for Failure {
     }
 }
 
-impl From<ClusterError> for Failure {
-    fn from(error: ClusterError) -> Self {
+#[cfg(feature = "cluster")]
+impl From<nbc_cluster::ClusterError> for Failure {
+    fn from(error: nbc_cluster::ClusterError) -> Self {
+        Self::plain(error.into())
+    }
+}
+
+#[cfg(not(feature = "cluster"))]
+impl From<NoCluster> for Failure {
+    fn from(error: NoCluster) -> Self {
         Self::plain(error.into())
     }
 }

@@ -10,9 +10,9 @@ mod cluster;
 mod completions;
 mod context;
 mod device;
-mod distant;
 mod draw;
 mod evolve;
+mod executor;
 mod explain;
 mod export;
 mod failure;
@@ -20,11 +20,9 @@ mod fmt;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod interrupt;
-mod laboratory;
 mod library;
 mod lsp;
 mod mapping;
-mod nats_access;
 mod new;
 #[cfg(not(feature = "cluster"))]
 mod no_cluster;
@@ -32,12 +30,13 @@ mod no_cluster;
 mod no_gpu;
 #[cfg(not(feature = "play"))]
 mod no_play;
+mod ordered;
 mod output;
-mod place;
 #[cfg(feature = "play")]
 mod play;
 mod program;
 mod progress;
+mod queue;
 mod robots;
 mod run;
 mod run_folder;
@@ -50,6 +49,9 @@ mod threads;
 mod timings;
 mod watch;
 mod wording;
+#[cfg(feature = "cluster")]
+mod worker;
+#[cfg(feature = "cluster")]
 mod workers;
 
 use std::ffi::OsString;
@@ -61,12 +63,12 @@ use clap::{CommandFactory, Parser, Subcommand};
 use nbc_base::diag::{is_hidden, render, visible};
 use nbc_base::source::Sources;
 
-#[cfg(not(feature = "cluster"))]
-use no_cluster as cluster;
 #[cfg(not(feature = "gpu"))]
 use no_gpu as gpu;
 #[cfg(not(feature = "play"))]
 use no_play as play;
+#[cfg(not(feature = "cluster"))]
+use {no_cluster as cluster, no_cluster as worker, no_cluster as workers};
 
 pub use context::{Context, OutputFormat};
 pub use failure::Failure;
@@ -111,8 +113,8 @@ commands! {
     Synth(synth::SynthArguments),
     Test(test::TestArguments),
     Watch(watch::WatchArguments),
-    Worker(cluster::WorkerArguments),
-    Workers(cluster::WorkersArguments),
+    Worker(worker::WorkerArguments),
+    Workers(workers::WorkersArguments),
 }
 
 const EXAMPLES: &str = "\

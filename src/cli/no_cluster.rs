@@ -1,14 +1,14 @@
 //! `nbc worker`, `nbc workers` and `--nats` in a program that was built without them.
 
+use std::convert::Infallible;
 use std::ffi::OsString;
 
 use clap::Args;
 
-use crate::cli::distant::DistantLaboratory;
-use crate::cli::nats_access::QueueArguments;
-use crate::cli::place::TaskPlace;
-use crate::cli::wording::ClusterError;
+use crate::cli::queue::QueueArguments;
+use crate::cli::wording::NoCluster;
 use crate::cli::{Context, Failure, Interrupt, Status};
+use nbc_swarm::{Executor, Task, TaskResult};
 
 macro_rules! not_built {
     ($($(#[$about:meta])* $arguments:ident,)*) => {$(
@@ -26,7 +26,7 @@ macro_rules! not_built {
             /// Always.
             pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
                 let _ = self.rest;
-                Err(ClusterError::NotBuilt.into())
+                Err(NoCluster.into())
             }
         }
     )*};
@@ -41,23 +41,36 @@ not_built! {
     WorkersArguments,
 }
 
-/// Says how to get it.
-///
-/// # Errors
-/// Always.
-pub fn open_place(_server: &str, _arguments: &QueueArguments) -> Result<Box<dyn TaskPlace>, Failure> {
-    Err(ClusterError::NotBuilt.into())
+/// Workers, which cannot be there.
+pub struct NoQueue(Infallible);
+
+pub use NoQueue as QueueExecutor;
+
+impl NoQueue {
+    /// Cannot be called.
+    ///
+    /// # Errors
+    /// Never.
+    pub fn end(self) -> Result<(), NoCluster> {
+        match self.0 {}
+    }
+}
+
+impl Executor for NoQueue {
+    fn perform(&self, _run: usize, _tasks: &[Task], _observe: &dyn Fn()) -> Option<Vec<TaskResult>> {
+        match self.0 {}
+    }
 }
 
 /// Says how to get it.
 ///
 /// # Errors
 /// Always.
-pub fn open_laboratory(
-    _server: &str,
+pub fn open_queue(
+    _address: &str,
     _arguments: &QueueArguments,
     _interrupt: &Interrupt,
-    _show: impl Fn(String) + Send + 'static,
-) -> Result<Box<dyn DistantLaboratory>, Failure> {
-    Err(ClusterError::NotBuilt.into())
+    _note: impl Fn(String) + Send + 'static,
+) -> Result<NoQueue, Failure> {
+    Err(NoCluster.into())
 }

@@ -46,6 +46,19 @@ impl From<NoPage> for Diagnostic {
     }
 }
 
+/// Work on several machines asked of a program that was built without it.
+#[cfg(not(feature = "cluster"))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::cli) struct NoCluster;
+
+#[cfg(not(feature = "cluster"))]
+impl From<NoCluster> for Diagnostic {
+    fn from(_: NoCluster) -> Self {
+        Self::without_place(Code::BadValue, "this program was built without work on several machines")
+            .with_help("build it with `cargo build --release --features cluster`")
+    }
+}
+
 /// A device asked for in a program that was built without them.
 #[cfg(not(feature = "gpu"))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,64 +122,6 @@ impl From<DeviceWarning> for Diagnostic {
         Self {
             severity: Severity::Warning,
             ..warning.with_help("this processor simulates instead, with the same results")
-        }
-    }
-}
-
-/// Work on several machines that cannot be done; `server` is as the user wrote it, without a password.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(not(feature = "cluster"), expect(dead_code, reason = "only some builds can work on several machines"))]
-pub(in crate::cli) enum ClusterError {
-    /// A program that was built without the client.
-    #[cfg(not(feature = "cluster"))]
-    NotBuilt,
-    /// A server that cannot be reached, or that refuses the client.
-    Connect { server: String, reason: String },
-    /// A file with credentials that cannot be used.
-    Credentials { path: String, reason: String },
-    /// A server without JetStream, or without the right to use it.
-    JetStream { server: String, reason: String },
-    /// A name that cannot be part of a subject.
-    Name { name: String },
-    /// A worker whose messages or results were rejected.
-    Rejected { name: String, reason: &'static str },
-    /// The client cannot be started.
-    Start { reason: String },
-    /// A worker that sent a wrong result after others were used.
-    Unsound { worker: String },
-}
-
-impl From<ClusterError> for Diagnostic {
-    fn from(error: ClusterError) -> Self {
-        let bad = |message: String| Self::without_place(Code::BadValue, message);
-        match error {
-            #[cfg(not(feature = "cluster"))]
-            ClusterError::NotBuilt => bad("this program was built without work on several machines".to_owned())
-                .with_help("build it with `cargo build --release --features cluster`"),
-            ClusterError::Connect { server, reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot use the NATS server `{server}`: {reason}"))
-                    .with_help("start one with `nats-server --jetstream --store_dir DIR`; see docs/cluster.md")
-            }
-            ClusterError::Credentials { path, reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot use the credentials in `{path}`: {reason}"))
-            }
-            ClusterError::JetStream { server, reason } => {
-                let message = format!("the NATS server `{server}` cannot keep a queue: {reason}");
-                Self::without_place(Code::Unwritable, message)
-                    .with_help("start it with `--jetstream`, on a disk with room, and allow the user JetStream")
-            }
-            ClusterError::Name { name } => bad(format!("`{name}` cannot be the name of a worker"))
-                .with_help("a name has letters, digits, `-` and `_`, at most 100 of them"),
-            ClusterError::Rejected { name, reason } => bad(format!("the search rejected worker `{name}`: {reason}"))
-                .with_help("use the same build of the program everywhere, and check the memory of this machine"),
-            ClusterError::Unsound { worker } => {
-                let message = format!("worker `{worker}` sent a wrong result, and earlier ones of it were used");
-                Self::without_place(Code::BadValue, message)
-                    .with_help("the runs in progress may differ from those of one machine; start them again without it")
-            }
-            ClusterError::Start { reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot start the client of NATS: {reason}"))
-            }
         }
     }
 }

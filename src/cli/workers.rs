@@ -1,116 +1,47 @@
-//! Parallel work on the cores of the machine, with the results in order.
+//! `nbc workers`: the workers at a server, and the searches that they work for.
 
-use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Sender};
-use std::thread;
+use clap::Args;
+use nbc_cluster::ClusterWatch;
 
-/// Does the work for each item and passes the results to `hand_on` in order of the items, each as soon as it and those
-/// before it are complete. After an error of `hand_on`, no more work is started.
-///
-/// There are at most `most` threads. If that is one, or no other can be started, the work is done on the caller's
-/// thread.
-///
-/// These are not rayon's threads, which run the parts of a simulation: a rayon thread that waits for a part would start
-/// another item, and return only when that is done.
-///
-/// # Errors
-/// The first error of `hand_on`.
-pub(super) fn in_order<T: Sync, R: Send, E>(
-    most: usize,
-    items: &[T],
-    work: impl Fn(&T) -> R + Sync,
-    mut hand_on: impl FnMut(R) -> Result<(), E>,
-) -> Result<(), E> {
-    let threads = most.min(items.len());
-    if threads <= 1 {
-        return items.iter().try_for_each(|item| hand_on(work(item)));
-    }
-    let next = AtomicUsize::new(0);
-    let take = |results: Sender<(usize, R)>| {
-        while let Some((place, item)) = pick(items, &next) {
-            if results.send((place, work(item))).is_err() {
-                break;
-            }
-        }
-    };
-    thread::scope(|scope| {
-        let (sender, results) = mpsc::channel();
-        let start = |_: &usize| {
-            let (take, sender) = (&take, sender.clone());
-            thread::Builder::new().spawn_scoped(scope, move || take(sender)).is_ok()
-        };
-        if (0..threads).take_while(start).count() == 0 {
-            return items.iter().try_for_each(|item| hand_on(work(item)));
-        }
-        drop(sender);
-        let (mut early, mut due) = (BTreeMap::new(), 0);
-        for (place, result) in results {
-            early.insert(place, result);
-            while let Some(result) = early.remove(&due) {
-                hand_on(result)?;
-                due += 1;
-            }
-        }
-        Ok(())
-    })
+use crate::cli::cluster::NatsArguments;
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use nbc_session::report::Schema;
+
+/// List the workers at a NATS server, and the searches that they work for
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  nbc workers --nats nats://localhost:4222
+  nbc workers --nats nats://localhost:4222 --watch --format json   a line of JSON every three seconds")]
+pub struct WorkersArguments {
+    #[command(flatten)]
+    server: NatsArguments,
+    /// List them again every three seconds, until Ctrl-C
+    #[arg(long)]
+    watch: bool,
 }
 
-/// The next item that is not taken yet, with its place.
-fn pick<'a, T>(items: &'a [T], next: &AtomicUsize) -> Option<(usize, &'a T)> {
-    let place = next.fetch_add(1, Ordering::Relaxed);
-    Some((place, items.get(place)?))
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Barrier;
-    use std::time::Duration;
-
-    use super::*;
-
-    #[test]
-    fn results_are_in_order_for_any_timing() {
-        let items: Vec<u64> = (0..40).collect();
-        let slow_at_first = |&item: &u64| {
-            thread::sleep(Duration::from_millis(if item % 4 == 0 { 5 } else { 0 }));
-            item
-        };
-        let mut found = Vec::new();
-        let done: Result<(), ()> = in_order(3, &items, slow_at_first, |item| {
-            found.push(item);
-            Ok(())
-        });
-        assert_eq!((done, found), (Ok(()), items));
-    }
-
-    #[test]
-    fn the_first_result_is_returned_before_the_last_is_computed() {
-        // The last item waits until the first has been handed on.
-        let (items, handed_on) = ([0, 1], Barrier::new(2));
-        let wait = |&item: &usize| {
-            if item == 1 {
-                handed_on.wait();
+impl WorkersArguments {
+    /// Listens for a few seconds and lists who reported.
+    ///
+    /// # Errors
+    /// When the server cannot be used.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let interrupt = Interrupt::watch()?;
+        let mut watch = ClusterWatch::open(&self.server.server())?;
+        loop {
+            let found = watch.listen(&interrupt.cancel());
+            if self.watch && interrupt.is_raised() {
+                return Ok(Status::Done);
             }
-            item
-        };
-        let done: Result<(), ()> = in_order(2, &items, wait, |item| {
-            if item == 0 {
-                handed_on.wait();
+            match context.format {
+                OutputFormat::Json => context.print_json(Schema::Workers, &found)?,
+                OutputFormat::Text => context.print(found.describe())?,
             }
-            Ok(())
-        });
-        assert_eq!(done, Ok(()));
-    }
-
-    #[test]
-    fn an_error_of_the_consumer_stops_the_work() {
-        let (items, begun) = ([(); 10_000], AtomicUsize::new(0));
-        let work = |(): &()| {
-            thread::sleep(Duration::from_millis(1));
-            begun.fetch_add(1, Ordering::Relaxed)
-        };
-        assert_eq!(in_order(3, &items, work, |_| Err("enough")), Err("enough"));
-        assert!(begun.into_inner() < 1000);
+            context.flush()?;
+            if !self.watch {
+                return Ok(Status::Done);
+            }
+        }
     }
 }

@@ -37,6 +37,14 @@ pub fn evaluate_tasks(
     }
 }
 
+/// Env steps of a full evaluation, in which nothing is left out.
+pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
+    match protocol.objective {
+        SearchObjective::Distance => protocol.distance_steps(),
+        SearchObjective::Gate => gate::steps(protocol),
+    }
+}
+
 /// The result of each body for an empty archive, so that nothing is left out. Bodies must be valid (see
 /// [`crate::evolve::validate`]).
 pub fn evaluate_bodies(simulator: &Simulator, evolution: &Evolution, bodies: Vec<Body>) -> Vec<CandidateOutcome> {

@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 
 use crate::evolve::Elite;
-use crate::{Laboratory, Measurement, Task, TaskResult};
+use crate::{Executor, Measurement, Task, TaskResult};
 use nbc_base::model::{Behavior, Fault, Provenance, Robot};
 
 /// The longest clock of a gate that is measured in full, in cycles.
@@ -66,29 +66,30 @@ impl Selection {
     }
 
     /// Screens the nominees, measures the best of them, and takes the best of those; reports the work done to
-    /// `observe`.
+    /// `observe`. `None` if the work was stopped; `run` is the number that the executor asks for.
     pub fn select(
         &self,
-        laboratory: &dyn Laboratory,
+        executor: &dyn Executor,
+        run: usize,
         behavior: Behavior,
         nominees: &[Nominee],
         observe: &dyn Fn(u64),
-    ) -> Selected {
+    ) -> Option<Selected> {
         let screening = |nominee: &Nominee| {
             let body = nominee.elite.body.clone();
             Task::Screening { body, behavior, most: LONGEST_CLOCK }
         };
         let screenings: Vec<Task> = nominees.iter().map(screening).collect();
-        let screened = laboratory.perform(&screenings, &|| observe(1));
+        let screened = executor.perform(run, &screenings, &|| observe(1))?;
         let ranks = screened.into_iter().zip(nominees).map(|(result, nominee)| (Rank::of(result, nominee), nominee));
         let mut ranked: Vec<(Rank, &Nominee)> = ranks.collect();
         ranked.sort_by(|(a, _), (b, _)| a.compare(b));
         let finalists: Vec<&Nominee> = ranked.into_iter().take(self.finalists).map(|(_, nominee)| nominee).collect();
         let measurements: Vec<Task> =
             finalists.iter().map(|nominee| Task::Measurement(nominee.elite.body.clone())).collect();
-        let measured = laboratory.perform(&measurements, &|| observe(MEASUREMENT_COST));
+        let measured = executor.perform(run, &measurements, &|| observe(MEASUREMENT_COST))?;
         let judged = measured.into_iter().zip(finalists).map(|(result, nominee)| self.judge(result, behavior, nominee));
-        judged.min_by(Selected::compare).unwrap_or(Selected::Missing)
+        Some(judged.min_by(Selected::compare).unwrap_or(Selected::Missing))
     }
 
     fn judge(&self, result: TaskResult, behavior: Behavior, nominee: &Nominee) -> Selected {
@@ -201,11 +202,11 @@ mod tests {
         let nominees = [nominee(&["33"], 1.0), nominee(&["3"], 2.0), nominee(&["34"], 0.0)];
         let done = Cell::new(0);
         let observe = |more| done.set(done.get() + more);
-        SELECTION.select(&Simulator::default(), "RRRR".parse().unwrap(), &nominees, &observe);
+        SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &nominees, &observe);
         assert_eq!(done.get(), SELECTION.cost(nominees.len()));
         let found =
-            SELECTION.select(&Simulator::default(), "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
-        assert_eq!((found, SELECTION.cost(0)), (Selected::Missing, 0));
+            SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
+        assert_eq!((found, SELECTION.cost(0)), (Some(Selected::Missing), 0));
     }
 
     #[test]

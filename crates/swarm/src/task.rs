@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::evolve::CandidateOutcome;
-use crate::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, SwarmBits, SwarmTask, Work};
-use nbc_base::model::{Behavior, Body, Fault, FaultKind};
+use crate::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, SwarmBits, SwarmTask};
+use nbc_base::model::{Behavior, Body, Fault};
 
 /// Work whose result depends on it alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,22 +37,6 @@ pub enum TaskResult {
     Measurement(Result<Measurement, Fault>),
     /// What the robots showed.
     Swarm(SwarmBits),
-}
-
-impl Task {
-    /// The result when the work is stopped.
-    pub fn stopped(&self) -> TaskResult {
-        let fault = Fault { env_step: 1, kind: FaultKind::Stopped };
-        match self {
-            Self::Evaluation(..) => {
-                let outcome = CandidateOutcome::Faulty(fault);
-                TaskResult::Evaluation(Evaluated { outcome, work: Work::default() })
-            }
-            Self::Screening { .. } => TaskResult::Screening(Err(fault)),
-            Self::Measurement(_) => TaskResult::Measurement(Err(fault)),
-            Self::Swarm(_) => TaskResult::Swarm(SwarmBits::default()),
-        }
-    }
 }
 
 impl TaskResult {

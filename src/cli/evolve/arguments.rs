@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::device::DeviceArguments;
-use crate::cli::nats_access::QueueArguments;
+use crate::cli::queue::QueueArguments;
 use crate::cli::timings::Timings;
 use nbc_session::RUNS;
 use nbc_session::store::ResultPlace;

@@ -1,13 +1,17 @@
-//! All runs of a command: as many at once as the place of their evaluations can work on.
+//! All runs of a command: as many at once as their tasks can be done.
 
-use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::cli::evolve::arguments::EvolveArguments;
+use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::{Ended, EvolutionRun};
-use crate::cli::place::TaskPlace;
+use crate::cli::executor::OpenExecutor;
+use crate::cli::ordered::in_order;
 use crate::cli::timings::Timer;
-use crate::cli::{Context, Failure, Interrupt, Progress};
+use crate::cli::wording::RunWarning;
+use crate::cli::{Context, Failure, Interrupt, context};
 use nbc_base::model::Evolution;
+use nbc_base::source::Sources;
 use nbc_swarm::evolve::Champion;
 
 /// Makes runs.
@@ -15,7 +19,8 @@ pub(super) struct Campaign<'a> {
     pub(super) arguments: &'a EvolveArguments,
     pub(super) timer: &'a Timer,
     pub(super) interrupt: &'a Interrupt,
-    pub(super) place: &'a mut dyn TaskPlace,
+    pub(super) executor: OpenExecutor,
+    pub(super) open: Arc<OpenRuns>,
 }
 
 /// A run that was made.
@@ -30,28 +35,6 @@ pub(super) struct MadeRun<'a> {
     pub(super) champions: Vec<Champion>,
 }
 
-/// The runs that are open, by their places in the list of all runs, and those that ended before an earlier one.
-#[derive(Default)]
-struct Desk<'a> {
-    open: BTreeMap<usize, EvolutionRun<'a>>,
-    early: BTreeMap<usize, MadeRun<'a>>,
-    /// The place of the next run to open, and of the next to be passed on.
-    next: usize,
-    due: usize,
-    /// Generations that the open runs have, and those they will have.
-    generations: (u64, u64),
-    bar: Option<Progress>,
-}
-
-impl Desk<'_> {
-    /// Shows the progress.
-    fn show(&self, note: Option<String>) {
-        if let (Some(bar), Some(note)) = (&self.bar, note) {
-            bar.set_with_note(self.generations.0, note);
-        }
-    }
-}
-
 impl<'a> Campaign<'a> {
     /// Makes the runs of the declarations and passes them to `hand_on` in their order. Returns whether all were
     /// finished; after an interruption, those that were begun are passed on.
@@ -59,106 +42,72 @@ impl<'a> Campaign<'a> {
     /// # Errors
     /// When a run cannot be opened, evaluated or saved; the other runs are saved first. Errors of `hand_on`.
     pub(super) fn make(
-        &mut self,
+        self,
         evolutions: &'a [Evolution],
         context: &mut Context,
         hand_on: &mut dyn FnMut(MadeRun<'a>, &mut Context) -> Result<(), Failure>,
     ) -> Result<bool, Failure> {
-        let plan: Vec<(&Evolution, u64)> = evolutions
-            .iter()
-            .flat_map(|evolution| evolution.seeds.iter().map(move |&seed| (evolution, seed)))
-            .collect();
-        let mut desk = Desk::default();
-        let made = self.work(&plan, &mut desk, context, hand_on);
-        self.place.close();
-        desk.bar = None;
-        for (at, run) in std::mem::take(&mut desk.open) {
-            run.save_timed()?;
-            desk.early.insert(at, made_run(plan[at], &run, false));
-        }
-        made?;
-        let finished = desk.early.is_empty();
-        for (_, run) in std::mem::take(&mut desk.early) {
-            hand_on(run, context)?;
-        }
+        let seeds = |evolution: &'a Evolution| evolution.seeds.iter().map(move |&seed| (evolution, seed));
+        let plan: Vec<(&Evolution, u64)> = evolutions.iter().flat_map(seeds).collect();
+        let color = context.color;
+        let work = |place: usize, &(evolution, seed): &(&'a Evolution, u64)| {
+            // The first run is begun in any case, so that an interruption leaves a checkpoint.
+            let is_begun = place == 0 || !self.interrupt.is_raised();
+            is_begun.then(|| self.make_run(place, evolution, seed, color)).transpose()
+        };
+        // The first run that was not finished, and those after it.
+        let mut rest = Vec::new();
+        let mut keep = |made: Option<MadeRun<'a>>| match made {
+            Some(run) if run.finished && rest.is_empty() => hand_on(run, context),
+            made => {
+                rest.push(made);
+                Ok(())
+            }
+        };
+        let keep_or_stop = |made: Result<Option<MadeRun<'a>>, Failure>| {
+            made.and_then(&mut keep).inspect_err(|_| self.interrupt.raise())
+        };
+        let made = in_order(self.executor.threads_for_runs(), &plan, work, keep_or_stop);
+        let ended = self.executor.end(context);
+        made.and(ended)?;
+        let finished = rest.is_empty();
+        rest.into_iter().flatten().try_for_each(|run| hand_on(run, context))?;
         Ok(finished)
     }
 
-    /// Works until all runs are finished, or a signal arrives.
-    fn work(
-        &mut self,
-        plan: &[(&'a Evolution, u64)],
-        desk: &mut Desk<'a>,
-        context: &mut Context,
-        hand_on: &mut dyn FnMut(MadeRun<'a>, &mut Context) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        loop {
-            self.open_runs(plan, desk, context)?;
-            while let Some(run) = desk.early.remove(&desk.due) {
-                hand_on(run, context)?;
-                desk.due += 1;
-            }
-            if desk.due == plan.len() || (self.interrupt.is_raised() && !desk.open.is_empty()) {
-                return Ok(());
-            }
-            let Some((at, results)) = self.place.next()? else {
-                desk.show(self.place.note());
-                continue;
+    /// Makes a run until it is finished or stopped. After an error, the other runs are stopped.
+    fn make_run(&self, place: usize, evolution: &'a Evolution, seed: u64, color: bool) -> Result<MadeRun<'a>, Failure> {
+        let warn = |warning: RunWarning| context::tell(&[warning.into()], &Sources::default(), color);
+        let made = EvolutionRun::open(self.arguments, evolution, seed, self.timer, &warn).and_then(|mut run| {
+            self.open.begin(run.generation(), evolution.generations);
+            let evolved = self.evolve(&mut run, place);
+            self.open.end();
+            run.save_timed()?;
+            evolved.map(|()| made_run(evolution, seed, &run))
+        });
+        made.inspect_err(|_| self.interrupt.raise())
+    }
+
+    /// Makes generations until all are made, or a signal arrives.
+    fn evolve(&self, run: &mut EvolutionRun<'a>, place: usize) -> Result<(), Failure> {
+        while !run.is_done() && !self.interrupt.is_raised() {
+            let tasks = run.ask();
+            let results = self.executor.executor().perform(place, &tasks, &|| ());
+            self.executor.check()?;
+            let Some(results) = results else {
+                // Without workers, no other run can be made either.
+                self.interrupt.raise();
+                break;
             };
-            let Some(run) = desk.open.get_mut(&at) else { continue };
-            let message = run.tell(results)?;
-            desk.generations.0 += 1;
-            desk.show(self.place.note().or(Some(message)));
-            self.proceed(plan, at, desk)?;
-        }
-    }
-
-    /// Opens as many runs as can be worked on.
-    fn open_runs(
-        &mut self,
-        plan: &[(&'a Evolution, u64)],
-        desk: &mut Desk<'a>,
-        context: &Context,
-    ) -> Result<(), Failure> {
-        while desk.open.len() < self.place.most_runs() && desk.next < plan.len() && !desk.early.contains_key(&desk.due)
-        {
-            let (evolution, seed) = plan[desk.next];
-            let run = EvolutionRun::open(self.arguments, evolution, seed, self.timer, context)?;
-            if desk.open.is_empty() {
-                desk.generations = (0, 0);
-            }
-            desk.generations.0 += u64::from(run.generation());
-            desk.generations.1 += u64::from(evolution.generations);
-            desk.bar = None;
-            desk.bar = Some(Progress::resumed("generations", desk.generations.0, desk.generations.1));
-            desk.open.insert(desk.next, run);
-            desk.next += 1;
-            self.proceed(plan, desk.next - 1, desk)?;
-        }
-        Ok(())
-    }
-
-    /// Submits the next generation of a run, or closes it.
-    fn proceed(&mut self, plan: &[(&'a Evolution, u64)], at: usize, desk: &mut Desk<'a>) -> Result<(), Failure> {
-        let Some(run) = desk.open.get_mut(&at) else { return Ok(()) };
-        if !run.is_done() {
-            if !self.interrupt.is_raised() {
-                self.place.submit(run.ask(at));
-            }
-            return Ok(());
-        }
-        run.save_timed()?;
-        desk.early.insert(at, made_run(plan[at], run, true));
-        desk.open.remove(&at);
-        if desk.open.is_empty() {
-            desk.bar = None;
+            let note = run.tell(results)?;
+            self.open.advance((!self.executor.is_elsewhere()).then_some(note));
         }
         Ok(())
     }
 }
 
-fn made_run<'a>((evolution, seed): (&'a Evolution, u64), run: &EvolutionRun, finished: bool) -> MadeRun<'a> {
-    let champions = run.archive_stats().champions;
+fn made_run<'a>(evolution: &'a Evolution, seed: u64, run: &EvolutionRun) -> MadeRun<'a> {
+    let (finished, champions) = (run.is_done(), run.archive_stats().champions);
     let (ended, summary) = (run.ended(finished), run.summary(finished));
     MadeRun { evolution, seed, finished, has_robots: run.has_robots(), ended, summary, champions }
 }

@@ -2,21 +2,23 @@
 
 mod arguments;
 mod campaign;
+mod open_runs;
 mod run;
 
 use std::collections::BTreeMap;
-
+use std::sync::Arc;
 use std::time::Instant;
 
 use serde::Serialize;
 
 use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::campaign::{Campaign, MadeRun};
+use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::Ended;
+use crate::cli::executor::OpenExecutor;
 use crate::cli::gpu::OpenDevice;
-use crate::cli::place::{LocalPlace, TaskPlace};
 use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status, cluster};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Evolution, SearchObjective};
 use nbc_base::source::Sources;
@@ -68,34 +70,35 @@ impl EvolveArguments {
             declared => declared?,
         };
         let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
-        let mut place = self.place(&device, &declared, context)?;
+        let open = Arc::new(OpenRuns::default());
+        let executor = self.executor(device, &declared, &interrupt, &open, context)?;
         let mut results = Results::default();
         let mut champions = BTreeMap::new();
-        let mut campaign = Campaign { arguments: &self, timer: &timer, interrupt: &interrupt, place: place.as_mut() };
+        let campaign = Campaign { arguments: &self, timer: &timer, interrupt: &interrupt, executor, open };
         let finished = campaign
             .make(&declared, context, &mut |made, context| self.end_run(made, &mut champions, &mut results, context))?;
-        drop(place);
         timer.report(context);
-        if finished {
-            device.end(context)?;
-        }
         results.end(context, if finished { Status::Done } else { Status::Interrupted })
     }
 
-    /// Where the evaluations are made. Says how long that will take, or how much can be made at once.
-    fn place<'d>(
+    /// What makes the evaluations. Says how long that will take, or how much can be made at once.
+    fn executor(
         &self,
-        device: &'d OpenDevice,
+        device: OpenDevice,
         declared: &[Evolution],
+        interrupt: &Interrupt,
+        open: &Arc<OpenRuns>,
         context: &Context,
-    ) -> Result<Box<dyn TaskPlace + 'd>, Failure> {
-        if let Some(server) = &self.queue.nats {
-            let place = cluster::open_place(server, &self.queue)?;
-            context.log(&format!("keeps about {} busy\n", counted(cores(declared, place.most_runs()), "core")));
-            return Ok(place);
+    ) -> Result<OpenExecutor, Failure> {
+        let open = Arc::clone(open);
+        let executor = OpenExecutor::open(device, &self.queue, interrupt, move |note| open.note(note))?;
+        if executor.is_elsewhere() {
+            let cores = counted(cores(declared, executor.threads_for_runs()), "core");
+            context.log(&format!("keeps about {cores} busy\n"));
+        } else {
+            self.tell_duration(declared, context);
         }
-        self.tell_duration(declared, context);
-        Ok(Box::new(LocalPlace::new(device)))
+        Ok(executor)
     }
 
     /// Reports a run, and after the last run of a declaration compares them.

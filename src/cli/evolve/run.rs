@@ -8,14 +8,12 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use crate::cli::Failure;
 use crate::cli::evolve::arguments::EvolveArguments;
-use crate::cli::place::TaskBatch;
 use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::timings::{Chore, Timer};
 use crate::cli::wording::{RunWarning, SubjectError};
-use crate::cli::{Context, Failure};
 use nbc_base::model::Evolution;
-use nbc_base::source::Sources;
 use nbc_session::report::{EvolutionLine, History, evolution_table};
 use nbc_session::store::{self, Checkpoint, FolderLock, LockFault};
 use nbc_swarm::evolve::{ArchiveStats, Candidate, CandidateOutcome, Search};
@@ -53,7 +51,7 @@ pub(super) struct EvolutionRun<'a> {
 }
 
 impl<'a> EvolutionRun<'a> {
-    /// A new run, or one that continues from its checkpoint.
+    /// A new run, or one that continues from its checkpoint. `warn` shows what is wrong with its history.
     ///
     /// # Errors
     /// When its folder is in use by another process, contains a run without `--resume`, or cannot be used.
@@ -62,7 +60,7 @@ impl<'a> EvolutionRun<'a> {
         evolution: &Evolution,
         seed: u64,
         timer: &'a Timer,
-        context: &Context,
+        warn: &dyn Fn(RunWarning),
     ) -> Result<Self, Failure> {
         let folder = arguments.folder(Path::new(&evolution.name).join(format!("seed-{seed}")));
         let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
@@ -92,7 +90,7 @@ impl<'a> EvolutionRun<'a> {
             searching: 0.0,
             _lock,
         };
-        run.trim_progress(context)?;
+        run.trim_progress(warn)?;
         Ok(run)
     }
 
@@ -111,18 +109,17 @@ impl<'a> EvolutionRun<'a> {
         self.search.is_done()
     }
 
-    /// The tasks of the next generation, for the run at `at` in the list of all runs. The time of everything
-    /// except simulation is counted.
-    pub(super) fn ask(&mut self, at: usize) -> TaskBatch {
-        let before = searching(self.timer);
+    /// The tasks of the next generation. The time of everything except simulation is counted.
+    pub(super) fn ask(&mut self) -> Vec<Task> {
+        let started = Instant::now();
         self.candidates = self.timer.time(Chore::Development, || self.search.ask());
         let protocol = Arc::new(EvaluationProtocol::of(self.search.evolution()));
         let task = |candidate: &Candidate| {
             Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&self.search, &candidate.body))
         };
         let tasks = self.timer.time(Chore::Archive, || self.candidates.iter().map(task).collect());
-        self.searching += searching(self.timer) - before;
-        TaskBatch { run: at, tasks }
+        self.searching += started.elapsed().as_secs_f64();
+        tasks
     }
 
     /// Takes the results of a generation, in order of its candidates, and writes a checkpoint if one is due. Returns a
@@ -130,9 +127,9 @@ impl<'a> EvolutionRun<'a> {
     pub(super) fn tell(&mut self, results: Vec<TaskResult>) -> Result<String, Failure> {
         let results: Vec<Evaluated> = results.into_iter().map(TaskResult::evaluated).collect();
         let outcomes: Vec<CandidateOutcome> = results.iter().map(|evaluated| evaluated.outcome).collect();
-        let (candidates, before) = (std::mem::take(&mut self.candidates), searching(self.timer));
+        let (candidates, started) = (std::mem::take(&mut self.candidates), Instant::now());
         self.timer.time(Chore::Archive, || self.search.tell(&candidates, &outcomes));
-        self.searching += searching(self.timer) - before;
+        self.searching += started.elapsed().as_secs_f64();
         self.work = results.iter().fold(self.work, |sum, evaluated| sum.plus(evaluated.work));
         let line = EvolutionLine::of(&self.search, self.work);
         self.timer.time(Chore::Output, || self.append(&line))?;
@@ -163,7 +160,7 @@ impl<'a> EvolutionRun<'a> {
 
     /// Drops the lines of generations after the checkpoint, which will be made again. A damaged file is set aside and
     /// reported.
-    fn trim_progress(&self, context: &Context) -> Result<(), Failure> {
+    fn trim_progress(&self, warn: &dyn Fn(RunWarning)) -> Result<(), Failure> {
         let write = |path: &Path, bytes: &[u8]| {
             store::write_result(path, bytes).map_err(|error| Failure::unwritable(path, &error))
         };
@@ -178,8 +175,7 @@ impl<'a> EvolutionRun<'a> {
                 write(&aside, &bytes)?;
                 kept = Some(aside.display().to_string());
             }
-            let warning = RunWarning::GapsInRun { path: path.display().to_string(), damage, aside: kept }.into();
-            context.tell(&[warning], &Sources::default());
+            warn(RunWarning::GapsInRun { path: path.display().to_string(), damage, aside: kept });
         }
         write(&path, history.print().as_bytes())
     }
@@ -230,11 +226,6 @@ impl<'a> EvolutionRun<'a> {
              % of the time for archive, development and mutation\n"
         )
     }
-}
-
-/// Seconds that all runs have spent so far on asking and telling.
-fn searching(timer: &Timer) -> f64 {
-    timer.seconds(Chore::Development) + timer.seconds(Chore::Archive)
 }
 
 fn not_ours(folder: &Path, fault: LockFault) -> Failure {

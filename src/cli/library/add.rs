@@ -8,13 +8,14 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::device::DeviceArguments;
-use crate::cli::laboratory::OpenLaboratory;
-use crate::cli::nats_access::QueueArguments;
+use crate::cli::executor::OpenExecutor;
+use crate::cli::ordered::in_order;
+use crate::cli::queue::QueueArguments;
 use crate::cli::robots::behavior;
 use crate::cli::run_folder::{CHECKPOINT, checkpoints, read_checkpoint};
 use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
-use nbc_base::model::{Behavior, Fault, FaultKind, Provenance, Robot};
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use nbc_base::model::{Behavior, Provenance, Robot};
 use nbc_session::report::{Answer, Schema};
 use nbc_session::store::{self, Checkpoint, ResultPlace};
 use nbc_swarm::evolve::Elite;
@@ -73,15 +74,13 @@ impl AddArguments {
         into.probe().map_err(|error| Failure::unwritable(&self.into, &error))?;
         let work = asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum();
         let bar = Arc::new(Progress::new("measuring", work));
-        let laboratory = OpenLaboratory::open(self.device, &self.queue, &bar, context)?;
-        let select = |(behavior, nominees): &(Behavior, Vec<Nominee>)| {
-            (*behavior, selection.select(laboratory.place(), *behavior, nominees, &|more| bar.add(more)))
+        let tasks = OpenExecutor::choose(self.device, &self.queue, &bar, context)?;
+        let select = |place: usize, (behavior, nominees): &(Behavior, Vec<Nominee>)| {
+            (*behavior, selection.select(tasks.executor(), place, *behavior, nominees, &|more| bar.add(more)))
         };
         let mut answers = Vec::new();
-        let mut tell = |(behavior, selected): (Behavior, Selected)| {
-            if matches!(selected, Selected::Faulty(Fault { kind: FaultKind::Stopped, .. })) {
-                return Ok(());
-            }
+        let mut tell = |(behavior, selected): (Behavior, Option<Selected>)| {
+            let Some(selected) = selected else { return Ok(()) };
             if let Selected::Robot(robot) = &selected {
                 write(&self.into, robot)?;
             }
@@ -93,10 +92,10 @@ impl AddArguments {
             answers.push(answer);
             Ok::<(), Failure>(())
         };
-        workers::in_order(laboratory.threads(), &asked, select, |selected| bar.suspend(|| tell(selected)))?;
+        in_order(tasks.threads(), &asked, select, |selected| bar.suspend(|| tell(selected)))?;
         drop(bar);
-        let stopped = laboratory.is_stopped();
-        laboratory.end(context)?;
+        let stopped = tasks.is_stopped();
+        tasks.end(context)?;
         if stopped { Ok(Status::Interrupted) } else { self.end(answers, context) }
     }
 

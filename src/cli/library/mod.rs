@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::cli::device::DeviceArguments;
-use crate::cli::nats_access::QueueArguments;
+use crate::cli::queue::QueueArguments;
 use crate::cli::robots::{named, robots_of};
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::model::{Library, Robot};

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::cli::device::DeviceArguments;
-use crate::cli::laboratory::OpenLaboratory;
-use crate::cli::nats_access::QueueArguments;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status, workers};
+use crate::cli::executor::OpenExecutor;
+use crate::cli::ordered::in_order;
+use crate::cli::queue::QueueArguments;
+use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Character, Library, Robot};
 use nbc_session::report::Schema;
-use nbc_swarm::{Laboratory, Measurement, Task};
+use nbc_swarm::{Executor, Measurement, Task};
 
 /// The result for one robot.
 #[derive(Serialize)]
@@ -23,10 +24,10 @@ struct Finding<'a> {
 }
 
 impl<'a> Finding<'a> {
-    /// Measures a robot again.
-    fn of(laboratory: &dyn Laboratory, robot: &'a Robot) -> Self {
-        let differs = differences(laboratory, robot);
-        Self { name: &robot.name, verified: differs.is_empty(), differs }
+    /// Measures a robot again; `None` if the work was stopped.
+    fn of(executor: &dyn Executor, place: usize, robot: &'a Robot) -> Option<Self> {
+        let differs = differences(executor, place, robot)?;
+        Some(Self { name: &robot.name, verified: differs.is_empty(), differs })
     }
 }
 
@@ -41,18 +42,21 @@ pub fn verify(
     context: &mut Context,
 ) -> Result<Status, Failure> {
     let bar = Arc::new(Progress::new("verifying", library.robots.len() as u64));
-    let laboratory = OpenLaboratory::open(device, queue, &bar, context)?;
+    let tasks = OpenExecutor::choose(device, queue, &bar, context)?;
     let robots: Vec<&Robot> = library.robots.iter().collect();
     let mut findings = Vec::new();
     let keep = |finding| {
         bar.add(1);
-        findings.push(finding);
+        if let Some(finding) = finding {
+            findings.push(finding);
+        }
         Ok::<(), Failure>(())
     };
-    workers::in_order(laboratory.threads(), &robots, |robot| Finding::of(laboratory.place(), robot), keep)?;
+    let executor = tasks.executor();
+    in_order(tasks.threads(), &robots, |place, robot| Finding::of(executor, place, robot), keep)?;
     drop(bar);
-    let stopped = laboratory.is_stopped();
-    laboratory.end(context)?;
+    let stopped = tasks.is_stopped();
+    tasks.end(context)?;
     if stopped {
         return Ok(Status::Interrupted);
     }
@@ -72,17 +76,17 @@ pub fn verify(
     Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
 }
 
-/// The differences between a new measurement and the file.
-fn differences(laboratory: &dyn Laboratory, robot: &Robot) -> Vec<&'static str> {
+/// The differences between a new measurement and the file; `None` if the work was stopped.
+fn differences(executor: &dyn Executor, place: usize, robot: &Robot) -> Option<Vec<&'static str>> {
     let task = Task::Measurement(robot.body.clone());
-    let measured = laboratory.perform(&[task], &|| ()).remove(0).measured();
+    let measured = executor.perform(place, &[task], &|| ())?.remove(0).measured();
     let Ok(Measurement { displacement, behavior, character }) = measured else {
-        return vec!["the simulation has a fault"];
+        return Some(vec!["the simulation has a fault"]);
     };
     let same = [
         ("displacement", displacement == robot.displacement),
         ("behavior", behavior == robot.behavior),
         ("character", character == Character { radius: None, ..robot.character.clone() }),
     ];
-    same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name).collect()
+    Some(same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name).collect())
 }

@@ -8,18 +8,18 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use crate::cli::distant::DistantLaboratory;
-use crate::cli::laboratory::{open_distant, threads};
+use crate::cli::executor::threads;
 use crate::cli::mapping::GoalArguments;
-use crate::cli::nats_access::QueueArguments;
+use crate::cli::ordered::in_order;
 use crate::cli::program::RunsArguments;
+use crate::cli::queue::QueueArguments;
 use crate::cli::run::unknown_run;
 use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_session::report::{self, Schema};
-use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions, TestRun};
-use nbc_swarm::{Level, Task, TaskResult, TestVerdict};
+use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
+use nbc_swarm::{Executor, Level, Task, TaskResult, TestVerdict};
 
 use worlds::WorldsArguments;
 
@@ -183,15 +183,25 @@ fn run_cases(
     context: &mut Context,
 ) -> Result<Vec<TestVerdict>, Failure> {
     let bar = Arc::new(Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum()));
-    let distant = open_distant(queue, interrupt, &bar)?;
+    let shown = Arc::clone(&bar);
+    let workers = queue.open(interrupt, move |note| shown.note(note))?;
     // The trace is dropped, because it is large and not needed.
-    let run = |(file, case): &Numbered<'_>| {
+    let run = |place: usize, (file, case): &Numbered<'_>| {
         // After an interruption circuits are compiled with little effort, so their tests are not begun.
-        let run = (!interrupt.is_raised()).then(|| match distant.as_deref() {
-            Some(distant) => run_elsewhere(session, case.clone(), distant, interrupt, &bar),
+        if interrupt.is_raised() {
+            return None;
+        }
+        // A test without a swarm is run here.
+        let there = workers.as_ref().and_then(|workers| Some((workers, case.task()?)));
+        let run = match there {
+            Some((workers, task)) => {
+                let observe = || bar.add(case.work());
+                let result = workers.perform(place, &[Task::Swarm(task)], &observe)?.pop().map(TaskResult::bits);
+                case.clone().judge(&result.expect("a result for each task"))
+            }
             None => session.run_case(case.clone(), &mut interrupt.observe(bar.part())),
-        });
-        run.filter(|run| run.end == RunEnd::Complete).map(|run| (*file, run.verdict, run.warnings))
+        };
+        (run.end == RunEnd::Complete).then_some((*file, run.verdict, run.warnings))
     };
     let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
     let mut tell = |done: Option<(usize, TestVerdict, Vec<Diagnostic>)>| -> Result<(), Failure> {
@@ -205,23 +215,11 @@ fn run_cases(
         verdicts.push(verdict);
         Ok(())
     };
-    workers::in_order(threads(distant.as_deref()), cases, run, |judged| bar.suspend(|| tell(judged)))?;
-    distant.map_or(Ok(()), DistantLaboratory::end)?;
+    in_order(threads(workers.as_ref()), cases, run, |judged| bar.suspend(|| tell(judged)))?;
+    if let Some(workers) = workers {
+        workers.end()?;
+    }
     Ok(verdicts)
-}
-
-/// Runs a case with its swarm simulated by workers; one without a swarm is run here.
-fn run_elsewhere(
-    session: &Session,
-    case: TestCase<'_>,
-    distant: &dyn DistantLaboratory,
-    interrupt: &Interrupt,
-    bar: &Progress,
-) -> TestRun {
-    let Some(task) = case.task() else { return session.run_case(case, &mut interrupt.observe(bar.part())) };
-    let work = case.work();
-    let bits = distant.perform(&[Task::Swarm(task)], &|| bar.add(work)).pop().map(TaskResult::bits);
-    case.judge(&bits.expect("a result for each task"))
 }
 
 /// A line for a test that passed; a failed test has its rows below the line.

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::ordered::in_order;
 use crate::cli::wording::DrawError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, workers};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};
 use nbc_session::store;
@@ -133,7 +134,7 @@ impl WorldsArguments {
             .collect();
         let work: u64 = visits.iter().map(|visit| visit.experiment.case.work()).sum();
         let bar = Progress::new("testing", work);
-        let visit = |visit: &Visit<'_, '_, '_>| {
+        let visit = |_: usize, visit: &Visit<'_, '_, '_>| {
             let run = (!interrupt.is_raised()).then(|| visit.run(session, self.seed, interrupt, &bar));
             run.flatten()
         };
@@ -155,7 +156,7 @@ impl WorldsArguments {
             }
             Ok::<(), Failure>(())
         };
-        workers::in_order(rayon::current_num_threads(), &visits, visit, |done| bar.suspend(|| tell(done)))?;
+        in_order(rayon::current_num_threads(), &visits, visit, |done| bar.suspend(|| tell(done)))?;
         Ok(found)
     }
 

@@ -2,9 +2,9 @@
 
 mod access;
 mod answers;
+mod commands;
 mod crowd;
 mod kills;
-mod laboratory;
 mod listing;
 mod outages;
 mod recipes;

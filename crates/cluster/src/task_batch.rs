@@ -1,20 +1,21 @@
-//! The tasks of one generation, and their results as they arrive.
+//! Tasks that were handed in together, and their results as they arrive.
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-use crate::cli::cluster::answer_message::AnswerMessage;
-use crate::cli::cluster::message::TaskKey;
-use crate::cli::place::TaskBatch;
-use nbc_swarm::{Task, TaskResult, is_plausible};
+use crate::answer_message::AnswerMessage;
+use crate::checker::is_plausible;
+use crate::message::TaskKey;
+use nbc_swarm::{Task, TaskResult};
 
-/// Tasks that workers do.
-pub struct Generation {
-    /// Its number in the work for its run.
+/// Tasks that were handed in together, such as the evaluations of a generation.
+pub struct TaskBatch {
+    run: u32,
+    /// Its number in the run.
     number: u32,
-    batch: TaskBatch,
+    tasks: Vec<Task>,
     results: Vec<Option<TakenResult>>,
-    submitted: Instant,
+    handed_in: Instant,
 }
 
 /// The result of a task.
@@ -43,7 +44,7 @@ pub enum Verdict {
     Taken,
     /// It equals the first result.
     Again,
-    /// It belongs to another generation.
+    /// It belongs to another batch.
     Late,
     /// The task cannot have this result.
     Implausible,
@@ -53,15 +54,19 @@ pub enum Verdict {
     Differs { worker: String, result: TaskResult },
 }
 
-impl Generation {
-    /// A generation without results.
-    pub fn new(number: u32, batch: TaskBatch) -> Self {
-        Self { number, results: vec![None; batch.tasks.len()], batch, submitted: Instant::now() }
+impl TaskBatch {
+    /// A batch without results.
+    pub fn new(run: u32, number: u32, tasks: Vec<Task>) -> Self {
+        Self { run, number, results: vec![None; tasks.len()], tasks, handed_in: Instant::now() }
     }
 
-    /// The key of one of its tasks.
-    pub fn key(&self, index: usize) -> TaskKey {
-        TaskKey { run: self.batch.run as u32, generation: self.number, index: index as u32 }
+    /// The keys of its tasks.
+    pub fn keys(&self) -> Vec<TaskKey> {
+        (0..self.tasks.len()).map(|index| self.key(index)).collect()
+    }
+
+    fn key(&self, index: usize) -> TaskKey {
+        TaskKey { run: self.run, generation: self.number, index: index as u32 }
     }
 
     /// A task, if it has no result.
@@ -69,13 +74,13 @@ impl Generation {
         self.task(key).filter(|_| self.results[key.index as usize].is_none())
     }
 
-    /// A task, if it belongs to this generation.
+    /// A task, if it belongs to this batch.
     pub fn task(&self, key: TaskKey) -> Option<&Task> {
-        let task = self.batch.tasks.get(key.index as usize)?;
+        let task = self.tasks.get(key.index as usize)?;
         (self.key(key.index as usize) == key).then_some(task)
     }
 
-    /// Takes an answer for this run. The first result counts.
+    /// Takes an answer. The first result counts.
     pub fn take(&mut self, worker: &str, answer: &AnswerMessage) -> Verdict {
         let Some(task) = self.task(answer.key) else { return Verdict::Late };
         if !is_plausible(&answer.result, task) {
@@ -140,9 +145,9 @@ impl Generation {
         })
     }
 
-    /// The tasks without a result, if the generation was submitted so long ago.
+    /// The tasks without a result, if the batch was handed in so long ago.
     pub fn overdue(&self, age: Duration) -> Vec<TaskKey> {
-        let is_late = self.submitted.elapsed() >= age;
+        let is_late = self.handed_in.elapsed() >= age;
         let missing = (0..self.results.len()).filter(|&index| is_late && self.results[index].is_none());
         missing.map(|index| self.key(index)).collect()
     }
@@ -153,22 +158,22 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::cli::cluster::task_message::tests::evolution;
+    use crate::task_message::tests::evolution;
     use nbc_base::model::{Fault, FaultKind};
     use nbc_sim::Simulator;
     use nbc_swarm::evolve::{CandidateOutcome, Search};
     use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, perform};
 
-    /// A generation of two tasks and its true answers.
-    fn generation() -> (Generation, Vec<AnswerMessage>) {
+    /// A batch of two tasks and its true answers.
+    fn batch() -> (TaskBatch, Vec<AnswerMessage>) {
         let search = Search::new(&evolution(), 1);
         let protocol = Arc::new(EvaluationProtocol::of(&evolution()));
         let task = |body| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, body));
         let tasks: Vec<Task> = search.ask().iter().take(2).map(|candidate| task(&candidate.body)).collect();
-        let done = perform(&Simulator::default(), &tasks);
+        let done = perform(&Simulator::default(), &tasks, &|| ());
         let key = |index| TaskKey { run: 0, generation: 0, index };
         let answers = (0..).zip(done).map(|(index, result)| AnswerMessage { key: key(index), result }).collect();
-        (Generation::new(0, TaskBatch { run: 0, tasks }), answers)
+        (TaskBatch::new(0, 0, tasks), answers)
     }
 
     /// A result that could be right.
@@ -183,53 +188,53 @@ mod tests {
         AnswerMessage { result: TaskResult::Evaluation(Evaluated { outcome, ..evaluated }), ..answer.clone() }
     }
 
-    fn results(generation: &Generation) -> Option<Vec<TaskResult>> {
-        generation.results(|worker| worker != "unknown").map(|(results, _)| results)
+    fn results(batch: &TaskBatch) -> Option<Vec<TaskResult>> {
+        batch.results(|worker| worker != "unknown").map(|(results, _)| results)
     }
 
     #[test]
     fn the_first_result_counts_and_late_ones_do_not() {
-        let (mut generation, answers) = generation();
+        let (mut batch, answers) = batch();
         let late = AnswerMessage { key: TaskKey { generation: 7, ..answers[0].key }, ..answers[0].clone() };
-        assert_eq!(generation.take("a", &late), Verdict::Late);
+        assert_eq!(batch.take("a", &late), Verdict::Late);
         let beyond = AnswerMessage { key: TaskKey { index: 9, ..answers[0].key }, ..answers[0].clone() };
-        assert_eq!(generation.take("a", &beyond), Verdict::Late);
-        assert_eq!(generation.take("a", &answers[1]), Verdict::Taken);
-        assert_eq!(generation.take("b", &answers[1]), Verdict::Again);
-        assert_eq!((generation.missing(), results(&generation)), (1, None));
-        assert!(generation.missing_task(answers[0].key).is_some());
-        assert!(generation.missing_task(answers[1].key).is_none());
-        assert_eq!(generation.take("b", &answers[0]), Verdict::Taken);
-        assert_eq!(results(&generation), Some(answers.iter().map(|answer| answer.result.clone()).collect()));
+        assert_eq!(batch.take("a", &beyond), Verdict::Late);
+        assert_eq!(batch.take("a", &answers[1]), Verdict::Taken);
+        assert_eq!(batch.take("b", &answers[1]), Verdict::Again);
+        assert_eq!((batch.missing(), results(&batch)), (1, None));
+        assert!(batch.missing_task(answers[0].key).is_some());
+        assert!(batch.missing_task(answers[1].key).is_none());
+        assert_eq!(batch.take("b", &answers[0]), Verdict::Taken);
+        assert_eq!(results(&batch), Some(answers.iter().map(|answer| answer.result.clone()).collect()));
     }
 
     #[test]
     fn results_of_unknown_workers_and_doubted_ones_are_not_used() {
-        let (mut generation, answers) = generation();
-        answers.iter().for_each(|answer| _ = generation.take("unknown", answer));
-        assert_eq!(results(&generation), None);
-        assert_eq!(generation.forget("unknown"), [answers[0].key, answers[1].key]);
-        answers.iter().for_each(|answer| _ = generation.take("known", answer));
-        generation.doubt(answers[1].key);
-        assert_eq!(results(&generation), None);
-        generation.verify(answers[1].key, answers[1].result.clone());
-        assert_eq!(results(&generation), Some(answers.iter().map(|answer| answer.result.clone()).collect()));
-        assert_eq!(generation.forget("known"), [answers[0].key], "what was verified stays");
+        let (mut batch, answers) = batch();
+        answers.iter().for_each(|answer| _ = batch.take("unknown", answer));
+        assert_eq!(results(&batch), None);
+        assert_eq!(batch.forget("unknown"), [answers[0].key, answers[1].key]);
+        answers.iter().for_each(|answer| _ = batch.take("known", answer));
+        batch.doubt(answers[1].key);
+        assert_eq!(results(&batch), None);
+        batch.verify(answers[1].key, answers[1].result.clone());
+        assert_eq!(results(&batch), Some(answers.iter().map(|answer| answer.result.clone()).collect()));
+        assert_eq!(batch.forget("known"), [answers[0].key], "what was verified stays");
     }
 
     #[test]
     fn a_result_that_differs_is_decided_here() {
-        let (mut generation, answers) = generation();
+        let (mut batch, answers) = batch();
         let wrong = wrong(&answers[0]);
-        assert_eq!(generation.take("liar", &wrong), Verdict::Taken, "it could be right");
+        assert_eq!(batch.take("liar", &wrong), Verdict::Taken, "it could be right");
         let differs = Verdict::Differs { worker: "liar".to_owned(), result: wrong.result.clone() };
-        assert_eq!(generation.take("good", &answers[0]), differs);
-        generation.verify(answers[0].key, answers[0].result.clone());
-        assert_eq!(generation.take("liar", &wrong), Verdict::Wrong);
-        assert_eq!(generation.take("good", &answers[0]), Verdict::Again);
+        assert_eq!(batch.take("good", &answers[0]), differs);
+        batch.verify(answers[0].key, answers[0].result.clone());
+        assert_eq!(batch.take("liar", &wrong), Verdict::Wrong);
+        assert_eq!(batch.take("good", &answers[0]), Verdict::Again);
         let mut longer = answers[0].result.clone().evaluated();
         longer.work.env_steps += 1;
         let impossible = AnswerMessage { result: TaskResult::Evaluation(longer), ..answers[0].clone() };
-        assert_eq!(generation.take("liar", &impossible), Verdict::Implausible);
+        assert_eq!(batch.take("liar", &impossible), Verdict::Implausible);
     }
 }

@@ -9,8 +9,8 @@ use tokio::runtime::Handle;
 use tokio::task::JoinSet;
 use tokio::time;
 
-use crate::cli::cluster::connection::{Connection, answer_subject};
-use crate::cli::cluster::message::AnswerReply;
+use crate::connection::{Connection, answer_subject};
+use crate::message::AnswerReply;
 
 /// The time for a reply to one attempt, and between attempts.
 const ATTEMPT: Duration = Duration::from_secs(2);

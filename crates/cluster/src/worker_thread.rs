@@ -11,12 +11,12 @@ use async_nats::jetstream::{AckKind, Message};
 use futures_util::StreamExt;
 use tokio::time;
 
-use crate::cli::Failure;
-use crate::cli::cluster::answer_message::AnswerMessage;
-use crate::cli::cluster::connection::{Connection, PATIENCE, SILENCE, search_of};
-use crate::cli::cluster::delivery::Delivery;
-use crate::cli::cluster::task_message::{TOGETHER, TaskMessage};
-use crate::cli::cluster::worker::Worker;
+use crate::answer_message::AnswerMessage;
+use crate::connection::{Connection, PATIENCE, SILENCE, search_of};
+use crate::delivery::Delivery;
+use crate::task_message::{TOGETHER, TaskMessage};
+use crate::wording::ClusterError;
+use crate::worker_state::WorkerState;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, perform};
 
@@ -31,7 +31,7 @@ const FAREWELL: Duration = Duration::from_secs(10);
 
 /// A thread.
 pub struct WorkerThread<'a> {
-    worker: &'a Worker,
+    worker: &'a WorkerState,
     queue: PullConsumer,
     delivery: Delivery,
     /// The number of tasks to take together, as the last search wished.
@@ -50,7 +50,7 @@ struct Taken {
 
 impl<'a> WorkerThread<'a> {
     /// A thread without tasks.
-    pub fn new(worker: &'a Worker, queue: PullConsumer) -> Self {
+    pub fn new(worker: &'a WorkerState, queue: PullConsumer) -> Self {
         Self { worker, queue, delivery: worker.delivery(), together: 1, trouble: None }
     }
 
@@ -58,7 +58,7 @@ impl<'a> WorkerThread<'a> {
     ///
     /// # Errors
     /// When a search rejects the results.
-    pub fn work(&mut self) -> Result<(), Failure> {
+    pub fn work(&mut self) -> Result<(), ClusterError> {
         let handle = self.worker.connection.runtime.handle().clone();
         while !self.worker.is_ending() {
             match handle.block_on(self.fetch()) {
@@ -78,7 +78,7 @@ impl<'a> WorkerThread<'a> {
     /// Tells a fault, waits and connects to the queue again.
     async fn recover(&mut self, reason: String) {
         if self.trouble.as_ref() != Some(&reason) {
-            eprintln!("worker `{}`: {reason}; trying again", self.worker.name);
+            (self.worker.log)(&format!("worker `{}`: {reason}; trying again\n", self.worker.name));
         }
         self.trouble = Some(reason);
         time::sleep(AGAIN).await;
@@ -139,7 +139,7 @@ impl<'a> WorkerThread<'a> {
         let ackers: Vec<Arc<Acker>> = taken.iter().map(|taken| Arc::clone(&taken.acker)).collect();
         let holding = self.worker.connection.runtime.spawn(hold(ackers));
         let tasks: Vec<Task> = taken.iter().map(|taken| taken.message.task.clone()).collect();
-        let results = perform(&Simulator::default(), &tasks);
+        let results = perform(&Simulator::default(), &tasks, &|| ());
         for (taken, result) in taken.into_iter().zip(results) {
             if let Some(bytes) = (AnswerMessage { key: taken.message.key, result }).encode() {
                 self.delivery.start(taken.search, bytes, taken.acker);

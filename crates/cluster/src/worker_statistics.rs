@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
 
-use crate::cli::cluster::message::WorkerNote;
+use crate::message::WorkerNote;
 use nbc_base::diag::counted;
 
 /// A worker that has not reported for this time is gone.
@@ -15,7 +15,7 @@ const FRESH: Duration = Duration::from_millis(200);
 
 /// The workers, by name.
 #[derive(Default)]
-pub struct Roster {
+pub struct WorkerStatistics {
     workers: BTreeMap<String, (WorkerNote, Instant)>,
     /// The number of results taken.
     taken: u64,
@@ -37,7 +37,7 @@ pub struct Summary {
     pub redelivered: u64,
 }
 
-impl Roster {
+impl WorkerStatistics {
     /// Takes the report of a worker.
     pub fn take(&mut self, note: WorkerNote) {
         self.workers.insert(note.name.clone(), (note, Instant::now()));

@@ -1,41 +1,28 @@
-//! `nbc workers`: the workers at a server, and the searches that they work for.
+//! The workers at a server, and the searches that they work for.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
 use async_nats::Subscriber;
-use clap::Args;
 use futures_util::StreamExt;
 use serde::Serialize;
+use tokio::runtime::EnterGuard;
 use tokio::time;
 
-use crate::cli::cluster::connection::{Connection, NatsArguments, search_note_subject, worker_note_subject};
-use crate::cli::cluster::message::{SearchNote, WorkerNote};
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use nbc_session::report::{Align, Schema, TextTable};
+use crate::connection::{Connection, NatsServer, search_note_subject, worker_note_subject};
+use crate::message::{SearchNote, WorkerNote};
+use crate::wording::ClusterError;
+use nbc_circuit::CancelFlag;
+use nbc_session::report::{Align, TextTable};
 
 /// The time in which every worker and every search reports at least once.
 const WATCH: Duration = Duration::from_secs(3);
-/// The time between looks for a signal.
+/// The time between looks for a request to stop.
 const GLANCE: Duration = Duration::from_millis(100);
 
-/// List the workers at a NATS server, and the searches that they work for
-#[derive(Args)]
-#[command(after_help = "\
-Examples:
-  nbc workers --nats nats://localhost:4222
-  nbc workers --nats nats://localhost:4222 --watch --format json   a line of JSON every three seconds")]
-pub struct WorkersArguments {
-    #[command(flatten)]
-    server: NatsArguments,
-    /// List them again every three seconds, until Ctrl-C
-    #[arg(long)]
-    watch: bool,
-}
-
-/// The output for programs.
+/// The searches and workers that have reported.
 #[derive(Serialize)]
-struct WorkersResult {
+pub struct ClusterListing {
     searches: Vec<ListedSearch>,
     workers: Vec<ListedWorker>,
 }
@@ -69,71 +56,61 @@ struct ListedWorker {
     redelivered: u64,
 }
 
-/// What searches and workers say.
-struct Watch {
+/// Hears the reports of searches and workers. It stays on the thread that opened it.
+pub struct ClusterWatch {
     searches: Subscriber,
     workers: Subscriber,
+    // Dropped last, because the subscriptions need them.
+    connection: Connection,
+    _entered: EnterGuard<'static>,
 }
 
-impl WorkersArguments {
-    /// Listens for a few seconds and lists who reported.
+impl ClusterWatch {
+    /// Connects.
     ///
     /// # Errors
     /// When the server cannot be used.
-    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let interrupt = Interrupt::watch()?;
-        let connection = Connection::open(&self.server, "nbc workers")?;
-        let _entered = connection.enter();
-        let watch = connection.runtime.block_on(Watch::open(&connection)).map_err(|reason| connection.no_queue(reason));
-        let mut watch = watch?;
-        loop {
-            let found = connection.runtime.block_on(watch.listen(&interrupt));
-            if self.watch && interrupt.is_raised() {
-                return Ok(Status::Done);
-            }
-            match context.format {
-                OutputFormat::Json => context.print_json(Schema::Workers, &found)?,
-                OutputFormat::Text => context.print(found.describe())?,
-            }
-            context.flush()?;
-            if !self.watch {
-                return Ok(Status::Done);
-            }
-        }
+    pub fn open(server: &NatsServer) -> Result<Self, ClusterError> {
+        let connection = Connection::open(server, "nbc workers")?;
+        let entered = connection.enter();
+        let subscribing = async {
+            let subscribe = async |subject: String| connection.client.subscribe(subject).await;
+            let searches = subscribe(search_note_subject()).await.map_err(|error| error.to_string())?;
+            let workers = subscribe(worker_note_subject()).await.map_err(|error| error.to_string())?;
+            Ok((searches, workers))
+        };
+        let subscribed = connection.runtime.block_on(subscribing);
+        let (searches, workers) = subscribed.map_err(|reason| connection.no_queue(reason))?;
+        Ok(Self { searches, workers, connection, _entered: entered })
+    }
+
+    /// Lists those that report in the next seconds, or until it is cancelled.
+    pub fn listen(&mut self, cancel: &CancelFlag) -> ClusterListing {
+        self.connection.runtime.block_on(listen(&mut self.searches, &mut self.workers, cancel))
     }
 }
 
-impl Watch {
-    async fn open(connection: &Connection) -> Result<Self, String> {
-        let subscribe = async |subject: String| connection.client.subscribe(subject).await;
-        let searches = subscribe(search_note_subject()).await.map_err(|error| error.to_string())?;
-        let workers = subscribe(worker_note_subject()).await.map_err(|error| error.to_string())?;
-        Ok(Self { searches, workers })
-    }
-
-    /// Listens for some seconds, or until a signal arrives.
-    async fn listen(&mut self, interrupt: &Interrupt) -> WorkersResult {
-        let (mut searches, mut workers) = (BTreeMap::new(), BTreeMap::new());
-        let end = time::Instant::now() + WATCH;
-        while time::Instant::now() < end && !interrupt.is_raised() {
-            tokio::select! {
-                Some(message) = self.searches.next() => {
-                    if let Ok(note) = SearchNote::decode(&message.payload) {
-                        searches.insert(note.name.clone(), note);
-                    }
+async fn listen(from_searches: &mut Subscriber, from_workers: &mut Subscriber, cancel: &CancelFlag) -> ClusterListing {
+    let (mut searches, mut workers) = (BTreeMap::new(), BTreeMap::new());
+    let end = time::Instant::now() + WATCH;
+    while time::Instant::now() < end && !cancel.is_raised() {
+        tokio::select! {
+            Some(message) = from_searches.next() => {
+                if let Ok(note) = SearchNote::decode(&message.payload) {
+                    searches.insert(note.name.clone(), note);
                 }
-                Some(message) = self.workers.next() => {
-                    if let Ok(note) = WorkerNote::decode(&message.payload) {
-                        workers.insert(note.name.clone(), note);
-                    }
-                }
-                () = time::sleep(GLANCE) => {}
             }
+            Some(message) = from_workers.next() => {
+                if let Ok(note) = WorkerNote::decode(&message.payload) {
+                    workers.insert(note.name.clone(), note);
+                }
+            }
+            () = time::sleep(GLANCE) => {}
         }
-        WorkersResult {
-            searches: searches.into_values().map(ListedSearch::of).collect(),
-            workers: workers.into_values().map(ListedWorker::of).collect(),
-        }
+    }
+    ClusterListing {
+        searches: searches.into_values().map(ListedSearch::of).collect(),
+        workers: workers.into_values().map(ListedWorker::of).collect(),
     }
 }
 
@@ -168,8 +145,9 @@ impl ListedWorker {
     }
 }
 
-impl WorkersResult {
-    fn describe(&self) -> String {
+impl ClusterListing {
+    /// The listing for people.
+    pub fn describe(&self) -> String {
         let searches = if self.searches.is_empty() { "no searches\n".to_owned() } else { self.searches_table() };
         let workers = if self.workers.is_empty() { "no workers\n".to_owned() } else { self.workers_table() };
         format!("{searches}\n{workers}")

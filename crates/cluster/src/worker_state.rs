@@ -8,12 +8,13 @@ use std::time::{Duration, Instant};
 use futures_util::StreamExt;
 use tokio::time;
 
-use crate::cli::cluster::connection::{Connection, reply_subject, worker_note_subject};
-use crate::cli::cluster::delivery::{Delivered, Delivery};
-use crate::cli::cluster::message::{AnswerReply, WorkerNote, encode};
-use crate::cli::cluster::physics::{PROGRAM, PhysicsId};
-use crate::cli::wording::ClusterError;
-use crate::cli::{Failure, Interrupt};
+use crate::Log;
+use crate::connection::{Connection, reply_subject, worker_note_subject};
+use crate::delivery::{Delivered, Delivery};
+use crate::message::{AnswerReply, WorkerNote, encode};
+use crate::physics::{PROGRAM, PhysicsId};
+use crate::wording::ClusterError;
+use nbc_circuit::CancelFlag;
 
 /// The time between reports.
 pub const REPORT: Duration = Duration::from_secs(2);
@@ -21,12 +22,13 @@ pub const REPORT: Duration = Duration::from_secs(2);
 const SHUNNED: Duration = Duration::from_secs(10);
 
 /// What the threads of a worker share.
-pub struct Worker {
+pub struct WorkerState {
     pub name: String,
     pub connection: Connection,
     pub physics: PhysicsId,
     pub tally: Arc<Tally>,
-    interrupt: Interrupt,
+    pub log: Log,
+    cancel: CancelFlag,
     /// Set when a search has rejected the worker.
     rejected: AtomicBool,
     /// Searches that did not receive an answer, and when that was.
@@ -40,16 +42,16 @@ pub struct Tally {
     pub redelivered: AtomicU64,
 }
 
-impl Worker {
+impl WorkerState {
     /// A worker that has done nothing yet.
-    pub fn new(name: String, connection: Connection, physics: PhysicsId, interrupt: Interrupt) -> Self {
+    pub fn new(name: String, connection: Connection, physics: PhysicsId, cancel: CancelFlag, log: Log) -> Self {
         let (tally, rejected, silent) = (Arc::default(), AtomicBool::new(false), Mutex::default());
-        Self { name, connection, physics, tally, interrupt, rejected, silent }
+        Self { name, connection, physics, tally, log, cancel, rejected, silent }
     }
 
     /// Whether no more tasks should be taken.
     pub fn is_ending(&self) -> bool {
-        self.interrupt.is_raised() || self.rejected.load(Ordering::Relaxed)
+        self.cancel.is_raised() || self.rejected.load(Ordering::Relaxed)
     }
 
     /// Whether tasks of the search are dropped, because it seems to have ended.
@@ -62,7 +64,7 @@ impl Worker {
     ///
     /// # Errors
     /// When a search has rejected a result.
-    pub fn count(&self, ended: Vec<Delivered>) -> Result<(), Failure> {
+    pub fn count(&self, ended: Vec<Delivered>) -> Result<(), ClusterError> {
         for one in ended {
             match one {
                 Delivered::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
@@ -78,7 +80,7 @@ impl Worker {
                         AnswerReply::Invalid => "its messages cannot be read",
                         AnswerReply::Wrong | AnswerReply::Received => "its results are wrong",
                     };
-                    return Err(ClusterError::Rejected { name: self.name.clone(), reason }.into());
+                    return Err(ClusterError::Rejected { name: self.name.clone(), reason });
                 }
             }
         }
@@ -116,13 +118,13 @@ impl Worker {
 
     /// Logs if a search cannot use this worker.
     pub fn listen(&self) {
-        let (client, name) = (self.connection.client.clone(), self.name.clone());
+        let (client, name, log) = (self.connection.client.clone(), self.name.clone(), self.log);
         self.connection.runtime.spawn(async move {
             let Ok(mut replies) = client.subscribe(reply_subject(&name)).await else { return };
             let is_refusal = |bytes: &[u8]| AnswerReply::decode(bytes) == Ok(AnswerReply::OtherPhysics);
             while let Some(message) = replies.next().await {
                 if is_refusal(&message.payload) {
-                    eprintln!("worker `{name}`: a search refused this worker, because its physics is different");
+                    log(&format!("worker `{name}`: a search refused this worker, because its physics is different\n"));
                     return;
                 }
             }

@@ -1,9 +1,11 @@
-//! Checks of a result that was made elsewhere, without simulating.
+//! Checks of a result without simulating.
 
-use crate::evolve::{CandidateOutcome, Scores};
-use crate::gate;
-use crate::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, Task, TaskResult};
 use nbc_base::model::{Behavior, SearchObjective};
+use nbc_swarm::evolve::{CandidateOutcome, Scores};
+use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, Task, TaskResult, full_steps};
+
+/// The transitions between different patterns of two stimuli.
+const SETTLE_TIMES: usize = 12;
 
 /// Whether the task can have this result.
 pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
@@ -33,11 +35,8 @@ fn is_possible(Measurement { displacement, behavior, character }: &Measurement) 
 
 /// Whether an evaluation of the task by the protocol can have this result.
 fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &EvaluationTask) -> bool {
-    let steps = match protocol.objective {
-        SearchObjective::Distance => protocol.distance_steps(),
-        SearchObjective::Gate => gate::steps(protocol),
-    };
-    let is_complete = evaluated.work.env_steps.checked_add(evaluated.work.left_out) == Some(steps);
+    let steps = evaluated.work.env_steps.checked_add(evaluated.work.left_out);
+    let is_complete = steps == Some(full_steps(protocol));
     let CandidateOutcome::Measured(scores) = &evaluated.outcome else { return is_complete };
     let could_enter = match protocol.objective {
         SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
@@ -45,9 +44,6 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
     };
     is_complete && could_enter && is_sound(scores) && evaluated.work.left_out == 0
 }
-
-/// The transitions between different patterns of two stimuli.
-const SETTLE_TIMES: usize = 12;
 
 /// Whether the numbers are finite and belong to the behavior.
 fn is_sound(scores: &Scores) -> bool {
@@ -58,11 +54,11 @@ fn is_sound(scores: &Scores) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evolve::Search;
-    use crate::{Work, evaluate_tasks, measure};
-    use nbc_base::model::Evolution;
-    use nbc_base::model::{Body, Palette};
+    use crate::task_message::tests::evolution;
+    use nbc_base::model::{Body, Evolution, Palette};
     use nbc_sim::Simulator;
+    use nbc_swarm::evolve::Search;
+    use nbc_swarm::{Work, evaluate_tasks, measure};
 
     /// Displacements of the opposite behavior.
     fn opposite(displacement: [f64; 4]) -> [f64; 4] {
@@ -72,7 +68,7 @@ mod tests {
     #[test]
     fn results_of_both_objectives_are_plausible_and_changed_ones_are_not() {
         for objective in [SearchObjective::Distance, SearchObjective::Gate] {
-            let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
+            let evolution = Evolution { objective, ..evolution() };
             let search = Search::new(&evolution, 1);
             let tasks: Vec<EvaluationTask> =
                 search.ask().iter().take(6).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
@@ -106,19 +102,5 @@ mod tests {
         let plausible = |screened| is_plausible(&TaskResult::Screening(Ok(screened)), &task);
         assert!(plausible(None) && plausible(Some((2, 0.1))) && !plausible(Some((3, 0.1))));
         assert!(!is_plausible(&TaskResult::Measurement(Ok(measurement)), &task), "another kind");
-    }
-
-    #[test]
-    fn a_task_alone_and_among_others_has_the_same_result() {
-        for objective in [SearchObjective::Distance, SearchObjective::Gate] {
-            let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
-            let search = Search::new(&evolution, 2);
-            let tasks: Vec<EvaluationTask> =
-                search.ask().iter().take(3).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
-            let (simulator, protocol) = (Simulator::default(), EvaluationProtocol::of(&evolution));
-            let alone = |task: &EvaluationTask| evaluate_tasks(&simulator, &protocol, std::slice::from_ref(task))[0];
-            let together = evaluate_tasks(&simulator, &protocol, &tasks);
-            assert_eq!(tasks.iter().map(alone).collect::<Vec<_>>(), together);
-        }
     }
 }

@@ -7,12 +7,15 @@ use async_nats::jetstream;
 use futures_util::TryStreamExt;
 use tokio::task::JoinSet;
 
-use crate::cli::cluster::connection::{Connection, task_subject, task_subjects};
-use crate::cli::cluster::message::TaskKey;
-use crate::cli::cluster::task_message::TaskMessage;
+use crate::Log;
+use crate::connection::{Connection, task_subject, task_subjects};
+use crate::message::TaskKey;
+use crate::task_message::TaskMessage;
 
 /// The time before another attempt.
 const AGAIN: Duration = Duration::from_secs(1);
+/// The time between looks for tasks that the server has lost.
+const LOOK: Duration = Duration::from_secs(5);
 
 /// The tasks that are being sent, and those that must be sent again.
 pub struct TaskSender {
@@ -24,17 +27,28 @@ pub struct TaskSender {
     sending: JoinSet<(TaskKey, Result<(), String>)>,
     kept: BTreeSet<TaskKey>,
     failed: Instant,
+    looked: Instant,
     /// The last fault, told once.
     trouble: Option<String>,
-    log: fn(&str),
+    log: Log,
 }
 
 impl TaskSender {
     /// Without tasks.
-    pub fn new(connection: &Connection, token: String, search: &str, log: fn(&str)) -> Self {
+    pub fn new(connection: &Connection, token: String, search: &str, log: Log) -> Self {
         let (jetstream, handle) = (connection.jetstream.clone(), connection.runtime.handle().clone());
-        let (sending, kept, failed) = (JoinSet::new(), BTreeSet::new(), Instant::now());
-        Self { jetstream, handle, token, search: search.to_owned(), sending, kept, failed, trouble: None, log }
+        Self {
+            jetstream,
+            handle,
+            token,
+            search: search.to_owned(),
+            sending: JoinSet::new(),
+            kept: BTreeSet::new(),
+            failed: Instant::now(),
+            looked: Instant::now(),
+            trouble: None,
+            log,
+        }
     }
 
     /// Starts to send a task.
@@ -75,8 +89,13 @@ impl TaskSender {
         std::mem::take(&mut self.kept)
     }
 
-    /// Those of the tasks that the server no longer has.
-    pub async fn lost(&self, mut tasks: Vec<TaskKey>) -> Vec<TaskKey> {
+    /// Those of some tasks that the server no longer has, if it is time to look.
+    pub async fn lost(&mut self, tasks: impl FnOnce() -> Vec<TaskKey>) -> Vec<TaskKey> {
+        if self.looked.elapsed() < LOOK {
+            return Vec::new();
+        }
+        self.looked = Instant::now();
+        let mut tasks = tasks();
         if tasks.is_empty() || !self.sending.is_empty() {
             return Vec::new();
         }

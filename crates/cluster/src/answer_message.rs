@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cli::cluster::bits::{pack, unpack};
-use crate::cli::cluster::message::{MessageFault, TaskKey, decode, encode};
+use crate::bits::{pack, unpack};
+use crate::message::{MessageFault, TaskKey, decode, encode};
 use nbc_base::model::{Behavior, Character, Fault, FaultKind, Transition};
 use nbc_swarm::evolve::{CandidateOutcome, Scores};
 use nbc_swarm::{Evaluated, Measurement, SwarmBits, TaskResult, Work};
@@ -170,8 +170,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::cli::cluster::message::VERSION;
-    use crate::cli::cluster::task_message::tests::tasks;
+    use crate::message::VERSION;
+    use crate::task_message::tests::tasks;
     use nbc_sim::Simulator;
     use nbc_swarm::{Task, perform};
 
@@ -179,7 +179,7 @@ mod tests {
     fn an_answer_is_read_as_it_was_written() {
         let messages = tasks();
         let all: Vec<Task> = messages.iter().map(|message| message.task.clone()).collect();
-        for (result, message) in perform(&Simulator::default(), &all).into_iter().zip(messages) {
+        for (result, message) in perform(&Simulator::default(), &all, &|| ()).into_iter().zip(messages) {
             let answer = AnswerMessage { key: message.key, result };
             assert_eq!(AnswerMessage::decode(&answer.encode().unwrap()).unwrap(), answer);
         }

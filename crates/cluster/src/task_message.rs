@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cli::cluster::bits::{pack, unpack};
-use crate::cli::cluster::message::{MessageFault, TaskKey, decode, encode};
+use crate::bits::{pack, unpack};
+use crate::message::{MessageFault, TaskKey, decode, encode};
 use nbc_base::model::{
     Behavior, Body, CYCLE_STEPS, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds, Schedule, SearchObjective, Spell,
 };
@@ -288,7 +288,7 @@ pub(super) mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::cli::cluster::message::{MOST_BYTES, VERSION};
+    use crate::message::{MOST_BYTES, VERSION};
     use nbc_base::model::{Evolution, Symmetry, WorldFactors};
     use nbc_base::source::MemoryWorld;
     use nbc_session::Session;
@@ -296,7 +296,7 @@ pub(super) mod tests {
     use nbc_swarm::evolve_generation;
 
     /// The evolution of the prelude, which is the paper's.
-    pub(in crate::cli::cluster) fn evolution() -> Evolution {
+    pub(crate) fn evolution() -> Evolution {
         let mut session = Session::new(MemoryWorld::default());
         session.update("a.nb", 1, "evolution paper { from: gates }");
         let checked = session.open("a.nb").unwrap();

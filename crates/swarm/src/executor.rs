@@ -1,27 +1,25 @@
-//! Where tasks are done: by the simulator of this program, or elsewhere.
+//! Who does tasks: the simulator of this program, or workers elsewhere.
 
 use crate::{SwarmBits, Task, TaskResult, evaluate_tasks, measure, screen};
 use nbc_sim::Simulator;
 
-/// A place where tasks are done. The results depend on the tasks alone.
-pub trait Laboratory: Sync {
-    /// The result of each task, which is of the task's kind; calls `observe` after each.
-    fn perform(&self, tasks: &[Task], observe: &dyn Fn()) -> Vec<TaskResult>;
+/// Does tasks. The results depend on the tasks alone, not on where they are done. Any thread can hand in tasks.
+pub trait Executor: Sync {
+    /// The result of each task, which is of the task's kind; `None` if the work was stopped. Calls `observe` after each
+    /// task. `run` is the number of a series of calls, such as those of an evolution run; calls at the same time have
+    /// different numbers.
+    fn perform(&self, run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>>;
 }
 
-impl Laboratory for Simulator {
-    fn perform(&self, tasks: &[Task], observe: &dyn Fn()) -> Vec<TaskResult> {
-        let one = |task: &Task| {
-            let result = perform_one(self, task);
-            observe();
-            result
-        };
-        tasks.iter().map(one).collect()
+impl Executor for Simulator {
+    fn perform(&self, _run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>> {
+        Some(perform(self, tasks, observe))
     }
 }
 
-/// The result of each task. Evaluations by the same protocol are done together.
-pub fn perform(simulator: &Simulator, tasks: &[Task]) -> Vec<TaskResult> {
+/// The result of each task, simulated here. Evaluations by the same protocol are done together. Calls `observe` after
+/// each task.
+pub fn perform(simulator: &Simulator, tasks: &[Task], observe: &dyn Fn()) -> Vec<TaskResult> {
     let mut results: Vec<Option<TaskResult>> = vec![None; tasks.len()];
     for first in 0..tasks.len() {
         if results[first].is_some() {
@@ -29,6 +27,7 @@ pub fn perform(simulator: &Simulator, tasks: &[Task]) -> Vec<TaskResult> {
         }
         let Task::Evaluation(protocol, _) = &tasks[first] else {
             results[first] = Some(perform_one(simulator, &tasks[first]));
+            observe();
             continue;
         };
         let alike = (first..tasks.len()).filter_map(|place| match &tasks[place] {
@@ -38,6 +37,7 @@ pub fn perform(simulator: &Simulator, tasks: &[Task]) -> Vec<TaskResult> {
         let (places, group): (Vec<usize>, Vec<_>) = alike.unzip();
         for (place, evaluated) in places.into_iter().zip(evaluate_tasks(simulator, protocol, &group)) {
             results[place] = Some(TaskResult::Evaluation(evaluated));
+            observe();
         }
     }
     results.into_iter().map(|result| result.expect("each task is done")).collect()
@@ -68,7 +68,7 @@ mod tests {
         let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
         let (search, protocol) = (Search::new(&evolution, 3), Arc::new(EvaluationProtocol::of(&evolution)));
         let task = |body: &Body| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, body));
-        search.ask().iter().take(2).map(|candidate| task(&candidate.body)).collect()
+        search.ask().iter().take(3).map(|candidate| task(&candidate.body)).collect()
     }
 
     #[test]
@@ -79,7 +79,8 @@ mod tests {
         tasks.insert(1, screening);
         gates.into_iter().for_each(|task| tasks.insert(2, task));
         let (simulator, done) = (Simulator::default(), Cell::new(0));
-        let alone = simulator.perform(&tasks, &|| done.set(done.get() + 1));
-        assert_eq!((perform(&simulator, &tasks), done.get()), (alone, tasks.len()));
+        let alone = tasks.iter().map(|task| perform_one(&simulator, task)).collect();
+        let together = simulator.perform(0, &tasks, &|| done.set(done.get() + 1));
+        assert_eq!((together, done.get()), (Some(alone), tasks.len()));
     }
 }

@@ -1,8 +1,11 @@
-//! What a NATS server asks of its clients.
+//! The options for work on several machines.
 
 use std::path::PathBuf;
 
 use clap::Args;
+
+use crate::cli::cluster::{QueueExecutor, open_queue};
+use crate::cli::{Failure, Interrupt};
 
 /// What a NATS server asks of its clients.
 #[derive(Args, Clone, Debug, Default)]
@@ -26,4 +29,18 @@ pub struct QueueArguments {
     /// Do not check workers by doing some of their work here
     #[arg(long, requires = "nats")]
     pub trust_workers: bool,
+}
+
+impl QueueArguments {
+    /// The workers, if they do the work, until a signal arrives. Notes on their progress go to `note`.
+    ///
+    /// # Errors
+    /// When the server cannot be used.
+    pub fn open(
+        &self,
+        interrupt: &Interrupt,
+        note: impl Fn(String) + Send + 'static,
+    ) -> Result<Option<QueueExecutor>, Failure> {
+        self.nats.as_ref().map(|address| open_queue(address, self, interrupt, note)).transpose()
+    }
 }

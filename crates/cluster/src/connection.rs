@@ -1,5 +1,6 @@
 //! A connection to a NATS server, for code that is not asynchronous.
 
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use async_nats::jetstream::consumer::{AckPolicy, PullConsumer, pull};
@@ -7,15 +8,12 @@ use async_nats::jetstream::context::{CreateStreamError, CreateStreamErrorKind};
 use async_nats::jetstream::stream::{RetentionPolicy, StorageType, Stream};
 use async_nats::jetstream::{self, ErrorCode, stream};
 use async_nats::{ConnectOptions, ServerAddr};
-use clap::Args;
 use percent_encoding::percent_decode_str;
 use tokio::runtime::{Builder, EnterGuard, Runtime};
 use tokio::time;
 
-use crate::cli::Failure;
-use crate::cli::cluster::message::{MOST_BYTES, TaskKey, VERSION};
-use crate::cli::nats_access::NatsAccess;
-use crate::cli::wording::ClusterError;
+use crate::message::{MOST_BYTES, TaskKey, VERSION};
+use crate::wording::ClusterError;
 
 /// The stream of tasks.
 const STREAM: &str = "nbc-tasks";
@@ -32,14 +30,15 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// The most tasks in the hands of workers.
 const MOST_TAKEN: i64 = 1_000_000;
 
-/// The server.
-#[derive(Args, Clone, Debug)]
-pub struct NatsArguments {
-    /// The NATS server with JetStream, such as `nats://localhost:4222` or `tls://nats.example.org`
-    #[arg(long, value_name = "URL")]
-    pub nats: String,
-    #[command(flatten)]
-    pub access: NatsAccess,
+/// A NATS server with JetStream, and what it asks of its clients.
+#[derive(Clone, Debug, Default)]
+pub struct NatsServer {
+    /// Its address, such as `nats://localhost:4222` or `tls://nats.example.org`.
+    pub address: String,
+    /// The file with the credentials for it.
+    pub credentials: Option<PathBuf>,
+    /// The file with the root certificate for the server's, if the system does not trust it.
+    pub root_certificate: Option<PathBuf>,
 }
 
 /// A connection, with the threads that serve it.
@@ -57,8 +56,8 @@ impl Connection {
     ///
     /// # Errors
     /// When the server cannot be reached or refuses the client.
-    pub fn open(arguments: &NatsArguments, name: &str) -> Result<Self, Failure> {
-        let server = without_password(&arguments.nats);
+    pub fn open(server: &NatsServer, name: &str) -> Result<Self, ClusterError> {
+        let shown = without_password(&server.address);
         let runtime = Builder::new_multi_thread()
             .worker_threads(1)
             .enable_all()
@@ -68,25 +67,25 @@ impl Connection {
         let _entered = runtime.enter();
         let mut options = ConnectOptions::new().name(name).connection_timeout(PATIENCE).event_callback(|_| async {});
         // The client ignores the user in the address.
-        if let Some((user, password)) = user_and_password(&arguments.nats) {
+        if let Some((user, password)) = user_and_password(&server.address) {
             options = options.user_and_password(user, password);
         }
-        if let Some(path) = &arguments.access.tls_ca {
+        if let Some(path) = &server.root_certificate {
             options = options.add_root_certificates(path.clone()).require_tls(true);
         }
-        if let Some(path) = &arguments.access.creds {
+        if let Some(path) = &server.credentials {
             let fault = |error: std::io::Error| ClusterError::Credentials {
                 path: path.display().to_string(),
                 reason: error.to_string(),
             };
             options = runtime.block_on(options.credentials_file(path)).map_err(fault)?;
         }
-        let connecting = async { options.connect(arguments.nats.as_str()).await };
+        let connecting = async { options.connect(server.address.as_str()).await };
         let client = runtime
             .block_on(connecting)
-            .map_err(|error| ClusterError::Connect { server: server.clone(), reason: error.to_string() })?;
+            .map_err(|error| ClusterError::Connect { server: shown.clone(), reason: error.to_string() })?;
         let jetstream = jetstream::ContextBuilder::new().timeout(PATIENCE).ack_timeout(PATIENCE).build(client.clone());
-        Ok(Self { runtime, client, jetstream, server })
+        Ok(Self { runtime, client, jetstream, server: shown })
     }
 
     /// Lets this thread use the connection as long as the guard lives: the client starts tasks where it is used and
@@ -143,15 +142,15 @@ impl Connection {
     ///
     /// # Errors
     /// When the server cannot keep the queue.
-    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, Failure> {
+    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, ClusterError> {
         let jetstream = jetstream::ContextBuilder::new().timeout(OPENING).build(self.client.clone());
         let queue = self.runtime.block_on(Self::queue(&jetstream, token));
         queue.map_err(|reason| self.no_queue(reason))
     }
 
-    /// The failure of a server that cannot keep the queue.
-    pub fn no_queue(&self, reason: String) -> Failure {
-        ClusterError::JetStream { server: self.server.clone(), reason }.into()
+    /// The error of a server that cannot keep the queue.
+    pub fn no_queue(&self, reason: String) -> ClusterError {
+        ClusterError::JetStream { server: self.server.clone(), reason }
     }
 }
 

@@ -1,0 +1,197 @@
+//! Checks of what workers answer: whether a task can have a result, and some of their work done again here.
+
+mod plausible;
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use tokio::runtime::Handle;
+use tokio::task::JoinSet;
+
+use crate::Log;
+use crate::message::TaskKey;
+use nbc_sim::Simulator;
+use nbc_swarm::{Task, TaskResult, perform};
+
+pub use plausible::is_plausible;
+
+/// The share of the time that is spent on workers that have passed.
+const SHARE: f64 = 0.02;
+/// Messages that are not answers have a line each up to this number, then fewer.
+const JUNK_LINES: u64 = 8;
+
+/// What is known of the workers, and the work that is being done again.
+pub struct Checker {
+    handle: Handle,
+    log: Log,
+    /// Whether all workers are trusted.
+    is_trusting: bool,
+    workers: BTreeMap<String, Known>,
+    /// A worker whose results were used and that was wrong.
+    unsound: Option<String>,
+    /// Messages that were not answers.
+    junk: u64,
+    checks: JoinSet<Check>,
+    started: Instant,
+    spent: Duration,
+}
+
+/// What is known of a worker.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Known {
+    standing: Standing,
+    /// Whether its results were used without doing the work here.
+    is_used: bool,
+}
+
+/// Whether a worker can be trusted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Standing {
+    /// It has no result yet.
+    #[default]
+    Unknown,
+    /// Its first result is being checked.
+    New,
+    /// Its first result was right.
+    Passed,
+    /// Its answers are ignored.
+    Refused,
+}
+
+/// A task that was done here.
+pub struct Check {
+    pub key: TaskKey,
+    /// What workers claimed.
+    claims: Vec<(String, TaskResult)>,
+    pub correct: TaskResult,
+    took: Duration,
+}
+
+impl Check {
+    /// The workers whose claims were wrong.
+    pub fn wrong(&self) -> impl Iterator<Item = &str> {
+        self.claims.iter().filter(|(_, claim)| *claim != self.correct).map(|(worker, _)| worker.as_str())
+    }
+}
+
+impl Checker {
+    /// Knows no workers.
+    pub fn new(handle: Handle, is_trusting: bool, log: Log) -> Self {
+        Self {
+            handle,
+            log,
+            is_trusting,
+            workers: BTreeMap::new(),
+            unsound: None,
+            junk: 0,
+            checks: JoinSet::new(),
+            started: Instant::now(),
+            spent: Duration::ZERO,
+        }
+    }
+
+    /// Whether a result of the worker should be checked: its first, and later ones as far as there is time.
+    pub fn wants(&mut self, worker: &str) -> bool {
+        let allowed = self.started.elapsed().mul_f64(SHARE);
+        if self.is_trusting {
+            return false;
+        }
+        let known = self.known(worker);
+        match known.standing {
+            Standing::Unknown => {
+                known.standing = Standing::New;
+                true
+            }
+            Standing::New | Standing::Refused => false,
+            Standing::Passed => self.checks.is_empty() && self.spent < allowed,
+        }
+    }
+
+    /// Does a task on another thread, to compare the claims of workers with its result.
+    pub fn start(&mut self, key: TaskKey, task: Task, claims: Vec<(String, TaskResult)>) {
+        let check = move || {
+            let started = Instant::now();
+            let correct = perform(&Simulator::default(), &[task], &|| ()).remove(0);
+            Check { key, claims, correct, took: started.elapsed() }
+        };
+        self.checks.spawn_blocking_on(check, &self.handle);
+    }
+
+    /// The next check that ends; `None` if there is none in progress.
+    pub async fn next(&mut self) -> Option<Check> {
+        let check = self.checks.join_next().await?.expect("tasks do not panic");
+        self.spent += check.took;
+        for (worker, claim) in &check.claims {
+            let known = self.known(worker);
+            if *claim == check.correct && known.standing != Standing::Refused {
+                known.standing = Standing::Passed;
+            }
+        }
+        Some(check)
+    }
+
+    /// Whether results of the worker can be used.
+    pub fn trusts(&self, worker: &str) -> bool {
+        self.is_trusting || self.standing(worker) == Standing::Passed
+    }
+
+    /// Remembers whose results were used without doing the work here.
+    pub fn set_used(&mut self, workers: impl IntoIterator<Item = String>) {
+        workers.into_iter().for_each(|worker| self.known(&worker).is_used = true);
+    }
+
+    /// Whether answers of the worker are ignored.
+    pub fn is_refused(&self, worker: &str) -> bool {
+        self.standing(worker) == Standing::Refused
+    }
+
+    /// The number of workers whose answers are ignored.
+    pub fn refused(&self) -> usize {
+        self.workers.values().filter(|known| known.standing == Standing::Refused).count()
+    }
+
+    /// Ignores the answers of a worker from now on.
+    pub fn refuse(&mut self, worker: &str, reason: &str) {
+        let known = self.known(worker);
+        if known.standing != Standing::Refused {
+            known.standing = Standing::Refused;
+            (self.log)(&format!("refused worker `{}`: {reason}\n", name_of(worker)));
+        }
+    }
+
+    /// The same for a worker with a wrong result.
+    pub fn refuse_wrong(&mut self, worker: &str, reason: &str) {
+        self.refuse(worker, reason);
+        if self.known(worker).is_used {
+            self.unsound = Some(name_of(worker).to_owned());
+        }
+    }
+
+    /// The name of a worker whose results were used and that was wrong.
+    pub fn unsound(&self) -> Option<&str> {
+        self.unsound.as_deref()
+    }
+
+    /// Counts a message that is not an answer. Anybody can send one in the name of a worker, so it is no fault of that
+    /// worker. Many make few lines.
+    pub fn count_junk(&mut self, worker: &str) {
+        self.junk += 1;
+        if self.junk < JUNK_LINES || self.junk.is_power_of_two() {
+            let (name, count) = (name_of(worker), self.junk);
+            (self.log)(&format!("dropped a message in the name of `{name}` that is not an answer, {count} so far\n"));
+        }
+    }
+
+    fn known(&mut self, worker: &str) -> &mut Known {
+        self.workers.entry(worker.to_owned()).or_default()
+    }
+
+    fn standing(&self, worker: &str) -> Standing {
+        self.workers.get(worker).map_or(Standing::Unknown, |known| known.standing)
+    }
+}
+
+/// The name of the worker that sent an answer: the first part of the sender.
+fn name_of(sender: &str) -> &str {
+    sender.split(' ').next().unwrap_or_default()
+}

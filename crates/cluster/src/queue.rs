@@ -1,0 +1,246 @@
+//! The tasks of a program in a queue of a NATS server, done by workers.
+
+use std::time::Duration;
+
+use async_nats::{Message, Subscriber};
+use futures_util::StreamExt;
+use tokio::runtime::EnterGuard;
+use tokio::sync::mpsc::UnboundedReceiver;
+use tokio::time;
+
+use crate::Log;
+use crate::answer_message::AnswerMessage;
+use crate::checker::{Check, Checker};
+use crate::connection::{Connection, NatsServer, answer_subject, random_name, worker_note_subject};
+use crate::message::{AnswerReply, TaskKey, encode};
+use crate::open_batches::{BatchRequest, OpenBatches};
+use crate::physics::PhysicsId;
+use crate::reports::Reports;
+use crate::task_batch::Verdict;
+use crate::task_message::{TOGETHER, TaskMessage};
+use crate::task_sender::TaskSender;
+use crate::wording::ClusterError;
+use nbc_circuit::CancelFlag;
+use nbc_sim::Simulator;
+use nbc_swarm::{Task, TaskResult};
+
+/// The time between looks for a request to stop.
+const TURN: Duration = Duration::from_millis(500);
+/// The age of a batch from which on its tasks are looked for at the server.
+const OVERDUE: Duration = Duration::from_secs(5);
+
+/// The queue. It stays on the thread that opened it.
+pub struct Queue {
+    answers: Subscriber,
+    batches: OpenBatches,
+    sender: TaskSender,
+    checker: Checker,
+    reports: Reports,
+    // Dropped last, because the others need them.
+    connection: Connection,
+    _entered: EnterGuard<'static>,
+}
+
+impl Queue {
+    /// Connects and prepares the queue.
+    ///
+    /// # Errors
+    /// When the server cannot be used.
+    pub fn open(server: &NatsServer, is_trusting: bool, log: Log) -> Result<Self, ClusterError> {
+        let search = random_name();
+        let connection = Connection::open(server, &format!("nbc evolve {search}"))?;
+        let entered = connection.enter();
+        let physics = PhysicsId::compute(&Simulator::default());
+        connection.open_queue(&physics.token())?;
+        let subscribing = async {
+            let subscribe = async |subject: String| connection.client.subscribe(subject).await;
+            let answers = subscribe(answer_subject(&search, "*")).await.map_err(|error| error.to_string())?;
+            let notes = subscribe(worker_note_subject()).await.map_err(|error| error.to_string())?;
+            connection.client.flush().await.map_err(|error| error.to_string())?;
+            Ok::<_, String>((answers, notes))
+        };
+        let (answers, notes) =
+            connection.runtime.block_on(subscribing).map_err(|reason| connection.no_queue(reason))?;
+        Ok(Self {
+            answers,
+            batches: OpenBatches::default(),
+            sender: TaskSender::new(&connection, physics.token(), &search, log),
+            checker: Checker::new(connection.runtime.handle().clone(), is_trusting, log),
+            reports: Reports::new(connection.client.clone(), search, physics, notes),
+            connection,
+            _entered: entered,
+        })
+    }
+
+    /// Has the requested tasks done until nobody can request any more, or `cancel` is raised. Notes on the progress go
+    /// to `note`.
+    ///
+    /// # Errors
+    /// When results were used that may be wrong.
+    pub fn work(
+        &mut self,
+        mut requests: UnboundedReceiver<BatchRequest>,
+        cancel: &CancelFlag,
+        note: impl Fn(String),
+    ) -> Result<(), ClusterError> {
+        let handle = self.connection.runtime.handle().clone();
+        handle.block_on(async {
+            while !cancel.is_raised() && self.checker.unsound().is_none() && self.is_wanted(&requests) {
+                self.look().await;
+                let (batches, refused) = (self.batches.len(), self.checker.refused());
+                self.reports.tell(batches, self.batches.missing(), refused).await;
+                self.receive(&mut requests).await;
+                note(self.describe());
+            }
+            self.sender.clear().await;
+        });
+        match self.checker.unsound() {
+            Some(worker) => Err(ClusterError::Unsound { worker: worker.to_owned() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether there are tasks, or can be.
+    fn is_wanted(&self, requests: &UnboundedReceiver<BatchRequest>) -> bool {
+        !self.batches.is_empty() || !requests.is_closed() || !requests.is_empty()
+    }
+
+    /// The progress, for people.
+    fn describe(&mut self) -> String {
+        let (waiting, refused) = (self.batches.missing(), self.checker.refused());
+        format!("{}, {waiting} waiting, {refused} refused", self.reports.workers.summary().describe())
+    }
+
+    /// Takes requests and messages until a batch is complete or the time is over.
+    async fn receive(&mut self, requests: &mut UnboundedReceiver<BatchRequest>) {
+        let end = time::Instant::now() + TURN;
+        let mut open = self.batches.len();
+        while self.batches.len() >= open && self.checker.unsound().is_none() {
+            open = self.batches.len();
+            tokio::select! {
+                request = requests.recv(), if !requests.is_closed() || !requests.is_empty() => match request {
+                    Some(request) => self.take_request(request),
+                    None => return,
+                },
+                Some(message) = self.answers.next() => self.take_answer(message).await,
+                Some(message) = self.reports.notes.next() => self.take_note(&message).await,
+                Some(check) = self.checker.next() => self.take_check(&check),
+                Some(()) = self.sender.next() => {}
+                () = time::sleep_until(end) => return,
+            }
+        }
+    }
+
+    fn take_request(&mut self, request: BatchRequest) {
+        let keys = self.batches.add(request);
+        self.send(keys);
+    }
+
+    /// Starts to send those of the tasks that have no result.
+    fn send(&mut self, tasks: impl IntoIterator<Item = TaskKey>) {
+        let together = self.together();
+        for key in tasks {
+            if let Some(task) = self.batches.get(key).and_then(|batch| batch.missing_task(key)) {
+                // Only evaluations gain by being done together.
+                let together = if matches!(task, Task::Evaluation(..)) { together } else { 1 };
+                self.sender.send(&TaskMessage { key, together, task: task.clone() });
+            }
+        }
+    }
+
+    /// As many tasks as a thread can take without leaving another one idle.
+    fn together(&mut self) -> u8 {
+        let fair = self.batches.missing() / self.reports.workers.summary().threads.max(1);
+        fair.clamp(1, TOGETHER.into()) as u8
+    }
+
+    async fn take_answer(&mut self, message: Message) {
+        let worker = sender(&message);
+        let reply =
+            if self.checker.is_refused(&worker) { AnswerReply::Wrong } else { self.judge(&worker, &message.payload) };
+        if let Some(inbox) = message.reply {
+            // A lost reply makes the worker send its answer again.
+            let _ = self.connection.client.publish(inbox, encode(&reply).into()).await;
+        }
+    }
+
+    fn judge(&mut self, worker: &str, payload: &[u8]) -> AnswerReply {
+        let Ok(answer) = AnswerMessage::decode(payload) else {
+            self.checker.count_junk(worker);
+            return AnswerReply::Invalid;
+        };
+        let key = answer.key;
+        let Some(batch) = self.batches.get(key) else { return AnswerReply::Received };
+        match batch.take(worker, &answer) {
+            Verdict::Late | Verdict::Again => {}
+            Verdict::Taken => {
+                self.reports.workers.count();
+                if self.checker.wants(worker) {
+                    self.check(key, vec![(worker.to_owned(), answer.result)]);
+                }
+                let workers = self.batches.pass_on(key, |worker| self.checker.trusts(worker));
+                self.checker.set_used(workers);
+            }
+            Verdict::Differs { worker: first, result } => {
+                self.check(key, vec![(first, result), (worker.to_owned(), answer.result)]);
+            }
+            Verdict::Implausible | Verdict::Wrong => {
+                self.reject(worker, "its result cannot be right");
+                self.send([key]);
+                return AnswerReply::Wrong;
+            }
+        }
+        AnswerReply::Received
+    }
+
+    /// Does a task here; its result is not used before.
+    fn check(&mut self, key: TaskKey, claims: Vec<(String, TaskResult)>) {
+        let Some(batch) = self.batches.get(key) else { return };
+        batch.doubt(key);
+        if let Some(task) = batch.task(key) {
+            self.checker.start(key, task.clone(), claims);
+        }
+    }
+
+    fn take_check(&mut self, check: &Check) {
+        if let Some(batch) = self.batches.get(check.key) {
+            batch.verify(check.key, check.correct.clone());
+        }
+        for worker in check.wrong() {
+            self.reject(worker, "its result differs from that of this machine");
+        }
+        // The worker may be trusted now.
+        let workers = self.batches.pass_on_all(|worker| self.checker.trusts(worker));
+        self.checker.set_used(workers);
+    }
+
+    /// Refuses a worker that was wrong, and lets others do its work again.
+    fn reject(&mut self, worker: &str, reason: &str) {
+        self.checker.refuse_wrong(worker, reason);
+        let lost = self.batches.forget(worker);
+        self.send(lost);
+    }
+
+    async fn take_note(&mut self, message: &Message) {
+        if let Some(unfit) = self.reports.take(message).await {
+            self.checker.refuse(&unfit.name, &unfit.reason);
+        }
+    }
+
+    /// Sends again what the server did not take and what it has lost.
+    async fn look(&mut self) {
+        let again = self.sender.retry().await;
+        self.send(again);
+        let lost = self.sender.lost(|| self.batches.overdue(OVERDUE)).await;
+        self.send(lost);
+    }
+}
+
+/// Who sent an answer: the name in its subject, and the connection to which the reply goes. Whoever sends in the name
+/// of another has another connection, and so is another worker.
+fn sender(message: &Message) -> String {
+    let name = message.subject.rsplit('.').next().unwrap_or_default();
+    // The inbox of a connection, without the number of the request. No part of a subject has a space.
+    let inbox: Vec<&str> = message.reply.as_deref().unwrap_or_default().split('.').take(2).collect();
+    format!("{name} {}", inbox.join("."))
+}

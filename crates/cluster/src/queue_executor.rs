@@ -1,0 +1,118 @@
+//! The queue as an executor: any thread can hand in tasks and wait for their results.
+
+use std::sync::mpsc;
+use std::thread::{self, JoinHandle};
+
+use tokio::sync::mpsc::{UnboundedSender, unbounded_channel};
+
+use crate::Log;
+use crate::connection::NatsServer;
+use crate::message::MOST_BYTES;
+use crate::open_batches::BatchRequest;
+use crate::queue::Queue;
+use crate::task_message::task_bytes;
+use crate::wording::ClusterError;
+use nbc_circuit::CancelFlag;
+use nbc_sim::Simulator;
+use nbc_swarm::{Executor, Task, TaskResult, perform};
+
+/// Bytes of a message besides its task or result, at most.
+const RESERVE: usize = 1024;
+
+/// How workers do the tasks of a program.
+#[derive(Clone, Debug)]
+pub struct QueueOptions {
+    /// The server with the queue.
+    pub server: NatsServer,
+    /// Whether no work of workers is done again here as a check.
+    pub trust_workers: bool,
+    /// Stops all work.
+    pub cancel: CancelFlag,
+    /// Shows what goes wrong.
+    pub log: Log,
+}
+
+/// Workers at a server, which do tasks. After a cancellation or a failure, all work is stopped.
+pub struct QueueExecutor {
+    requests: UnboundedSender<BatchRequest>,
+    thread: JoinHandle<Result<(), ClusterError>>,
+}
+
+impl QueueExecutor {
+    /// Opens the queue. Notes on the progress go to `note`.
+    ///
+    /// # Errors
+    /// When the server cannot be used.
+    pub fn open(options: QueueOptions, note: impl Fn(String) + Send + 'static) -> Result<Self, ClusterError> {
+        let (requests, requested) = unbounded_channel();
+        let (opened, opening) = mpsc::channel();
+        // The queue belongs to the thread that opens it.
+        let work = move || {
+            let QueueOptions { server, trust_workers, cancel, log } = options;
+            let mut queue = Queue::open(&server, trust_workers, log)?;
+            // Whoever opens the queue waits for this.
+            let _ = opened.send(());
+            queue.work(requested, &cancel, note)
+        };
+        let thread =
+            thread::Builder::new().spawn(work).map_err(|error| ClusterError::Start { reason: error.to_string() })?;
+        let executor = Self { requests, thread };
+        match opening.recv() {
+            Ok(()) => Ok(executor),
+            Err(_) => Err(executor.end().expect_err("only a failure ends the thread so early")),
+        }
+    }
+
+    /// Ends the work.
+    ///
+    /// # Errors
+    /// When it has failed.
+    pub fn end(self) -> Result<(), ClusterError> {
+        let Self { requests, thread } = self;
+        drop(requests);
+        thread.join().expect("the queue does not panic")
+    }
+}
+
+impl Executor for QueueExecutor {
+    fn perform(&self, run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>> {
+        let (reply, results) = mpsc::channel();
+        let (far, near): (Vec<usize>, Vec<usize>) = (0..tasks.len()).partition(|&place| fits(&tasks[place]));
+        for places in batches(tasks, far) {
+            let tasks = places.into_iter().map(|place| (place, tasks[place].clone())).collect();
+            // After a failure nobody takes requests.
+            let _ = self.requests.send(BatchRequest { run: run as u32, tasks, reply: reply.clone() });
+        }
+        drop(reply);
+        let mut found: Vec<Option<TaskResult>> = vec![None; tasks.len()];
+        for place in near {
+            found[place] = perform(&Simulator::default(), &tasks[place..=place], observe).pop();
+        }
+        for (place, result) in results {
+            found[place] = Some(result);
+            observe();
+        }
+        found.into_iter().collect()
+    }
+}
+
+/// Some tasks in batches: evaluations are of use only all together, each other task by itself.
+fn batches(tasks: &[Task], places: Vec<usize>) -> Vec<Vec<usize>> {
+    let is_evaluation = |&place: &usize| matches!(tasks[place], Task::Evaluation(..));
+    let (evaluations, others): (Vec<usize>, Vec<usize>) = places.into_iter().partition(is_evaluation);
+    let together = Some(evaluations).filter(|places| !places.is_empty());
+    together.into_iter().chain(others.into_iter().map(|place| vec![place])).collect()
+}
+
+/// Whether the messages of a task are not too long. Others are done here.
+fn fits(task: &Task) -> bool {
+    let (bytes, answer) = match task {
+        // The body of a candidate is small.
+        Task::Evaluation(..) => return true,
+        // A swarm without robots has no bits that could be asked for.
+        Task::Swarm(swarm) if swarm.robots() == 0 => return false,
+        Task::Swarm(swarm) => (task_bytes(task), swarm.robots() * swarm.cycles() / 8),
+        _ => (task_bytes(task), 0),
+    };
+    bytes.max(answer) < MOST_BYTES - RESERVE
+}

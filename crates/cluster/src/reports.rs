@@ -1,0 +1,80 @@
+//! What a search hears from workers, and what it tells those who watch.
+
+use std::time::{Duration, Instant};
+
+use async_nats::{Client, Message, Subscriber};
+
+use crate::connection::{reply_subject, search_note_subject};
+use crate::message::{AnswerReply, SearchNote, WorkerNote, encode};
+use crate::physics::{PROGRAM, PhysicsId};
+use crate::worker_statistics::WorkerStatistics;
+
+/// The time between reports.
+const REPORT: Duration = Duration::from_secs(2);
+
+/// The reports of workers, and those of a search.
+pub struct Reports {
+    client: Client,
+    /// The random name of the search.
+    search: String,
+    physics: PhysicsId,
+    /// The reports of workers.
+    pub notes: Subscriber,
+    /// The workers with the physics of the search.
+    pub workers: WorkerStatistics,
+    reported: Option<Instant>,
+}
+
+/// A worker that the search cannot use.
+pub struct UnfitWorker {
+    pub name: String,
+    pub reason: String,
+}
+
+impl Reports {
+    /// Nothing was heard or told yet.
+    pub fn new(client: Client, search: String, physics: PhysicsId, notes: Subscriber) -> Self {
+        Self { client, search, physics, notes, workers: WorkerStatistics::default(), reported: None }
+    }
+
+    /// Takes the report of a worker. Returns the worker if it has other physics; it is told so.
+    pub async fn take(&mut self, message: &Message) -> Option<UnfitWorker> {
+        let note = WorkerNote::decode(&message.payload).ok()?;
+        if note.physics == self.physics.0 && note.program == PROGRAM {
+            self.workers.take(note);
+            return None;
+        }
+        let WorkerNote { name, program, physics, .. } = note;
+        let reply = encode(&AnswerReply::OtherPhysics);
+        // The worker is refused in any case.
+        let _ = self.client.publish(reply_subject(&name), reply.into()).await;
+        let own = self.physics.0;
+        let reason =
+            format!("its physics is {physics:016x} (version {program}), expected {own:016x} (version {PROGRAM})");
+        Some(UnfitWorker { name, reason })
+    }
+
+    /// Tells those who watch, now and then, about this number of batches, of tasks without a result and of refused
+    /// workers.
+    pub async fn tell(&mut self, batches: usize, waiting: usize, refused: usize) {
+        if self.reported.is_some_and(|reported| reported.elapsed() < REPORT) {
+            return;
+        }
+        self.reported = Some(Instant::now());
+        let summary = self.workers.summary();
+        let note = SearchNote {
+            name: self.search.clone(),
+            program: PROGRAM.to_owned(),
+            physics: self.physics.0,
+            runs: batches as u32,
+            workers: summary.workers as u32,
+            evaluations: summary.evaluations,
+            per_kilosecond: (summary.rate * 1000.0) as u64,
+            waiting: waiting as u64,
+            redelivered: summary.redelivered,
+            refused: refused as u32,
+        };
+        // The next report follows soon.
+        let _ = self.client.publish(search_note_subject(), encode(&note).into()).await;
+    }
+}
