@@ -4,14 +4,10 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
 
 use crate::cli::{Bench, program};
+use crate::limits::{Limit, until};
 use crate::tools::signal;
-
-/// The time for something to happen on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A program that uses Verilog.
 pub const USER: &str = "use \"m.v\"\n\ncircuit f(a) -> (q) {\n    q = m(a)\n}\n\ntest f {\n    a | q\n    0 | 0\n}\n";
@@ -75,15 +71,6 @@ pub fn ended(process: u32) {
     until("Yosys still runs", || !runs());
 }
 
-#[track_caller]
-fn until(fault: &str, holds: impl Fn() -> bool) {
-    let end = Instant::now() + PATIENCE;
-    while !holds() {
-        assert!(Instant::now() < end, "{fault}");
-        thread::sleep(Duration::from_millis(10));
-    }
-}
-
 #[test]
 fn a_signal_to_the_program_ends_yosys() {
     // Those of which the program knows nothing, and those that it handles.
@@ -97,6 +84,7 @@ fn a_signal_to_the_program_ends_yosys() {
     ] {
         let slow = SlowYosys::new();
         let mut child = slow.program().args([command, "a.nb"]).stderr(Stdio::null()).spawn().unwrap();
+        let _limit = Limit::of(&child);
         let yosys = slow.begun();
         signal(name, child.id());
         assert_eq!(child.wait().unwrap().code(), status, "{command} {name}");

@@ -53,6 +53,8 @@ use crate::store::{DiskWorld, GuardedWorld, VerilogFiles};
 use capabilities::{Client, capabilities};
 use pending::Pending;
 use server::Server;
+#[cfg(feature = "play")]
+pub(in crate::cli) use wire::{NO_MESSAGE, message};
 
 /// Serve editors by the Language Server Protocol
 ///

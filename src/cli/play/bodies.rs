@@ -3,12 +3,12 @@
 use serde_json::{Value, json};
 
 use crate::circuit::formats::is_word;
-use crate::cli::play::SCHEME;
 use crate::cli::play::files::PageFiles;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::KeepRequest;
+use crate::cli::play::served::SCHEME;
 use crate::evolve;
 use crate::model::{
     Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,

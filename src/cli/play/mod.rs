@@ -34,13 +34,11 @@ use tokio::runtime::Builder;
 use crate::cli::lsp;
 use crate::cli::wording::PlayError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use crate::report::{Schema, Scheme};
+use crate::report::Schema;
 use crate::store::{FolderWorld, PrivateFile};
 use page::Page;
 use served::Served;
 
-/// The colors of materials on the page, and of what is taken from it.
-const SCHEME: Scheme = Scheme::Safe;
 /// The time between two looks for Ctrl-C.
 const LOOK: Duration = Duration::from_millis(100);
 /// The file that a browser is told to open. So the token is in no list of processes.

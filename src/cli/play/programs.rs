@@ -3,11 +3,11 @@
 use serde_json::{Value, json};
 
 use crate::circuit::Effort;
-use crate::cli::play::SCHEME;
 use crate::cli::play::history::FRAMES;
 use crate::cli::play::jobs::{Job, JobEnd};
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::runner::LoadedSwarm;
+use crate::cli::play::served::SCHEME;
 use crate::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
 use crate::report::{self, Looks};
 use crate::session::{Checked, Choice, CompileOptions, Compiled, RunEnd, Session, TestOptions};

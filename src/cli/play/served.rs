@@ -10,8 +10,11 @@ use tokio::sync::Semaphore;
 
 use crate::cli::play::page::Page;
 use crate::cli::play::takes::Takes;
+use crate::report::Scheme;
 use crate::store::FolderWorld;
 
+/// The colors of materials on the page, and of what is taken from it.
+pub(super) const SCHEME: Scheme = Scheme::Safe;
 /// The largest message that a page may send, in bytes.
 pub(super) const MOST_BYTES: usize = 1 << 20;
 /// The most sockets at once, and those of a page.

@@ -2,10 +2,10 @@
 
 use std::io;
 
-use crate::cli::play::SCHEME;
 use crate::cli::play::jobs::Job;
 use crate::cli::play::refusal::Refused;
 use crate::cli::play::request::TakeKind;
+use crate::cli::play::served::SCHEME;
 use crate::model::CYCLE_STEPS;
 use crate::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
 use crate::session::{Excerpt, RunEnd, Session, SimulationRun, run_page};
