@@ -72,6 +72,10 @@ use no_play as play;
 pub use context::{Context, OutputFormat};
 pub use failure::Failure;
 pub use interrupt::Interrupt;
+// For the fuzzer: what editors and pages send, without their pipes and sockets.
+pub use lsp::serve_texts as serve_editor;
+#[cfg(feature = "play")]
+pub use play::serve_texts as serve_page;
 pub use progress::Progress;
 pub use status::Status;
 

@@ -38,6 +38,7 @@ mod uri;
 mod wire;
 mod workspace;
 
+use std::path::Path;
 use std::sync::Arc;
 use std::thread;
 
@@ -49,7 +50,7 @@ use lsp_server::{Connection, ErrorCode, Message, Request, Response};
 use crate::cli::wording::ServerError;
 use crate::cli::{Context, Failure, Status};
 use crate::source::VerilogError;
-use crate::store::{DiskWorld, GuardedWorld, VerilogFiles};
+use crate::store::{DiskWorld, FolderWorld, GuardedWorld, VerilogFiles};
 use capabilities::{Client, capabilities};
 use pending::Pending;
 use server::Server;
@@ -116,6 +117,19 @@ pub(in crate::cli) fn serve(
     let (is_trusted, waiting) = (client.trusts_verilog, pending.clone());
     let permit = move || if is_trusted { Ok(waiting.cancel()) } else { Err(VerilogError::Untrusted) };
     Ok(Server::new(&connection, client, Arc::new(GuardedWorld::new(world, permit)), pending).run())
+}
+
+/// Serves a client that sends these texts, each of which should be a message, and then vanishes. For the fuzzer, which
+/// needs no pipe.
+pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
+    let world = FolderWorld::new(folder).expect("there is such a folder");
+    let (server, client) = Connection::memory();
+    for message in texts.iter().filter_map(|text| message(serde_json::from_slice(text).ok()?).ok()) {
+        client.sender.send(message).expect("the server has not begun");
+    }
+    drop(client);
+    // A client may break the protocol.
+    let _ = serve(server, world);
 }
 
 fn broken(reason: String) -> Failure {

@@ -31,6 +31,7 @@ use serde_json::json;
 use tokio::net::TcpListener;
 use tokio::runtime::Builder;
 
+use crate::circuit::CancelFlag;
 use crate::cli::lsp;
 use crate::cli::wording::PlayError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
@@ -161,6 +162,20 @@ fn redirect(address: &str) -> String {
          <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<title>nbc</title>\n\
          <p><a href=\"{address}\">Open the page of nbc play</a></p>\n"
     )
+}
+
+/// Serves a page that sends these texts, each of which should be a request, and waits for each. For the fuzzer, which
+/// needs no socket.
+pub fn serve_texts(folder: &Path, texts: &[&str]) {
+    /// The time for a long request. What is left of it is stopped.
+    const PATIENCE: Duration = Duration::from_millis(250);
+    let world = FolderWorld::new(folder).expect("there is such a folder");
+    let served = Arc::new(Served::new(world, String::new(), None, String::new()));
+    let (inbox, outgoing) = outbox::outbox();
+    let mut visit = visit::Visit::new(served, inbox, CancelFlag::default());
+    // Nobody reads the answers.
+    drop(outgoing);
+    texts.iter().for_each(|text| visit.receive_and_wait(text, PATIENCE));
 }
 
 /// The folder to serve, and the file in it.
