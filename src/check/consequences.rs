@@ -7,9 +7,9 @@ use crate::check::load::Loaded;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{Sources, Span};
 
-/// Forgets what follows from parts that could not be parsed: in their declaration, names that they mention and fields
-/// and rows that are missing; everywhere, the names of declarations that are lost. In a file that uses another one that
-/// could not be read, unknown names that resemble no known one may be declared there.
+/// Forgets what follows from parts that could not be parsed: in their declaration, names that they mention, nets that
+/// nothing drives, and fields and rows that are missing; everywhere, the names of declarations that are lost. In a file
+/// that uses another one that could not be read, unknown names that resemble no known one may be declared there.
 pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loaded: &Loaded) {
     let broken: Vec<_> = loaded.trees.iter().flat_map(|(_, tree)| &tree.broken).collect();
     let lost: BTreeSet<&str> = broken
@@ -43,8 +43,8 @@ pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loade
             return false;
         };
         match diagnostic.code {
-            Code::MissingField | Code::Empty => true,
-            Code::Unknown | Code::Undriven | Code::Unused | Code::UnknownWidth => words.contains(word),
+            Code::MissingField | Code::Empty | Code::Undriven => true,
+            Code::Unknown | Code::Unused | Code::UnknownWidth => words.contains(word),
             _ => false,
         }
     };
