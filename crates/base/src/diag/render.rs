@@ -13,8 +13,8 @@ use super::visible::{visible, visible_in_place};
 use super::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceFile, Sources};
 
-/// The most diagnostics that are shown.
-const MOST_SHOWN: usize = 100;
+/// The most diagnostics that are shown: as many as a file has, with the number of the others.
+const MOST_SHOWN: usize = 201;
 
 /// The most characters of a message that are shown, because a user's word may be megabytes long.
 const MOST_CHARACTERS: usize = 600;
@@ -243,7 +243,7 @@ mod tests {
         let diagnostic =
             Diagnostic::without_place(Code::Unknown, format!("no net is called `{}`", "x".repeat(1_000_000)));
         let shown = text(&vec![diagnostic; 1_000], &Sources::default(), false);
-        assert!(shown.len() < 200_000 && shown.ends_with("and 900 more like these; `--format json` has them all\n"));
+        assert!(shown.len() < 400_000 && shown.ends_with("and 799 more like these; `--format json` has them all\n"));
     }
 
     #[test]
