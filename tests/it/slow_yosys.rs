@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use crate::cli::{Bench, program};
-use crate::limits::{Limit, until};
+use crate::limits::{InTime, Limit, until};
 use crate::tools::signal;
 
 /// A program that uses Verilog.
@@ -124,7 +124,7 @@ fn commands_refuse_verilog_that_reaches_the_machine_before_yosys_begins() {
         let slow = SlowYosys::new();
         slow.bench.file("m.v", format!("{text}{MODULE}"));
         for command in [&["check", "a.nb"][..], &["test", "a.nb"], &["run", "a.nb"], &["synth", "m.v"]] {
-            let output = slow.program().args(command).output().unwrap();
+            let output = slow.program().args(command).output_in_time();
             let said = String::from_utf8(output.stderr).unwrap();
             assert!(output.status.code() == Some(2) && said.contains(word), "{command:?} {said}");
         }

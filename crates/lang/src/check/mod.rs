@@ -1,5 +1,5 @@
-//! From trees to a [`Program`]: names, units, widths. There is a file for each kind of declaration. Checking never
-//! stops at the first error.
+//! From trees to a [`Program`](nbc_base::model::Program): names, units, widths. There is a file for each kind of
+//! declaration. Checking never stops at the first error.
 
 mod analysis;
 mod cell;
