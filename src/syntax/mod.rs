@@ -19,6 +19,7 @@ pub mod tree;
 mod wording;
 
 pub use format::format;
+#[cfg(feature = "cli")]
 pub(crate) use lexer::{Token, TokenKind, tokens};
 pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, MAX_WORDS, Parsed, parse, parse_instance};
 pub use split::KEYWORDS;
