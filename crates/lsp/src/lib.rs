@@ -111,7 +111,7 @@ pub fn serve(
 pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let (server, client) = Connection::memory();
-    for message in texts.iter().filter_map(|text| message(serde_json::from_slice(text).ok()?).ok()) {
+    for message in texts.iter().filter_map(|text| wire::message(serde_json::from_slice(text).ok()?).ok()) {
         client.sender.send(message).expect("the server has not begun");
     }
     drop(client);
