@@ -268,3 +268,18 @@ def test_bodies_that_do_not_fit_into_memory_are_refused(call):
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert "would need" in done.stdout and "fewer bodies at once" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ('import "DPI-C" function integer kill(integer a, integer b);', "import"),
+        ('module r; reg a[0:1]; initial $readmemh("/etc/passwd", a); endmodule', r"\$readmemh"),
+        ('module r; reg a[0:1]; initial \\$readmemh ("/etc/passwd", a); endmodule', r"\\\$readmemh"),
+    ],
+)
+def test_verilog_that_reaches_the_machine(tmp_path, text, word):
+    (tmp_path / "m.v").write_text(f"{text}\nmodule m(input a, output q);\n assign q = a;\nendmodule\n")
+    (tmp_path / "a.nb").write_text('use "m.v"\n')
+    with pytest.raises(nbc.NbcError, match=f"`{word}`, which could reach other files or programs"):
+        nbc.load(tmp_path / "a.nb")

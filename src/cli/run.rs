@@ -299,11 +299,11 @@ fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {
 fn describe(drawn: &Drawn<'_>) -> String {
     let trace = &drawn.ran.swarm().trace;
     let files: String = drawn.files.iter().map(|file| format!("{:<8} {file}\n", word_of(file))).collect();
-    let outcome = match drawn.ran {
-        Ran::Test(run) => report::describe_test(&run.verdict),
-        Ran::Simulation(run) => report::describe_simulation(&run.result),
+    let (outcome, hold) = match drawn.ran {
+        Ran::Test(run) => (report::describe_test(&run.verdict), run.hold),
+        Ran::Simulation(run) => (report::describe_simulation(&run.result), None),
     };
-    let (swarm, hold) = (report::describe_swarm(trace), timing(drawn.ran).describe_hold());
+    let (swarm, hold) = (report::describe_swarm(trace), timing(drawn.ran).describe_hold(hold));
     format!("{}: {swarm}\n\n{outcome}\n{files}{hold}", trace.circuit)
 }
 

@@ -8,6 +8,8 @@ use nbc_base::model::CYCLE_STEPS;
 use nbc_sim::Constants;
 use serde_json::Value;
 
+use crate::limits::{self, InTime};
+
 /// A schedule with every pattern for one cycle.
 pub const SHORT: &str = "\
 schedule short(s1, s2) {
@@ -60,7 +62,7 @@ impl Bench {
     }
 
     pub fn run(&self, arguments: &[&str]) -> Ran {
-        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
+        let Output { status, stdout, stderr } = self.command(arguments).output_in_time();
         let text = |bytes| String::from_utf8(bytes).expect("the program prints text");
         Ran { status: status.code().expect("the program ends by itself"), out: text(stdout), err: text(stderr) }
     }
@@ -249,7 +251,7 @@ fn a_closed_pipe_ends_the_program_quietly() {
     let arguments = ["simulate", "walker.yaml", "--schedule", "00*60", "--format", "json"];
     let mut child = bench.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
+    let output = limits::end(child);
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
 }
@@ -264,7 +266,7 @@ pub fn flip(passes: bool) -> String {
 fn unread(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let output = bench.command(arguments).stdout(writer).stderr(Stdio::piped()).output().unwrap();
+    let output = limits::end(bench.command(arguments).stdout(writer).stderr(Stdio::piped()).spawn().unwrap());
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
@@ -301,7 +303,7 @@ fn a_full_disk_is_reported() {
     let bench = Bench::new();
     for arguments in [&["completions", "bash"][..], &["--help"], &["--version"], &["evolve", "--help"], &["explain"]] {
         let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let output = bench.command(arguments).stdout(full).output().unwrap();
+        let output = limits::end(bench.command(arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap());
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(String::from_utf8(output.stderr).unwrap().contains("cannot write the output"), "{arguments:?}");
     }
@@ -318,7 +320,7 @@ fn without_threads(prlimit: &Path, bench: &Bench, arguments: &[&str]) -> Output 
     let mut command = Command::new(if is_root { "setpriv" } else { "env" });
     command.args(if is_root { &["--reuid=65534", "--clear-groups"][..] } else { &[] });
     command.arg(prlimit).arg("--nproc=1").arg(program).args(arguments);
-    command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "8").output().unwrap()
+    command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "8").output_in_time()
 }
 
 #[test]
@@ -340,7 +342,7 @@ fn fewer_threads_do_the_work_if_the_system_refuses_some() {
 #[test]
 fn an_invalid_number_of_threads_is_reported() {
     let bench = Bench::new();
-    let output = bench.command(&["library", "list"]).env("RAYON_NUM_THREADS", "two").output().unwrap();
+    let output = bench.command(&["library", "list"]).env("RAYON_NUM_THREADS", "two").output_in_time();
     assert_eq!(output.status.code(), Some(2));
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(told.contains("`RAYON_NUM_THREADS` is `two`, expected a number of threads"), "{told}");
@@ -360,7 +362,7 @@ fn robot_files_are_read_from_a_pipe() {
     let arguments = ["simulate", "/dev/stdin", "--schedule", "00*1"];
     let mut child = bench.command(&arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(WALKER.as_bytes()).unwrap();
-    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(0));
+    assert_eq!(limits::end(child).status.code(), Some(0));
 }
 
 #[track_caller]
@@ -535,7 +537,7 @@ fn with_input(bench: &Bench, arguments: &[&str], text: &str) -> Output {
     let mut command = bench.command(arguments);
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-    child.wait_with_output().unwrap()
+    limits::end(child)
 }
 
 #[test]

@@ -15,6 +15,7 @@ use nbc_swarm::{evaluate, evaluate_bodies};
 use proptest::prelude::*;
 
 use crate::cli::{Bench, SHORT};
+use crate::limits::{InTime, Limit};
 
 /// Two small runs, one for each objective.
 const RUNS: &str = "
@@ -50,7 +51,7 @@ fn bench() -> Bench {
 fn straight(bench: &Bench, threads: &str) -> Vec<Vec<u8>> {
     let out = format!("threads-{threads}");
     let mut command = bench.command(&["evolve", "runs.nb", "--out", &out]);
-    let ended = command.env("RAYON_NUM_THREADS", threads).output().unwrap();
+    let ended = command.env("RAYON_NUM_THREADS", threads).output_in_time();
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
     read(bench, &out)
 }
@@ -88,7 +89,7 @@ fn the_same_seed_gives_the_same_archive_after_being_killed() {
     let resume = ["evolve", "runs.nb", "--out", "killed", "--resume", "--checkpoint-every", "0"];
     let mut generations = Vec::new();
     for blocks in [4, 8, 16, 24] {
-        let ended = limited(&bench, blocks, "", &resume).output().unwrap();
+        let ended = limited(&bench, blocks, "", &resume).output_in_time();
         assert!(ended.status.signal().is_some(), "{blocks}: {ended:?}");
         let checkpoint = fs::read(bench.path().join("killed").join(CHECKPOINTS[0])).unwrap_or_default();
         generations.push(checkpoint.len());
@@ -96,10 +97,12 @@ fn the_same_seed_gives_the_same_archive_after_being_killed() {
     assert!(generations.is_sorted_by(|before, after| before < after), "{generations:?}");
     // The first run prints its table when it is finished; then the second one is killed.
     let mut child = bench.command(&resume).stdout(Stdio::piped()).spawn().unwrap();
+    let limit = Limit::of(&child);
     let first = BufReader::new(child.stdout.take().unwrap()).lines().next();
     assert_eq!(first.unwrap().unwrap(), "walks, seed 3");
     child.kill().unwrap();
     child.wait().unwrap();
+    drop(limit);
     let resumed = bench.run(&["evolve", "runs.nb", "--out", "killed", "--resume"]);
     assert_eq!(resumed.status, 0, "{}", resumed.err);
     assert_eq!(read(&bench, "killed"), one);
@@ -114,6 +117,7 @@ fn a_signal_ends_a_run_with_a_checkpoint() {
     for signal in ["TERM", "USR1", "INT"] {
         let arguments = ["evolve", "runs.nb", "--out", signal, "--generations", "1000000"];
         let mut child = bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let _limit = Limit::of(&child);
         // The program watches signals before it estimates the time of a long run.
         let estimate = BufReader::new(child.stderr.take().unwrap()).lines().next().unwrap().unwrap();
         assert!(estimate.starts_with("at most about ") && estimate.contains(" hours on this machine"), "{estimate}");
@@ -226,7 +230,7 @@ fn a_folder_that_cannot_be_written_is_reported() {
 fn a_run_continues_from_its_last_checkpoint_after_a_full_disk() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--checkpoint-every", "0"];
-    let ran = limited(&bench, 16, "trap '' XFSZ;", &arguments).output().unwrap();
+    let ran = limited(&bench, 16, "trap '' XFSZ;", &arguments).output_in_time();
     let told = String::from_utf8(ran.stderr).unwrap();
     assert_eq!(ran.status.code(), Some(2), "{told}");
     assert!(told.contains("cannot write `out/walks/seed-3/"), "{told}");

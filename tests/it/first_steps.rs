@@ -3,8 +3,6 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
-#[cfg(target_os = "linux")]
-use std::time::Duration;
 
 use nbc_base::model::Instance;
 use nbc_circuit::{Logic, Netlist, elaborate};
@@ -14,6 +12,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::cli::Bench;
 use crate::language::root;
+use crate::limits::{self, Limit};
 use crate::manual::{Fence, fences};
 
 const FINE: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n\ntest f {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
@@ -35,7 +34,7 @@ fn standard_input_is_checked() {
         let mut command = bench.command(&["check", "-"]);
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-        let output = child.wait_with_output().unwrap();
+        let output = limits::end(child);
         let text = |bytes| String::from_utf8(bytes).unwrap();
         (output.status.code(), text(output.stdout), text(output.stderr))
     };
@@ -109,6 +108,7 @@ fn the_citation_is_of_this_version() {
 /// A program that runs until it is told to stop.
 struct Running {
     child: Child,
+    _limit: Limit,
     lines: std::io::Lines<BufReader<std::process::ChildStdout>>,
 }
 
@@ -116,7 +116,7 @@ impl Running {
     fn start(mut command: Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let lines = BufReader::new(child.stdout.take().unwrap()).lines();
-        Self { child, lines }
+        Self { _limit: Limit::of(&child), child, lines }
     }
 
     #[track_caller]
@@ -191,9 +191,7 @@ fn an_interrupted_run_writes_what_is_complete() {
     let bench = Bench::new();
     bench.file("long.nb", LONG);
     let run = Running::start(bench.command(&["run", "long.nb", "--no-report"]));
-    while !run.watches_interrupts() {
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    limits::until("the program watches no signals", || run.watches_interrupts());
     let (status, _, err) = run.interrupt();
     assert_eq!(status, Some(4), "{err}");
     assert!(err.contains(" of 2 tests and simulations complete"), "{err}");

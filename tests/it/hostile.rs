@@ -5,6 +5,7 @@ use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 
 use crate::cli::Bench;
+use crate::limits::InTime;
 
 fn found(text: String) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
@@ -213,7 +214,7 @@ fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
     let file = arguments[1];
     let mut command = std::process::Command::new("sh");
     command.args(["-c", "ulimit -t 1 -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_nbc")]).args(arguments);
-    let output = command.current_dir(bench.path()).output().unwrap();
+    let output = command.current_dir(bench.path()).output_in_time();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{file}: {:?}, {said:.500}", output.status);
     assert!(said.contains(code.word()) && !said.contains("panicked"), "{file}: {code} is not in {said:.500}");
@@ -272,7 +273,7 @@ fn long_tables_are_formatted_in_linear_time() {
     for file in ["rows.nb", "records.nb"] {
         let mut command = std::process::Command::new("sh");
         command.args(["-c", "ulimit -t 8; exec \"$0\" fmt \"$1\"", env!("CARGO_BIN_EXE_nbc"), file]);
-        let status = command.current_dir(bench.path()).status().unwrap();
+        let status = command.current_dir(bench.path()).output_in_time().status;
         assert_eq!(status.code(), Some(0), "{file}");
     }
 }

@@ -27,6 +27,7 @@ mod gpu;
 mod hostile;
 mod language;
 mod library;
+mod limits;
 mod live;
 mod lsp;
 mod manual;

@@ -9,6 +9,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use crate::language::root;
+use crate::limits::InTime;
 
 /// A crate of the program, with the texts under which it may be used.
 struct Crate {
@@ -22,7 +23,7 @@ struct Crate {
 fn metadata() -> Value {
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["metadata", "--format-version", "1", "--locked", "--offline", "--filter-platform"]);
-    let output = cargo.arg("x86_64-unknown-linux-gnu").current_dir(root()).output().unwrap();
+    let output = cargo.arg("x86_64-unknown-linux-gnu").current_dir(root()).output_in_time();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }

@@ -16,6 +16,7 @@ use nbc_swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace
 use serde_json::Value;
 
 use crate::cli::Bench;
+use crate::limits::InTime;
 use crate::pictures::{large, latch, latch_netlist};
 use crate::tools::CHROMIUM;
 
@@ -280,7 +281,7 @@ fn keep(browser: &Path, name: &str, page: &str, size: (u32, u32), look: &str) {
     std::fs::write(&file, page).unwrap();
     let (to, window) = (format!("--screenshot={}", picture.display()), format!("--window-size={},{}", size.0, size.1));
     let folder = tempfile::tempdir().unwrap();
-    browse(browser, folder.path(), &[&window, look, "--virtual-time-budget=1000", &to], &file).output().unwrap();
+    browse(browser, folder.path(), &[&window, look, "--virtual-time-budget=1000", &to], &file).output_in_time();
     let decoder = png::Decoder::new(BufReader::new(std::fs::File::open(&picture).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];

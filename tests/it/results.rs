@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::cli::{Bench, flip};
+use crate::language::root;
 
 #[test]
 fn a_ring_of_inverters_never_settles() {
@@ -29,6 +30,24 @@ fn a_run_says_in_one_line_how_long_rows_are_held_and_a_build_says_why() {
     let built = bench.run(&["build", "passing.nb", "--emit", "timing"]).out;
     assert!(built.contains("settles within ") && built.contains("fan-out  "), "{built}");
     assert!(page.contains("settles within ") && page.contains("fan-out  "));
+}
+
+#[test]
+fn the_hold_that_a_run_names_is_long_enough() {
+    let bench = Bench::new();
+    let text = std::fs::read_to_string(root().join("circuits/full_adder.nb")).unwrap();
+    bench.file("adder.nb", &text);
+    let ran = bench.run(&["run", "adder.nb", "--no-report"]);
+    let (_, named) = ran.out.rsplit_once("timing   hold each row for ").expect("the hold in a line");
+    let cycles: u32 = named.split(' ').next().unwrap().parse().unwrap();
+    let test = |cycles: u32| {
+        bench.file("held.nb", format!("{text}\nswarm held {{ circuit: full_adder, hold: {cycles} cycles }}\n"));
+        bench.run(&["test", "held.nb", "--physics"])
+    };
+    let enough = test(cycles);
+    assert!(enough.status == 0 && enough.err.is_empty(), "{}{}", enough.out, enough.err);
+    let message = format!("a hold of {} cycles is too short, expected at least {cycles}", cycles - 1);
+    assert!(test(cycles - 1).err.contains(&message));
 }
 
 #[test]

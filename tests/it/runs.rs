@@ -95,7 +95,10 @@ fn robots_of_an_evolution_are_read_from_the_folder_of_runs() {
          swarm one {{ circuit: inverter, library: mine }}\n{TEST}"
     );
     bench.file("a.nb", program);
-    run(&bench, "test a.nb --physics").expect_fault(&["`out/walkers/robots`", "out/walkers/seed-1"]);
+    run(&bench, "test a.nb --physics").expect_fault(&[
+        "`out/walkers/robots`",
+        "`nbc evolve a.nb --run walkers --out out`, then `nbc library add out/walkers --into out/walkers/robots`",
+    ]);
     for command in ["test a.nb --physics", "run a.nb", "build a.nb", "draw a.nb --as dot -o a.dot"] {
         run(&bench, &format!("{command} --runs elsewhere")).expect_fault(&[
             "`elsewhere/walkers/robots`",

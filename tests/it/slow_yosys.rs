@@ -4,19 +4,22 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::thread;
-use std::time::{Duration, Instant};
 
 use crate::cli::{Bench, program};
+use crate::limits::{InTime, Limit, until};
 use crate::tools::signal;
-
-/// The time for something to happen on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A program that uses Verilog.
 pub const USER: &str = "use \"m.v\"\n\ncircuit f(a) -> (q) {\n    q = m(a)\n}\n\ntest f {\n    a | q\n    0 | 0\n}\n";
 /// The Verilog that it uses.
 pub const MODULE: &str = "module m(input a, output q);\n  assign q = a;\nendmodule\n";
+
+/// Verilog that would reach the machine, with the word for which it is refused.
+pub const REACHING: [(&str, &str); 3] = [
+    ("import \"DPI-C\" function integer kill(integer a, integer b);\n", "`import`"),
+    ("module r; reg a[0:1]; initial $readmemh(\"/etc/passwd\", a); endmodule\n", "`$readmemh`"),
+    ("module r; reg a[0:1]; initial \\$readmemh (\"/etc/passwd\", a); endmodule\n", "`\\$readmemh`"),
+];
 
 /// A folder with the program and a stand-in for Yosys.
 pub struct SlowYosys {
@@ -30,7 +33,9 @@ impl SlowYosys {
         bench.file("a.nb", USER);
         bench.file("m.v", MODULE);
         let number = bench.path().join("number");
-        fs::create_dir(bench.path().join("bin")).unwrap();
+        for folder in ["bin", "temporary"] {
+            fs::create_dir(bench.path().join(folder)).unwrap();
+        }
         let place = number.display();
         let script = format!("#!/bin/sh\necho $$ >'{place}.new' && mv '{place}.new' '{place}'\nexec sleep 1000\n");
         let path = bench.file("bin/yosys", script);
@@ -49,8 +54,23 @@ impl SlowYosys {
     /// The program, with the stand-in.
     pub fn program(&self) -> Command {
         let mut command = program();
-        command.env("PATH", self.path()).current_dir(self.bench.path());
+        command.env("PATH", self.path()).env("TMPDIR", self.temporary()).current_dir(self.bench.path());
         command
+    }
+
+    /// The folder for temporary files.
+    fn temporary(&self) -> PathBuf {
+        self.bench.path().join("temporary")
+    }
+
+    /// Checks that only this user can enter the folders of Verilog that are there, and how many there are.
+    #[track_caller]
+    fn has_private_folders(&self, expected: usize) {
+        use std::os::unix::fs::PermissionsExt;
+        let folders = || fs::read_dir(self.temporary()).unwrap().map(|entry| entry.unwrap());
+        let private = || folders().filter(|entry| entry.file_name().to_string_lossy().starts_with("nbc-verilog-"));
+        until("another number of folders is there", || private().count() == expected);
+        assert!(private().all(|folder| folder.metadata().unwrap().permissions().mode() & 0o777 == 0o700));
     }
 
     /// Whether it was ever started.
@@ -75,15 +95,6 @@ pub fn ended(process: u32) {
     until("Yosys still runs", || !runs());
 }
 
-#[track_caller]
-fn until(fault: &str, holds: impl Fn() -> bool) {
-    let end = Instant::now() + PATIENCE;
-    while !holds() {
-        assert!(Instant::now() < end, "{fault}");
-        thread::sleep(Duration::from_millis(10));
-    }
-}
-
 #[test]
 fn a_signal_to_the_program_ends_yosys() {
     // Those of which the program knows nothing, and those that it handles.
@@ -97,9 +108,26 @@ fn a_signal_to_the_program_ends_yosys() {
     ] {
         let slow = SlowYosys::new();
         let mut child = slow.program().args([command, "a.nb"]).stderr(Stdio::null()).spawn().unwrap();
+        let _limit = Limit::of(&child);
         let yosys = slow.begun();
+        slow.has_private_folders(1);
         signal(name, child.id());
         assert_eq!(child.wait().unwrap().code(), status, "{command} {name}");
         ended(yosys);
+        slow.has_private_folders(0);
+    }
+}
+
+#[test]
+fn commands_refuse_verilog_that_reaches_the_machine_before_yosys_begins() {
+    for (text, word) in REACHING {
+        let slow = SlowYosys::new();
+        slow.bench.file("m.v", format!("{text}{MODULE}"));
+        for command in [&["check", "a.nb"][..], &["test", "a.nb"], &["run", "a.nb"], &["synth", "m.v"]] {
+            let output = slow.program().args(command).output_in_time();
+            let said = String::from_utf8(output.stderr).unwrap();
+            assert!(output.status.code() == Some(2) && said.contains(word), "{command:?} {said}");
+        }
+        assert!(!slow.has_begun());
     }
 }

@@ -10,6 +10,7 @@ use nbc_lang::check;
 
 use crate::cli::Bench;
 use crate::language::programs;
+use crate::limits::InTime;
 
 /// CPU time of this thread in seconds, which does not depend on other programs.
 fn processor_seconds() -> f64 {
@@ -32,9 +33,9 @@ fn program_seconds(bench: &Bench, arguments: &[&str], runs: usize) -> f64 {
     };
     let run = |_| {
         let script = "\"$0\" \"$@\" >/dev/null 2>&1; times";
-        let mut command = Command::new("bash");
+        let mut command = Command::new("sh");
         command.args(["-c", script, env!("CARGO_BIN_EXE_nbc")]).args(arguments).current_dir(bench.path());
-        let said = String::from_utf8(command.output().unwrap().stdout).unwrap();
+        let said = String::from_utf8(command.output_in_time().stdout).unwrap();
         // The second line is about the shell's children: seconds in the program and in the system.
         said.lines().nth(1).unwrap().split(' ').map(seconds).sum::<f64>()
     };

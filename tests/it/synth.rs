@@ -5,6 +5,7 @@ use std::process::Command;
 
 use crate::cli::Bench;
 use crate::language::root;
+use crate::limits::InTime;
 use crate::tools::{ABC, YOSYS};
 
 const FULL_ADDER: &str = "\
@@ -158,7 +159,7 @@ fn verilog_is_read_through_yosys() {
     bench.file("flat.blif", FULL_ADDER);
     let synth = |path: String| {
         let mut command = bench.command(&["synth", "fa.v", "--cells", "all", "--format", "json"]);
-        command.env("PATH", path).output().unwrap()
+        command.env("PATH", path).output_in_time()
     };
     let missing = synth("/nowhere".to_owned());
     assert_eq!(missing.status.code(), Some(2));
@@ -185,7 +186,7 @@ fn a_file_name_is_not_part_of_the_yosys_script() {
     let path = format!("{}:/usr/bin:/bin", bench.path().display());
     for name in ["fa.v", HOSTILE_NAME, "$(touch PWNED).v", "-s.v", "new\nline.v"] {
         bench.file(name, "module fa(input a, output y); assign y = a; endmodule\n");
-        let ran = bench.command(&["synth", "--cells", "all", "--", name]).env("PATH", &path).output().unwrap();
+        let ran = bench.command(&["synth", "--cells", "all", "--", name]).env("PATH", &path).output_in_time();
         assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
     }
     let given = std::fs::read_to_string(bench.path().join("given")).unwrap();
@@ -309,6 +310,6 @@ pub fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
 
 /// The output of a script of ABC in a folder; `None` without ABC, whose proof is then skipped.
 pub fn abc(folder: &Path, script: &str) -> Option<String> {
-    let output = Command::new(ABC.find()?).args(["-c", script]).current_dir(folder).output().unwrap();
+    let output = Command::new(ABC.find()?).args(["-c", script]).current_dir(folder).output_in_time();
     Some(String::from_utf8_lossy(&output.stdout).into_owned())
 }

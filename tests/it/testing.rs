@@ -2,6 +2,7 @@
 
 use crate::cli::Bench;
 use crate::language::{programs, root};
+use crate::limits::InTime;
 
 const CIRCUITS: &str = "
 circuit exclusive(a, b) -> (q) { q = a xor b }
@@ -84,7 +85,7 @@ fn tests_are_reported_in_order_for_any_number_of_threads() {
     for format in ["text", "json"] {
         let told = |threads: &str| {
             let mut command = bench.command(&["test", "slow.nb", "quick.nb", "--physics", "--format", format]);
-            let output = command.env("RAYON_NUM_THREADS", threads).output().unwrap();
+            let output = command.env("RAYON_NUM_THREADS", threads).output_in_time();
             assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
             String::from_utf8(output.stdout).unwrap()
         };

@@ -8,6 +8,8 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
+use crate::limits::InTime;
+
 /// A program that is not part of this project.
 pub struct Tool {
     /// The name of its file, and others that it may have.
@@ -93,7 +95,7 @@ fn a_test_without_its_tool_is_skipped_with_one_line_and_fails_where_tools_are_re
         if required {
             command.env("NBC_REQUIRE_TOOLS", "1");
         }
-        let output = command.output().unwrap();
+        let output = command.output_in_time();
         (output.status.success(), String::from_utf8(output.stderr).unwrap())
     };
     let line = "skipped tools::needs_a_tool_that_nobody_has: `nbc-no-such-tool` is not installed; apt-get install \
@@ -103,22 +105,22 @@ fn a_test_without_its_tool_is_skipped_with_one_line_and_fails_where_tools_are_re
 }
 
 /// The files of the tests, with their texts.
-fn files(folder: &std::path::Path, found: &mut Vec<(PathBuf, String)>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+pub fn files() -> Vec<(PathBuf, String)> {
+    let (mut open, mut found) = (vec![crate::language::root().join("tests")], Vec::new());
+    while let Some(path) = open.pop() {
         if path.is_dir() {
-            files(&path, found);
+            open.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             let text = std::fs::read_to_string(&path).unwrap();
             found.push((path, text));
         }
     }
+    found
 }
 
 #[test]
 fn only_this_file_decides_what_is_skipped() {
-    let mut found = Vec::new();
-    files(&crate::language::root().join("tests"), &mut found);
+    let found = files();
     assert!(found.len() > 50);
     for (path, text) in found.iter().filter(|(path, _)| !path.ends_with("tools.rs")) {
         for word in ["NBC_WITHOUT", "NBC_REQUIRE", "var_os(\"CI\")", "eprintln!(\"skipped", "Command::new(\"kill\")"] {

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use nbc_base::diag::{Code, Diagnostic, render};
+use nbc_base::diag::{Code, Diagnostic, Severity, render};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 use nbc_session::store::DiskWorld;
@@ -76,7 +76,7 @@ fn messages_follow_the_style() {
 
 #[test]
 fn every_fix_removes_its_error() {
-    let mut offered = 0;
+    let (mut offered, mut worse) = (0, Vec::new());
     for path in programs("tests/ui") {
         let mut sources = Sources::default();
         let Ok(file) = check::open(&DiskWorld, &name(&path), &mut sources) else { continue };
@@ -87,15 +87,50 @@ fn every_fix_removes_its_error() {
             let Some(fix) = &fault.fix else { continue };
             let fixed = fix.apply(file, &sources.file(file).text);
             let mut world = MemoryWorld::default();
-            world.insert("fixed.nb", fixed.as_str());
+            world.insert(name(&path), fixed.as_str());
             let mut sources = Sources::default();
-            let file = check::open(&world, "fixed.nb", &mut sources).unwrap();
+            let file = check::open(&world, &name(&path), &mut sources).unwrap();
             let left = check::check(&world, &mut sources, file).diagnostics;
             let is_left =
                 left.iter().any(|left| left.labels.first() == fault.labels.first() && left.message == fault.message);
             assert!(!is_left, "{}: `{}` is left after `{}`:\n{fixed}", path.display(), fault.message, fix.title);
+            let known: Vec<&str> = faults.iter().map(|fault| fault.message.as_str()).collect();
+            let new = left.iter().filter(|left| !known.contains(&left.message.as_str()));
+            let path = path.display();
+            worse.extend(new.map(|new| format!("{path}: `{}` after `{}`:\n{fixed}", new.message, fix.title)));
             offered += 1;
         }
     }
+    assert!(worse.is_empty(), "{}", worse.join("\n\n"));
     assert!(offered > 30, "{offered} fixes were tried");
+}
+
+#[test]
+fn programs_whose_errors_all_have_a_fix_are_right_after_them() {
+    let (mut mended, mut left) = (0, Vec::new());
+    for path in programs("tests/ui") {
+        let mut text = fs::read_to_string(&path).unwrap_or_default();
+        let mut had_fixes = true;
+        for round in 0..200 {
+            let (mut world, mut sources) = (MemoryWorld::default(), Sources::default());
+            world.insert("fixed.nb", text.as_str());
+            let Ok(file) = check::open(&world, "fixed.nb", &mut sources) else { break };
+            let mut errors = check::check(&world, &mut sources, file).diagnostics;
+            errors.retain(|diagnostic| diagnostic.severity == Severity::Error);
+            had_fixes &= round > 0 || errors.iter().all(|error| error.fix.is_some());
+            if !had_fixes || errors.is_empty() {
+                mended += usize::from(had_fixes && round > 0);
+                break;
+            }
+            let fix = errors.iter().find_map(|error| error.fix.as_ref());
+            let Some(fix) = fix else {
+                let messages: Vec<&str> = errors.iter().map(|error| error.message.as_str()).collect();
+                left.push(format!("{}: {messages:?}:\n{text}", path.display()));
+                break;
+            };
+            text = fix.apply(file, &text);
+        }
+    }
+    assert!(left.is_empty(), "{}", left.join("\n\n"));
+    assert!(mended > 7, "{mended} programs were mended");
 }

@@ -9,6 +9,7 @@ use nbc_circuit::formats::{CircuitFormat, aiger, blif};
 use nbc_lang::check;
 
 use crate::cli::Bench;
+use crate::limits::InTime;
 use crate::tools::YOSYS;
 use crate::written::{order, same_in_order};
 
@@ -191,7 +192,7 @@ test count { clk reset | value
 fn check_with(bench: &Bench, verilog: &str, path: &str) -> String {
     bench.file("unit.v", verilog);
     bench.file("p.nb", "use \"unit.v\"\n\ncircuit f(a) -> (q) {\n    q = unit(a)\n}\n");
-    let Output { status, stderr, .. } = bench.command(&["check", "p.nb"]).env("PATH", path).output().unwrap();
+    let Output { status, stderr, .. } = bench.command(&["check", "p.nb"]).env("PATH", path).output_in_time();
     assert_eq!(status.code(), Some(2));
     let said = String::from_utf8(stderr).unwrap();
     said.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ")

@@ -9,6 +9,7 @@ use nbc_session::report::Stage;
 use nbc_swarm::{Assembly, Exposure, Recording, Room, SwarmTrace, simulate};
 
 use crate::cli::Bench;
+use crate::limits::InTime;
 use crate::schemas::validate;
 
 const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.2, weak: 0.05, dead: 0.02, seed: 3 };
@@ -161,7 +162,7 @@ fn yields_are_the_same_for_any_number_of_threads_and_worlds_can_be_declared() {
     let failures = one(&wild)["failures"].as_array().unwrap().clone();
     assert!(!failures.is_empty(), "{wild}");
     let shared = ["test", "a.nb", "--worlds", "6", "--format", "json", "--vary", "all=90%,dead=50%"];
-    let output = bench.command(&shared).env("RAYON_NUM_THREADS", "3").output().unwrap();
+    let output = bench.command(&shared).env("RAYON_NUM_THREADS", "3").output_in_time();
     assert_eq!(validate("robustness", std::str::from_utf8(&output.stdout).unwrap()), wild);
     assert_eq!(run(&["--vary", "all=90%,dead=50%", "--least-yield", "100%"]).0, 1);
     assert_eq!(run(&["--vary", "all=45%,dead=25%", "--times", "2"]).1["tests"][0]["failures"], one(&wild)["failures"]);

@@ -35,6 +35,8 @@ export class Program {
   /** Whether the swarm runs as soon as it is compiled. */
   plays = true;
   #text = "";
+  /** The text that `checked` is about. */
+  #checkedText: string | null = null;
   #saved: string | null = null;
   #compiled: { path: string; text: string; choice: string } | null = null;
   /** The path of the program whose swarm is shown. */
@@ -53,6 +55,11 @@ export class Program {
 
   get text(): string {
     return this.#text;
+  }
+
+  /** Whether `checked` is about the present text. */
+  get isChecked(): boolean {
+    return this.#checkedText === this.#text;
   }
 
   get uri(): string {
@@ -171,6 +178,7 @@ export class Program {
     try {
       const checked = await this.connection.request("program", { path, text });
       if (turn === this.#turn) {
+        this.#checkedText = text;
         this.checked.set(checked);
         this.#proceed(checked);
       }

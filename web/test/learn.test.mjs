@@ -128,6 +128,7 @@ test("the lesson on an adder", async () => {
   await setNumber("b", 2);
   await done(1);
   await here.page.locator("#tab-tests").click();
+  assert.equal(await here.page.locator(".test .count").textContent(), "all inputs");
   await here.page.locator(".test [data-do=logic]").click();
 });
 
@@ -160,6 +161,10 @@ test("the lesson on evolution", async () => {
 
 test("the lesson on a circuit of one's own", async () => {
   await next("own");
+  // What was known of the text before counts no more, and errors are no step.
+  await typeProgram(here.page, "circuit light(a) -> (q) {\n    q = b\n}\n");
+  await here.page.locator('.swarm .status[data-state="errors"]').waitFor();
+  assert.equal(await here.page.locator('.strip li[data-done="true"]').count(), 0);
   await typeProgram(
     here.page,
     'circuit light(a, b) -> (q) {\n    q = a xor b\n}\n\ntest light "two switches" {\n    a b | q\n    0 1 | 1\n    1 1 | 0\n}\n',

@@ -118,7 +118,7 @@ test("a lesson learns nothing from the swarm of another program", () => {
   const search = { running: false, niches: [], chosen: null };
   const parts = (shown: string): Parameters<typeof situationOf>[0] =>
     ({
-      program: { path: { value: "lesson.nb" }, shown, text: "", checked: { value: null } },
+      program: { path: { value: "lesson.nb" }, shown, text: "", checked: { value: null }, isChecked: true },
       swarm,
       tests: { states: { value: new Map() } },
       robots: { designer: { design: { value: design } }, evolution: { search: { value: search } } },

@@ -40,6 +40,7 @@ mod wire;
 mod wording;
 mod workspace;
 
+use std::path::Path;
 use std::sync::Arc;
 use std::thread;
 
@@ -52,9 +53,10 @@ pub use wording::ServerError;
 
 use capabilities::{Client, capabilities};
 use nbc_base::source::VerilogError;
-use nbc_session::store::{DiskWorld, GuardedWorld, VerilogFiles};
+use nbc_session::store::{DiskWorld, FolderWorld, GuardedWorld, VerilogFiles};
 use pending::Pending;
 use server::Server;
+pub use wire::{NO_MESSAGE, message};
 
 /// Serves an editor on standard input and output until it says goodbye or vanishes.
 ///
@@ -102,6 +104,19 @@ pub fn serve(
     let (is_trusted, waiting) = (client.trusts_verilog, pending.clone());
     let permit = move || if is_trusted { Ok(waiting.cancel()) } else { Err(VerilogError::Untrusted) };
     Ok(Server::new(&connection, client, Arc::new(GuardedWorld::new(world, permit)), pending).run())
+}
+
+/// Serves a client that sends these texts, each of which should be a message, and then vanishes. For the fuzzer, which
+/// needs no pipe.
+pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
+    let world = FolderWorld::new(folder).expect("there is such a folder");
+    let (server, client) = Connection::memory();
+    for message in texts.iter().filter_map(|text| wire::message(serde_json::from_slice(text).ok()?).ok()) {
+        client.sender.send(message).expect("the server has not begun");
+    }
+    drop(client);
+    // A client may break the protocol.
+    let _ = serve(server, world);
 }
 
 /// What the client says of itself; `None` if it leaves at once.

@@ -13,6 +13,9 @@ const MOST: u64 = 64 << 20;
 /// The most bytes of a line before a message.
 const LINE: u64 = 4096;
 
+/// Why a value is not a message.
+pub const NO_MESSAGE: &str = "expected a request, a notification or a response";
+
 /// The threads that read and write.
 pub(super) struct Wire {
     reader: JoinHandle<Result<(), String>>,
@@ -35,9 +38,10 @@ impl Wire {
     /// # Errors
     /// What the client has broken, or why nothing could be written.
     pub(super) fn join(self) -> Result<(), String> {
-        self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()))?;
+        let read = self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()));
+        // What came before a broken message is still answered.
         let written = self.writer.join().map_err(|_| "the writer failed".to_owned())?;
-        written.map_err(|error| nbc_base::diag::io_words(&error))
+        read.and(written.map_err(|error| nbc_base::diag::io_words(&error)))
     }
 }
 
@@ -113,14 +117,22 @@ fn parse(bytes: &[u8]) -> Arrived {
             return Arrived::Other { id: Value::Null, code: ErrorCode::ParseError, reason };
         }
     };
+    match message(value) {
+        Ok(message) => Arrived::Message(message),
+        Err(id) => Arrived::Other { id, code: ErrorCode::InvalidRequest, reason: NO_MESSAGE.to_owned() },
+    }
+}
+
+/// The message that a value is.
+///
+/// # Errors
+/// The number of the request, if there is one, of a value that is not a message.
+pub fn message(value: Value) -> Result<Message, Value> {
     let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned().unwrap_or_default();
     match Some(value).filter(Value::is_object).and_then(|value| serde_json::from_value(value).ok()) {
         // A notification has no number. One that seems to have one is a request with a number that is not possible.
-        Some(message) if id.is_null() || !matches!(message, Message::Notification(_)) => Arrived::Message(message),
-        _ => {
-            let reason = "expected a request, a notification or a response".to_owned();
-            Arrived::Other { id, code: ErrorCode::InvalidRequest, reason }
-        }
+        Some(message) if id.is_null() || !matches!(message, Message::Notification(_)) => Ok(message),
+        _ => Err(id),
     }
 }
 

@@ -90,6 +90,11 @@ impl Jobs {
         lock(&self.running).get(&id).into_iter().for_each(Running::stop);
     }
 
+    /// Whether none runs.
+    pub(super) fn are_done(&self) -> bool {
+        lock(&self.running).is_empty()
+    }
+
     /// Stops the requests that take too long.
     pub(super) fn end_late(&self) {
         let now = Instant::now();

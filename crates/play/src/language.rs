@@ -70,9 +70,7 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return Ok(None);
     }
-    let id = value.get("id").cloned().unwrap_or_default();
-    let message = serde_json::from_value(value);
-    message.map(Some).map_err(|error| refusal(&id, ErrorCode::InvalidRequest, &error.to_string()))
+    nbc_lsp::message(value).map(Some).map_err(|id| refusal(&id, ErrorCode::InvalidRequest, nbc_lsp::NO_MESSAGE))
 }
 
 fn refusal(id: &Value, code: ErrorCode, message: &str) -> Value {

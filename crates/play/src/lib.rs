@@ -29,6 +29,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use nbc_base::diag::io_words;
+use nbc_circuit::CancelFlag;
 use nbc_session::store::{FolderWorld, PrivateFile};
 use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
@@ -126,6 +127,20 @@ impl PlayServer {
             }
         });
     }
+}
+
+/// Serves a page that sends these texts, each of which should be a request, and waits for each. For the fuzzer, which
+/// needs no socket.
+pub fn serve_texts(folder: &Path, texts: &[&str]) {
+    /// The time for a long request. What is left of it is stopped.
+    const PATIENCE: Duration = Duration::from_millis(250);
+    let world = FolderWorld::new(folder).expect("there is such a folder");
+    let served = Arc::new(Served::new(world, String::new(), None, String::new()));
+    let (inbox, outgoing) = outbox::outbox();
+    let mut visit = visit::Visit::new(served, inbox, CancelFlag::default());
+    // Nobody reads the answers.
+    drop(outgoing);
+    texts.iter().for_each(|text| visit.receive_and_wait(text, PATIENCE));
 }
 
 /// Whether a text can be the secret part of an address.

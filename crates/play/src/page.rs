@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -97,7 +98,9 @@ impl Part {
 
 /// A name with a hash of the text.
 fn hashed(stem: &str, ending: &str, text: &str) -> String {
-    format!("{stem}-{:08x}.{ending}", crc32fast::hash(text.as_bytes()))
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    format!("{stem}-{:016x}.{ending}", hasher.finish())
 }
 
 fn accepts_gzip(request: &HeaderMap) -> bool {

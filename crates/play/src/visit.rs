@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use axum::extract::ws::Utf8Bytes;
@@ -65,6 +66,15 @@ impl Visit {
             if self.looked.elapsed() >= LOOK {
                 self.look();
             }
+        }
+    }
+
+    /// Answers a request, and waits until long ones are done, but not longer than the time.
+    pub(super) fn receive_and_wait(&mut self, text: &str, time: Duration) {
+        let end = Instant::now() + time;
+        self.receive(text);
+        while !self.jobs.are_done() && Instant::now() < end {
+            thread::sleep(Duration::from_millis(1));
         }
     }
 

@@ -15,6 +15,7 @@ mod replay;
 pub mod report;
 mod robots;
 mod run;
+mod run_report;
 mod schedule;
 mod session;
 mod simulation;
@@ -33,7 +34,7 @@ pub use options::{CompileOptions, RUNS};
 pub use pictures::run_page;
 pub use plan::Plan;
 pub use replay::Excerpt;
-pub use run::{RunList, RunReport};
+pub use run_report::{RunList, RunReport};
 pub use schedule::read_schedule;
 pub use session::Session;
 #[cfg(feature = "disk")]

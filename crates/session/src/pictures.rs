@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::compile::{Compiled, Mapping};
 use crate::report::{self, PageSwarm, PhaseTiming, Scheme, Svg, SwarmOutcome, SwarmTiming};
-use crate::run::RunReport;
+use crate::run_report::RunReport;
 use crate::swarm_run::SwarmRun;
 use crate::test::TestRun;
 use nbc_base::model::Robot;

@@ -1,128 +1,88 @@
 //! Tests and simulations, run one after the other: the loop of every door.
 
 use nbc_base::diag::Diagnostics;
-use nbc_base::model::{CircuitTest, Program, Simulation};
+use nbc_base::model::CircuitTest;
 
+use crate::checked::Checked;
 use crate::observer::{CaseObserver, Observer};
-use crate::simulation::SimulationRun;
+use crate::run_report::{RunList, RunReport};
+use crate::session::Session;
 use crate::swarm_run::RunEnd;
 use crate::test::{TestCase, TestOptions, TestRun};
-use crate::{Checked, Session, report};
 
-/// What is to be run, in this order.
-#[derive(Clone, Debug, Default)]
-pub struct RunList<'a> {
-    /// The tests.
-    pub tests: Vec<&'a CircuitTest>,
-    /// The simulations, which come after all tests.
-    pub simulations: Vec<&'a Simulation>,
-}
-
-impl<'a> RunList<'a> {
-    /// All tests and simulations of a program.
-    pub fn all(program: &'a Program) -> Self {
-        Self { tests: program.tests.iter().collect(), simulations: program.simulations.iter().collect() }
-    }
-
-    /// The number of tests and simulations.
-    pub fn len(&self) -> usize {
-        self.tests.len() + self.simulations.len()
-    }
-
-    /// Whether there is nothing to run.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-}
-
-/// The results of tests and simulations. One that was cancelled has what was done before, and says so in its `end`.
-#[derive(Clone, Debug, Default)]
-pub struct RunReport {
-    /// The tests in order, each once for each swarm of its circuit.
-    pub tests: Vec<TestRun>,
-    /// The simulations in order.
-    pub simulations: Vec<SimulationRun>,
-    /// The number of tests and simulations that were cancelled or not begun.
-    pub left: usize,
-}
-
-impl RunReport {
-    /// Whether every test passed.
-    pub fn passed(&self) -> bool {
-        self.tests.iter().all(|test| test.verdict.passed)
-    }
-
-    /// Asserts that every test passed.
+impl Session {
+    /// Runs tests and simulations of a checked source, in order. Tests run at the level of the options, simulations
+    /// always in physics.
     ///
-    /// # Panics
-    /// With the truth tables of the tests that failed.
-    pub fn assert_passed(&self) {
-        let failed = self.tests.iter().filter(|test| !test.verdict.passed);
-        let tables: String = failed.map(|test| report::describe_test(&test.verdict)).collect();
-        assert!(tables.is_empty(), "tests of the swarm failed\n{tables}");
-    }
-}
-
-/// Runs a list at the level of the options; simulations are always in physics.
-///
-/// # Errors
-/// When a circuit cannot be compiled.
-pub(super) fn run(
-    session: &Session,
-    checked: &Checked,
-    list: &RunList<'_>,
-    options: &TestOptions,
-    observer: &mut dyn Observer,
-) -> Result<RunReport, Diagnostics> {
-    let mut report = RunReport { left: list.len(), ..RunReport::default() };
-    for (part, test) in list.tests.iter().enumerate() {
-        observer.begin(part, list.len());
-        let (runs, is_complete) = run_test(session, checked, test, options, observer)?;
-        report.tests.extend(runs);
-        report.left -= usize::from(is_complete);
-    }
-    for (part, simulation) in (list.tests.len()..).zip(&list.simulations) {
-        // After a request to stop, circuits are compiled with little effort, so that nothing more is begun.
-        if observer.is_cancelled() {
-            break;
+    /// # Errors
+    /// When a circuit cannot be compiled. A test that fails or is cancelled is no error.
+    pub fn run_list(
+        &self,
+        checked: &Checked,
+        list: &RunList<'_>,
+        options: &TestOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, Diagnostics> {
+        let mut report = RunReport { left: list.len(), ..RunReport::default() };
+        for (part, test) in list.tests.iter().enumerate() {
+            observer.begin(part, list.len());
+            let (runs, is_complete) = self.run_cases(checked, test, options, observer)?;
+            report.tests.extend(runs);
+            report.left -= usize::from(is_complete);
         }
-        observer.begin(part, list.len());
-        let run = session.simulate(checked, simulation, &options.compile, observer)?;
-        report.left -= usize::from(run.end == RunEnd::Complete);
-        report.simulations.push(run);
-    }
-    Ok(report)
-}
-
-/// Runs a test, once for each swarm of its circuit, or only as the swarm that is chosen: the runs, and whether all
-/// came to their end.
-///
-/// # Errors
-/// As [`Session::cases`].
-pub(super) fn run_test(
-    session: &Session,
-    checked: &Checked,
-    test: &CircuitTest,
-    options: &TestOptions,
-    observer: &mut dyn Observer,
-) -> Result<(Vec<TestRun>, bool), Diagnostics> {
-    if observer.is_cancelled() {
-        return Ok((Vec::new(), false));
-    }
-    let cases = session.cases(checked, test, options)?;
-    let (count, all) = (cases.len(), cases.iter().map(TestCase::work).sum());
-    let (mut runs, mut before) = (Vec::<TestRun>::new(), 0);
-    for case in cases {
-        // A circuit that was compiled meanwhile may have more robots than needed.
-        if observer.is_cancelled() {
-            break;
+        for (part, simulation) in (list.tests.len()..).zip(&list.simulations) {
+            // After a request to stop, circuits are compiled with little effort, so that nothing more is begun.
+            if observer.is_cancelled() {
+                break;
+            }
+            observer.begin(part, list.len());
+            let run = self.simulate(checked, simulation, &options.compile, observer)?;
+            report.left -= usize::from(run.end == RunEnd::Complete);
+            report.simulations.push(run);
         }
-        let work = case.work();
-        runs.push(session.run_case(case, &mut CaseObserver { whole: observer, before, all }));
-        before += work;
+        Ok(report)
     }
-    let is_complete = runs.len() == count && runs.iter().all(|run| run.end == RunEnd::Complete);
-    Ok((runs, is_complete))
+
+    /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
+    ///
+    /// # Errors
+    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
+    pub fn test(
+        &self,
+        checked: &Checked,
+        test: &CircuitTest,
+        options: &TestOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<TestRun>, Diagnostics> {
+        Ok(self.run_cases(checked, test, options, observer)?.0)
+    }
+
+    /// The runs of a test, and whether all came to their end.
+    fn run_cases(
+        &self,
+        checked: &Checked,
+        test: &CircuitTest,
+        options: &TestOptions,
+        observer: &mut dyn Observer,
+    ) -> Result<(Vec<TestRun>, bool), Diagnostics> {
+        if observer.is_cancelled() {
+            return Ok((Vec::new(), false));
+        }
+        let cases = self.cases(checked, test, options)?;
+        let (count, all) = (cases.len(), cases.iter().map(TestCase::work).sum());
+        let (mut runs, mut before) = (Vec::<TestRun>::new(), 0);
+        for case in cases {
+            // A circuit that was compiled meanwhile may have more robots than needed.
+            if observer.is_cancelled() {
+                break;
+            }
+            let work = case.work();
+            runs.push(self.run_case(case, &mut CaseObserver { whole: observer, before, all }));
+            before += work;
+        }
+        let is_complete = runs.len() == count && runs.iter().all(|run| run.end == RunEnd::Complete);
+        Ok((runs, is_complete))
+    }
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
 use crate::{
-    Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, run, store,
+    Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, store,
     swarm_run,
 };
 use nbc_base::diag::Diagnostics;
@@ -210,20 +210,6 @@ impl Session {
         case.run(&self.physics, observer)
     }
 
-    /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
-    ///
-    /// # Errors
-    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
-    pub fn test(
-        &self,
-        checked: &Checked,
-        test: &CircuitTest,
-        options: &TestOptions,
-        observer: &mut dyn Observer,
-    ) -> Result<Vec<TestRun>, Diagnostics> {
-        Ok(run::run_test(self, checked, test, options, observer)?.0)
-    }
-
     /// Runs a declared simulation in physics.
     ///
     /// # Errors
@@ -263,20 +249,6 @@ impl Session {
         let checked = self.open(path)?;
         let options = TestOptions { level: Some(Level::Physics), compile: options.clone() };
         self.run_list(&checked, &RunList::all(&checked.program), &options, observer)
-    }
-
-    /// Runs tests and simulations of a checked source, in order. Tests run at the level of the options.
-    ///
-    /// # Errors
-    /// When a circuit cannot be compiled. A test that fails or is cancelled is no error.
-    pub fn run_list(
-        &self,
-        checked: &Checked,
-        list: &RunList<'_>,
-        options: &TestOptions,
-        observer: &mut dyn Observer,
-    ) -> Result<RunReport, Diagnostics> {
-        run::run(self, checked, list, options, observer)
     }
 }
 

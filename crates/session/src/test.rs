@@ -37,6 +37,8 @@ pub struct TestRun {
     pub end: RunEnd,
     /// The swarm and its trace; `None` at the level of logic.
     pub swarm: Option<SwarmRun>,
+    /// Cycles that are a sufficient hold for each of its rows; `None` without a swarm.
+    pub hold: Option<usize>,
     /// Warnings.
     pub warnings: Vec<Diagnostic>,
 }
@@ -207,7 +209,7 @@ impl TestCase<'_> {
         let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
         let trace = bits.trace(&compiled.assembly, &inputs);
         let (verdict, warnings) = judged(self.test, &self.rows, &demands, &compiled, &trace, end);
-        TestRun { verdict, end, swarm: None, warnings }
+        TestRun { verdict, end, swarm: None, hold: None, warnings }
     }
 
     /// Runs the test.
@@ -217,7 +219,7 @@ impl TestCase<'_> {
                 let rows = nbc_swarm::judge_logic(self.test, &self.rows, netlist);
                 observer.progress(rows.len() as u64, rows.len() as u64);
                 let verdict = verdict(self.test, Level::Logic, None, rows);
-                TestRun { verdict, end: RunEnd::Complete, swarm: None, warnings: Vec::new() }
+                TestRun { verdict, end: RunEnd::Complete, swarm: None, hold: None, warnings: Vec::new() }
             }
             Subject::Robots(compiled, ref demands) => {
                 let Self { test, ref rows, ends_at_failure, .. } = self;
@@ -227,7 +229,8 @@ impl TestCase<'_> {
                 let mut is_enough = |trace: &SwarmTrace| ends_at_failure && has_failed(trace);
                 let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
                 let (verdict, warnings) = judged(test, rows, demands, &compiled, &trace, end);
-                TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), warnings }
+                let hold = Some(hold::sufficient(rows, &compiled));
+                TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), hold, warnings }
             }
         }
     }

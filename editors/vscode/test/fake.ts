@@ -110,6 +110,14 @@ class TestMessage {
   }
 }
 
+class Diagnostic {
+  constructor(
+    readonly range: Range,
+    readonly message: string,
+    readonly severity?: number,
+  ) {}
+}
+
 class Items implements Iterable<[string, Item]> {
   private map = new Map<string, Item>();
   constructor(private readonly owner?: Item) {}
@@ -252,7 +260,7 @@ export class Editor {
       this.settings[`${section}.${name}`] ?? otherwise;
     return partly({
       ...{ version: "1.139.0", Disposable, EventEmitter: Emitter, Position, Range, Uri, TestMessage, TestRunRequest },
-      ...{ CancellationTokenSource },
+      ...{ CancellationTokenSource, Diagnostic },
       Location: class {
         constructor(
           readonly uri: Uri,

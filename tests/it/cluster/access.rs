@@ -11,6 +11,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cluster::server::Server;
 use crate::cluster::{Running, assert_same, bench};
+use crate::limits::InTime;
 use crate::schemas::validate;
 use crate::tools::OPENSSL;
 
@@ -99,7 +100,7 @@ fn issue_certificates(folder: &Path) {
         indented.filter(|line| line.starts_with("openssl ") || line.starts_with("echo ")).collect();
     assert_eq!(commands.len(), 4, "{commands:?}");
     let script = commands.join("\n").replace("nats.example.org", "localhost");
-    let made = Command::new("sh").args(["-ec", &script]).current_dir(folder).output().unwrap();
+    let made = Command::new("sh").args(["-ec", &script]).current_dir(folder).output_in_time();
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
 }
 

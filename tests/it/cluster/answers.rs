@@ -80,9 +80,10 @@ fn junk_in_the_name_of_a_worker_is_dropped_and_the_worker_stays() {
     wire.publish(&subject, &[1, 0, 0, 0, 0, 1, 3, 0]);
     wire.publish(&format!("{subject} nbc.v1.reply.wire"), &unstable(&task));
     let good = worker(&bench, &server, "good");
-    for _ in 0..20 {
-        wire.wait_for(|message| message.is_answer_of("good"));
-        wire.publish(&subject, b"junk");
+    // More junk between the answers of the worker, each from another connection.
+    for number in 0..20 {
+        wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[1, 0]));
+        wire.publish(&format!("{subject} junk.{number}"), b"junk");
     }
     let ran = search.end();
     assert_same(&bench, &ran);

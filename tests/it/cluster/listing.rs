@@ -6,6 +6,7 @@ use std::process::Stdio;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{bench, evolve, worker};
+use crate::limits::Limit;
 use crate::schemas::validate;
 use crate::tools;
 
@@ -39,6 +40,7 @@ fn a_watch_prints_a_line_of_json_again_and_again_until_a_signal_arrives() {
     let bench = bench();
     let mut command = bench.command(&["workers", "--watch", "--nats", &server.url(), "--format", "json"]);
     let mut watch = command.stdout(Stdio::piped()).spawn().unwrap();
+    let _limit = Limit::of(&watch);
     let mut lines = BufReader::new(watch.stdout.take().unwrap()).lines();
     for _ in 0..2 {
         let found = validate("workers", &lines.next().unwrap().unwrap());

@@ -24,6 +24,7 @@ use std::time::Duration;
 
 use crate::cli::{Bench, Ran};
 use crate::cluster::server::Server;
+use crate::limits::PATIENCE;
 use crate::tools;
 
 const SMALL: &str = "\
@@ -32,9 +33,6 @@ evolution gated { from: small, objective: gate, batch: 2, generations: 2, seed: 
 ";
 /// Env steps of an evaluation of `small`.
 const SMALL_STEPS: u64 = 8 * 84;
-
-/// The most time that a program may take.
-const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A program in the background, which is killed when it is dropped.
 struct Running {

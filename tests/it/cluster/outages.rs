@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -10,13 +10,14 @@ use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
+use crate::limits;
 use crate::tools::skip;
 
 /// Runs a command of the system; whether it succeeded.
 fn succeeds(line: &str) -> bool {
     let words: Vec<&str> = line.split_whitespace().collect();
-    let output = Command::new(words[0]).args(&words[1..]).output();
-    output.is_ok_and(|output| output.status.success())
+    let started = Command::new(words[0]).args(&words[1..]).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    started.is_ok_and(|child| limits::end(child).status.success())
 }
 
 /// A network of its own, joined to this one by a cable; removed when it is dropped.

@@ -12,8 +12,9 @@ use serde_yaml::Value;
 use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
-use crate::cluster::{PATIENCE, Running, assert_same, bench};
+use crate::cluster::{Running, assert_same, bench};
 use crate::language::root;
+use crate::limits::PATIENCE;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_nbc");
 

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::limits::PATIENCE;
 use crate::tools::NATS_SERVER;
 
 /// The server, which is killed when it is dropped.
@@ -102,7 +103,7 @@ fn chosen_port(folder: &TempDir, server: &Child) -> u16 {
                 return port;
             }
         }
-        assert!(started.elapsed() < Duration::from_secs(60), "the server listens");
+        assert!(started.elapsed() < PATIENCE, "the server listens");
         thread::sleep(Duration::from_millis(5));
     }
 }

@@ -4,8 +4,8 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use crate::cluster::PATIENCE;
 use crate::cluster::server::Server;
+use crate::limits::PATIENCE;
 
 /// A connection that receives every message of the program.
 pub struct Wire {

@@ -4,6 +4,7 @@ use std::fs;
 
 use crate::cli::{Bench, Ran};
 use crate::gpu::{device, first_device};
+use crate::limits::InTime;
 use crate::schemas::validate;
 
 const RUNS: &str = "\
@@ -13,7 +14,7 @@ evolution turns { from: walks, objective: gate, batch: 2, generations: 2 }
 
 /// The program on a machine without drivers.
 fn without_drivers(bench: &Bench, arguments: &[&str]) -> Ran {
-    let output = bench.command(arguments).env("OCL_ICD_VENDORS", bench.path()).output().unwrap();
+    let output = bench.command(arguments).env("OCL_ICD_VENDORS", bench.path()).output_in_time();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     Ran { status: output.status.code().unwrap(), out: text(output.stdout), err: text(output.stderr) }
 }

@@ -8,10 +8,12 @@ use lsp_server::{Message, Response};
 use serde_json::{Value, json};
 
 use crate::cli::Bench;
+use crate::limits::Limit;
 
 /// A running server and its client.
 pub(super) struct Client {
     pub(super) server: Child,
+    _limit: Limit,
     pub(super) input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
     next: i32,
@@ -53,6 +55,7 @@ impl Client {
         let input = server.stdin.take();
         let output = BufReader::new(server.stdout.take().unwrap());
         let mut client = Self {
+            _limit: Limit::of(&server),
             server,
             input,
             output,

@@ -1,12 +1,13 @@
 //! Real editors with their own clients.
 
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use serde_json::Value;
 
 use crate::cli::Bench;
 use crate::language::root;
+use crate::limits::InTime;
 use crate::lsp::client::at;
 use crate::manual::fences;
 use crate::tools::{EMACS, NEOVIM};
@@ -25,7 +26,7 @@ fn latch() -> (Bench, String, usize) {
 
 /// What an editor wrote of what it found.
 fn run(bench: &Bench, editor: &mut Command) -> Value {
-    let output = editor.current_dir(bench.path()).stdin(Stdio::null()).output().unwrap();
+    let output = editor.current_dir(bench.path()).output_in_time();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let found = std::fs::read(bench.path().join("found.json"));
     serde_json::from_slice(&found.unwrap_or_else(|_| panic!("{output:?}"))).unwrap()
@@ -75,7 +76,7 @@ fn neovim_hovers_goes_to_definitions_renames_and_formats() {
 /// Emacs with eglot.
 fn emacs() -> Option<PathBuf> {
     let emacs = EMACS.find()?;
-    let eglot = Command::new(&emacs).args(["--batch", "-f", "package-initialize", "-l", "eglot"]).output().unwrap();
+    let eglot = Command::new(&emacs).args(["--batch", "-f", "package-initialize", "-l", "eglot"]).output_in_time();
     if !eglot.status.success() {
         EMACS.skip();
         return None;

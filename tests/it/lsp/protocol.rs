@@ -6,6 +6,8 @@ use std::process::{Command, Stdio};
 use lsp_server::ErrorCode;
 use serde_json::{Value, json};
 
+use crate::limits;
+
 /// A frame with a message.
 fn frame(message: &Value) -> String {
     let text = message.to_string();
@@ -27,7 +29,7 @@ fn talk(sent: &[String]) -> (Option<i32>, Vec<(Value, i64)>) {
     let mut server = command.spawn().unwrap();
     // A server that has ended reads no more.
     let _ = server.stdin.take().unwrap().write_all(sent.concat().as_bytes());
-    let ended = server.wait_with_output().unwrap();
+    let ended = limits::end(server);
     let mut output = BufReader::new(&ended.stdout[..]);
     let mut answers = Vec::new();
     while let Some(text) = body(&mut output) {

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::lsp::client::{Client, at, uri};
-use crate::slow_yosys::{MODULE, SlowYosys, USER, ended};
+use crate::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
 use crate::tools::{YOSYS, signal};
 
 fn parameters(trusted: &Value) -> Value {
@@ -51,6 +51,20 @@ fn verilog_of_a_trusted_workspace_is_translated() {
     client.open(&own, USER);
     assert_eq!(client.diagnostics(&own), json!([]));
     client.goodbye();
+}
+
+#[test]
+fn verilog_that_reaches_the_machine_is_refused_before_yosys_begins() {
+    for (text, word) in REACHING {
+        let slow = SlowYosys::new();
+        slow.bench.file("m.v", format!("{text}{MODULE}"));
+        let mut client = Client::of(&mut slow.program(), &parameters(&json!(true)));
+        client.open(&uri(&slow.bench.path().join("a.nb")), USER);
+        let found = client.diagnostics(&uri(&slow.bench.path().join("m.v"))).to_string();
+        assert!(found.contains(&word.replace('\\', r"\\")), "{found}");
+        client.goodbye();
+        assert!(!slow.has_begun());
+    }
 }
 
 #[test]

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 use super::page::Server;
+use crate::limits;
 
 fn text(message: &Value) -> Message {
     Message::text(message.to_string())
@@ -153,9 +154,7 @@ fn the_token_is_not_among_the_arguments_of_the_browser() {
             .env("PATH", path)
             .env("TMPDIR", folder.path()),
     );
-    while !told.exists() {
-        thread::sleep(Duration::from_millis(20));
-    }
+    limits::until("no browser is opened", || told.exists());
     let opened = fs::read_to_string(&told).unwrap();
     assert!(!opened.contains(server.token()), "{opened}");
     let file = Path::new(opened.trim());

@@ -11,10 +11,12 @@ use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
 use crate::cli::program;
+use crate::limits::Limit;
 
 /// A running server.
 pub(super) struct Server {
     child: Child,
+    _limit: Limit,
     /// `http://127.0.0.1:PORT/TOKEN/`
     pub(super) address: String,
 }
@@ -27,9 +29,10 @@ impl Server {
     /// Runs a command that is a server.
     pub(super) fn run(command: &mut Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
+        let limit = Limit::of(&child);
         let mut address = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
-        Self { child, address: address.trim().to_owned() }
+        Self { child, _limit: limit, address: address.trim().to_owned() }
     }
 
     /// The number of the process.

@@ -33,7 +33,8 @@ interface Parts {
 }
 
 export function situationOf({ program, swarm, tests, robots }: Parts): Situation {
-  const checked = program.checked.value;
+  // What is known of a text says nothing about the next one.
+  const checked = program.isChecked ? program.checked.value : null;
   // The log of another program's swarm says nothing about this one.
   const isShown = program.shown === program.path.value;
   const states = [...tests.states.value.values()];

@@ -14,6 +14,11 @@ export type TestState =
   | { state: "done"; level: Level; results: Verdict[] }
   | { state: "failed"; message: string };
 
+/** How many rows a test has; one over all inputs has none of its own. */
+function rowCount({ rows }: TestEntry): string {
+  return rows.length === 0 ? "all inputs" : `${rows.length} ${rows.length === 1 ? "row" : "rows"}`;
+}
+
 export class TestsPanel {
   readonly host = element("div", { class: "tests" });
   /** The results by the number of the test, for the present text. */
@@ -155,7 +160,7 @@ export class TestsPanel {
           button(test.circuit, () => this.reveal(test.line), { class: "link", title: `Line ${test.line}` }),
         ),
         element("span", { class: "title" }, test.title),
-        element("span", { class: "count" }, `${test.rows.length} ${test.rows.length === 1 ? "row" : "rows"}`),
+        element("span", { class: "count" }, rowCount(test)),
       ),
       element(
         "div",

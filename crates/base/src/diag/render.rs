@@ -13,8 +13,8 @@ use super::visible::{visible, visible_in_place};
 use super::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceFile, Sources};
 
-/// The most diagnostics that are shown.
-const MOST_SHOWN: usize = 100;
+/// The most diagnostics that are shown: as many as a file has, with the number of the others.
+const MOST_SHOWN: usize = 201;
 
 /// The most characters of a message that are shown, because a user's word may be megabytes long.
 const MOST_CHARACTERS: usize = 600;
@@ -45,11 +45,14 @@ pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> Strin
         .take(MOST_SHOWN)
         .map(|diagnostic| {
             let mut text = String::new();
-            handler(diagnostic, color)
-                .render_report(&mut text, &Report::new(diagnostic, sources, &texts))
-                .expect("text can be written to a string");
-            // miette indents the message.
-            format!("{}\n", text.trim_start())
+            for report in Report::all(diagnostic, sources, &texts) {
+                let mut part = String::new();
+                let rendered = handler(&report, color).render_report(&mut part, &report);
+                rendered.expect("text can be written to a string");
+                // miette indents the message.
+                text += part.trim_start();
+            }
+            text + "\n"
         })
         .collect();
     match diagnostics.len().saturating_sub(MOST_SHOWN) {
@@ -60,43 +63,41 @@ pub fn text(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> Strin
 
 /// Renders with the severity and the code before the message: `error[unknown]: …`. Lines are not wrapped, so that paths
 /// and commands can be copied.
-fn handler(diagnostic: &Diagnostic, color: bool) -> GraphicalReportHandler {
+fn handler(report: &Report<'_>, color: bool) -> GraphicalReportHandler {
     let mut theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-    let (severity, mark) = match diagnostic.severity {
-        Severity::Error => ("error", &mut theme.characters.error),
-        Severity::Warning => ("warning", &mut theme.characters.warning),
-    };
-    *mark = format!("{severity}[{}]:", diagnostic.code);
+    let marks = &mut theme.characters;
+    match report.heading.map(|diagnostic| (diagnostic.severity, diagnostic.code)) {
+        Some((Severity::Error, code)) => marks.error = format!("error[{code}]:"),
+        Some((Severity::Warning, code)) => marks.warning = format!("warning[{code}]:"),
+        None => marks.advice = "note:".to_owned(),
+    }
     GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false)
 }
 
-/// A diagnostic in miette's form.
+/// A diagnostic in miette's form, or one of its labels in another file, which has no heading.
 #[derive(Debug)]
 struct Report<'a> {
     heading: Option<&'a Diagnostic>,
     message: String,
     labels: Vec<&'a Label>,
     excerpt: Option<Excerpt<'a>>,
-    related: Vec<Report<'a>>,
 }
 
 impl<'a> Report<'a> {
-    fn new(diagnostic: &'a Diagnostic, sources: &'a Sources, texts: &'a Shown<'_>) -> Self {
+    /// The diagnostic, then its labels in other files.
+    fn all(diagnostic: &'a Diagnostic, sources: &'a Sources, texts: &'a Shown<'_>) -> Vec<Self> {
         let file = diagnostic.labels.first().map(|label| label.span.file);
         let (here, elsewhere): (Vec<_>, Vec<_>) =
             diagnostic.labels.iter().chain(&diagnostic.related).partition(|label| Some(label.span.file) == file);
-        Self {
-            heading: Some(diagnostic),
-            message: clipped(&diagnostic.message),
-            labels: here,
-            excerpt: file.map(|file| Excerpt::new(sources, texts, file)),
-            related: elsewhere.into_iter().map(|label| Self::elsewhere(label, sources, texts)).collect(),
-        }
+        let excerpt = file.map(|file| Excerpt::new(sources, texts, file));
+        let main = Self { heading: Some(diagnostic), message: clipped(&diagnostic.message), labels: here, excerpt };
+        let others = elsewhere.into_iter().map(|label| Self::elsewhere(label, sources, texts));
+        std::iter::once(main).chain(others).collect()
     }
 
     fn elsewhere(label: &'a Label, sources: &'a Sources, texts: &'a Shown<'_>) -> Self {
         let excerpt = Some(Excerpt::new(sources, texts, label.span.file));
-        Self { heading: None, message: clipped(&label.text), labels: vec![label], excerpt, related: Vec::new() }
+        Self { heading: None, message: clipped(&label.text), labels: vec![label], excerpt }
     }
 }
 
@@ -132,11 +133,6 @@ impl miette::Diagnostic for Report<'_> {
         };
         (!self.labels.is_empty())
             .then(|| Box::new(self.labels.iter().map(labeled)) as Box<dyn Iterator<Item = LabeledSpan>>)
-    }
-
-    fn related<'b>(&'b self) -> Option<Box<dyn Iterator<Item = &'b dyn miette::Diagnostic> + 'b>> {
-        let related = self.related.iter().map(|report| report as &dyn miette::Diagnostic);
-        (!self.related.is_empty()).then(|| Box::new(related) as Box<dyn Iterator<Item = &dyn miette::Diagnostic>>)
     }
 }
 
@@ -247,7 +243,7 @@ mod tests {
         let diagnostic =
             Diagnostic::without_place(Code::Unknown, format!("no net is called `{}`", "x".repeat(1_000_000)));
         let shown = text(&vec![diagnostic; 1_000], &Sources::default(), false);
-        assert!(shown.len() < 200_000 && shown.ends_with("and 900 more like these; `--format json` has them all\n"));
+        assert!(shown.len() < 400_000 && shown.ends_with("and 799 more like these; `--format json` has them all\n"));
     }
 
     #[test]

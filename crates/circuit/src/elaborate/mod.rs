@@ -1,8 +1,8 @@
 //! Elaboration: from a checked circuit to a netlist. Each circuit is built once for each choice of its parameters, as a
-//! [`Module`]; a netlist is a flattened module. The structure of the source is kept: a `not` is a cell, and a loop
+//! module; a netlist is a flattened module. The structure of the source is kept: a `not` is a cell, and a loop
 //! stays as it is.
 //!
-//! Widths, bits and parameters are computed here, so their errors are found here too; [`inspect`] only finds errors.
+//! Widths, bits and parameters are computed here, so their errors are found here too; an [`Inspector`] only finds errors.
 
 mod build;
 mod dense;

@@ -178,7 +178,7 @@ impl ElaborateError {
             Self::UnknownWidth { net } => {
                 let message = format!("the width of `{net}` is unknown");
                 Diagnostic::new(Code::UnknownWidth, message, span, "this net")
-                    .with_help(format!("declare it: `net {net}[8]`"))
+                    .with_help(format!("declare it: `net {net}` for one bit, `net {net}[8]` for eight"))
             }
             Self::UnknownParameter { circuit, parameter } => {
                 let message = format!("the parameter `{parameter}` of `{circuit}` is unknown");

@@ -40,6 +40,21 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
     }
 }
 
+/// As [`cell`], for an input, whose bits are all known.
+pub(crate) fn input_cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
+    if constant::is_unknown(&word.text) || with_any_bits(&word.text).is_some() {
+        return Err(CellError::NotAnInput { word: word.text.clone() }.at(word.span));
+    }
+    cell(word, column)
+}
+
+/// Bits with unknown ones, as this language writes them.
+fn with_any_bits(word: &str) -> Option<String> {
+    let any = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z');
+    let is_pattern = word.contains(any) && word.chars().all(|c| matches!(c, '0' | '1' | '-') || any(c));
+    is_pattern.then(|| word.replace(any, "-"))
+}
+
 fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
     // Digits of 0 and 1 may be bits or a number.
     let is_bits = word.text.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-' | b'_'));
@@ -55,9 +70,8 @@ fn meant(word: &str, width: usize) -> Option<String> {
     if constant::is_unknown(word) {
         return Some("-".to_owned());
     }
-    let any = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z');
-    if word.len() == width && word.contains(any) && word.chars().all(|c| matches!(c, '0' | '1' | '-') || any(c)) {
-        return Some(word.replace(any, "-"));
+    if let Some(bits) = with_any_bits(word).filter(|bits| bits.len() == width) {
+        return Some(bits);
     }
     let lower = word.to_ascii_lowercase();
     let (base, digits) = match lower.split_once('\'') {

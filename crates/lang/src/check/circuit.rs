@@ -263,8 +263,9 @@ impl<'a> CircuitChecker<'a> {
         let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
         let span = self.body.expressions[value.0 as usize].span;
         let start_fault = self.start_fault(targets, value);
-        let value = self.expression(value, targets);
-        if let Some(fault) = self.value_count(value, targets, span) {
+        let root = value;
+        let value = self.expression(root, targets);
+        if let Some(fault) = self.value_count(root, value, targets, span) {
             self.diagnostics.push(fault);
         }
         self.diagnostics.extend(start_fault);

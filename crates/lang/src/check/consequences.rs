@@ -1,16 +1,17 @@
-//! Errors that only follow from text that could not be parsed, which has its own messages.
+//! Errors that only follow from text that could not be parsed, or from files that could not be read, which have their
+//! own messages.
 
 use std::collections::BTreeSet;
 
-use crate::check::names::Home;
-use crate::syntax::tree::Tree;
+use crate::check::load::Loaded;
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::source::{Sources, Span};
 
-/// Forgets what follows from parts that could not be parsed: in their declaration, names that they mention and fields
-/// and rows that are missing; everywhere, the names of declarations that are lost.
-pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, trees: &[(Home, Tree)]) {
-    let broken: Vec<_> = trees.iter().flat_map(|(_, tree)| &tree.broken).collect();
+/// Forgets what follows from parts that could not be parsed: in their declaration, names that they mention, nets that
+/// nothing drives, and fields and rows that are missing; everywhere, the names of declarations that are lost. In a file
+/// that uses another one that could not be read, unknown names that resemble no known one may be declared there.
+pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loaded: &Loaded) {
+    let broken: Vec<_> = loaded.trees.iter().flat_map(|(_, tree)| &tree.broken).collect();
     let lost: BTreeSet<&str> = broken
         .iter()
         .filter(|part| part.span == part.declaration)
@@ -29,7 +30,8 @@ pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, trees
     let follows = |diagnostic: &Diagnostic| {
         let Some(place) = diagnostic.labels.first().map(|label| label.span) else { return false };
         let word = words(text(sources, place)).next().unwrap_or_default();
-        if diagnostic.code == Code::Unknown && lost.contains(word) {
+        let may_be_elsewhere = diagnostic.fix.is_none() && loaded.incomplete.contains(&place.file);
+        if diagnostic.code == Code::Unknown && (lost.contains(word) || may_be_elsewhere) {
             return true;
         }
         let next = mentioned
@@ -41,8 +43,8 @@ pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, trees
             return false;
         };
         match diagnostic.code {
-            Code::MissingField | Code::Empty => true,
-            Code::Unknown | Code::Undriven | Code::Unused | Code::UnknownWidth => words.contains(word),
+            Code::MissingField | Code::Empty | Code::Undriven => true,
+            Code::Unknown | Code::Unused | Code::UnknownWidth => words.contains(word),
             _ => false,
         }
     };

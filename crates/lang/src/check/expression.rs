@@ -56,14 +56,16 @@ impl<'a> CircuitChecker<'a> {
         done.pop().expect("an expression has a value")
     }
 
-    /// Several targets need a call of a circuit with the same number of outputs.
+    /// Several targets need a call of a circuit with the same number of outputs. The circuit may be unknown.
     pub(crate) fn value_count(
         &self,
+        root: tree::ExpressionSyntaxId,
         id: ExpressionId,
         targets: &[tree::TargetSyntax],
         span: Span,
     ) -> Option<Diagnostic> {
-        let is_call = matches!(self.circuit.expressions[id.0 as usize].kind, ExpressionKind::Call { .. });
+        let is_call = matches!(self.circuit.expressions[id.0 as usize].kind, ExpressionKind::Call { .. })
+            || matches!(self.body.expressions[root.0 as usize].kind, tree::ExpressionSyntaxKind::Call { .. });
         if targets.len() == 1 || is_call {
             return None;
         }

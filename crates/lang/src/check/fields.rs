@@ -14,6 +14,8 @@ pub(crate) struct Fields<'a> {
     place: Span,
     record: &'a RecordSyntax,
     known: Vec<&'static str>,
+    /// The required fields that are missing, each with an example.
+    missing: Vec<[&'static str; 2]>,
     pub(crate) faults: Vec<Diagnostic>,
 }
 
@@ -21,13 +23,20 @@ impl<'a> Fields<'a> {
     /// The fields of a declaration of that kind.
     pub(crate) fn new(kind: &'static str, source: &'a RecordDeclaration) -> Self {
         let what = wording::Record { kind, name: Some(source.name.text.clone()) };
-        Self { what, place: source.name.span, record: &source.record, known: Vec::new(), faults: Vec::new() }
+        Self {
+            what,
+            place: source.name.span,
+            record: &source.record,
+            known: Vec::new(),
+            missing: Vec::new(),
+            faults: Vec::new(),
+        }
     }
 
     /// The fields of a record of that kind inside another.
     pub(crate) fn inner(kind: &'static str, place: Span, record: &'a RecordSyntax) -> Self {
         let what = wording::Record { kind, name: None };
-        Self { what, place, record, known: Vec::new(), faults: Vec::new() }
+        Self { what, place, record, known: Vec::new(), missing: Vec::new(), faults: Vec::new() }
     }
 
     /// The value of a field.
@@ -81,21 +90,39 @@ impl<'a> Fields<'a> {
         if let Some(value) = self.value(field) {
             return read(value).map_err(|fault| self.faults.push(fault)).ok();
         }
-        self.faults.push(FieldError::Missing { record: self.what.clone(), field, example }.at(self.place));
+        self.missing.push([field, example]);
         None
     }
 
+    /// The errors of the fields where it is not known which others are allowed.
+    pub(crate) fn abandon(self) -> Vec<Diagnostic> {
+        self.errors(false)
+    }
+
     /// All errors of the fields; call it after all allowed fields were read.
-    pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
+    pub(crate) fn finish(self) -> Vec<Diagnostic> {
+        self.errors(true)
+    }
+
+    /// The errors; if not `all` allowed fields were read, an unknown field may be one of these.
+    fn errors(mut self, all: bool) -> Vec<Diagnostic> {
         for (at, field) in self.record.fields.iter().enumerate() {
             let name = &field.name;
             if let Some(first) = self.record.fields[..at].iter().find(|first| first.name.text == name.text) {
                 self.faults.push(duplicate("field", name, first.name.span));
             } else if !self.known.contains(&name.text.as_str()) {
-                let meant = Suggestion::near(&name.text, self.known.iter().copied());
-                let (record, field, known) = (self.what.clone(), name.text.clone(), self.known.clone());
-                self.faults.push(FieldError::Unknown { record, field, known, meant }.at(name.span));
+                let left = self.known.iter().copied().filter(|known| self.record.field(known).is_none());
+                let meant = Suggestion::near(&name.text, left);
+                if all || meant != Suggestion::None {
+                    // A misspelled field is not missing, too.
+                    self.missing.retain(|[field, _]| meant != Suggestion::Near((*field).to_owned()));
+                    let (record, field, known) = (self.what.clone(), name.text.clone(), self.known.clone());
+                    self.faults.push(FieldError::Unknown { record, field, known, meant }.at(name.span));
+                }
             }
+        }
+        for [field, example] in self.missing {
+            self.faults.push(FieldError::Missing { record: self.what.clone(), field, example }.at(self.place));
         }
         self.faults
     }

@@ -56,7 +56,7 @@ fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sou
     if name.text == "shipped" {
         return Ok(Origin::Shipped);
     }
-    evolutions.resolve(name, home).map(|_| Origin::Evolution(name.text.clone()))
+    evolutions.resolve_beside(name, home, &["shipped"]).map(|_| Origin::Evolution(name.text.clone()))
 }
 
 /// A function by its name, or a behavior by its four letters.

@@ -1,5 +1,7 @@
 //! The files of a program: the checked file, the files it uses, and the prelude.
 
+use std::collections::BTreeSet;
+
 use crate::check::foreign::Foreign;
 use crate::check::names::Home;
 use crate::check::wording::LoadError;
@@ -46,6 +48,8 @@ impl UsedKind {
 pub(crate) struct Loaded {
     pub(crate) trees: Vec<(Home, Tree)>,
     pub(crate) faults: Vec<Diagnostic>,
+    /// The files that use others which cannot be read.
+    pub(crate) incomplete: BTreeSet<FileId>,
 }
 
 /// Reads a file named on the command line into `sources`.
@@ -61,8 +65,12 @@ pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Resul
 
 /// Parses a file and all files it uses.
 pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Loaded {
-    let mut loader =
-        Loader { world, loaded: Loaded { trees: Vec::new(), faults: Vec::new() }, open: Vec::new(), done: Vec::new() };
+    let mut loader = Loader {
+        world,
+        loaded: Loaded { trees: Vec::new(), faults: Vec::new(), incomplete: BTreeSet::new() },
+        open: Vec::new(),
+        done: Vec::new(),
+    };
     for (name, text) in PRELUDE {
         let id = sources.add(name, text);
         loader.parse(sources, id, Home::Prelude);
@@ -129,6 +137,9 @@ impl Loader<'_> {
             None => Err(vec![LoadError::NotUsable { file: name }.at(path.span)]),
         };
         self.done.push(identity);
+        if result.is_err() {
+            self.loaded.incomplete.insert(path.span.file);
+        }
         for fault in result.err().into_iter().flatten() {
             // There may be thousands more after the first file above the limit.
             if !self.loaded.faults.iter().any(|known| known.message == fault.message) {

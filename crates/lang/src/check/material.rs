@@ -32,7 +32,7 @@ pub(crate) fn material(
     let kind = fields.need("kind", "kind: soft", |value| fields::choice(value, &kinds));
     let Some(kind) = kind else {
         // The allowed fields depend on the kind.
-        faults.append(&mut fields.faults);
+        faults.extend(fields.abandon());
         return None;
     };
     let kind = match kind {

@@ -1,5 +1,5 @@
-//! From trees to a [`Program`]: names, units, widths. There is a file for each kind of declaration. Checking never
-//! stops at the first error.
+//! From trees to a [`Program`](nbc_base::model::Program): names, units, widths. There is a file for each kind of
+//! declaration. Checking never stops at the first error.
 
 mod analysis;
 mod cell;
@@ -45,7 +45,7 @@ pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> An
     let loaded = load::load(world, sources, file);
     let mut analysis = program::program(&loaded.trees, sources);
     let diagnostics = &mut analysis.diagnostics;
-    consequences::forget(diagnostics, sources, &loaded.trees);
+    consequences::forget(diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);
     analysis.trees = loaded.trees.into_iter().map(|(_, tree)| tree).collect();

@@ -1,6 +1,6 @@
 //! Simulations: the inputs of a swarm over time.
 
-use crate::check::cell::{RowCell, cell};
+use crate::check::cell::{RowCell, input_cell};
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
@@ -109,7 +109,7 @@ fn rows(
     let mut bits: Vec<Vec<bool>> = inputs.iter().map(|input| vec![false; input.width]).collect();
     let mut bases: Vec<Base> = inputs.iter().map(|input| Base::of_width(input.width)).collect();
     for (word, &place) in spell.cells.iter().zip(places) {
-        match cell(word, &inputs[place]) {
+        match input_cell(word, &inputs[place]) {
             Ok(RowCell::Bits(values, base)) if values.iter().all(Option::is_some) => {
                 bits[place] = values.into_iter().flatten().collect();
                 bases[place] = base;

@@ -1,6 +1,6 @@
 //! Tests: columns are ports, rows are bits.
 
-use crate::check::cell::{RowCell, cell};
+use crate::check::cell::{RowCell, cell, input_cell};
 use crate::check::names::duplicate;
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
@@ -96,8 +96,8 @@ impl Columns<'_> {
             return Vec::new();
         }
         let mut found = Vec::new();
-        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, &mut found);
-        let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, &mut found);
+        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, input_cell, &mut found);
+        let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, cell, &mut found);
         let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| found.push(fault)).ok());
         let expected = output_bits(&outputs, &row.outputs, &mut found);
         let bases: Vec<Base> = inputs.iter().chain(&outputs).map(base).collect();
@@ -132,17 +132,18 @@ impl Columns<'_> {
     }
 }
 
-/// The values of a row in order of the ports.
+/// The values of a row in order of the ports, each read by `read`.
 fn cells(
     words: &[NameSyntax],
     places: &[usize],
     ports: &[Column],
+    read: fn(&NameSyntax, &Column) -> Result<RowCell, Diagnostic>,
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<Option<RowCell>> {
     let mut cells: Vec<_> =
         ports.iter().map(|port| Some(RowCell::Bits(vec![None; port.width], Base::of_width(port.width)))).collect();
     for (word, &place) in words.iter().zip(places) {
-        cells[place] = cell(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
+        cells[place] = read(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
     }
     cells
 }

@@ -24,6 +24,15 @@ pub(crate) struct Converter<'a> {
     /// The place of the declaration's text in the file.
     pub(crate) offset: usize,
     pub(crate) errors: Vec<Diagnostic>,
+    /// Statements whose meaning is unknown.
+    pub(crate) lost: Vec<Span>,
+}
+
+impl<'a> Converter<'a> {
+    /// A converter of a text at `offset` of its file.
+    pub(crate) fn new(file: FileId, source: &'a str, comments: &'a [Range<usize>], offset: usize) -> Self {
+        Self { file, source, comments, offset, errors: Vec::new(), lost: Vec::new() }
+    }
 }
 
 impl Converter<'_> {

@@ -171,6 +171,7 @@ impl Converter<'_> {
         let if_span = Span { end: span.start + 2, ..span };
         let Some(drives) = drives else {
             self.slip(Slip::IfBlock { choices: Vec::new(), whole: span }, if_span);
+            self.lost.push(span);
             return Vec::new();
         };
         let (mut statements, mut choices) = (Vec::new(), Vec::new());

@@ -101,6 +101,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::spell | Rule::row | Rule::cell => "a row",
         Rule::header => "column names",
         Rule::bar => "`|`",
+        Rule::slip_arrow => "`=`",
         Rule::parameters | Rule::arguments | Rule::index => "`[`",
         Rule::parameter | Rule::argument => "a parameter",
         Rule::port => "a port",

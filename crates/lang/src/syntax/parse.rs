@@ -65,7 +65,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
 /// When it is anything else.
 pub fn parse_instance(sources: &Sources, file: FileId) -> Result<InstanceSyntax, Diagnostic> {
     let text = sources.file(file).text.as_str();
-    let mut converter = Converter { file, source: text, comments: &[], offset: 0, errors: Vec::new() };
+    let mut converter = Converter::new(file, text, &[], 0);
     let parsed = NbParser::parse(Rule::one_instance, text).ok().and_then(|mut pairs| pairs.next());
     let instance = parsed.map(|pair| converter.instance(pair)).filter(|_| converter.errors.is_empty());
     let whole = Span::new(file, 0, text.len());
@@ -97,7 +97,7 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
         }
         recovered = Some((found, parts));
     }
-    let mut converter = Converter { file, source: &source, comments: &split.comments, offset, errors: Vec::new() };
+    let mut converter = Converter::new(file, &source, &split.comments, offset);
     let tree = match NbParser::parse(Rule::declaration, &source) {
         Ok(pairs) => converter.declaration(pairs),
         Err(error) => {
@@ -113,6 +113,7 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
     if tree.is_none() {
         parsed.tree.broken.push(BrokenSyntax { span: declaration, declaration });
     }
+    parsed.tree.broken.extend(converter.lost.drain(..).map(|span| BrokenSyntax { span, declaration }));
     // A declaration of another language has one message.
     if tree.is_some() || recovered.is_some() {
         let semicolon = |&at: &usize| Slip::StatementEnd { sign: ";".to_owned() }.at(Span::new(file, at, at + 1));
@@ -123,7 +124,7 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
             for (kind, range) in &found.kept {
                 let offset = offset + range.start;
                 let source = &parts[range.clone()];
-                let mut part = Converter { file, source, comments: &split.comments, offset, errors: Vec::new() };
+                let mut part = Converter::new(file, source, &split.comments, offset);
                 recover::slips(&mut part, *kind, source);
                 converter.errors.append(&mut part.errors);
             }

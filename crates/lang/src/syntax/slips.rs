@@ -41,10 +41,11 @@ pub(crate) struct SlipPlace<'a> {
 type Found = Option<(Slip, Span)>;
 
 /// In order: the first that recognizes the place decides.
-const LOOKS: [fn(&SlipPlace<'_>) -> Found; 11] = [
+const LOOKS: [fn(&SlipPlace<'_>) -> Found; 12] = [
     letters,
     unclosed_quote,
     single_quote,
+    start_of_net,
     reserved_word,
     width_of_constant,
     nets_in_braces,
@@ -152,6 +153,13 @@ fn single_quote(place: &SlipPlace<'_>) -> Found {
         let close = line[1..].find('\'').map(|end| place.span(place.at + end + 1, place.at + end + 2));
         (Slip::SingleQuote { close }, place.here())
     })
+}
+
+fn start_of_net(place: &SlipPlace<'_>) -> Found {
+    let (word, at, line) = place.word_before().filter(|(word, ..)| *word == "init")?;
+    let name = line.trim_start().strip_prefix("net ")?.rsplit(',').next()?.trim();
+    let net = name.split(|c: char| !is_word(c)).next()?.to_owned();
+    Some((Slip::StartOfNet { net }, place.span(at, at + word.len())))
 }
 
 fn reserved_word(place: &SlipPlace<'_>) -> Found {

@@ -113,6 +113,8 @@ pub(crate) enum Slip {
     BareOutputs { outputs: String },
     /// A keyword of another language before nets; `whole` covers both.
     NetKeyword { word: String, nets: String, whole: Span },
+    /// `init` where a net is declared.
+    StartOfNet { net: String },
     /// `:` in the range of a loop.
     ColonInLoop,
     /// `if` with statements in braces, and the choices that it means, if they are certain; `whole` covers it.
@@ -209,6 +211,7 @@ impl Slip {
             Self::BareOutputs { outputs } => {
                 outputs.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
             }
+            Self::StartOfNet { .. } => "init",
             Self::ColonInLoop => ":",
             Self::IfBlock { .. } => "if",
             Self::MissingThen => "{",
@@ -246,6 +249,7 @@ impl Slip {
             Self::ColonInSlice { .. } | Self::ColonInLoop => "expected `..`",
             Self::BareOutputs { .. } => "expected outputs in parentheses",
             Self::NetKeyword { .. } => "expected `net`",
+            Self::StartOfNet { .. } => "expected `,` or a new line",
             Self::MissingThen => "expected `then`",
             Self::RangeOfPort { .. } => "expected a number of bits",
             Self::KindOfPort { .. } => "expected the name of a port",
@@ -273,6 +277,9 @@ impl Slip {
             Self::ForeignComment { .. } => "a comment runs from `//` to the end of its line".to_owned(),
             Self::BareOutputs { outputs } => format!("write `-> ({outputs})`"),
             Self::NetKeyword { word, .. } => help_for_statement(word).to_owned(),
+            Self::StartOfNet { net } => {
+                format!("write the start value where the net is driven: `{net} init 0 = …`")
+            }
             Self::ColonInLoop => "write `for i in 0..8 { … }`; the end is not included".to_owned(),
             Self::IfBlock { choices, .. } => match &choices[..] {
                 [choice] if choice.len() < 60 => format!("`if` chooses a value: `{choice}`"),

@@ -99,12 +99,12 @@ impl SwarmTiming {
         }
     }
 
-    /// What a user of the swarm needs to know, in a line.
-    pub fn describe_hold(&self) -> String {
+    /// What a user of the swarm needs to know, in a line; `hold` suffices for the rows that were run.
+    pub fn describe_hold(&self, hold: Option<usize>) -> String {
         if !self.rings.is_empty() {
             return describe_rings(&self.rings);
         }
-        let cycles = counted(self.hold as usize, "cycle");
+        let cycles = counted(hold.unwrap_or(self.hold as usize), "cycle");
         format!("timing   hold each row for {cycles} or longer; `nbc build --emit timing` shows why\n")
     }
 

@@ -16,7 +16,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }
 
-/// Writes a file as [`write`] does.
+/// Writes a file as [`write()`] does.
 ///
 /// # Errors
 /// A diagnostic that names the path and the reason.
@@ -24,10 +24,10 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     write(path, bytes).map_err(|error| Diagnostic::unwritable(path, &error))
 }
 
-/// Like [`write`], for content that is made piece by piece.
+/// Like [`write()`], for content that is made piece by piece.
 ///
 /// # Errors
-/// As [`write`], and when `content` fails.
+/// As [`write()`], and when `content` fails.
 pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     // The target of a link is replaced, not the link; a device such as /dev/null is written directly.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());

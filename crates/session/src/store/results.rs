@@ -76,10 +76,10 @@ pub(super) fn is_link(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink())
 }
 
-/// Writes a file of results as [`write`] does, but replaces a link instead of the file that it leads to.
+/// Writes a file of results as [`write()`] does, but replaces a link instead of the file that it leads to.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_result(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if is_link(path) { replace(path, |out| out.write_all(bytes)) } else { write(path, bytes) }
 }

@@ -196,9 +196,12 @@ impl ValueError {
             }
             Self::UnexpectedUnit { number, unit } => {
                 let message = format!("unexpected unit `{unit}`");
-                Diagnostic::new(Code::Unit, message, span, "expected a number without a unit")
-                    .with_help(format!("write `{number}`"))
-                    .with_fix(Fix::remove(span, "the unit"))
+                let error = Diagnostic::new(Code::Unit, message, span, "expected a number without a unit");
+                // It is not known what the share of another number means here.
+                if unit == "%" {
+                    return error;
+                }
+                error.with_help(format!("write `{number}`")).with_fix(Fix::remove(span, "the unit"))
             }
             Self::OutOfRange { found, expected } => out_of_range(&found, &expected, span),
             Self::WidthOutOfRange { found, least, most } => {

@@ -85,7 +85,9 @@ impl Judge {
             }
             VerilogTokenKind::Number | VerilogTokenKind::Hint => self.is_label = was_label,
             VerilogTokenKind::Sign => self.sign(text, was_label),
-            VerilogTokenKind::System if !FUNCTIONS.contains(&text) => return Err(Offense::Outside(text.to_owned())),
+            VerilogTokenKind::System | VerilogTokenKind::Escaped if is_outside(text) => {
+                return Err(Offense::Outside(text.to_owned()));
+            }
             VerilogTokenKind::System
             | VerilogTokenKind::Escaped
             | VerilogTokenKind::Quoted
@@ -145,6 +147,13 @@ impl Judge {
     }
 }
 
+/// Whether a name could be that of a function which does more than compute. Yosys takes `\$readmemh` for `$readmemh`;
+/// the gates in its own netlists, such as `\$_AND_`, are no functions.
+fn is_outside(name: &str) -> bool {
+    let meant = name.strip_prefix('\\').unwrap_or(name);
+    meant.starts_with('$') && !name.starts_with("\\$_") && !FUNCTIONS.contains(&meant)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -169,10 +178,14 @@ mod tests {
             ("x = $system(\"a\") + $signed(1);", "$system"),
             ("x = $signed$x(a);", "$signed$x"),
             ("x = $;", "$"),
+            ("initial \\$readmemh (\"/etc/passwd\", m);", "\\$readmemh"),
+            ("#1import \"DPI-C\" function integer f();", "import"),
+            ("#1.5e3import \"DPI-C\" function integer f();", "import"),
         ] {
             assert_eq!(judged(text), Err(Offense::Outside(word.to_owned())), "{text}");
         }
         assert_eq!(judged("import p::*; import q::f;"), Ok(()));
+        assert_eq!(judged("x = \\$signed (a); \\$_AND_ g (); \\a$b c;"), Ok(()));
     }
 
     #[test]

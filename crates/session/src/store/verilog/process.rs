@@ -59,7 +59,9 @@ trap : TERM
 exec 3<&0 </dev/null
 yosys -q -p "$1" 3<&- &
 yosys=$!
-{ read -r _ <&3; kill -TERM 0; } 2>/dev/null &
+# The shell would name signals among the messages, and end early if nobody reads these any more.
+exec 2>/dev/null
+{ read -r _ <&3; kill -TERM 0; } &
 watch=$!
 exec 3<&-
 wait $yosys
@@ -69,8 +71,6 @@ if [ $status -eq 143 ]; then
     /bin/rm -rf -- "$folder"
     kill -KILL 0
 fi
-# The shell would name the signal among the messages.
-exec 2>/dev/null
 kill -KILL $watch
 wait $watch
 exit $status

@@ -170,12 +170,18 @@ fn token(rest: &str, first: char) -> Result<(VerilogTokenKind, usize), VerilogFa
     })
 }
 
-/// The length of a number without a base. A point between digits belongs to it.
+/// The length of a number without a base. A point between digits belongs to it, and so does an exponent. Letters after
+/// it are a word, as they are for Yosys.
 fn number(rest: &str) -> usize {
-    let whole = run(rest, is_word);
-    match rest[whole..].strip_prefix('.').map(|fraction| run(fraction, is_word)) {
-        Some(fraction) if fraction > 0 && rest.as_bytes()[whole + 1].is_ascii_digit() => whole + 1 + fraction,
-        _ => whole,
+    let digits = |at: usize| run(&rest[at..], |c| c.is_ascii_digit() || c == '_');
+    let mut length = digits(0);
+    if rest[length..].starts_with('.') && rest[length + 1..].starts_with(|c: char| c.is_ascii_digit()) {
+        length += 1 + digits(length + 1);
+    }
+    let sign = run(&rest[length..], |c| matches!(c, 'e' | 'E')).min(1);
+    match digits(length + sign) {
+        exponent if sign == 1 && exponent > 0 => length + 1 + exponent,
+        _ => length,
     }
 }
 
@@ -245,7 +251,7 @@ mod tests {
     #[test]
     fn a_text_is_split_as_yosys_splits_it() {
         use VerilogTokenKind::{Based, Directive, Escaped, Hint, Number, Quoted, Sign, System, Word};
-        let cases: [(&str, &[(VerilogTokenKind, &str)]); 9] = [
+        let cases: [(&str, &[(VerilogTokenKind, &str)]); 10] = [
             ("a_1$b /* c */+\\d[0] ", &[(Word, "a_1$b"), (Sign, "+"), (Escaped, "\\d[0]")]),
             ("4 'sb1?z_0", &[(Number, "4"), (Based, "'sb1?z_0")]),
             ("'h ff'z'{", &[(Based, "'h ff"), (Based, "'z"), (Sign, "'"), (Sign, "{")]),
@@ -258,6 +264,10 @@ mod tests {
             ("`a `b``", &[(Directive, "`a"), (Directive, "`b"), (Directive, "`"), (Directive, "`")]),
             ("//  synthesis full_case now\n", &[(Hint, "/* synopsys full_case */")]),
             ("'b", &[(Based, "'b")]),
+            (
+                "1import 2e3f 4_0e",
+                &[(Number, "1"), (Word, "import"), (Number, "2e3"), (Word, "f"), (Number, "4_0"), (Word, "e")],
+            ),
         ];
         for (text, expected) in cases {
             let expected: Vec<_> = expected.iter().map(|(kind, text)| (*kind, (*text).to_owned())).collect();
