@@ -2,7 +2,7 @@
 //! module; a netlist is a flattened module. The structure of the source is kept: a `not` is a cell, and a loop
 //! stays as it is.
 //!
-//! Widths, bits and parameters are computed here, so their errors are found here too; an [`Inspector`] only finds errors.
+//! Widths, bits and parameters are computed here, so their errors are found here; an [`Inspector`] finds only these.
 
 mod build;
 mod dense;
