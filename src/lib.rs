@@ -22,7 +22,10 @@
 //! | `parallel` | simulation on all cores |
 //! | `pictures` | drawings as pixels, films |
 //! | `disk` | [`DiskWorld`], [`run_file`], [`Checkpoint`]s |
-//! | `cli` (default) | the program, with all of them |
+//! | `gpu` | simulation on graphics cards and other OpenCL devices |
+//! | `cli` | the program, with threads, pictures and files |
+//! | `play` (default) | the program's live page |
+//! | `cluster` | the program's work on several machines |
 //!
 //! A feature adds names and never changes results.
 #![deny(missing_docs)]

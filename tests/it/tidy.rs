@@ -117,7 +117,7 @@ fn the_core_has_no_statics() {
             found.push(module.file());
         }
     }
-    assert!(found.is_empty(), "two sessions share nothing that changes: no statics outside cli/: {found:?}");
+    assert!(found.is_empty(), "two sessions share nothing that changes: no statics outside doors: {found:?}");
 }
 
 #[test]

@@ -7,9 +7,6 @@ use nbc_base::diag::Code;
 const PAGES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/errors");
 
 /// The page that explains a code, as Markdown.
-///
-/// # Panics
-/// Never: each code has a page.
 pub fn error_page(code: Code) -> &'static str {
     let file = PAGES.get_file(format!("{code}.md")).expect("every code has its page");
     file.contents_utf8().expect("pages are text")
