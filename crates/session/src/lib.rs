@@ -3,6 +3,7 @@
 mod checked;
 mod choice;
 mod compile;
+mod course;
 mod documents;
 mod error_pages;
 mod formatted;
@@ -22,6 +23,7 @@ mod simulation;
 pub mod store;
 mod swarm_run;
 mod test;
+mod waves;
 mod wording;
 
 pub use checked::{Checked, prelude};

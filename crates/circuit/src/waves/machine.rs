@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::map::name_outputs;
 use crate::waves::graph::{Driver, Tap, WaveGraph};
 use crate::waves::phases::Phases;
-use crate::map::name_outputs;
 use crate::waves::step::{StateBit, Step};
 use crate::{Cell, CellLibrary, NetId, Netlist};
 use nbc_base::model::Function;
@@ -35,7 +35,7 @@ pub struct WaveState {
     pub starts: Vec<bool>,
 }
 
-/// A clocked circuit of which every loop takes the same time, so that its state needs no latch, with as many machines
+/// A clocked circuit of which every loop takes the same time, so that its state needs no latch, with as many threads
 /// in it as a step has beats. A combinational circuit has steps of one beat.
 #[derive(Clone, Debug)]
 pub struct WaveMachine {
@@ -43,7 +43,7 @@ pub struct WaveMachine {
     pub netlist: Netlist,
     /// The clock, as an index of the input ports, and whether a step is its rise; `None` for a circuit without state.
     pub clock: Option<(usize, bool)>,
-    /// Beats of a step, and the number of machines that run at once.
+    /// Beats of a step, and the number of threads: machines that run at once on the same robots.
     pub period: u32,
     /// Cycles of a beat.
     pub beat: u32,
@@ -93,16 +93,16 @@ impl WaveMachine {
         (self.period * self.beat) as usize
     }
 
-    /// The beat in which the first step of the first machine begins.
+    /// The beat in which the first step of the first thread begins.
     fn beginning(&self) -> i64 {
         let earliest = self.inputs.iter().flatten().copied().chain(self.outputs.iter().map(|output| output.phase));
         let earliest = earliest.min().unwrap_or(0).min(0);
         WARM_UP.max(i64::from(self.period)) - earliest
     }
 
-    /// The beat in which a step of a machine reaches a phase; steps count from 1.
-    fn beat_of(&self, step: i64, machine: usize, phase: i64) -> i64 {
-        self.beginning() + (step - 1) * i64::from(self.period) + machine as i64 + phase
+    /// The beat in which a step of a thread reaches a phase; steps count from 1.
+    fn beat_of(&self, step: i64, thread: usize, phase: i64) -> i64 {
+        self.beginning() + (step - 1) * i64::from(self.period) + thread as i64 + phase
     }
 
     /// The row whose value an input port has in a cycle; rows count from 0 and end before `rows`.
@@ -113,13 +113,13 @@ impl WaveMachine {
         (step - self.first_row()).clamp(0, rows as i64 - 1) as usize
     }
 
-    /// When an output port shows the result of a row, counted from 0, in one of the machines.
-    pub fn reading(&self, output: usize, row: usize, machine: usize) -> Reading {
+    /// When an output port shows the result of a row, counted from 0, in a thread.
+    pub fn reading(&self, output: usize, row: usize, thread: usize) -> Reading {
         let WaveOutput { phase, starts } = &self.outputs[output];
         match starts.get(row) {
             Some(&start) => Reading::Start(start),
             None => {
-                let beat = self.beat_of(row as i64 + self.first_row(), machine, *phase);
+                let beat = self.beat_of(row as i64 + self.first_row(), thread, *phase);
                 Reading::Cycle((beat as usize + 1) * self.beat as usize - 1)
             }
         }
@@ -130,7 +130,7 @@ impl WaveMachine {
         i64::from(self.clock.is_none())
     }
 
-    /// The cycles in which all machines show the results of so many rows.
+    /// The cycles in which all threads show the results of so many rows.
     pub fn cycles(&self, rows: usize) -> usize {
         let last = |output| match self.reading(output, rows.saturating_sub(1), self.period as usize - 1) {
             Reading::Start(_) => 0,
@@ -148,8 +148,8 @@ impl WaveMachine {
         (0..ends).flat_map(|beat| std::iter::repeat_n(bit(beat), self.beat as usize)).collect()
     }
 
-    /// The machine whose wave a cell reads in a cycle.
-    pub fn machine_at(&self, cell: NetId, cycle: usize) -> usize {
+    /// The thread whose wave a cell reads in a cycle.
+    pub fn thread_at(&self, cell: NetId, cycle: usize) -> usize {
         let beat = (cycle / self.beat as usize) as i64;
         (beat - self.beginning() - self.phase[&cell]).rem_euclid(i64::from(self.period)) as usize
     }

@@ -4,7 +4,7 @@ use crate::waves::machine::{Reading, WaveMachine};
 use crate::{NetId, Node};
 
 impl WaveMachine {
-    /// What the output ports show of each row in each machine, by machine, row and port, if every machine gets these
+    /// What the output ports show of each row in each thread, by thread, row and port, if every thread gets these
     /// rows of input bits.
     ///
     /// # Panics
@@ -20,7 +20,8 @@ impl WaveMachine {
             }
         }
         let cells: Vec<_> = netlist.cells().map(|(id, cell)| (id, cell.function, netlist.pins(id))).collect();
-        let held: Vec<[Vec<bool>; 2]> = cells.iter().map(|(id, ..)| [0, 1].map(|pin| self.held_bits(*id, pin))).collect();
+        let held: Vec<[Vec<bool>; 2]> =
+            cells.iter().map(|(id, ..)| [0, 1].map(|pin| self.held_bits(*id, pin))).collect();
         let ports: Vec<NetId> = netlist.outputs().iter().map(|&id| netlist.pins(id)[0]).collect();
         let mut past: Vec<Vec<bool>> = Vec::new();
         for at in 0..self.cycles(rows.len()) / beat {
@@ -40,11 +41,11 @@ impl WaveMachine {
             }
             past.push(ports.iter().map(|net| shown[net.index()]).collect());
         }
-        let value = |machine: usize, row: usize, output: usize| match self.reading(output, row, machine) {
+        let value = |thread: usize, row: usize, output: usize| match self.reading(output, row, thread) {
             Reading::Start(start) => start,
             Reading::Cycle(cycle) => past[cycle / beat][output],
         };
-        let row = |machine: usize, row: usize| (0..ports.len()).map(|output| value(machine, row, output)).collect();
-        (0..self.period as usize).map(|machine| (0..rows.len()).map(|at| row(machine, at)).collect()).collect()
+        let row = |thread: usize, row: usize| (0..ports.len()).map(|output| value(thread, row, output)).collect();
+        (0..self.period as usize).map(|thread| (0..rows.len()).map(|at| row(thread, at)).collect()).collect()
     }
 }

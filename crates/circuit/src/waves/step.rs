@@ -152,8 +152,7 @@ fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, Wave
         let [first, second] = [pair.first, pair.second].map(|latch| &storage.latches[latch]);
         let follow = |latch: &Latch| Follower::of(netlist, &inverters, latch).ok_or_else(|| latch_error(latch));
         let (taken, shown) = (follow(first)?, follow(second)?);
-        let (_, inverted) =
-            *taken.cells.iter().find(|(id, _)| *id == shown.data).ok_or_else(|| latch_error(second))?;
+        let (_, inverted) = *taken.cells.iter().find(|(id, _)| *id == shown.data).ok_or_else(|| latch_error(second))?;
         Ok(Register {
             shows: shown.cells.iter().map(|&(id, opposite)| (id, opposite != inverted)).collect(),
             first: first.cells.clone(),
