@@ -3,7 +3,6 @@
 mod checked;
 mod choice;
 mod compile;
-mod course;
 mod documents;
 mod error_pages;
 mod formatted;
@@ -23,6 +22,7 @@ mod simulation;
 pub mod store;
 mod swarm_run;
 mod test;
+mod test_timing;
 mod waves;
 mod wording;
 
