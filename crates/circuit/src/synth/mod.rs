@@ -14,4 +14,5 @@ mod surroundings;
 pub mod walk;
 
 pub use care::CareSet;
-pub use reduce::{reduce, reduce_within};
+pub(crate) use candidates::below;
+pub use reduce::{alternative, reduce, reduce_within};

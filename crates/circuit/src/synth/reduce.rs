@@ -67,6 +67,17 @@ pub fn reduce(
     })
 }
 
+/// Another network of the same function that costs no more, at the end of a short walk; sometimes one that is quicker
+/// and costs more.
+pub fn alternative(network: &Network, prices: &Prices, visits: u64, random: &mut ChaCha8Rng) -> Network {
+    let pace = if below(random, 6) == 0 { Pace::Hurry } else { Pace::Any };
+    let plan = WalkPlan { pace, ..WalkPlan::calm(visits) };
+    match network.inputs <= WHOLE_INPUTS {
+        true => walk::improve_all(network, prices, &[], plan, random),
+        false => roam(network, prices, &[], None, plan, random),
+    }
+}
+
 /// A network of gates of any kind, as few as the effort finds, that is equal where the conditions hold.
 pub fn reduce_within(network: &Network, library: &CellLibrary, care: &CareSet, options: &MapOptions) -> Network {
     let ideal = Prices::of(library).ideal();

@@ -9,6 +9,7 @@ mod graph;
 mod machine;
 mod phases;
 mod run;
+mod search;
 mod step;
 mod wording;
 
@@ -22,7 +23,7 @@ use crate::network::Network;
 use crate::options::{MapOptions, MappingObjective};
 use crate::synth::reduce;
 use crate::waves::graph::WaveLogic;
-use crate::waves::phases::Balancing;
+use crate::waves::search::search;
 use crate::{MapError, Netlist};
 
 /// What a wave machine is made for.
@@ -51,23 +52,11 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
     let beat = options.beat.max(1);
     let cells = usable(library, beat);
     let logic = WaveLogic::of(&step);
-    let mut best: Option<(u32, usize, WaveMachine)> = None;
-    let mut shortest = u32::MAX;
-    for mapped in mappings(&logic.network, &cells, &options.mapping)? {
-        let graph = logic.graph(&mapped);
-        let balancing = Balancing::new(&graph);
-        let least = balancing.least_period();
-        shortest = shortest.min(least);
-        let period = options.cycles.map_or(least, |cycles| cycles / beat);
-        let Some((phases, buffers)) = balancing.fewest_buffers(period) else { continue };
-        let robots = graph.gates.len() + buffers;
-        if best.as_ref().is_none_or(|(length, fewest, _)| (period, robots) < (*length, *fewest)) {
-            let machine = WaveMachine::new(&step, &graph, &phases, &cells, beat).ok_or(WaveError::NoBuffer)?;
-            best = Some((period, robots, machine));
-        }
-    }
-    let short = WaveError::ShortStep { wanted: options.cycles.unwrap_or(0), least: shortest * beat };
-    best.map(|(_, _, machine)| machine).ok_or(short)
+    let starts = mappings(&logic.network, &cells, &options.mapping)?;
+    let period = options.cycles.map(|cycles| cycles / beat);
+    let short = |least: u32| WaveError::ShortStep { wanted: options.cycles.unwrap_or(0), least: least * beat };
+    let balanced = search(&logic, starts, &cells, period, &options.mapping).map_err(short)?;
+    WaveMachine::new(&step, &balanced.graph, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
 }
 
 /// The logic in cells of the library, in several ways: with few cells, and with short paths.

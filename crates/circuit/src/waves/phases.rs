@@ -93,6 +93,11 @@ impl<'g> Balancing<'g> {
         self.nets[driver].listeners.push((listener, tap.later));
     }
 
+    /// Whether a step may have so many beats.
+    pub fn is_enough(&self, period: u32) -> bool {
+        self.earliest(period).is_some()
+    }
+
     /// The fewest beats of a step.
     pub fn least_period(&self) -> u32 {
         let (mut short, mut enough) = (0, self.graph.gates.len() as u32 + 1);

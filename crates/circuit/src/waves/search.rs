@@ -1,0 +1,102 @@
+//! The search for logic that makes a small wave machine: a random walk over networks of equal function, each judged
+//! with its buffers. Mapping alone counts gates; here a gate that lets a chain of buffers go is as good as a gate less.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::cells::CellLibrary;
+use crate::network::Network;
+use crate::options::{Effort, MapOptions};
+use crate::synth::prices::Prices;
+use crate::synth::{alternative, below};
+use crate::waves::graph::{WaveGraph, WaveLogic};
+use crate::waves::phases::{Balancing, Phases};
+
+/// What is to be small, the most important first: the cycles of a step, then the robots.
+pub type Weight = (u32, usize);
+
+/// Logic with its phases.
+#[derive(Clone, Debug)]
+pub struct Balanced {
+    /// The mapped logic.
+    pub network: Network,
+    /// The logic as a graph.
+    pub graph: WaveGraph,
+    /// Its phases.
+    pub phases: Phases,
+    /// Beats of a step, and robots.
+    pub weight: Weight,
+}
+
+impl Balanced {
+    /// Balances a network for steps of so many beats, or of the fewest; `Err` has the fewest if that is more.
+    pub fn of(logic: &WaveLogic, network: Network, period: Option<u32>) -> Result<Self, u32> {
+        let graph = logic.graph(&network);
+        let balancing = Balancing::new(&graph);
+        let found = period.and_then(|period| Some((period, balancing.fewest_buffers(period)?)));
+        let (period, (phases, buffers)) = match (found, period) {
+            (Some(found), _) => found,
+            (None, Some(_)) => return Err(balancing.least_period()),
+            (None, None) => {
+                let least = balancing.least_period();
+                (least, balancing.fewest_buffers(least).expect("this period is long enough"))
+            }
+        };
+        let weight = (period, graph.gates.len() + buffers);
+        Ok(Self { network, graph, phases, weight })
+    }
+
+    /// Whether a network may have a step of so many beats.
+    fn is_in_time(logic: &WaveLogic, network: &Network, period: u32) -> bool {
+        Balancing::new(&logic.graph(network)).is_enough(period)
+    }
+}
+
+/// The best logic that a search finds from some mapped networks on.
+///
+/// # Errors
+/// The fewest beats of a step, if all networks need more than the wanted ones.
+pub fn search(
+    logic: &WaveLogic,
+    starts: Vec<Network>,
+    cells: &CellLibrary,
+    period: Option<u32>,
+    options: &MapOptions,
+) -> Result<Balanced, u32> {
+    let balanced: Vec<Result<Balanced, u32>> =
+        starts.into_iter().map(|network| Balanced::of(logic, network, period)).collect();
+    let shortest = balanced.iter().map(|one| one.as_ref().map_or_else(|&least| least, |one| one.weight.0)).min();
+    let found = balanced.into_iter().filter_map(Result::ok).min_by_key(|one| one.weight);
+    let best = found.ok_or(shortest.unwrap_or(0))?;
+    let prices = Prices::of(cells);
+    let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6377_6176_6573);
+    let gates = best.network.gates.len();
+    let rounds = match options.effort {
+        Effort::Fast => 0,
+        Effort::Normal => 120_000 / (gates + 40),
+        Effort::High => 2_400_000 / (gates + 40),
+    };
+    let (mut best, mut now) = (best.clone(), best);
+    for round in 0..rounds {
+        if options.cancel.is_raised() || now.network.gates.is_empty() {
+            break;
+        }
+        let network = alternative(&now.network, &prices, 1 + below(&mut random, 6) as u64, &mut random);
+        // A longer step is rarely worth the time to balance it.
+        if network == now.network || !Balanced::is_in_time(logic, &network, now.weight.0) {
+            continue;
+        }
+        let Ok(next) = Balanced::of(logic, network, period) else { continue };
+        // At first the search also takes networks that are a little larger.
+        let slack = if below(&mut random, 8) == 0 && 2 * round < rounds { 1 } else { 0 };
+        if next.weight <= (now.weight.0, now.weight.1 + slack) {
+            now = next;
+            if now.weight <= best.weight {
+                best = now.clone();
+            }
+        } else if below(&mut random, 200) == 0 {
+            now = best.clone();
+        }
+    }
+    Ok(best)
+}
