@@ -13,6 +13,6 @@ mod shared_pairs;
 mod surroundings;
 pub mod walk;
 
-pub use care::CareSet;
 pub(crate) use candidates::below;
+pub use care::CareSet;
 pub use reduce::{alternative, reduce, reduce_within};

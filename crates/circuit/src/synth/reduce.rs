@@ -10,7 +10,7 @@ use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::candidates::below;
 use crate::synth::care::CareSet;
 use crate::synth::exact::{self, ExactResult};
-use crate::synth::graph::Graph;
+use crate::synth::graph::{Graph, every_pattern};
 use crate::synth::parts::in_parts;
 use crate::synth::phases::assign_phases;
 use crate::synth::prices::Prices;
@@ -67,14 +67,15 @@ pub fn reduce(
     })
 }
 
-/// Another network of the same function that costs no more, at the end of a short walk; sometimes one that is quicker
-/// and costs more.
+/// Another network of the same function, at the end of a short walk; it may have some cells more.
 pub fn alternative(network: &Network, prices: &Prices, visits: u64, random: &mut ChaCha8Rng) -> Network {
-    let pace = if below(random, 6) == 0 { Pace::Hurry } else { Pace::Any };
-    let plan = WalkPlan { pace, ..WalkPlan::calm(visits) };
-    match network.inputs <= WHOLE_INPUTS {
-        true => walk::improve_all(network, prices, &[], plan, random),
-        false => roam(network, prices, &[], None, plan, random),
+    let calm = WalkPlan::calm(visits);
+    match (network.inputs <= WHOLE_INPUTS, below(random, 8)) {
+        (true, 0) => walk::improve_all(network, prices, &[], WalkPlan { pace: Pace::Hurry, ..calm }, random),
+        (true, _) => {
+            walk::wander(network, prices, &every_pattern(network.inputs), WalkPlan { climb: 3, ..calm }, random)
+        }
+        (false, _) => roam(network, prices, &[], None, calm, random),
     }
 }
 

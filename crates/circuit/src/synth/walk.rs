@@ -91,6 +91,26 @@ pub fn improve(
     if walk.graph.cost() == best_cost { walk.graph.network() } else { best }
 }
 
+/// The network at the end of a walk over the patterns that can occur, be it more expensive or not: one of `plan.climb`
+/// visits may add a cell.
+pub fn wander(
+    network: &Network,
+    prices: &Prices,
+    patterns: &[Vec<u64>],
+    plan: WalkPlan<'_>,
+    random: &mut ChaCha8Rng,
+) -> Network {
+    let mut walk = Walk::new(Graph::new(network, prices, &[], patterns), plan.pace, random);
+    for _ in 0..plan.visits {
+        if walk.graph.order().is_empty() || plan.is_cancelled() {
+            break;
+        }
+        let slack = u32::from(plan.climb > 0 && walk.below(plan.climb as usize) == 0);
+        walk.visit(slack);
+    }
+    walk.graph.network()
+}
+
 /// As [`improve`], over every pattern of the inputs.
 pub fn improve_all(
     network: &Network,
