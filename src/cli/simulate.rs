@@ -3,10 +3,10 @@
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::OpenDevice;
+use crate::cli::options::device::DeviceArguments;
 use crate::cli::robots::read_body;
-use crate::cli::wording::{RunWarning, UsageError};
+use crate::cli::wording::{GroundEnds, UsageError};
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
@@ -79,7 +79,7 @@ impl SimulateArguments {
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
     let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;
-    Some(RunWarning::GroundEnds { step, width: setting.world_width }.into())
+    Some(GroundEnds { step, width: setting.world_width }.into())
 }
 
 impl<'a> Outcome<'a> {

@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::cli::mapping::{MappingArguments, functions};
+use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_circuit::correspondence::{self, Removed};

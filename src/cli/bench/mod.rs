@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::{DeviceFigures, OpenDevice};
-use crate::cli::timings::{meter, part_seconds};
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::timings::{meter, part_seconds};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::{Kernel, LaneBackend, Part};

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind};
-use crate::cli::wording::DrawError;
+use crate::cli::draw::wording::DrawError;
 use crate::cli::{Failure, Progress};
 use nbc_session::report::{self, Film, Stage};
 use nbc_session::store;

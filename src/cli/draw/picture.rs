@@ -1,11 +1,11 @@
 //! What every kind of picture provides.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::robot::TitledBody;
-use crate::cli::draw::run::best_champions;
-use crate::cli::draw::several::Several;
-use crate::cli::wording::DrawError;
+use crate::cli::draw::evolution_run::best_champions;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
+use crate::cli::draw::titled_robots::TitledRobots;
+use crate::cli::draw::wording::DrawError;
 use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
 
 /// What is drawn.
@@ -54,31 +54,31 @@ pub(super) trait PictureKind: Sync {
     fn subject(&self) -> SubjectKind;
 
     /// Draws one robot.
-    fn of_robot(&self, _robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        Err(self.refuse(SubjectKind::Robot, order))
+    fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Err(self.refuse(SubjectKind::Robot, request))
     }
 
     /// Draws the robots of a library.
-    fn of_library(&self, _robots: &Several, order: &Order) -> Result<Drawing, Failure> {
-        Err(self.refuse(SubjectKind::Library, order))
+    fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Err(self.refuse(SubjectKind::Library, request))
     }
 
     /// Draws an evolution run; its best robots, if this is a picture of several robots.
-    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
         match self.subject() {
-            SubjectKind::Library => self.of_library(&best_champions(results), order),
-            _ => Err(self.refuse(SubjectKind::Run, order)),
+            SubjectKind::Library => self.of_library(&best_champions(results), request),
+            _ => Err(self.refuse(SubjectKind::Run, request)),
         }
     }
 
     /// Draws the circuit of a source file, or its swarm.
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Err(self.refuse(SubjectKind::Program, order))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Err(self.refuse(SubjectKind::Program, request))
     }
 
     /// The error for a subject that has no such picture.
-    fn refuse(&self, given: SubjectKind, order: &Order) -> Failure {
-        let (what, kind) = (order.what.clone(), self.word());
+    fn refuse(&self, given: SubjectKind, request: &DrawRequest) -> Failure {
+        let (what, kind) = (request.what.clone(), self.word());
         DrawError::Kind { what, given: noun(given), expected: wanted(self.subject(), given), kind }.into()
     }
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::wording::DeviceFailure;
+use crate::cli::gpu::wording::DeviceFailure;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{Align, Schema, TextTable};

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
-use crate::cli::executor::OpenExecutor;
-use crate::cli::ordered::in_order;
-use crate::cli::queue::QueueArguments;
+use crate::cli::evolution_folder::{CHECKPOINT, checkpoints, read_checkpoint};
+use crate::cli::evolve::wording::EvolveError;
+use crate::cli::in_order::in_order;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
 use crate::cli::robots::behavior;
-use crate::cli::run_folder::{CHECKPOINT, checkpoints, read_checkpoint};
-use crate::cli::wording::SubjectError;
+use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::model::{Behavior, Provenance, Robot};
 use nbc_session::report::{Answer, Schema};
@@ -74,7 +74,7 @@ impl AddArguments {
         into.probe().map_err(|error| Failure::unwritable(&self.into, &error))?;
         let work = asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum();
         let bar = Arc::new(Progress::new("measuring", work));
-        let tasks = OpenExecutor::choose(self.device, &self.queue, &bar, context)?;
+        let tasks = TaskExecutor::choose(self.device, &self.queue, &bar, context)?;
         let select = |place: usize, (behavior, nominees): &(Behavior, Vec<Nominee>)| {
             (*behavior, selection.select(tasks.executor(), place, *behavior, nominees, &|more| bar.add(more)))
         };
@@ -175,5 +175,5 @@ fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {
 }
 
 fn missing(path: &Path) -> Failure {
-    SubjectError::NoCheckpoint { path: path.display().to_string() }.into()
+    EvolveError::NoCheckpoint { path: path.display().to_string() }.into()
 }

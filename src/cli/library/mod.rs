@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use crate::cli::device::DeviceArguments;
-use crate::cli::queue::QueueArguments;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
 use crate::cli::robots::{named, robots_of};
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::model::{Library, Robot};

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::ordered::in_order;
-use crate::cli::wording::DrawError;
+use crate::cli::draw::wording::DrawError;
+use crate::cli::in_order::in_order;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};

@@ -1,8 +1,8 @@
 //! A netlist for Graphviz.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_circuit::formats::dot;
 
 pub(super) struct DotPicture;
@@ -24,7 +24,7 @@ impl PictureKind for DotPicture {
         SubjectKind::Program
     }
 
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(dot::write(&order.compiled()?.mapping.netlist)))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(dot::write(&request.compiled()?.mapping.netlist)))
     }
 }

@@ -1,9 +1,9 @@
 //! An archive as a map of its niches.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::wording::DrawError;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::wording::DrawError;
 use nbc_session::report::{self, EvolutionResults, Terrain, axis_word};
 use nbc_swarm::evolve::NicheKey;
 
@@ -26,8 +26,8 @@ impl PictureKind for HeatmapPicture {
         SubjectKind::Run
     }
 
-    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
-        let [x, y] = axes(results, &order.axes)?;
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let [x, y] = axes(results, &request.axes)?;
         let best = results.best();
         let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
         let terrain = Terrain { unit: results.unit(), axes: &results.axes, niches: &niches };

@@ -1,13 +1,13 @@
 //! A page with a player, or with all plots of a run.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
+use crate::cli::draw::evolution_run::each_champion;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::cli::draw::pictures::comparison::comparison;
 use crate::cli::draw::pictures::progress::progress;
 use crate::cli::draw::pictures::spacetime::champions;
-use crate::cli::draw::run::each_champion;
-use crate::cli::run::run_page as swarm_page;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::runs::run_page as swarm_page;
 use nbc_base::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
 use nbc_session::report::{self, EvolutionResults, Plate, Scheme};
 use nbc_swarm::Room;
@@ -35,12 +35,12 @@ impl PictureKind for PagePicture {
         SubjectKind::Program
     }
 
-    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(run_page(results, order.scheme())))
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(run_page(results, request.scheme())))
     }
 
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(swarm_page(&order.what, &order.ran(Some(Room::SWARM))?, order.scheme())))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(swarm_page(&request.what, &request.ran(Some(Room::SWARM))?, request.scheme())))
     }
 }
 

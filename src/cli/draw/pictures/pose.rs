@@ -1,9 +1,9 @@
 //! A deformed body at one moment.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::TitledBody;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
 
 pub(super) struct PosePicture;
@@ -25,9 +25,9 @@ impl PictureKind for PosePicture {
         SubjectKind::Robot
     }
 
-    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        let schedule = order.schedule()?;
-        let step = order.step(&schedule)?;
-        Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, order.scheme())))
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let schedule = request.schedule()?;
+        let step = request.step(&schedule)?;
+        Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, request.scheme())))
     }
 }

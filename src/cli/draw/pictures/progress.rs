@@ -1,8 +1,8 @@
 //! The curves of a run.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
 pub(super) struct ProgressPicture;
@@ -20,7 +20,7 @@ impl PictureKind for ProgressPicture {
         SubjectKind::Run
     }
 
-    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
         Ok(Drawing::Picture(progress(results)))
     }
 }

@@ -1,8 +1,8 @@
 //! The cells of a circuit with their robots.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 
 pub(super) struct SchematicPicture;
 
@@ -23,7 +23,7 @@ impl PictureKind for SchematicPicture {
         SubjectKind::Program
     }
 
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(order.compiled()?.schematic(order.scheme())))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Picture(request.compiled()?.schematic(request.scheme())))
     }
 }

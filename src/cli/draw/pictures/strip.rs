@@ -1,9 +1,9 @@
 //! Snapshots of a gait.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::TitledBody;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
 
 pub(super) struct StripPicture;
@@ -25,8 +25,8 @@ impl PictureKind for StripPicture {
         SubjectKind::Robot
     }
 
-    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        let schedule = order.schedule()?;
-        Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, order.scheme())))
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let schedule = request.schedule()?;
+        Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, request.scheme())))
     }
 }

@@ -1,8 +1,8 @@
 //! Waveforms.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_session::report;
 
 pub(super) struct VcdPicture;
@@ -24,7 +24,7 @@ impl PictureKind for VcdPicture {
         SubjectKind::Program
     }
 
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(report::vcd(&order.ran(None)?.swarm().trace)))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(report::vcd(&request.ran(None)?.swarm().trace)))
     }
 }

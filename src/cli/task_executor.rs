@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::cli::cluster::{QueueExecutor, open_queue};
-use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::OpenDevice;
-use crate::cli::queue::QueueArguments;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
 use crate::cli::{Context, Failure, Interrupt, Progress};
 use nbc_sim::{LaneBackend, Simulator};
 use nbc_swarm::Executor;
@@ -14,14 +14,14 @@ use nbc_swarm::Executor;
 const MOST_WAITING: usize = 500;
 
 /// What does the tasks of a command.
-pub struct OpenExecutor {
+pub struct TaskExecutor {
     device: OpenDevice,
     simulator: Simulator,
     queue: Option<QueueExecutor>,
     interrupt: Interrupt,
 }
 
-impl OpenExecutor {
+impl TaskExecutor {
     /// The workers, if they do the work, until a signal arrives; else the device. Notes on the progress of workers go
     /// to `note`.
     ///

@@ -6,7 +6,7 @@ use nbc_session::{Choice, CompileOptions, RUNS};
 
 /// The choice of a circuit in a file.
 #[derive(Args)]
-pub(super) struct CircuitArguments {
+pub(in crate::cli) struct CircuitArguments {
     /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one in the file]
     #[arg(long, value_name = "NAME")]
     circuit: Option<String>,
@@ -16,21 +16,21 @@ pub(super) struct CircuitArguments {
 }
 
 impl CircuitArguments {
-    pub(super) fn choice(&self) -> Choice {
+    pub(in crate::cli) fn choice(&self) -> Choice {
         Choice { circuit: self.circuit.clone(), swarm: self.swarm.clone() }
     }
 }
 
 /// The place of evolution runs.
 #[derive(Args)]
-pub(super) struct RunsArguments {
+pub(in crate::cli) struct RunsArguments {
     /// The folder of evolution runs; `library { from: NAME }` reads robots from `NAME/robots` in it
     #[arg(long, value_name = "DIR", default_value = RUNS)]
     runs: String,
 }
 
 impl RunsArguments {
-    pub(super) fn options(&self) -> CompileOptions {
+    pub(in crate::cli) fn options(&self) -> CompileOptions {
         CompileOptions { runs: self.runs.clone(), ..CompileOptions::default() }
     }
 }

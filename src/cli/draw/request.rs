@@ -4,9 +4,9 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use crate::cli::Failure;
-use crate::cli::program::{CircuitArguments, RunsArguments};
+use crate::cli::draw::wording::DrawError;
+use crate::cli::options::circuit::{CircuitArguments, RunsArguments};
 use crate::cli::robots::behavior;
-use crate::cli::wording::DrawError;
 use nbc_base::model::{Behavior, CYCLE_STEPS, Schedule};
 use nbc_session::read_schedule;
 use nbc_session::report::{FRAMES_PER_CYCLE, Scheme};
@@ -16,7 +16,7 @@ const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
 
 /// The arguments of all kinds of pictures.
 #[derive(Args)]
-pub struct Order {
+pub struct DrawRequest {
     /// A file with a body, a robot of the library, a folder of robot files, `shipped`, the folder of a run, or a source
     /// file (.nb)
     pub(super) what: String,
@@ -51,7 +51,7 @@ pub struct Order {
     pub(super) safe_colors: bool,
 }
 
-impl Order {
+impl DrawRequest {
     pub(super) fn scheme(&self) -> Scheme {
         if self.safe_colors { Scheme::Safe } else { Scheme::Paper }
     }

@@ -1,14 +1,19 @@
-//! What the commands with `--nats` share: a server, and workers there.
+//! Work on several machines: `nbc worker`, `nbc workers`, and the server and workers of other commands with `--nats`.
+
+mod worker;
+mod workers;
 
 use std::io::{self, Write};
 
 use clap::Args;
 use nbc_cluster::{NatsServer, QueueOptions};
 
-use crate::cli::queue::{NatsAccess, QueueArguments};
+use crate::cli::options::queue::{NatsAccess, QueueArguments};
 use crate::cli::{Failure, Interrupt};
 
 pub use nbc_cluster::QueueExecutor;
+pub use worker::WorkerArguments;
+pub use workers::WorkersArguments;
 
 /// The server.
 #[derive(Args, Clone, Debug)]

@@ -1,4 +1,4 @@
-//! One robot to be drawn.
+//! NamedBody robot to be drawn.
 
 use nbc_base::model::{Body, Robot};
 

@@ -13,7 +13,7 @@ use nbc_session::store;
 
 /// The available cells and the options of mapping.
 #[derive(Args)]
-pub(super) struct MappingArguments {
+pub(in crate::cli) struct MappingArguments {
     /// The functions of the cells, such as `nand,not`, or `all`; by default those of the built-in robots
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
     cells: Vec<String>,
@@ -26,7 +26,7 @@ pub(super) struct MappingArguments {
 
 /// The goal of mapping.
 #[derive(Args)]
-pub(super) struct GoalArguments {
+pub(in crate::cli) struct GoalArguments {
     /// What to optimize; of several robots for a function, the one that suits it best is used
     #[arg(long, value_enum, default_value_t)]
     objective: ObjectiveWord,
@@ -37,12 +37,12 @@ pub(super) struct GoalArguments {
 
 impl GoalArguments {
     /// How to map.
-    pub(super) fn options(&self) -> MapOptions {
+    pub(in crate::cli) fn options(&self) -> MapOptions {
         MapOptions { objective: self.objective.into(), effort: self.effort.into(), ..MapOptions::default() }
     }
 
     /// These options with the goal.
-    pub(super) fn with(&self, options: CompileOptions) -> CompileOptions {
+    pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
         let MapOptions { objective, effort, .. } = self.options();
         CompileOptions { objective, effort, ..options }
     }
@@ -50,7 +50,7 @@ impl GoalArguments {
 
 impl MappingArguments {
     /// The library that the user chose, else that of the built-in robots.
-    pub(super) fn library(&self) -> Result<CellLibrary, Failure> {
+    pub(in crate::cli) fn library(&self) -> Result<CellLibrary, Failure> {
         Ok(self.chosen()?.unwrap_or_else(|| self.cells_of(store::shipped_library())))
     }
 
@@ -59,7 +59,7 @@ impl MappingArguments {
     }
 
     /// The library that the user chose.
-    pub(super) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
+    pub(in crate::cli) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
         Ok(Some(match (&self.library, &self.cells[..]) {
             (Some(path), _) => self.cells_of(robots::robots_of(path)?),
             (None, []) => return Ok(None),
@@ -71,12 +71,12 @@ impl MappingArguments {
     }
 
     /// How to map.
-    pub(super) fn options(&self) -> MapOptions {
+    pub(in crate::cli) fn options(&self) -> MapOptions {
         self.goal.options()
     }
 
     /// These options with the goal.
-    pub(super) fn with(&self, options: CompileOptions) -> CompileOptions {
+    pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
         self.goal.with(options)
     }
 }
@@ -124,7 +124,7 @@ impl From<EffortWord> for Effort {
 }
 
 /// The functions of these names.
-pub(super) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
+pub(in crate::cli) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
     let parse = |name: &String| {
         Function::parse(name.trim()).ok_or_else(|| {
             UsageError::UnknownFunction { name: name.clone(), known: Function::all().map(Function::name).collect() }

@@ -1,8 +1,8 @@
 //! The chosen device, opened.
 
-use crate::cli::device::DeviceChoice;
 use crate::cli::gpu::speed::{DeviceFigures, measure};
-use crate::cli::wording::{DeviceFailure, DeviceWarning};
+use crate::cli::gpu::wording::{DeviceFailure, DeviceWarning};
+use crate::cli::options::device::DeviceChoice;
 use crate::cli::{Context, Failure};
 use nbc_base::source::Sources;
 use nbc_sim::{DeviceError, DeviceKind, LaneBackend, OpenClBackend, OpenClDevice, Simulator};

@@ -1,6 +1,6 @@
 //! `--timings`: where the time of a command goes.
 //!
-//! Simulation counts its parts in a [`Meter`]; what a command does itself is counted by its [`Timer`].
+//! A [`Meter`] counts the time of simulations, a [`Timer`] that of the other stages of a command.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -20,15 +20,15 @@ pub struct Timings {
     timings: bool,
 }
 
-/// What a command does besides simulating.
+/// A stage of a command besides simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Chore {
+pub enum TimedStage {
     Development,
     Archive,
     Output,
 }
 
-impl Chore {
+impl TimedStage {
     const ALL: [Self; 3] = [Self::Development, Self::Archive, Self::Output];
 
     fn name(self) -> &'static str {
@@ -46,7 +46,7 @@ pub struct Timer {
     meter: Option<Arc<Meter>>,
     started: Instant,
     /// Nanoseconds of all threads.
-    chores: [AtomicU64; Chore::ALL.len()],
+    stages: [AtomicU64; TimedStage::ALL.len()],
 }
 
 /// A meter that reads the clock of this machine.
@@ -58,7 +58,7 @@ pub fn meter() -> Arc<Meter> {
 impl Timings {
     /// A timer that starts now.
     pub fn start(self) -> Timer {
-        Timer { meter: self.timings.then(meter), started: Instant::now(), chores: Default::default() }
+        Timer { meter: self.timings.then(meter), started: Instant::now(), stages: Default::default() }
     }
 }
 
@@ -69,23 +69,23 @@ impl Timer {
     }
 
     /// Does some work and counts its time.
-    pub fn time<T>(&self, chore: Chore, work: impl FnOnce() -> T) -> T {
+    pub fn time<T>(&self, stage: TimedStage, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
         let result = work();
-        self.chores[chore as usize].fetch_add(started.elapsed().as_nanos() as u64, Ordering::Relaxed);
+        self.stages[stage as usize].fetch_add(started.elapsed().as_nanos() as u64, Ordering::Relaxed);
         result
     }
 
-    /// Seconds counted for a chore so far.
-    fn seconds(&self, chore: Chore) -> f64 {
-        self.chores[chore as usize].load(Ordering::Relaxed) as f64 / 1e9
+    /// Seconds counted for a stage so far.
+    fn seconds(&self, stage: TimedStage) -> f64 {
+        self.stages[stage as usize].load(Ordering::Relaxed) as f64 / 1e9
     }
 
     /// Prints the times to standard error, if they are requested.
     pub fn report(&self, context: &Context) {
         if let Some(meter) = &self.meter {
-            let chores = Chore::ALL.map(|chore| self.seconds(chore));
-            context.log(&describe(&meter.times(), chores, self.started.elapsed().as_secs_f64()));
+            let stages = TimedStage::ALL.map(|stage| self.seconds(stage));
+            context.log(&describe(&meter.times(), stages, self.started.elapsed().as_secs_f64()));
         }
     }
 }
@@ -96,12 +96,12 @@ pub fn part_seconds(times: &Times) -> [f64; Part::ALL.len()] {
 }
 
 /// The times as a table, and the speed of simulation.
-fn describe(times: &Times, chores: [f64; Chore::ALL.len()], elapsed: f64) -> String {
+fn describe(times: &Times, stages: [f64; TimedStage::ALL.len()], elapsed: f64) -> String {
     let mut table = TextTable::new(&[("stage", Align::Left), ("seconds", Align::Right), ("share", Align::Right)]);
     let parts = part_seconds(times);
-    let names = Part::ALL.map(Part::name).into_iter().chain(Chore::ALL.map(Chore::name));
-    let (simulated, all) = (parts.iter().sum::<f64>(), parts.iter().chain(&chores).sum::<f64>());
-    for (name, seconds) in names.zip(parts.into_iter().chain(chores)).filter(|(_, seconds)| *seconds > 0.0) {
+    let names = Part::ALL.map(Part::name).into_iter().chain(TimedStage::ALL.map(TimedStage::name));
+    let (simulated, all) = (parts.iter().sum::<f64>(), parts.iter().chain(&stages).sum::<f64>());
+    for (name, seconds) in names.zip(parts.into_iter().chain(stages)).filter(|(_, seconds)| *seconds > 0.0) {
         table.push(vec![name.to_owned(), format!("{seconds:.3}"), format!("{:.1} %", 100.0 * seconds / all)]);
     }
     let speed = |seconds: f64| format!("{:.0}k", times.lane_substeps as f64 / seconds.max(1e-9) / 1e3);

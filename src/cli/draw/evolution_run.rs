@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::cli::draw::robot::TitledBody;
-use crate::cli::draw::several::{One, Several};
-use crate::cli::run_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
-use crate::cli::wording::{DrawError, RunWarning};
+use crate::cli::draw::titled_body::TitledBody;
+use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
+use crate::cli::draw::wording::DrawError;
+use crate::cli::evolution_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
+use crate::cli::evolve::wording::ProgressGaps;
 use crate::cli::{Context, Failure};
 use nbc_base::model::Behavior;
 use nbc_base::source::Sources;
@@ -29,7 +30,7 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
         let history = History::read(&text, checkpoint.state.generation);
         let damage = history.damage().map(|damage| {
             let path = progress.display().to_string();
-            RunWarning::GapsInCurves { path, damage }.into()
+            ProgressGaps::InCurves { path, damage }.into()
         });
         context.tell(&Vec::from_iter(damage), &Sources::default());
         let run = SeedRun { niches: checkpoint.state.niches, progress: history.lines().collect() };
@@ -58,26 +59,26 @@ pub(super) fn champion(results: &EvolutionResults, behavior: Behavior) -> Option
 }
 
 /// The champions of every seed, by behavior.
-pub(super) fn each_champion(results: &EvolutionResults) -> Several {
+pub(super) fn each_champion(results: &EvolutionResults) -> TitledRobots {
     let one = |behavior: Behavior| {
         results.runs.iter().filter_map(move |(seed, run)| {
             let body = run.champion(behavior)?.body.clone();
-            Some(One { behavior, name: format!("seed {seed}"), body })
+            Some(NamedBody { behavior, name: format!("seed {seed}"), body })
         })
     };
     let title = match results.runs.len() {
         1 => format!("{}: the champion of each behavior", results.name),
         seeds => format!("{}: the champions of {seeds} seeds by behavior", results.name),
     };
-    Several { title, robots: Behavior::all().flat_map(one).collect() }
+    TitledRobots { title, robots: Behavior::all().flat_map(one).collect() }
 }
 
 /// The best of each behavior over all seeds.
-pub(super) fn best_champions(results: &EvolutionResults) -> Several {
+pub(super) fn best_champions(results: &EvolutionResults) -> TitledRobots {
     let one = |behavior: Behavior| {
         let body = results.champion(behavior)?.body.clone();
-        Some(One { behavior, name: behavior.function().to_string(), body })
+        Some(NamedBody { behavior, name: behavior.function().to_string(), body })
     };
     let robots = Behavior::all().filter_map(one).collect();
-    Several { title: format!("{}: the champion of each behavior", results.name), robots }
+    TitledRobots { title: format!("{}: the champion of each behavior", results.name), robots }
 }
