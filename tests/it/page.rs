@@ -12,7 +12,7 @@ use nbc_base::model::{
 };
 use nbc_base::source::{FileId, Span};
 use nbc_session::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
-use nbc_swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace, TestVerdict, judge_swarm};
+use nbc_swarm::{Assembly, Level, Member, Recorded, Recording, RowHold, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
 use crate::cli::Bench;
@@ -72,8 +72,8 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         row: 1 + at,
     };
     let rows: Vec<TestRow> = [false, true, true].into_iter().enumerate().map(row).collect();
-    let demands = vec![Demand { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];
-    let rows = judge_swarm(&test, &rows, &demands, trace, &[4; 5]);
+    let row_holds = vec![RowHold { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];
+    let rows = judge_swarm(&test, &rows, &row_holds, trace, &[4; 5]);
     TestVerdict {
         file: test.file,
         line: test.line,

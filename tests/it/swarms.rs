@@ -10,7 +10,7 @@ use nbc_session::SwarmRun;
 use nbc_session::report::{Stage, describe_test};
 use nbc_session::store::shipped_library;
 use nbc_sim::Simulator;
-use nbc_swarm::{Assembly, Exposure, Member, Recording, Room, StimulusSource, SwarmTrace, simulate};
+use nbc_swarm::{Assembly, Member, Recording, Room, StimulusSource, SwarmConditions, SwarmTrace, simulate};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -95,8 +95,8 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let (outputs, shown) = (vec![crate::pictures::port("y")], vec![StimulusSource::Robot(0)]);
     let (inputs, world) = (Vec::new(), PhysicsWorld::default());
     let assembly = Assembly { circuit: "one".to_owned(), inputs, members: vec![member], outputs, shown, world };
-    let exposure = Exposure { inputs: vec![Vec::new(); 80], window: 1, poses: None };
-    let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
+    let conditions = SwarmConditions { inputs: vec![Vec::new(); 80], window: 1, poses: None };
+    let trace = simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {});
     let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
     assert!(walked > 250.0, "{walked}: not as far as the paper's ground reaches");
     assert!(trace.cycles.iter().all(|cycle| cycle.bits[0]));
@@ -122,8 +122,8 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
         world: PhysicsWorld::default(),
     };
     let run = |poses| {
-        let exposure = Exposure { inputs: vec![Vec::new(); 3], window: 1, poses };
-        simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {})
+        let conditions = SwarmConditions { inputs: vec![Vec::new(); 3], window: 1, poses };
+        simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {})
     };
     let (plain, recorded) = (run(None), run(Some(Room::SWARM)));
     assert!(plain.recording.robots.is_empty());

@@ -6,7 +6,7 @@ use nbc::{
 };
 use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_session::report::Stage;
-use nbc_swarm::{Assembly, Exposure, Recording, Room, SwarmTrace, simulate};
+use nbc_swarm::{Assembly, Recording, Room, SwarmConditions, SwarmTrace, simulate};
 
 use crate::cli::Bench;
 use crate::limits::InTime;
@@ -112,7 +112,7 @@ fn noisy() -> Assembly {
 
 fn trace(assembly: &Assembly, poses: Option<Room>) -> SwarmTrace {
     let inputs = (0..12).map(|cycle| vec![cycle / 4 % 2 == 1, cycle % 2 == 1]).collect();
-    simulate(&Simulator::default(), assembly, &Exposure { inputs, window: 1, poses }, &mut |_| {})
+    simulate(&Simulator::default(), assembly, &SwarmConditions { inputs, window: 1, poses }, &mut |_| {})
 }
 
 #[test]

@@ -22,12 +22,12 @@ pub struct Delivery {
     handle: Handle,
     client: async_nats::Client,
     worker: String,
-    open: JoinSet<Delivered>,
+    open: JoinSet<DeliveryEnd>,
 }
 
 /// How a delivery ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Delivered {
+pub enum DeliveryEnd {
     /// The search has the result.
     Received,
     /// The search has ended, or cannot be reached.
@@ -48,21 +48,21 @@ impl Delivery {
         let (client, subject) = (self.client.clone(), answer_subject(&search, &self.worker));
         let deliver = async move {
             match deliver(client, subject, bytes, acker).await {
-                None => Delivered::Unwanted { search },
-                Some(AnswerReply::Received) => Delivered::Received,
-                Some(reply) => Delivered::Rejected(reply),
+                None => DeliveryEnd::Unwanted { search },
+                Some(AnswerReply::Received) => DeliveryEnd::Received,
+                Some(reply) => DeliveryEnd::Rejected(reply),
             }
         };
         self.open.spawn_on(deliver, &self.handle);
     }
 
     /// The deliveries that have ended since the last call.
-    pub fn finished(&mut self) -> Vec<Delivered> {
+    pub fn finished(&mut self) -> Vec<DeliveryEnd> {
         std::iter::from_fn(|| self.open.try_join_next()).flatten().collect()
     }
 
     /// Waits for the others, at most for some time.
-    pub async fn finish(&mut self, most: Duration) -> Vec<Delivered> {
+    pub async fn finish(&mut self, most: Duration) -> Vec<DeliveryEnd> {
         let mut ended = Vec::new();
         let end = time::Instant::now() + most;
         while let Ok(Some(one)) = time::timeout_at(end, self.open.join_next()).await {

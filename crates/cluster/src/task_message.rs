@@ -233,12 +233,12 @@ impl SwarmRecord {
                 start: member.start,
             });
         }
-        let inputs = &task.exposure.inputs;
+        let inputs = &task.conditions.inputs;
         Self {
             bodies: bodies.into_iter().map(BodyRecord::of).collect(),
             members,
             world: task.assembly.world,
-            window: task.exposure.window as u32,
+            window: task.conditions.window as u32,
             cycles: inputs.len() as u32,
             width: inputs.first().map_or(0, Vec::len) as u32,
             inputs: pack(inputs.iter().flatten().copied()),

@@ -10,7 +10,7 @@ use tokio::time;
 
 use crate::Log;
 use crate::connection::{Connection, reply_subject, worker_note_subject};
-use crate::delivery::{Delivered, Delivery};
+use crate::delivery::{Delivery, DeliveryEnd};
 use crate::message::{AnswerReply, WorkerNote, encode};
 use crate::physics::{PROGRAM, PhysicsId};
 use crate::wording::ClusterError;
@@ -64,16 +64,16 @@ impl WorkerState {
     ///
     /// # Errors
     /// When a search has rejected a result.
-    pub fn count(&self, ended: Vec<Delivered>) -> Result<(), ClusterError> {
+    pub fn count(&self, ended: Vec<DeliveryEnd>) -> Result<(), ClusterError> {
         for one in ended {
             match one {
-                Delivered::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
-                Delivered::Unwanted { search } => {
+                DeliveryEnd::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
+                DeliveryEnd::Unwanted { search } => {
                     let mut silent = self.silent.lock().unwrap_or_else(PoisonError::into_inner);
                     silent.retain(|_, since| since.elapsed() < SHUNNED);
                     silent.insert(search, Instant::now());
                 }
-                Delivered::Rejected(reply) => {
+                DeliveryEnd::Rejected(reply) => {
                     self.rejected.store(true, Ordering::Relaxed);
                     let reason = match reply {
                         AnswerReply::OtherPhysics => "its physics is different",

@@ -41,7 +41,7 @@ pub struct WorkerThread<'a> {
 }
 
 /// A task in the hands of a worker.
-struct Taken {
+struct OpenTask {
     message: TaskMessage,
     /// The name of the search.
     search: String,
@@ -88,7 +88,7 @@ impl<'a> WorkerThread<'a> {
     }
 
     /// Takes what waits, at most as many tasks as should be taken together; waits for one if there is none.
-    async fn fetch(&mut self) -> Result<Vec<Taken>, String> {
+    async fn fetch(&mut self) -> Result<Vec<OpenTask>, String> {
         let mut taken = Vec::new();
         let most = self.together;
         let waiting = self.queue.fetch().max_messages(most).messages().await.map_err(text)?;
@@ -106,7 +106,7 @@ impl<'a> WorkerThread<'a> {
     }
 
     /// Takes the tasks of a request, until it or this worker ends.
-    async fn take(&mut self, mut batch: Batch, taken: &mut Vec<Taken>) -> Result<(), String> {
+    async fn take(&mut self, mut batch: Batch, taken: &mut Vec<OpenTask>) -> Result<(), String> {
         // A server that dies does not end the request.
         let end = time::Instant::now() + REQUEST + PATIENCE;
         while time::Instant::now() < end && !(self.worker.is_ending() && taken.is_empty()) {
@@ -119,7 +119,7 @@ impl<'a> WorkerThread<'a> {
         Ok(())
     }
 
-    async fn accept(&mut self, message: Message, taken: &mut Vec<Taken>) {
+    async fn accept(&mut self, message: Message, taken: &mut Vec<OpenTask>) {
         let again = message.info().is_ok_and(|info| info.delivered > 1);
         self.worker.tally.redelivered.fetch_add(u64::from(again), Ordering::Relaxed);
         let (message, acker) = message.split();
@@ -127,7 +127,7 @@ impl<'a> WorkerThread<'a> {
         match (TaskMessage::decode(&message.payload), search) {
             (Ok(task), Some(search)) => {
                 self.together = task.together.clamp(1, TOGETHER).into();
-                taken.push(Taken { message: task, search: search.to_owned(), acker: Arc::new(acker) });
+                taken.push(OpenTask { message: task, search: search.to_owned(), acker: Arc::new(acker) });
             }
             // Nobody can do this task, or nobody wants it.
             _ => _ = acker.ack_with(AckKind::Term).await,
@@ -135,7 +135,7 @@ impl<'a> WorkerThread<'a> {
     }
 
     /// Does the tasks and starts to deliver the results.
-    fn perform(&mut self, taken: Vec<Taken>) {
+    fn perform(&mut self, taken: Vec<OpenTask>) {
         let ackers: Vec<Arc<Acker>> = taken.iter().map(|taken| Arc::clone(&taken.acker)).collect();
         let holding = self.worker.connection.runtime.spawn(hold(ackers));
         let tasks: Vec<Task> = taken.iter().map(|taken| taken.message.task.clone()).collect();

@@ -86,9 +86,9 @@ mod tests {
     use nbc_base::source::Sources;
 
     /// A fault's message and the text at its place.
-    type Told = (String, String);
+    type FaultAtPlace = (String, String);
 
-    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<Told>> {
+    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
         let mut sources = Sources::default();
         let id = sources.add("--schedule", text);
         let told = |spell: Spell| (spell.pattern.to_string(), spell.steps);

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
-use crate::robots::Supply;
+use crate::robots::RobotSources;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
@@ -120,13 +120,13 @@ impl Session {
         library: Option<&str>,
         options: &CompileOptions,
     ) -> Result<Library, Diagnostics> {
-        let robots = plan::robots(self.supply(checked), &checked.program, library, options);
+        let robots = plan::robots(self.sources(checked), &checked.program, library, options);
         let robots = robots.map_err(|faults| checked.fail(faults))?;
         Ok(nbc_swarm::prefer(robots, options.objective))
     }
 
-    fn supply<'a>(&'a self, checked: &'a Checked) -> Supply<'a> {
-        Supply { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
+    fn sources<'a>(&'a self, checked: &'a Checked) -> RobotSources<'a> {
+        RobotSources { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
     }
 
     /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
@@ -134,7 +134,7 @@ impl Session {
     /// # Errors
     /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let (cells, place) = (nbc_swarm::cells(&plan.library), checked.place(circuit));
         let mapping = compile::map(&checked.program, circuit, &cells, &options.mapping(), plan.registers, place);
@@ -152,7 +152,7 @@ impl Session {
         net: Span,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let mapping = compile::map_net(&checked.program, &plan, net, options.mapping());
         mapping.map_err(|faults| checked.fail(faults))
@@ -185,7 +185,7 @@ impl Session {
         circuit: &Instance,
         options: &CompileOptions,
     ) -> Result<Compiled, Diagnostics> {
-        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let compiled =
             plan.and_then(|plan| compile::compile(&checked.program, plan, &options.mapping(), checked.place(circuit)));
         compiled.map_err(|faults| checked.fail(faults))
@@ -202,7 +202,7 @@ impl Session {
         test: &'a CircuitTest,
         options: &TestOptions,
     ) -> Result<Vec<TestCase<'a>>, Diagnostics> {
-        test::cases(self.supply(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
+        test::cases(self.sources(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
     }
 
     /// Runs one case of a test.
@@ -221,7 +221,7 @@ impl Session {
         options: &CompileOptions,
         observer: &mut dyn Observer,
     ) -> Result<SimulationRun, Diagnostics> {
-        let compiled = simulation::compiled(self.supply(checked), &checked.program, simulation, options);
+        let compiled = simulation::compiled(self.sources(checked), &checked.program, simulation, options);
         let compiled = compiled.map_err(|faults| checked.fail(faults))?;
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }

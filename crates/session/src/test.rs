@@ -5,12 +5,12 @@ use crate::hold;
 use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan::plans;
-use crate::robots::Supply;
+use crate::robots::RobotSources;
 use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
-use nbc_swarm::{Demand, Level, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
+use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
 
 /// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
@@ -57,7 +57,7 @@ pub struct TestCase<'a> {
 #[derive(Clone, Debug)]
 enum Subject {
     Gates(Netlist),
-    Robots(Box<Compiled>, Vec<Demand>),
+    Robots(Box<Compiled>, Vec<RowHold>),
 }
 
 /// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
@@ -65,7 +65,7 @@ enum Subject {
 /// # Errors
 /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
 pub(super) fn cases<'a>(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     test: &'a CircuitTest,
     options: &TestOptions,
@@ -78,15 +78,15 @@ pub(super) fn cases<'a>(
         return Ok(vec![case(Subject::Gates(netlist))]);
     }
     let mut cases = Vec::new();
-    for mut plan in plans(supply, program, &test.circuit, &options.compile)? {
+    for mut plan in plans(sources, program, &test.circuit, &options.compile)? {
         plan.world = test.world.unwrap_or(plan.world);
         let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
         }
-        let demands = hold::demands(&rows, &netlist, &compiled);
-        compiled.warnings.extend(short_holds(program, test, &rows, &demands, &compiled));
-        cases.push(case(Subject::Robots(Box::new(compiled), demands)));
+        let row_holds = hold::row_holds(&rows, &netlist, &compiled);
+        compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
+        cases.push(case(Subject::Robots(Box::new(compiled), row_holds)));
     }
     Ok(cases)
 }
@@ -96,7 +96,7 @@ fn short_holds(
     program: &Program,
     test: &CircuitTest,
     own: &[TestRow],
-    demands: &[Demand],
+    row_holds: &[RowHold],
     compiled: &Compiled,
 ) -> Vec<Diagnostic> {
     let sufficient = || {
@@ -105,7 +105,7 @@ fn short_holds(
         let cycles = others.map(|rows| hold::sufficient(&rows, compiled));
         cycles.fold(hold::sufficient(own, compiled), usize::max)
     };
-    hold::warnings(test, own, demands, compiled, sufficient)
+    hold::warnings(test, own, row_holds, compiled, sufficient)
 }
 
 impl TestRun {
@@ -126,15 +126,15 @@ impl TestCase<'_> {
     pub fn work(&self) -> u64 {
         match &self.subject {
             Subject::Gates(_) => self.rows.len() as u64,
-            Subject::Robots(..) => self.demands().iter().map(|demand| demand.hold as u64).sum(),
+            Subject::Robots(..) => self.row_holds().iter().map(|row_hold| row_hold.hold as u64).sum(),
         }
     }
 
     /// The hold of each row in physics; empty at the level of logic.
-    pub fn demands(&self) -> &[Demand] {
+    pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
             Subject::Gates(_) => &[],
-            Subject::Robots(_, demands) => demands,
+            Subject::Robots(_, row_holds) => row_holds,
         }
     }
 
@@ -150,9 +150,9 @@ impl TestCase<'_> {
     pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
         match self.subject {
             Subject::Gates(_) => None,
-            Subject::Robots(compiled, demands) => {
-                let rows = self.rows.iter().zip(&demands).take(rows);
-                let held = rows.flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+            Subject::Robots(compiled, row_holds) => {
+                let rows = self.rows.iter().zip(&row_holds).take(rows);
+                let held = rows.flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold));
                 Some((*compiled, held.collect()))
             }
         }
@@ -170,7 +170,9 @@ impl TestCase<'_> {
     pub fn trial_in(&self, world: PhysicsWorld) -> Self {
         let subject = match &self.subject {
             Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
-            Subject::Robots(compiled, demands) => Subject::Robots(Box::new(compiled.in_world(world)), demands.clone()),
+            Subject::Robots(compiled, row_holds) => {
+                Subject::Robots(Box::new(compiled.in_world(world)), row_holds.clone())
+            }
         };
         Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true }
     }
@@ -192,8 +194,8 @@ impl TestCase<'_> {
     pub fn task(&self) -> Option<SwarmTask> {
         match &self.subject {
             Subject::Gates(_) => None,
-            Subject::Robots(compiled, demands) => {
-                let inputs = inputs(&self.rows, demands);
+            Subject::Robots(compiled, row_holds) => {
+                let inputs = inputs(&self.rows, row_holds);
                 Some(SwarmTask::of(&compiled.assembly, inputs, compiled.plan.window as usize))
             }
         }
@@ -204,11 +206,11 @@ impl TestCase<'_> {
     /// # Panics
     /// When the bits belong to another swarm, or the test has none.
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
-        let Subject::Robots(compiled, demands) = self.subject else { panic!("a test in physics") };
-        let inputs = inputs(&self.rows, &demands);
+        let Subject::Robots(compiled, row_holds) = self.subject else { panic!("a test in physics") };
+        let inputs = inputs(&self.rows, &row_holds);
         let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
         let trace = bits.trace(&compiled.assembly, &inputs);
-        let (verdict, warnings) = judged(self.test, &self.rows, &demands, &compiled, &trace, end);
+        let (verdict, warnings) = judged(self.test, &self.rows, &row_holds, &compiled, &trace, end);
         TestRun { verdict, end, swarm: None, hold: None, warnings }
     }
 
@@ -221,14 +223,14 @@ impl TestCase<'_> {
                 let verdict = verdict(self.test, Level::Logic, None, rows);
                 TestRun { verdict, end: RunEnd::Complete, swarm: None, hold: None, warnings: Vec::new() }
             }
-            Subject::Robots(compiled, ref demands) => {
+            Subject::Robots(compiled, ref row_holds) => {
                 let Self { test, ref rows, ends_at_failure, .. } = self;
-                let inputs = inputs(rows, demands);
+                let inputs = inputs(rows, row_holds);
                 let swarm = physics.swarm(&compiled, inputs.len());
-                let mut has_failed = has_failed(test, rows, demands);
+                let mut has_failed = has_failed(test, rows, row_holds);
                 let mut is_enough = |trace: &SwarmTrace| ends_at_failure && has_failed(trace);
                 let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
-                let (verdict, warnings) = judged(test, rows, demands, &compiled, &trace, end);
+                let (verdict, warnings) = judged(test, rows, row_holds, &compiled, &trace, end);
                 let hold = Some(hold::sufficient(rows, &compiled));
                 TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), hold, warnings }
             }
@@ -240,22 +242,23 @@ impl TestCase<'_> {
 fn has_failed<'a>(
     test: &'a CircuitTest,
     rows: &'a [TestRow],
-    demands: &'a [Demand],
+    row_holds: &'a [RowHold],
 ) -> impl FnMut(&SwarmTrace) -> bool + 'a {
-    let ends = demands.iter().scan(0, |end, demand| {
-        *end += demand.hold;
+    let ends = row_holds.iter().scan(0, |end, row_hold| {
+        *end += row_hold.hold;
         Some(*end)
     });
-    let mut left = ends.zip(rows.iter().zip(demands)).peekable();
+    let mut left = ends.zip(rows.iter().zip(row_holds)).peekable();
     move |trace| {
         let row = left.next_if(|(end, _)| *end == trace.cycles.len());
-        row.is_some_and(|(_, (row, demand))| !nbc_swarm::passes(test, row, demand, trace))
+        row.is_some_and(|(_, (row, row_hold))| !nbc_swarm::passes(test, row, row_hold, trace))
     }
 }
 
 /// The input bits of each cycle.
-fn inputs(rows: &[TestRow], demands: &[Demand]) -> Vec<Vec<bool>> {
-    let held = rows.iter().zip(demands).flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold));
+fn inputs(rows: &[TestRow], row_holds: &[RowHold]) -> Vec<Vec<bool>> {
+    let held =
+        rows.iter().zip(row_holds).flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold));
     held.collect()
 }
 
@@ -263,13 +266,13 @@ fn inputs(rows: &[TestRow], demands: &[Demand]) -> Vec<Vec<bool>> {
 fn judged(
     test: &CircuitTest,
     rows: &[TestRow],
-    demands: &[Demand],
+    row_holds: &[RowHold],
     compiled: &Compiled,
     trace: &SwarmTrace,
     end: RunEnd,
 ) -> (TestVerdict, Vec<Diagnostic>) {
     let warnings = compiled.warnings.clone();
-    let judged = nbc_swarm::judge_swarm(test, rows, demands, trace, &clocks(compiled));
+    let judged = nbc_swarm::judge_swarm(test, rows, row_holds, trace, &clocks(compiled));
     let mut verdict = verdict(test, Level::Physics, Some(compiled), judged);
     verdict.passed &= end == RunEnd::Complete;
     (verdict, warnings)

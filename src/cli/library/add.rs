@@ -19,7 +19,7 @@ use nbc_base::model::{Behavior, Provenance, Robot};
 use nbc_session::report::{Answer, Schema};
 use nbc_session::store::{self, Checkpoint, ResultPlace};
 use nbc_swarm::evolve::Elite;
-use nbc_swarm::{Nominee, Selected, Selection};
+use nbc_swarm::{RobotCandidate, Selected, Selection};
 
 /// Measure the best gates of evolution runs and write them as robot files
 #[derive(Args)]
@@ -72,11 +72,11 @@ impl AddArguments {
         let asked = self.asked(&selection)?;
         let into = ResultPlace::new(Some(&self.into), &self.into, "");
         into.probe().map_err(|error| Failure::unwritable(&self.into, &error))?;
-        let work = asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum();
+        let work = asked.iter().map(|(_, candidates)| selection.cost(candidates.len())).sum();
         let bar = Arc::new(Progress::new("measuring", work));
         let tasks = TaskExecutor::choose(self.device, &self.queue, &bar, context)?;
-        let select = |place: usize, (behavior, nominees): &(Behavior, Vec<Nominee>)| {
-            (*behavior, selection.select(tasks.executor(), place, *behavior, nominees, &|more| bar.add(more)))
+        let select = |place: usize, (behavior, candidates): &(Behavior, Vec<RobotCandidate>)| {
+            (*behavior, selection.select(tasks.executor(), place, *behavior, candidates, &|more| bar.add(more)))
         };
         let mut answers = Vec::new();
         let mut tell = |(behavior, selected): (Behavior, Option<Selected>)| {
@@ -131,20 +131,20 @@ impl AddArguments {
     }
 
     /// The requested behaviors, in order of their functions' bits, with the elites to screen.
-    fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<Nominee>)>, Failure> {
+    fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<RobotCandidate>)>, Failure> {
         let is_asked = |behavior: &Behavior| self.behavior.is_empty() || self.behavior.contains(behavior);
-        let mut nominees: BTreeMap<Behavior, Vec<Nominee>> =
+        let mut candidates: BTreeMap<Behavior, Vec<RobotCandidate>> =
             Behavior::all().filter(is_asked).map(|behavior| (behavior, Vec::new())).collect();
         for path in self.checkpoints()? {
             let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
             for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
-                if let Some(found) = nominees.get_mut(&elite.behavior) {
-                    found.push(Nominee { elite: elite.clone(), provenance: provenance(&checkpoint, elite) });
+                if let Some(found) = candidates.get_mut(&elite.behavior) {
+                    found.push(RobotCandidate { elite: elite.clone(), provenance: provenance(&checkpoint, elite) });
                 }
             }
         }
         let mut asked: Vec<_> =
-            nominees.into_iter().map(|(behavior, found)| (behavior, selection.nominate(found))).collect();
+            candidates.into_iter().map(|(behavior, found)| (behavior, selection.candidates_of(found))).collect();
         asked.sort_by_key(|(behavior, _)| behavior.function());
         Ok(asked)
     }

@@ -3,13 +3,13 @@
 mod access;
 mod answers;
 mod commands;
-mod crowd;
+mod fake_workers;
 mod kills;
 mod listing;
+mod many_workers;
 mod outages;
 mod recipes;
 mod server;
-mod stand_ins;
 mod wire;
 
 use std::collections::BTreeMap;

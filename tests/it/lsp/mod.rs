@@ -8,7 +8,7 @@ mod latency;
 mod protocol;
 mod renaming;
 mod runs;
-mod typist;
+mod typing_client;
 #[cfg(target_os = "linux")]
 mod verilog;
 mod views;

@@ -4,7 +4,7 @@ use crate::cli::Failure;
 use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording::DrawError;
-use nbc_session::report::{self, EvolutionResults, Terrain, axis_word};
+use nbc_session::report::{self, ArchiveMap, EvolutionResults, axis_word};
 use nbc_swarm::evolve::NicheKey;
 
 pub(super) struct HeatmapPicture;
@@ -30,9 +30,9 @@ impl PictureKind for HeatmapPicture {
         let [x, y] = axes(results, &request.axes)?;
         let best = results.best();
         let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
-        let terrain = Terrain { unit: results.unit(), axes: &results.axes, niches: &niches };
+        let archive_map = ArchiveMap { unit: results.unit(), axes: &results.axes, niches: &niches };
         let title = format!("{}: the best of each niche", results.name);
-        Ok(Drawing::Picture(report::draw_heatmap(&title, &terrain, x, y)))
+        Ok(Drawing::Picture(report::draw_heatmap(&title, &archive_map, x, y)))
     }
 }
 

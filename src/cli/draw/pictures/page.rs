@@ -9,7 +9,7 @@ use crate::cli::draw::pictures::spacetime::champions;
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::runs::run_page as swarm_page;
 use nbc_base::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
-use nbc_session::report::{self, EvolutionResults, Plate, Scheme};
+use nbc_session::report::{self, EvolutionResults, PageFigure, Scheme};
 use nbc_swarm::Room;
 
 pub(super) struct PagePicture;
@@ -48,13 +48,13 @@ impl PictureKind for PagePicture {
 pub(in crate::cli) fn run_page(results: &EvolutionResults, scheme: Scheme) -> String {
     let spell = |pattern| Spell { pattern, steps: 10 * CYCLE_STEPS };
     let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
-    let plate = |heading: &str, drawing| Plate { heading: heading.to_owned(), drawing };
-    let mut plates = vec![
-        plate("Progress", progress(results)),
-        plate("Champions in space and time", champions(&each_champion(results), &schedule)),
+    let figure = |heading: &str, drawing| PageFigure { heading: heading.to_owned(), drawing };
+    let mut figures = vec![
+        figure("Progress", progress(results)),
+        figure("Champions in space and time", champions(&each_champion(results), &schedule)),
     ];
     if results.objective == SearchObjective::Distance {
-        plates.push(plate("Groups of behaviors", comparison(results)));
+        figures.push(figure("Groups of behaviors", comparison(results)));
     }
-    report::draw_evolution_page(results, &plates, scheme)
+    report::draw_evolution_page(results, &figures, scheme)
 }

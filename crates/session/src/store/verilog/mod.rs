@@ -4,8 +4,8 @@
 //! text that was preprocessed and judged here, in a folder of its own, with little time and memory, and ends with its
 //! asker.
 
+mod checker;
 mod conditions;
-mod judge;
 mod listing;
 mod macros;
 mod process;

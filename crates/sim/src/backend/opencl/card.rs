@@ -194,7 +194,8 @@ impl Card {
             let kernel = &handles.kernels[&capacity].0;
             let (items, of_group) = ([groups * group], [group]);
             // SAFETY: the arguments are those of the kernel, in its order, and both sizes have one dimension. The
-            // kernel stays within the buffers, because `Fleet` makes the lists and the buffers from the same plans.
+            // kernel stays within the buffers, because `DeviceRuns` makes the lists and the buffers from the same
+            // plans.
             let event = unsafe {
                 kernel.set_arg(0, robots.buffer())?;
                 kernel.set_arg(1, bodies.buffer())?;

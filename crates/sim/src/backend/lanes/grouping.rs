@@ -1,4 +1,4 @@
-//! The cheapest division of a flock into squads, which share batches. It does not affect results.
+//! The cheapest division of a flock into groups, which share batches. It does not affect results.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -17,17 +17,17 @@ pub struct LaneRequest {
 
 /// A division of a flock.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Formation {
-    /// The robots of each squad, the most costly squad first.
-    pub squads: Vec<Vec<usize>>,
-    /// The cost of a substep of all squads, in the unit of [`Kernel::cost`].
+pub struct LaneGrouping {
+    /// The robots of each group, the most costly group first.
+    pub groups: Vec<Vec<usize>>,
+    /// The cost of a substep of all groups, in the unit of [`Kernel::cost`].
     pub cost: u64,
 }
 
-impl Formation {
-    /// The best division into squads of at most `lanes` robots.
+impl LaneGrouping {
+    /// The best division into groups of at most `lanes` robots.
     ///
-    /// Robots are sorted by box, large ones first, and within a box rare bodies before frequent ones; squads are
+    /// Robots are sorted by box, large ones first, and within a box rare bodies before frequent ones; groups are
     /// consecutive robots. So lanes next to large robots go to unique bodies, and equal bodies stay together, which is
     /// faster.
     pub fn of(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> Self {
@@ -42,20 +42,20 @@ impl Formation {
         });
         let ordered: Vec<LaneRequest> = order.iter().map(|&i| robots[i]).collect();
         let (cuts, cost) = divide(&ordered, kernel, lanes);
-        let mut squads: Vec<(u64, Vec<usize>)> =
-            cuts.into_iter().map(|squad| (cost_of(&ordered[squad.clone()], kernel), order[squad].to_vec())).collect();
-        squads.sort_by_key(|(cost, _)| Reverse(*cost));
-        Self { squads: squads.into_iter().map(|(_, squad)| squad).collect(), cost }
+        let mut groups: Vec<(u64, Vec<usize>)> =
+            cuts.into_iter().map(|group| (cost_of(&ordered[group.clone()], kernel), order[group].to_vec())).collect();
+        groups.sort_by_key(|(cost, _)| Reverse(*cost));
+        Self { groups: groups.into_iter().map(|(_, group)| group).collect(), cost }
     }
 }
 
-/// The cheapest division of a sequence of robots into squads, and its cost, by dynamic programming over prefixes.
+/// The cheapest division of a sequence of robots into groups, and its cost, by dynamic programming over prefixes.
 fn divide(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> (Vec<Range<usize>>, u64) {
     let mut best: Vec<(u64, usize)> = vec![(0, 0)];
     for end in 1..=robots.len() {
-        let squads = end.saturating_sub(lanes)..end;
-        let found = squads.map(|start| (best[start].0 + cost_of(&robots[start..end], kernel), start)).min();
-        best.push(found.expect("a squad has a robot at least"));
+        let groups = end.saturating_sub(lanes)..end;
+        let found = groups.map(|start| (best[start].0 + cost_of(&robots[start..end], kernel), start)).min();
+        best.push(found.expect("a group has a robot at least"));
     }
     let (mut cuts, mut end) = (Vec::new(), robots.len());
     while end > 0 {
@@ -82,13 +82,13 @@ mod tests {
         let robots: Vec<LaneRequest> =
             robots.iter().map(|&(side, body)| LaneRequest { size: (side, side), body }).collect();
         let kernel = Kernel::of(InstructionSet::Avx512, 8);
-        assert_eq!(Formation::of(&robots, kernel, lanes).squads, expected);
+        assert_eq!(LaneGrouping::of(&robots, kernel, lanes).groups, expected);
     }
 
     #[test]
     fn equal_bodies_stay_together_and_the_large_robots_lanes_are_filled_with_the_others() {
-        let roster = [vec![(5, 0); 8], vec![(7, 1), (7, 2), (7, 3), (5, 4), (5, 5)]].concat();
-        check(&roster, 8, &[&[8, 9, 10, 11, 12], &[0, 1, 2, 3, 4, 5, 6, 7]]);
+        let robots = [vec![(5, 0); 8], vec![(7, 1), (7, 2), (7, 3), (5, 4), (5, 5)]].concat();
+        check(&robots, 8, &[&[8, 9, 10, 11, 12], &[0, 1, 2, 3, 4, 5, 6, 7]]);
     }
 
     #[test]

@@ -17,25 +17,25 @@ const EVALUATION: Duration = Duration::from_millis(100);
 const WISH: &str = "{\"batch\":1,\"expires\":600000000000}";
 
 /// Stand-ins behind one connection.
-pub struct StandIns {
+pub struct FakeWorkers {
     /// Of their connection, which is in all names.
     number: usize,
     /// The part of subjects that names the physics.
     token: String,
     out: Mutex<TcpStream>,
-    sleeping: Mutex<VecDeque<Sleeping>>,
+    sleeping: Mutex<VecDeque<FakeTask>>,
     came: Condvar,
     answered: AtomicU64,
 }
 
 /// A task that is slept over.
-struct Sleeping {
+struct FakeTask {
     due: Instant,
     task: String,
     acknowledgment: String,
 }
 
-impl StandIns {
+impl FakeWorkers {
     /// Starts some. They work until the server ends.
     pub fn start(server: &Server, number: usize, workers: usize, token: &str) -> Arc<Self> {
         let stream = TcpStream::connect(("127.0.0.1", server.port())).unwrap();
@@ -76,7 +76,7 @@ impl StandIns {
                 ["MSG", task, "1", acknowledgment, size] => {
                     skip(&mut reader, size);
                     let (due, task) = (Instant::now() + EVALUATION, task.to_owned());
-                    let sleeping = Sleeping { due, task, acknowledgment: acknowledgment.to_owned() };
+                    let sleeping = FakeTask { due, task, acknowledgment: acknowledgment.to_owned() };
                     self.sleeping.lock().unwrap().push_back(sleeping);
                     self.came.notify_one();
                 }
@@ -96,9 +96,9 @@ impl StandIns {
     /// Answers each task when it has been slept over.
     fn answer(&self) {
         for count in 1_u64.. {
-            let none = |sleeping: &mut VecDeque<Sleeping>| sleeping.is_empty();
+            let none = |sleeping: &mut VecDeque<FakeTask>| sleeping.is_empty();
             let mut sleeping = self.came.wait_while(self.sleeping.lock().unwrap(), none).unwrap();
-            let Sleeping { due, task, acknowledgment } = sleeping.pop_front().unwrap();
+            let FakeTask { due, task, acknowledgment } = sleeping.pop_front().unwrap();
             drop(sleeping);
             thread::sleep(due.saturating_duration_since(Instant::now()));
             let payload = better(&task, count * 1000 + self.number as u64);

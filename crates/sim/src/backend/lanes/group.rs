@@ -11,7 +11,7 @@ use nbc_base::model::{Fault, FaultKind};
 
 /// Runs that share a batch, at most as many as the kernel has lanes.
 #[derive(Debug, Default)]
-pub struct Squad {
+pub struct LaneGroup {
     runs: Vec<Run>,
     /// The run in each lane of the batch.
     lanes: Vec<usize>,
@@ -20,13 +20,13 @@ pub struct Squad {
     targets: Vec<f64>,
 }
 
-impl Squad {
+impl LaneGroup {
     /// These runs.
     pub fn new(runs: Vec<Run>) -> Self {
         Self { runs, ..Self::default() }
     }
 
-    /// The runs. The points of those in a lane are read with [`Squad::state`].
+    /// The runs. The points of those in a lane are read with [`LaneGroup::state`].
     pub fn runs(&self) -> &[Run] {
         &self.runs
     }
@@ -36,7 +36,7 @@ impl Squad {
         &mut self.runs
     }
 
-    /// Takes the runs out of their lanes, and out of the squad.
+    /// Takes the runs out of their lanes, and out of the group.
     pub fn take(&mut self) -> Vec<Run> {
         self.unload();
         std::mem::take(&mut self.runs)

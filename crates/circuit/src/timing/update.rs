@@ -9,55 +9,58 @@ use crate::NetId;
 use crate::components::Components;
 use crate::netlist::NetGraph;
 
-/// A net's turn. A net on a loop has several.
+/// The recomputation of a net's times. A net on a loop is updated several times.
 #[derive(Clone, Debug)]
-pub(super) struct Turn {
+pub(super) struct NetUpdate {
     /// The node of the graph.
     pub node: NetId,
-    /// The pins that an earlier turn drives, with the number of that turn.
+    /// The pins that an earlier update drives, with the number of that update.
     pub pins: Vec<(u8, usize)>,
 }
 
-/// The turns of a graph in an order with pins first, and the loops that are not one of `elements`.
+/// The updates of a graph in an order with pins first, and the loops that are not one of `elements`.
 ///
-/// The cells of an element, given with the number of cells that a change passes in it, all take their turns at once,
-/// that many times. Those of another loop are passed one after the other, twice: once by the change and once by the
+/// The cells of an element, given with the number of cells that a change passes in it, are all updated at once, that
+/// many times. Those of another loop are updated one after the other, twice: once for the change and once for the
 /// response to it.
-pub(super) fn unroll(graph: &NetGraph, elements: &BTreeMap<NetId, (&[NetId], usize)>) -> (Vec<Turn>, Vec<Vec<NetId>>) {
-    let mut way = Way { graph, turns: Vec::new(), last: BTreeMap::new() };
+pub(super) fn unroll(
+    graph: &NetGraph,
+    elements: &BTreeMap<NetId, (&[NetId], usize)>,
+) -> (Vec<NetUpdate>, Vec<Vec<NetId>>) {
+    let mut updates = UpdateOrder { graph, list: Vec::new(), last: BTreeMap::new() };
     let mut components = Components::new(graph).from(graph.node_indices(), |_| true);
     components.reverse();
     let mut others = Vec::new();
     for mut core in components {
         core.sort_unstable();
         match elements.get(&core[0]) {
-            Some((cells, rounds)) if *cells == core => (0..*rounds).for_each(|_| way.take_together(&core)),
+            Some((cells, rounds)) if *cells == core => (0..*rounds).for_each(|_| updates.update_together(&core)),
             _ if core.len() > 1 || graph.contains_edge(core[0], core[0]) => {
                 let order = along(graph, &core);
-                order.iter().chain(&order).for_each(|&member| way.take_together(&[member]));
+                order.iter().chain(&order).for_each(|&member| updates.update_together(&[member]));
                 others.push(core);
             }
-            _ => way.take_together(&core),
+            _ => updates.update_together(&core),
         }
     }
-    (way.turns, others)
+    (updates.list, others)
 }
 
-struct Way<'g> {
+struct UpdateOrder<'g> {
     graph: &'g NetGraph,
-    turns: Vec<Turn>,
-    /// The last turn of each node.
+    list: Vec<NetUpdate>,
+    /// The last update of each node.
     last: BTreeMap<NetId, usize>,
 }
 
-impl Way<'_> {
-    /// A turn for each of these nodes; they read the turns before.
-    fn take_together(&mut self, nodes: &[NetId]) {
-        let first = self.turns.len();
+impl UpdateOrder<'_> {
+    /// An update for each of these nodes; they read the updates before.
+    fn update_together(&mut self, nodes: &[NetId]) {
+        let first = self.list.len();
         for &node in nodes {
             let pins = pins(self.graph, node).into_iter();
             let pins = pins.filter_map(|(pin, driver)| Some((pin, *self.last.get(&driver)?))).collect();
-            self.turns.push(Turn { node, pins });
+            self.list.push(NetUpdate { node, pins });
         }
         self.last.extend(nodes.iter().copied().zip(first..));
     }

@@ -11,13 +11,13 @@ use crate::lsp::client::{Client, file};
 const AHEAD: usize = 20;
 
 /// A client with an open text, and the edits so far.
-pub(super) struct Typist {
+pub(super) struct TypingClient {
     client: Client,
     uri: String,
     edits: usize,
 }
 
-impl Typist {
+impl TypingClient {
     pub(super) fn start(bench: &Bench) -> Self {
         let path = programs("circuits").into_iter().find(|path| path.ends_with("full_adder.nb")).unwrap();
         let (uri, text) = file(bench, "a.nb", &std::fs::read_to_string(path).unwrap());

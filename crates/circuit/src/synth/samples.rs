@@ -23,7 +23,7 @@ const MOST_SIGNALS: usize = 6;
 /// Searches for a cheaper network in `plan.visits` visits. Each call of the solver counts as one, and so do
 /// [`PROPAGATIONS`] of its propagations. Every network that it passes through is proved equal to the first, where the
 /// conditions of `care` hold if there are any.
-pub fn roam(
+pub fn improve_on_samples(
     network: &Network,
     prices: &Prices,
     stages: &[u32],

@@ -41,7 +41,7 @@ pub struct DeviceWorld {
 }
 
 /// Runs with plans of one capacity, laid out on the device.
-struct Fleet<'a> {
+struct DeviceRuns<'a> {
     world: &'a DeviceWorld,
     capacity: Capacity,
     /// The body and the first mass of each run.
@@ -112,8 +112,8 @@ impl DeviceWorld {
         runs: &mut [Run],
         record: &mut dyn FnMut(usize, [f64; 2]),
     ) -> Result<(), DeviceError> {
-        match Fleet::new(self, capacity, members, plans, runs) {
-            Ok(fleet) => fleet.finish(members, runs, record),
+        match DeviceRuns::new(self, capacity, members, plans, runs) {
+            Ok(device_runs) => device_runs.finish(members, runs, record),
             Err(DeviceError::OutOfMemory { .. }) if members.len() > 1 => {
                 let (first, second) = members.split_at(members.len() / 2);
                 self.finish_some(capacity, first, plans, runs, record)?;
@@ -124,7 +124,7 @@ impl DeviceWorld {
     }
 }
 
-impl<'a> Fleet<'a> {
+impl<'a> DeviceRuns<'a> {
     /// Lays out some runs.
     fn new(
         world: &'a DeviceWorld,

@@ -32,7 +32,7 @@ const FUNCTIONS: [&str; 24] = [
 
 /// Why a token is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Offense {
+pub(super) enum TokenFault {
     /// It could lead to other files or programs.
     Outside(String),
     /// It is not always 0 or 1.
@@ -43,7 +43,7 @@ pub(super) enum Offense {
 
 /// What is known of the tokens before.
 #[derive(Debug, Default)]
-pub(super) struct Judge {
+pub(super) struct TokenChecker {
     /// Whether `import` was the word before.
     is_importing: bool,
     /// Tasks and functions that are open.
@@ -64,17 +64,17 @@ struct Case {
     head: Option<usize>,
 }
 
-impl Judge {
+impl TokenChecker {
     /// Judges the next token.
     ///
     /// # Errors
     /// When it is refused.
-    pub(super) fn see(&mut self, token: &VerilogToken) -> Result<(), Offense> {
+    pub(super) fn see(&mut self, token: &VerilogToken) -> Result<(), TokenFault> {
         let text = token.text.as_str();
         if std::mem::take(&mut self.is_importing)
             && !matches!(token.kind, VerilogTokenKind::Word | VerilogTokenKind::Escaped)
         {
-            return Err(Offense::Outside("import".to_owned()));
+            return Err(TokenFault::Outside("import".to_owned()));
         }
         let was_label = std::mem::take(&mut self.is_label);
         match token.kind {
@@ -86,7 +86,7 @@ impl Judge {
             VerilogTokenKind::Number | VerilogTokenKind::Hint => self.is_label = was_label,
             VerilogTokenKind::Sign => self.sign(text, was_label),
             VerilogTokenKind::System | VerilogTokenKind::Escaped if is_outside(text) => {
-                return Err(Offense::Outside(text.to_owned()));
+                return Err(TokenFault::Outside(text.to_owned()));
             }
             VerilogTokenKind::System
             | VerilogTokenKind::Escaped
@@ -96,16 +96,16 @@ impl Judge {
         Ok(())
     }
 
-    fn word(&mut self, word: &str) -> Result<(), Offense> {
+    fn word(&mut self, word: &str) -> Result<(), TokenFault> {
         match word {
             // Packages are imported by name, functions of C by a text.
             "import" => self.is_importing = true,
-            "export" => return Err(Offense::Outside(word.to_owned())),
+            "export" => return Err(TokenFault::Outside(word.to_owned())),
             "module" | "macromodule" | "endmodule" => (self.tasks, self.cases) = (0, Vec::new()),
             "task" | "function" => self.tasks += 1,
             "endtask" | "endfunction" => self.tasks = self.tasks.saturating_sub(1),
-            "inout" if self.tasks == 0 => return Err(Offense::HighImpedance(word.to_owned())),
-            "tri0" | "tri1" | "trireg" => return Err(Offense::HighImpedance(word.to_owned())),
+            "inout" if self.tasks == 0 => return Err(TokenFault::HighImpedance(word.to_owned())),
+            "tri0" | "tri1" | "trireg" => return Err(TokenFault::HighImpedance(word.to_owned())),
             "case" | "casex" | "casez" => {
                 self.cases.push(Case { has_wildcards: word != "case", head: Some(self.depth) });
             }
@@ -134,14 +134,14 @@ impl Judge {
         }
     }
 
-    fn constant(&self, text: &str, is_label: bool) -> Result<(), Offense> {
+    fn constant(&self, text: &str, is_label: bool) -> Result<(), TokenFault> {
         let signed = text.trim_start_matches('\'').trim_start_matches(['s', 'S']);
         if signed.len() == 1 && signed.starts_with(['b', 'B', 'o', 'O', 'd', 'D', 'h', 'H']) {
-            return Err(Offense::NoDigits(text.to_owned()));
+            return Err(TokenFault::NoDigits(text.to_owned()));
         }
         let has_wildcards = self.cases.last().is_some_and(|case| case.has_wildcards);
         if text.contains(['z', 'Z', '?']) && !(is_label && has_wildcards) {
-            return Err(Offense::HighImpedance(text.to_owned()));
+            return Err(TokenFault::HighImpedance(text.to_owned()));
         }
         Ok(())
     }
@@ -159,10 +159,10 @@ mod tests {
     use super::*;
     use crate::store::verilog::token::{Lexer, TokenPlace};
 
-    fn judged(text: &str) -> Result<(), Offense> {
-        let (mut lexer, mut judge) = (Lexer::new(text, TokenPlace::default()), Judge::default());
+    fn judged(text: &str) -> Result<(), TokenFault> {
+        let (mut lexer, mut checker) = (Lexer::new(text, TokenPlace::default()), TokenChecker::default());
         while let Some(token) = lexer.next().unwrap() {
-            judge.see(&token)?;
+            checker.see(&token)?;
         }
         Ok(())
     }
@@ -182,7 +182,7 @@ mod tests {
             ("#1import \"DPI-C\" function integer f();", "import"),
             ("#1.5e3import \"DPI-C\" function integer f();", "import"),
         ] {
-            assert_eq!(judged(text), Err(Offense::Outside(word.to_owned())), "{text}");
+            assert_eq!(judged(text), Err(TokenFault::Outside(word.to_owned())), "{text}");
         }
         assert_eq!(judged("import p::*; import q::f;"), Ok(()));
         assert_eq!(judged("x = \\$signed (a); \\$_AND_ g (); \\a$b c;"), Ok(()));
@@ -202,7 +202,7 @@ mod tests {
             ("casez (s) 2'b1z: begin q = 1; end endcase assign q = 1'bz;", "'bz"),
             ("tri1 q;", "tri1"),
         ] {
-            assert_eq!(judged(text), Err(Offense::HighImpedance(word.to_owned())), "{text}");
+            assert_eq!(judged(text), Err(TokenFault::HighImpedance(word.to_owned())), "{text}");
         }
     }
 
@@ -219,6 +219,6 @@ mod tests {
 
     #[test]
     fn a_base_does_not_find_its_digits_elsewhere() {
-        assert_eq!(judged("x = 1'sb"), Err(Offense::NoDigits("'sb".to_owned())));
+        assert_eq!(judged("x = 1'sb"), Err(TokenFault::NoDigits("'sb".to_owned())));
     }
 }

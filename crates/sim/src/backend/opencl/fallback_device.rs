@@ -4,8 +4,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::backend::lanes::LaneBackend;
 use crate::backend::opencl::card::Card;
+use crate::backend::opencl::device_runs::DeviceWorld;
 use crate::backend::opencl::error::DeviceError;
-use crate::backend::opencl::fleet::DeviceWorld;
 use crate::backend::opencl::listing::OpenClDevice;
 use crate::backend::run::Run;
 use crate::meter::Stopwatch;
@@ -13,14 +13,14 @@ use nbc_base::model::{Setting, WorldFactors};
 
 /// A device, and the processor.
 #[derive(Clone, Debug)]
-pub struct Station {
+pub struct FallbackDevice {
     /// The numbers of the physics, and the back end of what the device cannot do.
     pub processor: LaneBackend,
     card: Arc<Card>,
     failure: Arc<Mutex<Option<DeviceError>>>,
 }
 
-impl Station {
+impl FallbackDevice {
     /// Opens a device; see [`Card::open`].
     ///
     /// # Errors

@@ -5,8 +5,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::cli::Bench;
+use crate::cluster::fake_workers::FakeWorkers;
 use crate::cluster::server::Server;
-use crate::cluster::stand_ins::StandIns;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
 
@@ -15,7 +15,8 @@ fn a_thousand_idle_workers_wait_and_work() {
     let Some(server) = Server::start(&[]) else { return };
     let bench = bench();
     let mut wire = Wire::open(&server);
-    let _crowd = Running::start(&bench, &["worker", "--nats", &server.url(), "--threads", "1000", "--name", "crowd"]);
+    let _workers =
+        Running::start(&bench, &["worker", "--nats", &server.url(), "--threads", "1000", "--name", "many_workers"]);
     wire.wait_for(|message| message.subject == "nbc.v1.worker");
     assert_same(&bench, &evolve(&bench, &server, &[]).end());
 }
@@ -25,21 +26,21 @@ fn a_thousand_idle_workers_wait_and_work() {
 #[ignore = "a measurement"]
 fn measure_the_coordinator() {
     const SECONDS: u64 = 20;
-    let text = "evolution crowd { from: gates, generations: 100000, seed: 1..130 }\n";
+    let text = "evolution many_workers { from: gates, generations: 100000, seed: 1..130 }\n";
     println!("workers  evaluations/s  CPU us of the search  CPU us of the server");
     for workers in [250, 500, 1000, 2000] {
         let Some(server) = Server::start(&[]) else { return };
         let bench = Bench::new();
-        bench.file("crowd.nb", text);
+        bench.file("many_workers.nb", text);
         let mut wire = Wire::open(&server);
         let arguments =
-            ["evolve", "crowd.nb", "--trust-workers", "--checkpoint-every", "3600", "--nats", &server.url()];
+            ["evolve", "many_workers.nb", "--trust-workers", "--checkpoint-every", "3600", "--nats", &server.url()];
         let search = Running::start(&bench, &arguments);
         let task = wire.wait_for(|message| message.subject.starts_with("nbc.v1.task."));
         drop(wire);
         let token = task.subject.split('.').nth(3).unwrap();
-        let connections: Vec<Arc<StandIns>> =
-            (0..4).map(|number| StandIns::start(&server, number, workers / 4, token)).collect();
+        let connections: Vec<Arc<FakeWorkers>> =
+            (0..4).map(|number| FakeWorkers::start(&server, number, workers / 4, token)).collect();
         let answered = || connections.iter().map(|some| some.answered()).sum::<u64>();
         let numbers = || (answered(), cpu_seconds(search.child.id()), cpu_seconds(server.process()), Instant::now());
         thread::sleep(Duration::from_secs(3));
