@@ -102,7 +102,7 @@ impl Context {
         Ok(self.out.write_all(text.as_bytes())?)
     }
 
-    /// Clears the screen, where results are shown on one.
+    /// Clears the screen, if text is printed to a terminal.
     ///
     /// # Errors
     /// As [`Context::print`].
@@ -171,11 +171,11 @@ impl Context {
 
 /// Writes diagnostics to standard error, as [`Context::tell`], from any thread.
 pub(super) fn tell(diagnostics: &[Diagnostic], sources: &Sources, color: bool) {
-    // The user's text is made visible by `render`; the colors are ours.
+    // `render` escapes the control characters of the user's text; those of the colors must stay.
     let _ = io::stderr().write_all(render::text(diagnostics, sources, color).as_bytes());
 }
 
-/// A text in which a word at the begin or end of a line that says that something passed or failed is green or red.
+/// The text with colors: `pass` in green, `fail` and `FAIL` in red, where they begin or end a line.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(paint_line).collect()
 }

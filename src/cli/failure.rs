@@ -1,4 +1,4 @@
-//! Why a command could not be carried out.
+//! The failure of a command.
 
 use std::io;
 use std::path::Path;
@@ -24,12 +24,12 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Input at fault in places of `sources`.
+    /// Errors of the input, with their places in `sources`.
     pub fn input(diagnostics: Vec<Diagnostic>, sources: Sources) -> Self {
         Self::Input(Diagnostics { list: diagnostics, sources })
     }
 
-    /// A fault without a place in a text.
+    /// One error without a place in a text.
     pub fn plain(diagnostic: Diagnostic) -> Self {
         Self::Input(diagnostic.into())
     }

@@ -1,5 +1,6 @@
 //! The command line: a file for each command, named for it, with the arguments that clap reads and a `run` that does
-//! it. A command with many parts is a folder. `nbc devices` is in `gpu`; `nbc worker` and `nbc workers` are in `cluster`.
+//! it. A command with many parts is a folder. `nbc devices` is in `gpu`; `nbc worker` and `nbc workers` are in
+//! `cluster`.
 //!
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 

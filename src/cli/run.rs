@@ -227,7 +227,7 @@ fn describe(drawn: &Drawn<'_>) -> String {
     format!("{}: {swarm}\n\n{outcome}\n{files}{hold}", trace.circuit)
 }
 
-/// The kind of a file, in a word.
+/// The label of a file in the summary.
 fn word_of(file: &str) -> &'static str {
     match file.rsplit('.').next() {
         Some("vcd") => "waves",

@@ -44,10 +44,10 @@ pub struct SynthArguments {
     /// Keep registers or expand them to cells [default: depends on the output format]
     #[arg(long, value_enum)]
     registers: Option<RegisterWord>,
-    /// Let outputs and next values in unreachable states be anything
+    /// Allow any outputs and next states in unreachable states
     ///
-    /// The circuit is then right only if its registers start at their start values. What is assumed of its states is
-    /// proved, and reported. Applies to designs whose registers are all flip-flops.
+    /// The result is then correct only if every register begins with its start value. The set of reachable states is
+    /// proved and reported. All registers of the design must be flip-flops.
     #[arg(long)]
     reachable_only: bool,
     /// Report how many cells a robot for each of these functions would save

@@ -1,4 +1,4 @@
-//! What does the tasks of a command: this machine or its device, or workers at a NATS server.
+//! Does the tasks of a command on this machine's processor or device, or by workers at a NATS server.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use nbc_swarm::Executor;
 /// The most calls for workers at once: each has a thread here that waits, and a run also keeps a file open.
 const MOST_WAITING: usize = 500;
 
-/// What does the tasks of a command.
+/// Does the tasks of a command. If workers are chosen, they do all tasks; otherwise the device does.
 pub struct TaskExecutor {
     device: OpenDevice,
     simulator: Simulator,
@@ -22,8 +22,8 @@ pub struct TaskExecutor {
 }
 
 impl TaskExecutor {
-    /// The workers, if they do the work, until a signal arrives; else the device. Notes on the progress of workers go
-    /// to `note`.
+    /// Connects to the workers, if `queue` names a server. A signal stops their work; `note` receives notes on its
+    /// progress.
     ///
     /// # Errors
     /// When the server cannot be used.
@@ -53,7 +53,7 @@ impl TaskExecutor {
         Self::open(device, queue, &interrupt, move |note| bar.note(note))
     }
 
-    /// What does the tasks.
+    /// The executor to hand the tasks to.
     pub fn executor(&self) -> &dyn Executor {
         match &self.queue {
             Some(queue) => queue,
@@ -61,7 +61,7 @@ impl TaskExecutor {
         }
     }
 
-    /// Whether workers do them.
+    /// Whether workers do the tasks.
     pub fn is_elsewhere(&self) -> bool {
         self.queue.is_some()
     }
@@ -89,10 +89,10 @@ impl TaskExecutor {
         self.device.check()
     }
 
-    /// Ends it.
+    /// Waits until the workers have stopped, and reports a failure of the device.
     ///
     /// # Errors
-    /// When it has failed.
+    /// When the queue or the device has failed.
     pub fn end(self, context: &Context) -> Result<(), Failure> {
         if let Some(queue) = self.queue {
             queue.end()?;

@@ -1,4 +1,5 @@
-//! The results of a worker on their way to searches: each is sent until it is received, and then its task is done.
+//! Delivery of results to searches. A result is sent until the search confirms it, and then its task is removed from
+//! the queue.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -37,7 +38,7 @@ pub enum DeliveryEnd {
 }
 
 impl Delivery {
-    /// No deliveries yet.
+    /// Prepares the deliveries of a worker.
     pub fn new(connection: &Connection, worker: &str) -> Self {
         let handle = connection.runtime.handle().clone();
         Self { handle, client: connection.client.clone(), worker: worker.to_owned(), open: JoinSet::new() }

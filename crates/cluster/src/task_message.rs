@@ -1,4 +1,4 @@
-//! Tasks on the way to workers.
+//! The message with which a worker receives a task.
 
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub struct TaskMessage {
     pub task: Task,
 }
 
-/// [`TaskMessage`] on the way.
+/// The encoded form of [`TaskMessage`].
 #[derive(Serialize, Deserialize)]
 struct TaskRecord {
     key: TaskKey,
@@ -100,7 +100,7 @@ enum SourceRecord {
 }
 
 impl TaskMessage {
-    /// Its bytes.
+    /// The bytes of the message.
     pub fn encode(&self) -> Vec<u8> {
         encode(&TaskRecord { key: self.key, together: self.together, work: WorkRecord::of(&self.task) })
     }

@@ -1,4 +1,4 @@
-//! What the threads of a worker share: its connection, its name, what it has done.
+//! The state that the threads of a worker share: its connection, its name, the number of tasks done.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -21,7 +21,7 @@ pub const REPORT: Duration = Duration::from_secs(2);
 /// Tasks of a search that did not receive an answer are dropped for this time.
 const SHUNNED: Duration = Duration::from_secs(10);
 
-/// What the threads of a worker share.
+/// The state that the threads of a worker share.
 pub struct WorkerState {
     pub name: String,
     pub connection: Connection,
@@ -35,7 +35,7 @@ pub struct WorkerState {
     silent: Mutex<BTreeMap<String, Instant>>,
 }
 
-/// What a worker has done so far.
+/// The number of tasks that a worker has done.
 #[derive(Default)]
 pub struct Tally {
     pub evaluations: AtomicU64,
@@ -92,7 +92,7 @@ impl WorkerState {
         Delivery::new(&self.connection, &self.name)
     }
 
-    /// Reports now and then to those who watch.
+    /// Starts to send reports at regular times.
     pub fn report(&self, threads: u32) {
         let (client, tally, name) = (self.connection.client.clone(), Arc::clone(&self.tally), self.name.clone());
         let physics = self.physics.0;
@@ -116,7 +116,7 @@ impl WorkerState {
         });
     }
 
-    /// Logs if a search cannot use this worker.
+    /// Starts to listen for replies, and logs those of searches that cannot use this worker.
     pub fn listen(&self) {
         let (client, name, log) = (self.connection.client.clone(), self.name.clone(), self.log);
         self.connection.runtime.spawn(async move {

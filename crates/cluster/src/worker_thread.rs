@@ -1,4 +1,4 @@
-//! One thread of a worker: takes tasks, does them together, delivers the results.
+//! One thread of a worker: takes tasks, does them together, and delivers the results.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -22,25 +22,25 @@ use nbc_swarm::{Task, perform};
 
 /// The most time for which a thread asks for a task at once.
 const REQUEST: Duration = Duration::from_secs(5);
-/// The time between looks for a signal.
+/// The time between two checks of the request to stop.
 const GLANCE: Duration = Duration::from_millis(100);
 /// The time before another attempt after a fault.
 const AGAIN: Duration = Duration::from_secs(1);
 /// The most time for the deliveries in progress at the end.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// A thread.
+/// The state of a thread.
 pub struct WorkerThread<'a> {
     worker: &'a WorkerState,
     queue: PullConsumer,
     delivery: Delivery,
     /// The number of tasks to take together, as the last search wished.
     together: usize,
-    /// The last fault, told once.
+    /// The last fault, so that it is logged once.
     trouble: Option<String>,
 }
 
-/// A task in the hands of a worker.
+/// A task that the thread has taken.
 struct OpenTask {
     message: TaskMessage,
     /// The name of the search.
@@ -75,7 +75,7 @@ impl<'a> WorkerThread<'a> {
         self.worker.count(ended)
     }
 
-    /// Tells a fault, waits and connects to the queue again.
+    /// Logs a fault, waits, and connects to the queue again.
     async fn recover(&mut self, reason: String) {
         if self.trouble.as_ref() != Some(&reason) {
             (self.worker.log)(&format!("worker `{}`: {reason}; trying again\n", self.worker.name));
@@ -87,7 +87,7 @@ impl<'a> WorkerThread<'a> {
         }
     }
 
-    /// Takes what waits, at most as many tasks as should be taken together; waits for one if there is none.
+    /// Takes waiting tasks, at most as many as should be taken together; waits for one if there is none.
     async fn fetch(&mut self) -> Result<Vec<OpenTask>, String> {
         let mut taken = Vec::new();
         let most = self.together;
@@ -149,7 +149,7 @@ impl<'a> WorkerThread<'a> {
     }
 }
 
-/// Tells the server now and then that the tasks are being worked on.
+/// Tells the server at regular times that the tasks are in progress.
 async fn hold(ackers: Vec<Arc<Acker>>) {
     loop {
         time::sleep(SILENCE / 3).await;

@@ -88,7 +88,7 @@ impl Documents {
         self.known.contains_key(path)
     }
 
-    /// The identities of the files and folders that the result for `path` depends on; those that are missing too.
+    /// The identities of the files and folders that the result for `path` depends on, including missing ones.
     pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
         self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
     }

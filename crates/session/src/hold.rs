@@ -1,4 +1,4 @@
-//! How long the rows of a test are held, and warnings of rows that end before their robots have settled.
+//! The hold of each row of a test, and warnings of rows that end before their robots have settled.
 
 use crate::compile::Compiled;
 use crate::wording::SwarmWarning;

@@ -57,7 +57,7 @@ impl Session {
         Ok(self.run_cases(checked, test, options, observer)?.0)
     }
 
-    /// The runs of a test, and whether all came to their end.
+    /// The runs of a test, and whether all were completed.
     fn run_cases(
         &self,
         checked: &Checked,

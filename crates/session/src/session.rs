@@ -25,12 +25,13 @@ use nbc_swarm::{Level, LiveSwarm, Room};
 pub struct Session {
     documents: Documents,
     physics: Physics,
-    /// The robots in the program, once they have been asked for.
+    /// The built-in robots, which are read at their first use.
     shipped: OnceLock<Library>,
 }
 
 impl Session {
-    /// The cycles for which a swarm has ground, even if a robot walks its own width in each.
+    /// The length of the ground of [`Session::swarm`]: enough for a robot that moves by its own width in each of this
+    /// many cycles.
     pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
 
     /// A session over the sources of a world.
@@ -44,14 +45,14 @@ impl Session {
         self
     }
 
-    /// The same session, with a recording of the poses of its swarms, as far as there is room.
+    /// The same session, which also records the poses of its swarms. `room` limits the size of a recording.
     pub fn with_poses(mut self, room: Room) -> Self {
         self.physics.poses = Some(room);
         self
     }
 
-    /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than
-    /// the last is ignored.
+    /// Sets the text of the source at `path`, which hides the file of the world. A text with a lower revision than the
+    /// last one is ignored.
     pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
         self.documents.update(path, revision, text);
     }
@@ -73,8 +74,8 @@ impl Session {
         self.documents.is_known(path)
     }
 
-    /// The files and folders that the source at `path` depends on, as far as it was checked: itself, files that it
-    /// uses, and folders of robots, also those that are missing.
+    /// The files and folders that the last check of the source at `path` read or looked for: the source itself, files
+    /// that it uses, and folders of robots.
     pub fn dependencies(&self, path: &str) -> Vec<String> {
         self.documents.asked(path).map(str::to_owned).collect()
     }
@@ -158,7 +159,7 @@ impl Session {
         mapping.map_err(|faults| checked.fail(faults))
     }
 
-    /// Elaborates a circuit, maps it onto cells that need not be of robots, and proves the result.
+    /// Elaborates a circuit, maps it onto these cells, which need not be robots, and proves the result.
     ///
     /// # Errors
     /// When the circuit cannot be built, or a function is missing among the cells.

@@ -238,7 +238,7 @@ impl TestCase<'_> {
     }
 }
 
-/// Whether a row has failed that ends with a trace's last cycle; to be asked after each cycle.
+/// Whether a row that ends with the last cycle of a trace has failed. Must be called after each cycle.
 fn has_failed<'a>(
     test: &'a CircuitTest,
     rows: &'a [TestRow],

@@ -1,5 +1,5 @@
-//! What goes wrong for a robot in a world with noise (docs/physics.md 15). Everything is drawn from a stream of its own
-//! for each robot, so it depends on the world and the robot's number only.
+//! The noise of a world for each robot (docs/physics.md 15). Each robot has a random stream of its own, so its noise
+//! depends only on the world and the robot's number.
 
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ impl<'a> RobotNoise<'a> {
         }
     }
 
-    /// Whether it misses its stimuli in a cycle. There is nothing to keep in the first.
+    /// Whether the robot misses its stimuli in a cycle and keeps those of the cycle before. It never misses the first.
     pub(crate) fn misses(self, cycle: usize) -> bool {
         if self.noise.missed <= 0.0 || cycle == 0 {
             return false;

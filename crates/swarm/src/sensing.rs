@@ -1,4 +1,4 @@
-//! What the robots of a swarm sense of each other.
+//! The stimuli of the robots of a swarm, which follow from the outputs of other robots.
 
 use crate::noise::RobotNoise;
 use crate::{Assembly, SwarmTrace};
@@ -11,12 +11,12 @@ pub(super) struct Sensing {
     start: usize,
     /// Each robot's output as sensed by the others.
     outputs: Vec<bool>,
-    /// What goes wrong in their world.
+    /// The noise of their world.
     noise: WorldNoise,
 }
 
 impl Sensing {
-    /// Before the first cycle of a swarm.
+    /// The outputs before the first cycle of a swarm.
     pub fn of(assembly: &Assembly) -> Self {
         let outputs = assembly.members.iter().map(|member| member.start).collect();
         Self { start: assembly.start_cycles(), outputs, noise: assembly.world.noise }

@@ -5,7 +5,7 @@ use crate::{Assembly, CycleTrace, Member, StimulusSource, SwarmConditions, Swarm
 use nbc_base::model::{Behavior, Body, Character, Column, PhysicsWorld, Provenance, Robot};
 use nbc_sim::Simulator;
 
-/// A swarm to be simulated: what its bits depend on, without names.
+/// The simulation of a swarm, without names: all that the resulting bits depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwarmTask {
     /// The robots and their wiring.
@@ -21,7 +21,7 @@ pub struct SwarmBits {
     pub cycles: Vec<Vec<bool>>,
 }
 
-/// What the bits of a swarm depend on in one of its robots.
+/// The part of a robot that the bits of its swarm depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
     /// Its voxels.

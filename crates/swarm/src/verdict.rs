@@ -9,9 +9,9 @@ use nbc_base::model::{Column, Value};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
-    /// Gates.
+    /// Gates without physics, each of which takes one time step.
     Logic,
-    /// Robots.
+    /// Robots in full physics.
     Physics,
 }
 

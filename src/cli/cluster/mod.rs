@@ -15,7 +15,7 @@ pub use nbc_cluster::QueueExecutor;
 pub use worker::WorkerArguments;
 pub use workers::WorkersArguments;
 
-/// The server.
+/// The options of commands that need a server.
 #[derive(Args, Clone, Debug)]
 pub struct NatsArguments {
     /// The NATS server with JetStream, such as `nats://localhost:4222` or `tls://nats.example.org`
@@ -32,7 +32,7 @@ impl NatsArguments {
     }
 }
 
-/// The workers, if they do the work, until a signal arrives. Notes on their progress go to `note`.
+/// The workers at a server, if the options name one. A signal stops their work; `note` receives notes on its progress.
 ///
 /// # Errors
 /// When the server cannot be used.
@@ -49,7 +49,7 @@ pub fn open_queue(
 
 /// Writes a line to standard error.
 pub fn log(text: &str) {
-    // Where standard error is closed, nobody wants to know.
+    // If standard error is closed, there is nowhere to report it.
     let _ = io::stderr().write_all(text.as_bytes());
 }
 

@@ -1,4 +1,4 @@
-//! `nbc worker`: makes evaluations for searches on other machines.
+//! `nbc worker`: does the tasks of searches on other machines.
 
 use std::thread;
 

@@ -1,4 +1,4 @@
-//! `nbc workers`: the workers at a server, and the searches that they work for.
+//! `nbc workers`: lists the workers at a server, and the searches that they work for.
 
 use clap::Args;
 use nbc_cluster::ClusterWatch;

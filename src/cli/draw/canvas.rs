@@ -1,4 +1,4 @@
-//! The file of a picture; its extension selects the format.
+//! The file that a picture is written to. Its extension selects the format.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -14,7 +14,7 @@ use nbc_base::source::Sources;
 use nbc_session::report::{EvolutionResults, History, SeedRun};
 use nbc_session::store::Declared;
 
-/// Whether a folder is that of a run: of one seed, or of several.
+/// Whether a folder contains an evolution run: of one seed, or of several.
 pub(in crate::cli) fn is_run(folder: &Path) -> bool {
     !checkpoints(folder).is_empty()
 }

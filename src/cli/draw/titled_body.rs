@@ -1,4 +1,4 @@
-//! NamedBody robot to be drawn.
+//! A body to be drawn, with a title.
 
 use nbc_base::model::{Body, Robot};
 

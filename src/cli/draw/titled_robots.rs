@@ -1,4 +1,4 @@
-//! TitledRobots robots to be drawn: those of a library or a swarm, or the champions of a run.
+//! Several robots to be drawn: those of a library or a swarm, or the champions of a run.
 
 use nbc_base::model::{Behavior, Body, Library};
 use nbc_swarm::Assembly;
@@ -9,14 +9,14 @@ pub(super) struct TitledRobots {
     pub(super) robots: Vec<NamedBody>,
 }
 
-/// NamedBody of several robots.
+/// One of the robots.
 pub(super) struct NamedBody {
     pub(super) behavior: Behavior,
     pub(super) name: String,
     pub(super) body: Body,
 }
 
-/// The robots of a library, in its request.
+/// The robots of a library, in its order.
 pub(super) fn of_library(name: &str, library: &Library) -> TitledRobots {
     let robots = library.robots.iter().map(|robot| NamedBody {
         behavior: robot.behavior,

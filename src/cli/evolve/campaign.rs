@@ -1,4 +1,4 @@
-//! All runs of a command: as many at once as their tasks can be done.
+//! All runs of a command: one at a time on this machine, or many at once if workers do the tasks.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use nbc_base::model::Evolution;
 use nbc_base::source::Sources;
 use nbc_swarm::evolve::Champion;
 
-/// Makes runs.
+/// The runs of a command, and what does their tasks.
 pub(super) struct Campaign<'a> {
     pub(super) arguments: &'a EvolveArguments,
     pub(super) timer: &'a Timer,
@@ -23,7 +23,7 @@ pub(super) struct Campaign<'a> {
     pub(super) open: Arc<OpenRuns>,
 }
 
-/// A run that was made.
+/// A run that ended, with its results.
 pub(super) struct MadeRun<'a> {
     pub(super) evolution: &'a Evolution,
     pub(super) seed: u64,

@@ -40,7 +40,7 @@ const QUICK_GENERATIONS: u32 = 200;
 const LONG: u64 = 20_000;
 const SAMPLE: usize = 8;
 
-/// The output for programs.
+/// The output as JSON.
 #[derive(Default, Serialize)]
 struct Results {
     runs: Vec<Ended>,
@@ -82,7 +82,7 @@ impl EvolveArguments {
         results.end(context, if finished { Status::Done } else { Status::Interrupted })
     }
 
-    /// What makes the evaluations. Says how long that will take, or how much can be made at once.
+    /// Opens what does the evaluations, and logs how long they will take or how many cores they can use.
     fn executor(
         &self,
         device: OpenDevice,

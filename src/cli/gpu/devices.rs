@@ -1,4 +1,4 @@
-//! `nbc devices`: the OpenCL devices of this machine, and whether their results are those of this processor.
+//! `nbc devices`: lists the OpenCL devices of this machine, and compares their results with those of the processor.
 
 use clap::Args;
 use serde::Serialize;
@@ -24,7 +24,7 @@ pub struct DevicesArguments {
     self_test: bool,
 }
 
-/// A device, and what was found out about it.
+/// A device with the result of its test.
 #[derive(Serialize)]
 struct DeviceReport {
     number: usize,

@@ -1,4 +1,4 @@
-//! The chosen device, opened.
+//! The device that `--device` chose, opened.
 
 use crate::cli::gpu::speed::{DeviceFigures, measure};
 use crate::cli::gpu::wording::{DeviceFailure, DeviceWarning};
@@ -7,11 +7,11 @@ use crate::cli::{Context, Failure};
 use nbc_base::source::Sources;
 use nbc_sim::{DeviceError, DeviceKind, LaneBackend, OpenClBackend, OpenClDevice, Simulator};
 
-/// The chosen device.
+/// What simulates the robots of a command: the processor, or a device with the processor for what it cannot do.
 #[derive(Clone)]
 pub struct OpenDevice {
     processor: LaneBackend,
-    /// The device, and whether the user asked for no other.
+    /// The device, and whether its failure ends the command; otherwise the processor takes over.
     device: Option<(OpenClBackend, bool)>,
 }
 

@@ -38,7 +38,7 @@ impl From<DeviceFailure> for Diagnostic {
     }
 }
 
-/// The same when this processor takes over.
+/// A device that cannot be used, whose work this processor does instead.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::cli) struct DeviceWarning(pub(in crate::cli) DeviceError);
 

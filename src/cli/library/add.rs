@@ -55,7 +55,7 @@ pub struct AddArguments {
     queue: QueueArguments,
 }
 
-/// The output for programs.
+/// The output as JSON.
 #[derive(Serialize)]
 struct Answers<'a> {
     folder: &'a Path,

@@ -26,7 +26,7 @@ pub enum DeviceChoice {
 }
 
 impl DeviceArguments {
-    /// The choice.
+    /// The choice of the user, by default the processor.
     pub fn choice(self) -> DeviceChoice {
         self.device
     }

@@ -1,10 +1,10 @@
-//! The options for work on several machines.
+//! `--nats` and its options: workers at a NATS server do the work.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-/// What a NATS server asks of its clients.
+/// The files that a client needs to connect to a NATS server.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NatsAccess {
     /// The file with the credentials for the server

@@ -1,4 +1,4 @@
-//! `--timings`: where the time of a command goes.
+//! `--timings`: measures and prints the time of each stage of a command.
 //!
 //! A [`Meter`] counts the time of simulations, a [`Timer`] that of the other stages of a command.
 
@@ -63,7 +63,7 @@ impl Timings {
 }
 
 impl Timer {
-    /// This processor, with its time counted if that is requested.
+    /// The back end of this processor, with a meter if `--timings` was given.
     pub fn processor(&self) -> LaneBackend {
         LaneBackend { meter: self.meter.clone(), ..LaneBackend::default() }
     }

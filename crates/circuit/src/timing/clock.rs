@@ -26,7 +26,7 @@ pub struct ClockTimes {
     pub low: u32,
     /// The least time from one rise to the next.
     pub period: u32,
-    /// For at most so many cycles after a latch has opened, its data may arrive, if the clock is no slower than that.
+    /// The longest time between the opening of a latch and the arrival of its data, at this period.
     pub borrowed: u32,
     /// The times of the other inputs.
     pub inputs: Vec<InputTimes>,

@@ -31,7 +31,7 @@ pub struct PageFigure {
     pub drawing: Svg,
 }
 
-/// An elite on the page.
+/// The best elite of a niche on the page, with its seed.
 struct Entry<'a> {
     key: &'a NicheKey,
     seed: u64,

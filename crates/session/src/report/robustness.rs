@@ -75,7 +75,7 @@ fn declaration(world: &PhysicsWorld) -> String {
 /// The yield of a test for several sizes of change.
 #[derive(Clone, Debug)]
 pub struct YieldCurve {
-    /// What the curve is of.
+    /// The legend of the curve.
     pub label: String,
     /// The size of the change and the yield, in order of size.
     pub points: Vec<(f64, Proportion)>,

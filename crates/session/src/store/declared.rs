@@ -18,7 +18,7 @@ pub struct Declared {
     pub(super) whole: FullDeclaration,
 }
 
-/// A declaration in full.
+/// All that a declaration says.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FullDeclaration {
     /// As data.

@@ -10,7 +10,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Body, BodyError, Palette};
 use nbc_base::source::{SourceFile, Span};
 
-/// Anything with a body.
+/// A mapping with a body.
 #[derive(Deserialize)]
 #[serde(expecting = "a mapping with a `body`")]
 struct BodyFile {

@@ -1,4 +1,5 @@
-//! What a Verilog text may say: that it computes. What leads to files, programs or nets without a driver is refused.
+//! Refuses tokens of Verilog that could read files, run programs, or leave nets without a driver. Only text that
+//! computes is translated.
 
 use crate::store::verilog::token::{VerilogToken, VerilogTokenKind};
 
@@ -41,7 +42,7 @@ pub(super) enum TokenFault {
     NoDigits(String),
 }
 
-/// What is known of the tokens before.
+/// The state that follows from the tokens so far.
 #[derive(Debug, Default)]
 pub(super) struct TokenChecker {
     /// Whether `import` was the word before.
@@ -65,7 +66,7 @@ struct Case {
 }
 
 impl TokenChecker {
-    /// Judges the next token.
+    /// Checks the next token.
     ///
     /// # Errors
     /// When it is refused.

@@ -1,7 +1,8 @@
 //! The kernels: one step, compiled for each instruction set and number of lanes, chosen when the program runs.
 //!
-//! This is the one file with `unsafe`: vector types of an instruction set, and calls of functions compiled for it. A
-//! vector is created only inside [`Kernel::batch`], after checking that the processor has the instructions.
+//! Two files of this crate have `unsafe` code: this one, and `opencl/card.rs` with the calls of a device's driver. Here
+//! it is for vector types of an instruction set, and for calls of functions compiled for it. A vector is created only
+//! inside [`Kernel::batch`], after checking that the processor has the instructions.
 #![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
 
 use std::sync::Arc;

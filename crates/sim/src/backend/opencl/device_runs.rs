@@ -1,5 +1,5 @@
-//! Many runs on a device: they are laid out once, and each launch of the kernel simulates all of them for some env
-//! steps.
+//! Many runs on a device. They are copied to the device once; then each launch of the kernel simulates all of them for
+//! some env steps.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,17 +14,17 @@ use crate::monitor::Monitor;
 use crate::signal::Signals;
 use nbc_base::model::Pattern;
 
-/// The most env steps of a launch, ...
+/// The most env steps of a launch.
 const WINDOW: u32 = 840;
-/// ... those of the first, ...
+/// The env steps of the first launch.
 const FIRST_WINDOW: u32 = 4;
-/// ... and how long a launch should take, in nanoseconds: drivers of cards that also show a screen stop programs after
+/// The time that a launch should take, in nanoseconds. Drivers of cards that also show a screen stop programs after
 /// some seconds, and a simulation can be stopped only between launches.
 const PATIENCE: u64 = 200_000_000;
 
-/// The fault of a robot that went unstable, as the kernel tells it.
+/// The kernel's code for a robot that became unstable.
 const UNSTABLE: u32 = 1;
-/// No fault.
+/// The kernel's code for a robot without a fault.
 const SOUND: u32 = 0;
 
 /// The data shared by simulations on a device with the same setting.
@@ -40,7 +40,7 @@ pub struct DeviceWorld {
     pub monitor: Option<Arc<Monitor>>,
 }
 
-/// Runs with plans of one capacity, laid out on the device.
+/// Runs with plans of one capacity, in the memory of the device.
 struct DeviceRuns<'a> {
     world: &'a DeviceWorld,
     capacity: Capacity,
@@ -59,7 +59,7 @@ struct DeviceRuns<'a> {
 }
 
 impl DeviceWorld {
-    /// The plans of some runs; those of equal bodies are one.
+    /// The plan of each run. Runs with equal bodies share a plan.
     fn plans(&self, runs: &[Run]) -> Vec<Arc<BodyPlan>> {
         let mut plans: BTreeMap<usize, Arc<BodyPlan>> = BTreeMap::new();
         let plan = |run: &Run| {
@@ -73,7 +73,7 @@ impl DeviceWorld {
     /// Returns the runs that have no room in the memory of a group; nothing is done with them.
     ///
     /// # Errors
-    /// When the device fails. Runs may then be at any env step, with states of another.
+    /// When the device fails. The clocks and the states of the runs may then be of different env steps.
     pub fn finish(&self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<Vec<usize>, DeviceError> {
         let plans = self.plans(runs);
         let mut groups: BTreeMap<Capacity, Vec<usize>> = BTreeMap::new();
@@ -95,7 +95,7 @@ impl DeviceWorld {
         Ok(too_large)
     }
 
-    /// The most robots that have room on the device: half of its memory is left for others.
+    /// The most robots for which the device has room. Half of its memory is left for other programs.
     fn most_robots(&self, capacity: Capacity) -> usize {
         let device = &self.card.device;
         let state = (device.global_bytes / 2) as usize / capacity.global_bytes(WINDOW as usize);
@@ -125,7 +125,7 @@ impl DeviceWorld {
 }
 
 impl<'a> DeviceRuns<'a> {
-    /// Lays out some runs.
+    /// Copies some runs to the device.
     fn new(
         world: &'a DeviceWorld,
         capacity: Capacity,
@@ -193,7 +193,8 @@ impl<'a> DeviceRuns<'a> {
         self.read_states(members, runs)
     }
 
-    /// One launch: `steps` env steps of each run that has so many ahead.
+    /// One launch: simulates `steps` env steps of each run, or fewer if less is left of it. Returns the time in
+    /// nanoseconds.
     fn advance(
         &self,
         steps: u32,

@@ -1,4 +1,4 @@
-//! A device with the processor beside it, which takes over what the device cannot do.
+//! A device with the processor as its fallback, which simulates what the device cannot.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -11,7 +11,7 @@ use crate::backend::run::Run;
 use crate::meter::Stopwatch;
 use nbc_base::model::{Setting, WorldFactors};
 
-/// A device, and the processor.
+/// A device, and the processor for what the device cannot simulate. Clones share the device and its failure.
 #[derive(Clone, Debug)]
 pub struct FallbackDevice {
     /// The numbers of the physics, and the back end of what the device cannot do.
