@@ -15,10 +15,10 @@ use nbc_session::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
 use nbc_swarm::{Assembly, Level, Member, Recorded, Recording, RowHold, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
-use crate::cli::Bench;
-use crate::limits::InTime;
-use crate::pictures::{large, latch, latch_netlist};
-use crate::tools::CHROMIUM;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::tools::CHROMIUM;
+use crate::support::traces::{large, latch, latch_netlist};
 
 pub fn robot(name: &str, function: Function) -> Robot {
     let rows = ["66666", "46666", "44444", "44404", "44005"];

@@ -12,8 +12,8 @@ use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
 use nbc_swarm::{Assembly, Member, StimulusSource, SwarmConditions};
 
-use crate::cli::Bench;
-use crate::language::root;
+use crate::support::bench::Bench;
+use crate::support::root;
 
 /// A folder with a run of format 1 in `out/hearts/seed-1`, whose third material is not the paper's.
 fn first_format() -> Bench {

@@ -9,9 +9,9 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::language::root;
 use crate::memory::{elements, mapped, text};
 use crate::page::robot;
+use crate::support::root;
 
 /// Robots of a swarm with random outputs until they have settled.
 struct RandomSwarm<'a> {

@@ -14,7 +14,7 @@ use nbc_swarm::{Assembly, Member, Recording, Room, StimulusSource, SwarmConditio
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::language::programs;
+use crate::support::programs::programs;
 
 /// A circuit for the function of three inputs with these outputs, and a test of all its rows.
 fn program(truth: u8) -> String {
@@ -92,7 +92,7 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
     let member = Member { net: "y".to_owned(), robot, senses: [StimulusSource::Constant(false); 2], start: true };
-    let (outputs, shown) = (vec![crate::pictures::port("y")], vec![StimulusSource::Robot(0)]);
+    let (outputs, shown) = (vec![crate::support::traces::port("y")], vec![StimulusSource::Robot(0)]);
     let (inputs, world) = (Vec::new(), PhysicsWorld::default());
     let assembly = Assembly { circuit: "one".to_owned(), inputs, members: vec![member], outputs, shown, world };
     let conditions = SwarmConditions { inputs: vec![Vec::new(); 80], window: 1, poses: None };
@@ -117,7 +117,7 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
         circuit: "three".to_owned(),
         inputs: Vec::new(),
         members: shipped_library().robots[..3].iter().map(member).collect(),
-        outputs: vec![crate::pictures::port("y")],
+        outputs: vec![crate::support::traces::port("y")],
         shown: vec![StimulusSource::Robot(1)],
         world: PhysicsWorld::default(),
     };

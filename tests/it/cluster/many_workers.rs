@@ -4,11 +4,11 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::cli::Bench;
 use crate::cluster::fake_workers::FakeWorkers;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
+use crate::support::bench::Bench;
 
 #[test]
 fn a_thousand_idle_workers_wait_and_work() {

@@ -2,11 +2,11 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
 use crate::lsp::HALF;
 use crate::lsp::client::{Client, at, file, place, uri};
 use crate::lsp::renaming::client_of;
 use crate::lsp::typing_client::TypingClient;
+use crate::support::bench::Bench;
 
 const NOT_TEXT: &[u8] = b"circuit half(a, b) -> (s, c) {\n    s = \xff\n}\n";
 

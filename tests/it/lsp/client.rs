@@ -7,8 +7,8 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use lsp_server::{Message, Response};
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use crate::limits::Limit;
+use crate::support::bench::Bench;
+use crate::support::limits::Limit;
 
 /// A running server and its client.
 pub(super) struct Client {

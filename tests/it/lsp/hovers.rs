@@ -4,9 +4,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::json;
 
-use crate::cli::Bench;
 use crate::lsp::client::{Client, file, place};
 use crate::lsp::{ADDER, HALF};
+use crate::support::bench::Bench;
 
 /// Hovers over a word of an open text until the answer has what only compiling tells, and returns it.
 fn settled(client: &mut Client, uri: &str, text: &str, word: &str, wanted: &str) -> String {

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use crate::cli::Bench;
-use crate::language::programs;
 use crate::lsp::client::{Client, file};
 use crate::lsp::typing_client::TypingClient;
 use crate::speed::long_program;
+use crate::support::bench::Bench;
+use crate::support::programs::programs;
 
 /// Edits of each text.
 const EDITS: usize = 40;

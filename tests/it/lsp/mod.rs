@@ -18,7 +18,7 @@ use std::io::Write;
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
+use crate::support::bench::Bench;
 use client::{Client, at, file, place};
 
 pub(crate) const ADDER: &str = "\

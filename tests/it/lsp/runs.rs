@@ -4,8 +4,8 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
 use crate::lsp::client::{Client, file};
+use crate::support::bench::Bench;
 
 const TESTED: &str = "\
 circuit f(a, b) -> (q) {

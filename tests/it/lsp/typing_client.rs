@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use crate::language::programs;
 use crate::lsp::client::{Client, file};
+use crate::support::bench::Bench;
+use crate::support::programs::programs;
 
 /// Messages that are sent before the answer to the last of them is awaited. What the server sends meanwhile fits into
 /// its pipe.

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
 use crate::lsp::client::{Client, at, file, uri};
 use crate::lsp::{ADDER, HALF};
+use crate::support::bench::Bench;
 
 fn whole(uri: &str) -> Value {
     let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 9999, "character": 0 } });

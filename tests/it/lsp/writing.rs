@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
 use crate::lsp::client::{Client, at, file, place};
+use crate::support::bench::Bench;
 
 const START: &str = "\
 // Adds two bits.

@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn no_squad_has_more_robots_than_lanes() {
+    fn no_group_has_more_robots_than_lanes() {
         check(&[(5, 0); 5], 2, &[&[3, 4], &[1, 2], &[0]]);
         check(&[], 8, &[]);
     }

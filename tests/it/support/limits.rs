@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::tools::signal;
+use crate::support::tools::signal;
 
 /// The most time that a program may take. A busy machine needs a small part of it.
 pub const PATIENCE: Duration = Duration::from_secs(300);
@@ -60,7 +60,7 @@ pub fn until(fault: &str, holds: impl Fn() -> bool) {
 
 #[test]
 fn every_wait_for_a_program_has_a_limit() {
-    let files = crate::tools::files();
+    let files = crate::support::tools::files();
     for (path, text) in files.iter().filter(|(path, _)| !path.ends_with("limits.rs")) {
         for word in [".output()", ".wait_with_output()"] {
             assert!(!text.contains(word), "{}: use those of limits.rs, not `{word}`", path.display());

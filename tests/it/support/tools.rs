@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
-use crate::limits::InTime;
+use crate::support::limits::InTime;
 
 /// A program that is not part of this project.
 pub struct Tool {
@@ -90,7 +90,7 @@ fn needs_a_tool_that_nobody_has() {
 fn a_test_without_its_tool_is_skipped_with_one_line_and_fails_where_tools_are_required() {
     let run = |required: bool| {
         let mut command = Command::new(std::env::current_exe().unwrap());
-        command.args(["--ignored", "--exact", "tools::needs_a_tool_that_nobody_has", "--test-threads=2"]);
+        command.args(["--ignored", "--exact", "support::tools::needs_a_tool_that_nobody_has", "--test-threads=2"]);
         command.env_remove("NBC_REQUIRE_TOOLS");
         if required {
             command.env("NBC_REQUIRE_TOOLS", "1");
@@ -98,15 +98,15 @@ fn a_test_without_its_tool_is_skipped_with_one_line_and_fails_where_tools_are_re
         let output = command.output_in_time();
         (output.status.success(), String::from_utf8(output.stderr).unwrap())
     };
-    let line = "skipped tools::needs_a_tool_that_nobody_has: `nbc-no-such-tool` is not installed; apt-get install \
-                no-such-package\n";
+    let line = "skipped support::tools::needs_a_tool_that_nobody_has: `nbc-no-such-tool` is not installed; \
+                apt-get install no-such-package\n";
     assert_eq!(run(false), (true, line.to_owned()));
     assert!(!run(true).0);
 }
 
 /// The files of the tests, with their texts.
 pub fn files() -> Vec<(PathBuf, String)> {
-    let (mut open, mut found) = (vec![crate::language::root().join("tests")], Vec::new());
+    let (mut open, mut found) = (vec![crate::support::root().join("tests")], Vec::new());
     while let Some(path) = open.pop() {
         if path.is_dir() {
             open.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use crate::cli::{Bench, program};
-use crate::limits::{InTime, Limit, until};
-use crate::tools::signal;
+use crate::support::bench::{Bench, program};
+use crate::support::limits::{InTime, Limit, until};
+use crate::support::tools::signal;
 
 /// A program that uses Verilog.
 pub const USER: &str = "use \"m.v\"\n\ncircuit f(a) -> (q) {\n    q = m(a)\n}\n\ntest f {\n    a | q\n    0 | 0\n}\n";
