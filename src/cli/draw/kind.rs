@@ -11,9 +11,9 @@ pub(super) struct Kind(pub(super) &'static dyn PictureKind);
 
 /// The parser of `--as`, whose help lists all kinds.
 pub(super) fn kinds() -> impl TypedValueParser<Value = Kind> {
-    let value = |kind: &&dyn PictureKind| PossibleValue::new(kind.word()).help(kind.about());
+    let value = |kind: &&dyn PictureKind| PossibleValue::new(kind.description().word).help(kind.description().about);
     PossibleValuesParser::new(PICTURES.iter().map(value)).try_map(|word| {
-        let kind = PICTURES.into_iter().find(|kind| kind.word() == word);
+        let kind = PICTURES.into_iter().find(|kind| kind.description().word == word);
         kind.map(Kind).ok_or("not a kind of picture")
     })
 }

@@ -41,7 +41,7 @@ impl DrawArguments {
         options::check_options(&request, kind, subject)?;
         canvas.write(draw(kind, subject, &request, context)?)?;
         if context.format == OutputFormat::Json {
-            let drawn = serde_json::json!({ "file": output, "kind": kind.word() });
+            let drawn = serde_json::json!({ "file": output, "kind": kind.description().word });
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)

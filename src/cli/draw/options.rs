@@ -15,7 +15,7 @@ pub(super) fn check_options(
 ) -> Result<(), DrawError> {
     let is_program = subject == SubjectKind::Program;
     let has_robots = matches!(subject, SubjectKind::Library | SubjectKind::Run);
-    let takes = |option| kind.options().contains(&option);
+    let takes = |option| kind.description().options.contains(&option);
     let choice = request.circuit.choice();
     let options = [
         ("--at", request.at.is_some(), takes("--at"), "a pose"),
@@ -32,5 +32,5 @@ pub(super) fn check_options(
     let Some((option, .., wanted)) = options.into_iter().find(|(_, given, applies, _)| *given && !applies) else {
         return Ok(());
     };
-    Err(DrawError::Option { what: request.what.clone(), option, kind: kind.word(), applies_to: wanted })
+    Err(DrawError::Option { what: request.what.clone(), option, kind: kind.description().word, applies_to: wanted })
 }

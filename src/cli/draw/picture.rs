@@ -31,27 +31,32 @@ pub(super) enum FilmFormat {
     Gif,
 }
 
-/// A kind of picture. What it cannot show is refused, with the kind of subject that it is for.
-pub(super) trait PictureKind: Sync {
+/// The description of a kind of picture.
+pub(super) struct KindDescription {
     /// The word for it on the command line.
-    fn word(&self) -> &'static str;
-
+    pub(super) word: &'static str,
     /// A line about it in the help.
-    fn about(&self) -> &'static str;
-
+    pub(super) about: &'static str,
     /// The extensions of its files.
-    fn extensions(&self) -> &'static [&'static str] {
-        &["svg", "png"]
-    }
-
+    pub(super) extensions: &'static [&'static str],
     /// The options that change the picture, of those that not every kind has.
-    fn options(&self) -> &'static [&'static str] {
-        &[]
-    }
-
+    pub(super) options: &'static [&'static str],
     /// The kind of subject that it is for: the one to name if another is given. A kind for libraries also shows the
     /// best robots of a run.
-    fn subject(&self) -> SubjectKind;
+    pub(super) subject: SubjectKind,
+}
+
+impl KindDescription {
+    /// A kind of picture as SVG or PNG without options.
+    pub(super) fn new(word: &'static str, about: &'static str, subject: SubjectKind) -> Self {
+        Self { word, about, extensions: &["svg", "png"], options: &[], subject }
+    }
+}
+
+/// A kind of picture. What it cannot show is refused, with the kind of subject that it is for.
+pub(super) trait PictureKind: Sync {
+    /// Its name and what it applies to.
+    fn description(&self) -> KindDescription;
 
     /// Draws one robot.
     fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
@@ -65,7 +70,7 @@ pub(super) trait PictureKind: Sync {
 
     /// Draws an evolution run; its best robots, if this is a picture of several robots.
     fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
-        match self.subject() {
+        match self.description().subject {
             SubjectKind::Library => self.of_library(&best_champions(results), request),
             _ => Err(self.refuse(SubjectKind::Run, request)),
         }
@@ -78,8 +83,9 @@ pub(super) trait PictureKind: Sync {
 
     /// The error for a subject that has no such picture.
     fn refuse(&self, given: SubjectKind, request: &DrawRequest) -> Failure {
-        let (what, kind) = (request.what.clone(), self.word());
-        DrawError::Kind { what, given: noun(given), expected: wanted(self.subject(), given), kind }.into()
+        let KindDescription { word: kind, subject, .. } = self.description();
+        let what = request.what.clone();
+        DrawError::Kind { what, given: noun(given), expected: wanted(subject, given), kind }.into()
     }
 }
 

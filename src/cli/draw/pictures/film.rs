@@ -1,7 +1,7 @@
 //! Films of robots that move.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, FilmFormat, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::TitledRobots;
@@ -13,33 +13,13 @@ use nbc_session::report::{Film, Stage};
 pub(super) struct FilmPicture(pub(super) FilmFormat);
 
 impl PictureKind for FilmPicture {
-    fn word(&self) -> &'static str {
-        match self.0 {
-            FilmFormat::Apng => "apng",
-            FilmFormat::Gif => "gif",
-        }
-    }
-
-    fn about(&self) -> &'static str {
-        match self.0 {
-            FilmFormat::Apng => "A film as animated PNG",
-            FilmFormat::Gif => "A film as GIF",
-        }
-    }
-
-    fn extensions(&self) -> &'static [&'static str] {
-        match self.0 {
-            FilmFormat::Apng => &["png", "apng"],
-            FilmFormat::Gif => &["gif"],
-        }
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--frames", "--safe-colors", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Library
+    fn description(&self) -> KindDescription {
+        let (word, about, extensions): (_, _, &[&str]) = match self.0 {
+            FilmFormat::Apng => ("apng", "A film as animated PNG", &["png", "apng"]),
+            FilmFormat::Gif => ("gif", "A film as GIF", &["gif"]),
+        };
+        let options = &["--frames", "--safe-colors", "--schedule"];
+        KindDescription { extensions, options, ..KindDescription::new(word, about, SubjectKind::Library) }
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {

@@ -1,7 +1,7 @@
 //! An archive as a map of its niches.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording::DrawError;
 use nbc_session::report::{self, ArchiveMap, EvolutionResults, axis_word};
@@ -10,20 +10,9 @@ use nbc_swarm::evolve::NicheKey;
 pub(super) struct HeatmapPicture;
 
 impl PictureKind for HeatmapPicture {
-    fn word(&self) -> &'static str {
-        "heatmap"
-    }
-
-    fn about(&self) -> &'static str {
-        "The archive of a run"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--axes"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Run
+    fn description(&self) -> KindDescription {
+        let options = &["--axes"];
+        KindDescription { options, ..KindDescription::new("heatmap", "The archive of a run", SubjectKind::Run) }
     }
 
     fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {

@@ -2,7 +2,7 @@
 
 use crate::cli::Failure;
 use crate::cli::draw::evolution_run::each_champion;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::pictures::comparison::comparison;
 use crate::cli::draw::pictures::progress::progress;
 use crate::cli::draw::pictures::spacetime::champions;
@@ -15,24 +15,14 @@ use nbc_swarm::Room;
 pub(super) struct PagePicture;
 
 impl PictureKind for PagePicture {
-    fn word(&self) -> &'static str {
-        "report"
-    }
-
-    fn about(&self) -> &'static str {
-        "A page with a player"
-    }
-
-    fn extensions(&self) -> &'static [&'static str] {
-        &["html"]
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--safe-colors"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Program
+    fn description(&self) -> KindDescription {
+        let extensions = &["html"];
+        let options = &["--safe-colors"];
+        KindDescription {
+            extensions,
+            options,
+            ..KindDescription::new("report", "A page with a player", SubjectKind::Program)
+        }
     }
 
     fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::cli::Failure;
 use crate::cli::draw::evolution_run::each_champion;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
@@ -18,20 +18,9 @@ use nbc_swarm::SwarmTrace;
 pub(super) struct SpacetimePicture;
 
 impl PictureKind for SpacetimePicture {
-    fn word(&self) -> &'static str {
-        "spacetime"
-    }
-
-    fn about(&self) -> &'static str {
-        "Paths over time"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--robots", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Library
+    fn description(&self) -> KindDescription {
+        let options = &["--robots", "--schedule"];
+        KindDescription { options, ..KindDescription::new("spacetime", "Paths over time", SubjectKind::Library) }
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {

@@ -1,7 +1,7 @@
 //! Bodies with their materials.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::{NamedBody, TitledRobots, of_swarm};
@@ -10,20 +10,12 @@ use nbc_session::report::{self, Portrait};
 pub(super) struct SpritePicture;
 
 impl PictureKind for SpritePicture {
-    fn word(&self) -> &'static str {
-        "sprite"
-    }
-
-    fn about(&self) -> &'static str {
-        "Bodies with their materials"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--safe-colors"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Library
+    fn description(&self) -> KindDescription {
+        let options = &["--safe-colors"];
+        KindDescription {
+            options,
+            ..KindDescription::new("sprite", "Bodies with their materials", SubjectKind::Library)
+        }
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {

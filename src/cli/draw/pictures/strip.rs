@@ -1,7 +1,7 @@
 //! Snapshots of a gait.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
@@ -9,20 +9,12 @@ use nbc_session::report;
 pub(super) struct StripPicture;
 
 impl PictureKind for StripPicture {
-    fn word(&self) -> &'static str {
-        "strip"
-    }
-
-    fn about(&self) -> &'static str {
-        "Snapshots of a robot's gait under each pattern"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--safe-colors", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Robot
+    fn description(&self) -> KindDescription {
+        let options = &["--safe-colors", "--schedule"];
+        KindDescription {
+            options,
+            ..KindDescription::new("strip", "Snapshots of a robot's gait under each pattern", SubjectKind::Robot)
+        }
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
