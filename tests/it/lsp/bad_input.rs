@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::lsp::HALF;
-use crate::lsp::client::{Client, at, file, place, uri};
+use crate::lsp::client::{Client, at, file, opened, place, uri};
 use crate::lsp::renaming::client_of;
 use crate::lsp::typing_client::TypingClient;
 use crate::support::bench::Bench;
@@ -72,10 +72,7 @@ fn commands_refuse_what_is_not_utf_8() {
 
 #[test]
 fn edits_that_come_at_once_are_checked_once() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", &crate::speed::long_program());
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", &crate::speed::long_program());
     client.diagnostics(&uri);
     let start = json!({ "line": 0, "character": 0 });
     let edits = 40;

@@ -202,6 +202,15 @@ pub(super) fn file(bench: &Bench, name: &str, text: &str) -> (String, String) {
     (uri(&bench.path().join(name)), text.to_owned())
 }
 
+/// A client with one open file in a folder of its own: the folder, the client, the URI and the text.
+pub(super) fn opened(name: &str, text: &str) -> (Bench, Client, String, String) {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, name, text);
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    (bench, client, uri, text)
+}
+
 /// The place of a word in a text that has it, in lines and characters.
 pub(super) fn at(text: &str, word: &str) -> Value {
     let before = &text[..text.find(word).unwrap()];
