@@ -123,6 +123,22 @@ impl Context {
         Ok(writeln!(self.out)?)
     }
 
+    /// Prints a result in the requested format: the value as JSON, or the text.
+    ///
+    /// # Errors
+    /// As [`Context::print`].
+    pub fn print_result<T: fmt::Display>(
+        &mut self,
+        schema: Schema,
+        value: &impl Serialize,
+        text: impl FnOnce() -> T,
+    ) -> Result<(), Failure> {
+        match self.format {
+            OutputFormat::Json => self.print_json(schema, value),
+            OutputFormat::Text => self.print(text()),
+        }
+    }
+
     /// Flushes standard output.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::robots::read_body;
 use crate::cli::wording::{GroundEnds, UsageError};
-use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::cli::{Context, Failure, Status};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use nbc_base::source::Sources;
@@ -67,10 +67,9 @@ impl SimulateArguments {
         device.end(context)?;
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Simulate, &Outcome::of(&schedule, &trajectory))?,
-            OutputFormat::Text => context.print(describe(&schedule, &trajectory))?,
-        }
+        context.print_result(Schema::Simulate, &Outcome::of(&schedule, &trajectory), || {
+            describe(&schedule, &trajectory)
+        })?;
         Ok(Status::Done)
     }
 }

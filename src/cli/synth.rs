@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
-use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::cli::{Context, Failure, Status};
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
@@ -208,10 +208,7 @@ impl SynthArguments {
             let cells = found.netlist.cells().count();
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
         }
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Synth, &report)?,
-            OutputFormat::Text => context.print(report.text())?,
-        }
+        context.print_result(Schema::Synth, &report, || report.text())?;
         Ok(Status::Done)
     }
 }

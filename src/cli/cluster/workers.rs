@@ -4,7 +4,7 @@ use clap::Args;
 use nbc_cluster::ClusterWatch;
 
 use crate::cli::cluster::NatsArguments;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use crate::cli::{Context, Failure, Interrupt, Status};
 use nbc_session::report::Schema;
 
 /// List the workers at a NATS server, and the searches that they work for
@@ -34,10 +34,7 @@ impl WorkersArguments {
             if self.watch && interrupt.is_raised() {
                 return Ok(Status::Done);
             }
-            match context.format {
-                OutputFormat::Json => context.print_json(Schema::Workers, &found)?,
-                OutputFormat::Text => context.print(found.describe())?,
-            }
+            context.print_result(Schema::Workers, &found, || found.describe())?;
             context.flush()?;
             if !self.watch {
                 return Ok(Status::Done);

@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::gpu::wording::DeviceFailure;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::cli::{Context, Failure, Progress, Status};
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::{BoxComparison, LaneBackend, OpenClBackend, OpenClDevice, SelfTest};
@@ -67,10 +67,7 @@ impl DevicesArguments {
         };
         let reports: Vec<DeviceReport> = devices.iter().map(report).collect();
         drop(bar);
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Devices, &serde_json::json!({ "devices": reports }))?,
-            OutputFormat::Text => context.print(describe(&reports))?,
-        }
+        context.print_result(Schema::Devices, &serde_json::json!({ "devices": reports }), || describe(&reports))?;
         Ok(if reports.iter().all(|report| report.usable) { Status::Done } else { Status::TestFailed })
     }
 }
