@@ -95,6 +95,7 @@ pub fn assembly(trace: &SwarmTrace) -> Assembly {
         robot: robot(&trace.robots[k].robot, trace.robots[k].function),
         senses: trace.robots[k].senses,
         start: false,
+        held: Default::default(),
     };
     Assembly {
         circuit: trace.circuit.clone(),
@@ -102,6 +103,7 @@ pub fn assembly(trace: &SwarmTrace) -> Assembly {
         members: (0..5).map(member).collect(),
         outputs: trace.outputs.clone(),
         shown: trace.shown.clone(),
+        beat: 1,
         world: PhysicsWorld::default(),
     }
 }

@@ -217,6 +217,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         robot: robot.clone(),
         senses: [StimulusSource::Input(0), StimulusSource::Constant(false)],
         start: false,
+        held: Default::default(),
     };
     let assembly = Assembly {
         circuit: "both".to_owned(),
@@ -224,6 +225,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         members: vec![member(robot), member(paper)],
         outputs: Vec::new(),
         shown: Vec::new(),
+        beat: 1,
         world: PhysicsWorld::default(),
     };
     let conditions = SwarmConditions { inputs: vec![vec![true], vec![false]], window: 1, poses: None };

@@ -91,10 +91,12 @@ fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
 fn a_robot_never_reaches_the_end_of_its_ground() {
     let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
-    let member = Member { net: "y".to_owned(), robot, senses: [StimulusSource::Constant(false); 2], start: true };
+    let (net, senses) = ("y".to_owned(), [StimulusSource::Constant(false); 2]);
+    let member = Member { net, robot, senses, start: true, held: Default::default() };
     let (outputs, shown) = (vec![crate::support::traces::port("y")], vec![StimulusSource::Robot(0)]);
     let (inputs, world) = (Vec::new(), PhysicsWorld::default());
-    let assembly = Assembly { circuit: "one".to_owned(), inputs, members: vec![member], outputs, shown, world };
+    let assembly =
+        Assembly { circuit: "one".to_owned(), inputs, members: vec![member], outputs, shown, beat: 1, world };
     let conditions = SwarmConditions { inputs: vec![Vec::new(); 80], window: 1, poses: None };
     let trace = simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {});
     let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
@@ -112,8 +114,10 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
         robot: robot.clone(),
         senses: [StimulusSource::Constant(true), StimulusSource::Robot(0)],
         start: false,
+        held: Default::default(),
     };
     let assembly = Assembly {
+        beat: 1,
         circuit: "three".to_owned(),
         inputs: Vec::new(),
         members: shipped_library().robots[..3].iter().map(member).collect(),

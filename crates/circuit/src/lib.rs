@@ -29,6 +29,7 @@ mod rings;
 pub mod storage;
 pub mod synth;
 pub mod timing;
+pub mod waves;
 mod wording;
 
 pub use cancel::CancelFlag;

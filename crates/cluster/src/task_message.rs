@@ -77,6 +77,7 @@ struct SwarmRecord {
     members: Vec<MemberRecord>,
     world: PhysicsWorld,
     window: u32,
+    beat: u32,
     cycles: u32,
     /// The bits of the input ports, and those of each cycle.
     width: u32,
@@ -90,6 +91,8 @@ struct MemberRecord {
     clock: u32,
     senses: [SourceRecord; 2],
     start: bool,
+    /// For each pin, for how many cycles it is held, and its bits then.
+    held: [(u32, Vec<u8>); 2],
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -231,6 +234,7 @@ impl SwarmRecord {
                 clock: member.robot.character.clock,
                 senses: member.senses.map(SourceRecord::of),
                 start: member.start,
+                held: member.held.each_ref().map(|bits| (bits.len() as u32, pack(bits.iter().copied()))),
             });
         }
         let inputs = &task.conditions.inputs;
@@ -239,6 +243,7 @@ impl SwarmRecord {
             members,
             world: task.assembly.world,
             window: task.conditions.window as u32,
+            beat: task.assembly.beat,
             cycles: inputs.len() as u32,
             width: inputs.first().map_or(0, Vec::len) as u32,
             inputs: pack(inputs.iter().flatten().copied()),
@@ -248,7 +253,11 @@ impl SwarmRecord {
     fn check(self) -> Option<SwarmTask> {
         let (cycles, width, robots) = (self.cycles as usize, self.width as usize, self.members.len());
         let steps = cycles as u64 * u64::from(CYCLE_STEPS);
-        if !(1..=MOST_CYCLES).contains(&cycles) || steps > MOST_STEPS || self.window == 0 || !self.world.is_possible() {
+        if !(1..=MOST_CYCLES).contains(&cycles)
+            || steps > MOST_STEPS
+            || [self.window, self.beat].contains(&0)
+            || !self.world.is_possible()
+        {
             return None;
         }
         let bodies = self.bodies.into_iter().map(BodyRecord::check).collect::<Option<Vec<Body>>>()?;
@@ -256,10 +265,14 @@ impl SwarmRecord {
         let member = |record: MemberRecord| {
             let [first, second] = record.senses.map(|source| source.check(width, robots));
             let (body, senses) = (bodies.get(record.body as usize)?.clone(), [first?, second?]);
-            Some(PlainMember { body, clock: record.clock, senses, start: record.start })
+            let [one, two] =
+                record.held.map(|(held, bits)| unpack(&bits, 1, held as usize).map(|mut rows| rows.remove(0)));
+            Some(PlainMember { body, clock: record.clock, senses, start: record.start, held: [one?, two?] })
         };
         let members = self.members.into_iter().map(member).collect::<Option<Vec<_>>>()?;
-        Some(SwarmTask::new(members, self.world, inputs, self.window as usize))
+        let mut task = SwarmTask::new(members, self.world, inputs, self.window as usize);
+        task.assembly.beat = self.beat;
+        Some(task)
     }
 }
 
@@ -311,7 +324,13 @@ pub(super) mod tests {
     /// A swarm of two robots that sense each other and two inputs.
     fn swarm() -> Task {
         let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
-        let member = |senses, start| PlainMember { body: body.clone(), clock: 2, senses, start };
+        let member = |senses, start| PlainMember {
+            body: body.clone(),
+            clock: 2,
+            senses,
+            start,
+            held: [vec![start; 3], Vec::new()],
+        };
         let members = vec![
             member([StimulusSource::Input(0), StimulusSource::Robot(1)], true),
             member([StimulusSource::Robot(0), StimulusSource::Input(1)], false),

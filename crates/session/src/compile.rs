@@ -1,12 +1,14 @@
 //! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
 
 use crate::plan::Plan;
+use crate::waves::map_waves;
 use crate::wording::{ChoiceError, SwarmWarning, for_circuit};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, PhysicsWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::{Pass, Sweep};
 use nbc_circuit::timing::{Delays, Pulsed, PulsedRegisters};
+use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{
     CellLibrary, MapError, MapOptions, Netlist, Proof, Timing, elaborate, elaborate_net, map_with, prove,
 };
@@ -21,21 +23,26 @@ pub struct Mapping {
     pub netlist: Netlist,
     /// The available cells.
     pub cells: CellLibrary,
-    /// How the two netlists were proved equal, before registers became pulsed latches.
+    /// How the two netlists were proved equal, before registers became pulsed latches; or the steps of a wave machine.
     pub proof: Proof,
     /// The registers, if they were to be pulsed latches.
     pub registers: Option<PulsedRegisters>,
+    /// The wave machine, if the circuit was to be one.
+    pub waves: Option<WaveMachine>,
 }
 
 impl Mapping {
-    /// The same circuit with registers of another style.
-    fn with_registers(self, style: RegisterStyle) -> Self {
-        match style {
-            RegisterStyle::MasterSlave => self,
-            RegisterStyle::Pulsed => {
-                let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
-                Self { netlist, registers: Some(registers), ..self }
-            }
+    /// The same circuit with pulsed latches as registers.
+    fn pulsed(self) -> Self {
+        let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
+        Self { netlist, registers: Some(registers), ..self }
+    }
+
+    /// When each net has settled; the hold of a wave machine is the length of a step.
+    fn timing(&self) -> Timing {
+        match &self.waves {
+            None => Timing::of(&self.netlist, &self.cells, Delays::Clock),
+            Some(machine) => Timing::of_steps(machine.cycles_per_step() as u32),
         }
     }
 }
@@ -58,6 +65,11 @@ pub struct Compiled {
 }
 
 impl Compiled {
+    /// The clock of each robot.
+    pub(super) fn clocks(&self) -> Vec<u32> {
+        self.assembly.members.iter().map(|member| member.robot.character.clock).collect()
+    }
+
     /// The same swarm in another world.
     pub(super) fn in_world(&self, world: PhysicsWorld) -> Self {
         let mut moved = self.clone();
@@ -80,26 +92,46 @@ impl Compiled {
 pub fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
     let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
     match prove(&source, &netlist) {
-        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None }),
+        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None, waves: None }),
         Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
     }
 }
 
-/// Elaborates a circuit of a program without errors, and maps it as requested at `place`.
+/// Elaborates a circuit of a program without errors, and maps it onto cells as requested at `place`.
 ///
 /// # Errors
 /// When the circuit cannot be built, or the library lacks a function.
-pub(super) fn map(
+pub(super) fn map_onto(
     program: &Program,
     circuit: &Instance,
     cells: &CellLibrary,
     options: &MapOptions,
-    style: RegisterStyle,
     place: Span,
 ) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate(program, circuit)?;
-    let mapping = synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])?;
-    Ok(mapping.with_registers(style))
+    synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
+}
+
+/// Elaborates a planned circuit of a program without errors, and maps it onto its robots as requested at `place`.
+///
+/// # Errors
+/// As [`map_onto`], and when the circuit cannot be the wave machine that it is to be.
+pub(super) fn map(
+    program: &Program,
+    plan: &Plan,
+    options: &MapOptions,
+    place: Span,
+) -> Result<Mapping, Vec<Diagnostic>> {
+    let map = || map_onto(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, place);
+    match plan.registers {
+        RegisterStyle::MasterSlave => map(),
+        RegisterStyle::Pulsed => map().map(Mapping::pulsed),
+        RegisterStyle::Waves => {
+            let source = elaborate(program, &plan.circuit)?;
+            let mapping = map_waves(source, &plan.library, plan.waves, options);
+            mapping.map_err(|fault| vec![for_circuit(fault, place)])
+        }
+    }
 }
 
 /// Maps the part of a planned circuit that drives the net declared at `net`.
@@ -129,11 +161,13 @@ pub(super) fn compile(
     options: &MapOptions,
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let mapping = map(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, plan.registers, place)?;
-    let timing = Timing::of(&mapping.netlist, &mapping.cells, Delays::Clock);
-    let assembly =
-        nbc_swarm::assemble(&mapping.netlist, &plan.library).expect("the netlist was mapped onto this library");
-    let assembly = assembly.in_world(plan.world);
+    let mapping = map(program, &plan, options, place)?;
+    let timing = mapping.timing();
+    let assembly = match &mapping.waves {
+        None => nbc_swarm::assemble(&mapping.netlist, &plan.library),
+        Some(machine) => nbc_swarm::assemble_waves(machine, &nbc_swarm::within_beat(&plan.library, machine.beat)),
+    };
+    let assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world);
     let weak_robots = nbc_swarm::weak_robots(&assembly);
     let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();
     Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })

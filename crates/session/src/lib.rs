@@ -4,6 +4,7 @@
 mod checked;
 mod choice;
 mod compile;
+mod course;
 mod documents;
 mod error_pages;
 mod formatted;
@@ -23,6 +24,7 @@ mod simulation;
 pub mod store;
 mod swarm_run;
 mod test;
+mod waves;
 mod wording;
 
 pub use checked::{Checked, prelude};

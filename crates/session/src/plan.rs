@@ -5,7 +5,7 @@ use crate::options::CompileOptions;
 use crate::robots::RobotSources;
 use crate::wording::ChoiceError;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Hold, Instance, Library, PhysicsWorld, Program, RegisterStyle, Swarm};
+use nbc_base::model::{Hold, Instance, Library, PhysicsWorld, Program, RegisterStyle, Swarm, WaveTimes};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 /// A circuit with everything that its swarm declares.
@@ -23,6 +23,8 @@ pub struct Plan {
     pub window: u32,
     /// What registers are made of.
     pub registers: RegisterStyle,
+    /// The times of a wave machine, if it is to be one.
+    pub waves: WaveTimes,
     /// The world of the swarm.
     pub world: PhysicsWorld,
 }
@@ -84,6 +86,7 @@ pub(super) fn of_swarm(
         hold: declaration.map_or(Hold::Auto, |swarm| swarm.hold),
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
+        waves: declaration.map_or(WaveTimes::default(), |swarm| swarm.waves),
         world: declaration.map_or(PhysicsWorld::default(), |swarm| swarm.world),
     })
 }

@@ -15,7 +15,7 @@ use crate::{
     swarm_run,
 };
 use nbc_base::diag::Diagnostics;
-use nbc_base::model::{CircuitTest, Instance, Library, RegisterStyle, Simulation};
+use nbc_base::model::{CircuitTest, Instance, Library, Simulation};
 use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::CellLibrary;
 use nbc_sim::Simulator;
@@ -137,8 +137,7 @@ impl Session {
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
-        let (cells, place) = (nbc_swarm::cells(&plan.library), checked.place(circuit));
-        let mapping = compile::map(&checked.program, circuit, &cells, &options.mapping(), plan.registers, place);
+        let mapping = compile::map(&checked.program, &plan, &options.mapping(), checked.place(circuit));
         mapping.map_err(|faults| checked.fail(faults))
     }
 
@@ -170,8 +169,8 @@ impl Session {
         cells: &CellLibrary,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
-        let (style, place) = (RegisterStyle::default(), checked.place(circuit));
-        let mapping = compile::map(&checked.program, circuit, cells, &options.mapping(), style, place);
+        let place = checked.place(circuit);
+        let mapping = compile::map_onto(&checked.program, circuit, cells, &options.mapping(), place);
         mapping.map_err(|faults| checked.fail(faults))
     }
 

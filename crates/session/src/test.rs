@@ -1,12 +1,14 @@
 //! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
 use crate::compile::{Compiled, compile};
+use crate::course::{Course, Running};
 use crate::hold;
 use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan::plans;
 use crate::robots::RobotSources;
 use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
+use crate::waves::steps;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
@@ -57,7 +59,7 @@ pub struct TestCase<'a> {
 #[derive(Clone, Debug)]
 enum Subject {
     Gates(Netlist),
-    Robots(Box<Compiled>, Vec<RowHold>),
+    Robots(Box<Compiled>, Course),
 }
 
 /// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
@@ -84,9 +86,19 @@ pub(super) fn cases<'a>(
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return Ok(vec![case(Subject::Gates(netlist))]);
         }
-        let row_holds = hold::row_holds(&rows, &netlist, &compiled);
-        compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
-        cases.push(case(Subject::Robots(Box::new(compiled), row_holds)));
+        let mut one = case(Subject::Gates(Netlist::default()));
+        let course = match &compiled.mapping.waves {
+            Some(machine) => {
+                one.rows = steps(test, &rows, machine)?;
+                Course::Waves
+            }
+            None => {
+                let row_holds = hold::row_holds(&rows, &netlist, &compiled);
+                compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
+                Course::Holds(row_holds)
+            }
+        };
+        cases.push(TestCase { subject: Subject::Robots(Box::new(compiled), course), ..one });
     }
     Ok(cases)
 }
@@ -113,92 +125,80 @@ impl TestRun {
     pub fn world_trial(&self) -> Option<WorldTrial> {
         let SwarmRun { compiled, trace } = self.swarm.as_ref()?;
         let window = compiled.plan.window as usize;
-        Some(WorldTrial::new(compiled.plan.world, &self.verdict, trace, &clocks(compiled), window))
+        Some(WorldTrial::new(compiled.plan.world, &self.verdict, trace, &compiled.clocks(), window))
     }
-}
-
-fn clocks(compiled: &Compiled) -> Vec<u32> {
-    compiled.assembly.members.iter().map(|member| member.robot.character.clock).collect()
 }
 
 impl TestCase<'_> {
-    /// The amount of work: cycles in physics, rows at the level of logic.
-    pub fn work(&self) -> u64 {
+    /// The test with its swarm and its course; `None` at the level of logic.
+    fn running(&self) -> Option<Running<'_>> {
         match &self.subject {
-            Subject::Gates(_) => self.rows.len() as u64,
-            Subject::Robots(..) => self.row_holds().iter().map(|row_hold| row_hold.hold as u64).sum(),
+            Subject::Gates(_) => None,
+            Subject::Robots(compiled, course) => Some(Running { test: self.test, rows: &self.rows, compiled, course }),
         }
     }
 
-    /// The hold of each row in physics; empty at the level of logic.
+    /// The amount of work: cycles in physics, rows at the level of logic.
+    pub fn work(&self) -> u64 {
+        self.running().map_or(self.rows.len(), |running| running.cycles(self.rows.len())) as u64
+    }
+
+    /// The hold of each row in physics; empty at the level of logic, and for wave machines.
     pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
-            Subject::Gates(_) => &[],
-            Subject::Robots(_, row_holds) => row_holds,
+            Subject::Robots(_, Course::Holds(row_holds)) => row_holds,
+            Subject::Robots(_, Course::Waves) | Subject::Gates(_) => &[],
         }
+    }
+
+    /// The swarm; `None` at the level of logic.
+    fn compiled(&self) -> Option<&Compiled> {
+        self.running().map(|running| running.compiled)
     }
 
     /// The declared swarm that is tested, if it is one.
     pub fn swarm(&self) -> Option<&str> {
-        match &self.subject {
-            Subject::Gates(_) => None,
-            Subject::Robots(compiled, _) => compiled.plan.swarm.as_deref(),
-        }
+        self.compiled()?.plan.swarm.as_deref()
     }
 
     /// The swarm, and the input bits of each of its cycles through the first `rows` rows; `None` at the level of logic.
     pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
+        let inputs = self.running()?.inputs(rows);
         match self.subject {
             Subject::Gates(_) => None,
-            Subject::Robots(compiled, row_holds) => {
-                let rows = self.rows.iter().zip(&row_holds).take(rows);
-                let held = rows.flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold));
-                Some((*compiled, held.collect()))
-            }
+            Subject::Robots(compiled, _) => Some((*compiled, inputs)),
         }
     }
 
     /// The world of its swarm; the paper's at the level of logic, which has none.
     pub fn world(&self) -> PhysicsWorld {
-        match &self.subject {
-            Subject::Gates(_) => PhysicsWorld::default(),
-            Subject::Robots(compiled, _) => compiled.plan.world,
-        }
+        self.compiled().map_or_else(PhysicsWorld::default, |compiled| compiled.plan.world)
     }
 
     /// The same test in another world, where it ends with the first row that fails.
     pub fn trial_in(&self, world: PhysicsWorld) -> Self {
         let subject = match &self.subject {
             Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
-            Subject::Robots(compiled, row_holds) => {
-                Subject::Robots(Box::new(compiled.in_world(world)), row_holds.clone())
-            }
+            Subject::Robots(compiled, course) => Subject::Robots(Box::new(compiled.in_world(world)), course.clone()),
         };
         Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true }
     }
 
     /// The number of robots; 0 at the level of logic.
     pub fn robots(&self) -> usize {
-        match &self.subject {
-            Subject::Gates(_) => 0,
-            Subject::Robots(compiled, _) => compiled.assembly.members.len(),
-        }
+        self.compiled().map_or(0, |compiled| compiled.assembly.members.len())
     }
 
-    /// The rows, in order.
+    /// The rows, in order; those of a wave machine are its steps.
     pub fn rows(&self) -> &[TestRow] {
         &self.rows
     }
 
     /// The simulation of its swarm, to be done elsewhere; `None` at the level of logic.
     pub fn task(&self) -> Option<SwarmTask> {
-        match &self.subject {
-            Subject::Gates(_) => None,
-            Subject::Robots(compiled, row_holds) => {
-                let inputs = inputs(&self.rows, row_holds);
-                Some(SwarmTask::of(&compiled.assembly, inputs, compiled.plan.window as usize))
-            }
-        }
+        let running = self.running()?;
+        let Compiled { assembly, plan, .. } = running.compiled;
+        Some(SwarmTask::of(assembly, running.inputs(self.rows.len()), plan.window as usize))
     }
 
     /// The end of the test when its swarm was simulated elsewhere, with these bits. There is no trace.
@@ -206,76 +206,47 @@ impl TestCase<'_> {
     /// # Panics
     /// When the bits belong to another swarm, or the test has none.
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
-        let Subject::Robots(compiled, row_holds) = self.subject else { panic!("a test in physics") };
-        let inputs = inputs(&self.rows, &row_holds);
+        let running = self.running().expect("a test in physics");
+        let inputs = running.inputs(self.rows.len());
         let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
-        let trace = bits.trace(&compiled.assembly, &inputs);
-        let (verdict, warnings) = judged(self.test, &self.rows, &row_holds, &compiled, &trace, end);
+        let trace = bits.trace(&running.compiled.assembly, &inputs);
+        let (verdict, warnings) = judged(running, &trace, end);
         TestRun { verdict, end, swarm: None, hold: None, warnings }
     }
 
     /// Runs the test.
     pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
-        match self.subject {
-            Subject::Gates(ref netlist) => {
-                let rows = nbc_swarm::judge_logic(self.test, &self.rows, netlist);
-                observer.progress(rows.len() as u64, rows.len() as u64);
-                let verdict = verdict(self.test, Level::Logic, None, rows);
-                TestRun { verdict, end: RunEnd::Complete, swarm: None, hold: None, warnings: Vec::new() }
-            }
-            Subject::Robots(compiled, ref row_holds) => {
-                let Self { test, ref rows, ends_at_failure, .. } = self;
-                let inputs = inputs(rows, row_holds);
-                let swarm = physics.swarm(&compiled, inputs.len());
-                let mut has_failed = has_failed(test, rows, row_holds);
-                let mut is_enough = |trace: &SwarmTrace| ends_at_failure && has_failed(trace);
-                let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
-                let (verdict, warnings) = judged(test, rows, row_holds, &compiled, &trace, end);
-                let hold = Some(hold::sufficient(rows, &compiled));
-                TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), hold, warnings }
-            }
-        }
+        let Some(running) = self.running() else { return self.run_logic(observer) };
+        let inputs = running.inputs(self.rows.len());
+        let swarm = physics.swarm(running.compiled, inputs.len());
+        let mut has_failed = running.has_failed();
+        let mut is_enough = |trace: &SwarmTrace| self.ends_at_failure && has_failed(trace);
+        let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
+        let (verdict, warnings) = judged(running, &trace, end);
+        let hold = match running.course {
+            Course::Holds(_) => hold::sufficient(&self.rows, running.compiled),
+            Course::Waves => running.compiled.timing.hold as usize,
+        };
+        drop(has_failed);
+        let Subject::Robots(compiled, _) = self.subject else { unreachable!("a test in physics has robots") };
+        TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), hold: Some(hold), warnings }
     }
-}
 
-/// Whether a row that ends with the last cycle of a trace has failed. Must be called after each cycle.
-fn has_failed<'a>(
-    test: &'a CircuitTest,
-    rows: &'a [TestRow],
-    row_holds: &'a [RowHold],
-) -> impl FnMut(&SwarmTrace) -> bool + 'a {
-    let ends = row_holds.iter().scan(0, |end, row_hold| {
-        *end += row_hold.hold;
-        Some(*end)
-    });
-    let mut left = ends.zip(rows.iter().zip(row_holds)).peekable();
-    move |trace| {
-        let row = left.next_if(|(end, _)| *end == trace.cycles.len());
-        row.is_some_and(|(_, (row, row_hold))| !nbc_swarm::passes(test, row, row_hold, trace))
+    fn run_logic(self, observer: &mut dyn Observer) -> TestRun {
+        let Subject::Gates(netlist) = &self.subject else { unreachable!("a test without robots has gates") };
+        let rows = nbc_swarm::judge_logic(self.test, &self.rows, netlist);
+        observer.progress(rows.len() as u64, rows.len() as u64);
+        let verdict = verdict(self.test, Level::Logic, None, rows);
+        TestRun { verdict, end: RunEnd::Complete, swarm: None, hold: None, warnings: Vec::new() }
     }
-}
-
-/// The input bits of each cycle.
-fn inputs(rows: &[TestRow], row_holds: &[RowHold]) -> Vec<Vec<bool>> {
-    let held =
-        rows.iter().zip(row_holds).flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold));
-    held.collect()
 }
 
 /// The verdict on a trace, and the warnings.
-fn judged(
-    test: &CircuitTest,
-    rows: &[TestRow],
-    row_holds: &[RowHold],
-    compiled: &Compiled,
-    trace: &SwarmTrace,
-    end: RunEnd,
-) -> (TestVerdict, Vec<Diagnostic>) {
-    let warnings = compiled.warnings.clone();
-    let judged = nbc_swarm::judge_swarm(test, rows, row_holds, trace, &clocks(compiled));
-    let mut verdict = verdict(test, Level::Physics, Some(compiled), judged);
+fn judged(running: Running<'_>, trace: &SwarmTrace, end: RunEnd) -> (TestVerdict, Vec<Diagnostic>) {
+    let compiled = running.compiled;
+    let mut verdict = verdict(running.test, Level::Physics, Some(compiled), running.judge(trace));
     verdict.passed &= end == RunEnd::Complete;
-    (verdict, warnings)
+    (verdict, compiled.warnings.clone())
 }
 
 fn verdict(

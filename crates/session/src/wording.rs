@@ -4,6 +4,7 @@ use crate::report;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};
 use nbc_base::source::Span;
 use nbc_circuit::MapError;
+use nbc_circuit::waves::WaveError;
 use nbc_swarm::WeakRobot;
 
 /// An invalid choice of a circuit, swarm or library. These errors have no place.
@@ -21,6 +22,8 @@ pub(super) enum ChoiceError {
     OtherCircuit { swarm: String, own: String, circuit: String },
     /// A circuit that cannot be made of the library's cells.
     Unmapped(MapError),
+    /// A circuit that cannot be a wave machine.
+    NoWaves(WaveError),
 }
 
 impl From<ChoiceError> for Diagnostic {
@@ -54,6 +57,11 @@ impl From<ChoiceError> for Diagnostic {
                 let fault = Self::without_place(code, error.to_string());
                 error.help().into_iter().fold(fault, Self::with_help)
             }
+            ChoiceError::NoWaves(WaveError::Unmapped(error)) => ChoiceError::Unmapped(error).into(),
+            ChoiceError::NoWaves(error) => {
+                let fault = Self::without_place(Code::NoWaves, error.to_string());
+                error.help().into_iter().fold(fault, Self::with_help)
+            }
         }
     }
 }
@@ -67,6 +75,34 @@ pub(super) fn for_circuit(error: Diagnostic, place: Span) -> Diagnostic {
 pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>) -> Diagnostic {
     let error = error.with_label(library, "the robots of this library");
     command.into_iter().fold(error, Diagnostic::with_help)
+}
+
+/// A row of a test that is no step of a wave machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum WaveRowError {
+    /// A row after the first in which the clock does not make a step.
+    NoEdge { clock: String, rises: bool },
+    /// A row with a hold of its own, although a step has `step` cycles.
+    Hold { step: usize },
+}
+
+impl WaveRowError {
+    /// The error at its row.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::NoEdge { clock, rises } => {
+                let message = "a wave machine shows new outputs only after an edge of its clock";
+                let how = if rises { "`^`" } else { "1 in a row and 0 in the next" };
+                Diagnostic::new(Code::NoWaves, message, span, format!("`{clock}` makes no step here"))
+                    .with_help(format!("only the first row may have no edge; write {how} for `{clock}`"))
+            }
+            Self::Hold { step } => {
+                let message = "a row of a wave machine has no hold of its own";
+                Diagnostic::new(Code::NoWaves, message, span, format!("a step has {}", counted(step, "cycle")))
+                    .with_help("leave out `for`")
+            }
+        }
+    }
 }
 
 /// A swarm that may give wrong results.

@@ -8,6 +8,7 @@ use crate::AssembleError;
 use crate::cells::choose;
 use crate::noise::RobotNoise;
 use nbc_base::model::{Body, Column, Library, PhysicsWorld, Robot, Setting};
+use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Logic, NetId, Netlist, Node};
 use nbc_sim::{Flock, Simulator};
 
@@ -45,6 +46,8 @@ pub struct Member {
     pub senses: [StimulusSource; 2],
     /// Its output before the first cycle.
     pub start: bool,
+    /// What it senses in the first cycles instead of each source; empty in swarms that are no wave machines.
+    pub held: [Vec<bool>; 2],
 }
 
 /// A swarm ready to be simulated.
@@ -60,6 +63,8 @@ pub struct Assembly {
     pub outputs: Vec<Column>,
     /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
+    /// Cycles for which robots sense the same; more than one only in wave machines.
+    pub beat: u32,
     /// The world in which it is simulated; its members have the bodies that they have there.
     pub world: PhysicsWorld,
 }
@@ -138,7 +143,8 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
         if exchange {
             senses.reverse();
         }
-        members.push(Member { net: netlist.net_name(id), robot: robot.clone(), senses, start: before.value(id) });
+        let (net, start, held) = (netlist.net_name(id), before.value(id), [const { Vec::new() }; 2]);
+        members.push(Member { net, robot: robot.clone(), senses, start, held });
     }
     Ok(Assembly {
         circuit: netlist.name.clone(),
@@ -146,8 +152,27 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
         members,
         outputs: ports(netlist, netlist.outputs()),
         shown: netlist.outputs().iter().map(|&id| signals[&netlist.pins(id)[0]]).collect(),
+        beat: 1,
         world: PhysicsWorld::default(),
     })
+}
+
+/// The swarm of a wave machine: as [`assemble`], with what the pins that read state sense at first.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn assemble_waves(machine: &WaveMachine, library: &Library) -> Result<Assembly, AssembleError> {
+    let mut assembly = assemble(&machine.netlist, library)?;
+    assembly.beat = machine.beat;
+    for ((id, cell), member) in machine.netlist.cells().zip(&mut assembly.members) {
+        member.held = [0, 1].map(|pin| machine.held_bits(id, pin));
+        // A robot of one input may listen with its second stimulus.
+        let (_, exchange) = choose(library, cell.function).expect("the cell has a robot");
+        if exchange {
+            member.held.reverse();
+        }
+    }
+    Ok(assembly)
 }
 
 /// The ports that have these bits.
@@ -185,7 +210,13 @@ mod tests {
 
     fn robot(function: Function) -> Robot {
         let body = Body::parse(&["33"], &nbc_base::model::Palette::paper()).unwrap();
-        let plain = PlainMember { body, clock: 1, senses: [StimulusSource::Constant(false); 2], start: false };
+        let plain = PlainMember {
+            body,
+            clock: 1,
+            senses: [StimulusSource::Constant(false); 2],
+            start: false,
+            held: Default::default(),
+        };
         Robot { name: function.name().to_owned(), behavior: function.into(), ..plain.nameless().robot }
     }
 

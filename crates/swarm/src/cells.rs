@@ -21,6 +21,15 @@ pub fn prefer(library: Library, objective: MappingObjective) -> Library {
     Library { robots }
 }
 
+/// The robots of a library that react within so many cycles, and show nothing else before if that is one.
+pub fn within_beat(library: &Library, beat: u32) -> Library {
+    let is_quick = |robot: &&Robot| {
+        let character = &robot.character;
+        character.clock <= beat && (beat > 1 || character.glitch_rate == 0.0)
+    };
+    Library { robots: library.robots.iter().filter(is_quick).cloned().collect() }
+}
+
 /// The cells of a library: for each function its first robot, or else the first that computes it with exchanged inputs.
 /// [`super::assemble`] makes the same choice.
 pub fn cells(library: &Library) -> CellLibrary {

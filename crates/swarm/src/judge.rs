@@ -22,7 +22,7 @@ pub struct RowHold {
 }
 
 /// Judges a row by the outputs at its end, and by which of them were steady. Every row of every test is judged here.
-fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
+pub(super) fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
     let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
         expected.is_none_or(|expected| expected == output && steady)
     };
@@ -31,6 +31,7 @@ fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool
     RowVerdict {
         row: row.row,
         line: row.line,
+        thread: None,
         inputs: row.input_values(&test.inputs),
         expected: values(&row.expected),
         observed: values(&outputs.iter().copied().map(Some).collect::<Vec<_>>()),

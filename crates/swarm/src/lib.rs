@@ -11,6 +11,7 @@ mod executor;
 mod gate;
 mod holds;
 mod judge;
+mod judge_waves;
 mod live;
 mod measure;
 mod noise;
@@ -32,8 +33,8 @@ mod wording;
 mod work;
 
 pub use activity::{RowActivity, SimulationResult, activity};
-pub use assemble::{Assembly, Member, StimulusSource, assemble};
-pub use cells::{cells, prefer};
+pub use assemble::{Assembly, Member, StimulusSource, assemble, assemble_waves};
+pub use cells::{cells, prefer, within_beat};
 pub use characterize::{characterize, screen, sketch};
 pub use evaluate::{
     evaluate, evaluate_bodies, evaluate_tasks, evolve_generation, fixed_displacements, fixed_trials, full_steps,
@@ -41,6 +42,7 @@ pub use evaluate::{
 pub use evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 pub use executor::{Executor, perform};
 pub use judge::{RowHold, STEADY_CYCLES, judge_logic, judge_swarm, passes, resting_outputs};
+pub use judge_waves::WaveTest;
 pub use live::{LiveSwarm, SwarmSnapshot};
 pub use measure::{FIXED_STEPS, Measurement, measure, walk};
 pub use proportion::Proportion;

@@ -9,8 +9,12 @@ use nbc_base::model::WorldNoise;
 pub(super) struct Sensing {
     /// Cycles at the start in which robots sense the start values of the others.
     start: usize,
+    /// Cycles for which robots sense the same.
+    beat: usize,
     /// Each robot's output as sensed by the others.
     outputs: Vec<bool>,
+    /// What each robot senses in the first cycles instead of its sources.
+    held: Vec<[Vec<bool>; 2]>,
     /// The noise of their world.
     noise: WorldNoise,
 }
@@ -19,7 +23,13 @@ impl Sensing {
     /// The outputs before the first cycle of a swarm.
     pub fn of(assembly: &Assembly) -> Self {
         let outputs = assembly.members.iter().map(|member| member.start).collect();
-        Self { start: assembly.start_cycles(), outputs, noise: assembly.world.noise }
+        Self {
+            start: assembly.start_cycles(),
+            beat: assembly.beat as usize,
+            outputs,
+            held: assembly.members.iter().map(|member| member.held.clone()).collect(),
+            noise: assembly.world.noise,
+        }
     }
 
     /// The stimuli of each robot during the cycle with this number, from 0, with these bits on the input ports.
@@ -31,13 +41,16 @@ impl Sensing {
     fn sensed(&self, trace: &SwarmTrace, cycle: usize, robot: usize, inputs: &[bool]) -> [bool; 2] {
         match trace.cycles.last() {
             Some(last) if RobotNoise::new(&self.noise, robot).misses(cycle) => last.sensed[robot],
-            _ => trace.robots[robot].senses.map(|signal| signal.bit(inputs, &self.outputs)),
+            _ => [0, 1].map(|pin| {
+                let source = || trace.robots[robot].senses[pin].bit(inputs, &self.outputs);
+                self.held[robot][pin].get(cycle).copied().unwrap_or_else(source)
+            }),
         }
     }
 
     /// Takes the robots' outputs at the end of the cycle with this number, from 0.
     pub fn take(&mut self, cycle: usize, bits: &[bool]) {
-        if cycle + 1 >= self.start {
+        if cycle + 1 >= self.start && (cycle + 1).is_multiple_of(self.beat) {
             self.outputs.clear();
             self.outputs.extend_from_slice(bits);
         }

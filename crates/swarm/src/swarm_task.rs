@@ -32,6 +32,8 @@ pub struct PlainMember {
     pub senses: [StimulusSource; 2],
     /// Its output before the first cycle.
     pub start: bool,
+    /// What it senses in the first cycles instead of each source.
+    pub held: [Vec<bool>; 2],
 }
 
 impl SwarmTask {
@@ -43,8 +45,11 @@ impl SwarmTask {
             clock: member.robot.character.clock,
             senses: member.senses,
             start: member.start,
+            held: member.held.clone(),
         };
-        Self::new(assembly.members.iter().map(plain).collect(), assembly.world, inputs, window)
+        let members = assembly.members.iter().map(plain).collect();
+        let task = Self::new(members, assembly.world, inputs, window);
+        Self { assembly: Assembly { beat: assembly.beat, ..task.assembly }, ..task }
     }
 
     /// The simulation of these robots, with the bodies that they have in this world.
@@ -57,6 +62,7 @@ impl SwarmTask {
             members: members.into_iter().map(PlainMember::nameless).collect(),
             outputs: Vec::new(),
             shown: Vec::new(),
+            beat: 1,
             world,
         };
         Self { assembly, conditions: SwarmConditions { inputs, window, poses: None } }
@@ -92,7 +98,7 @@ impl PlainMember {
         let behavior = Behavior::of(&[0.0; 4]);
         let (name, displacement) = (none(), [0.0; 4]);
         let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
-        Member { net: none(), robot, senses: self.senses, start: self.start }
+        Member { net: none(), robot, senses: self.senses, start: self.start, held: self.held }
     }
 }
 
@@ -130,7 +136,7 @@ mod tests {
         let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
         let member = |net: &str, senses, start| Member {
             net: net.to_owned(),
-            ..PlainMember { body: body.clone(), clock: 3, senses, start }.nameless()
+            ..PlainMember { body: body.clone(), clock: 3, senses, start, held: [vec![true; 3], Vec::new()] }.nameless()
         };
         let column = |name: &str| Column { name: name.to_owned(), width: 1 };
         Assembly {
@@ -142,6 +148,7 @@ mod tests {
             ],
             outputs: vec![column("q"), column("s")],
             shown: vec![StimulusSource::Robot(0), StimulusSource::Input(0)],
+            beat: 2,
             world: PhysicsWorld::default(),
         }
         .in_world(PhysicsWorld {

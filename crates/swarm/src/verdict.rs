@@ -59,6 +59,9 @@ pub struct RowVerdict {
     pub row: usize,
     /// Its line in the source.
     pub line: usize,
+    /// The thread of a wave machine, from 0; none in other swarms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thread: Option<usize>,
     /// The values of the input ports.
     pub inputs: Vec<Value>,
     /// The expected values of the output ports.

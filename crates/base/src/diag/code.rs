@@ -61,6 +61,7 @@ codes! {
     MissingField = "missing-field", Error: "A declaration without a required field.";
     MultipleDrivers = "multiple-drivers", Error: "A net driven more than once.";
     Nesting = "nesting", Error: "Text that is nested too deeply.";
+    NoWaves = "no-waves", Error: "A circuit or a row of a test that no wave machine can run.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
     OutOfRange = "out-of-range", Error: "A number out of range.";
     Recursion = "recursion", Error: "A circuit that contains itself, or a declaration that uses its own fields.";

@@ -35,6 +35,7 @@ pub use material::{Drive, Material, MaterialKind, Response};
 pub use palette::Palette;
 pub use program::{
     Hold, InputSpell, LibrarySource, NamedSchedule, NamedWorld, Origin, Program, RegisterStyle, Simulation, Swarm,
+    WaveTimes,
 };
 pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
 pub use schedule::{Schedule, Spell};

@@ -91,6 +91,8 @@ pub struct Swarm {
     pub window: u32,
     /// What its registers are made of.
     pub registers: RegisterStyle,
+    /// The times of a wave machine, if it is one.
+    pub waves: WaveTimes,
     /// The world in which it runs, unless a test or a simulation names another.
     pub world: PhysicsWorld,
 }
@@ -103,6 +105,17 @@ pub enum RegisterStyle {
     MasterSlave,
     /// One latch each, and a generator of pulses for all, where that is proved safe.
     Pulsed,
+    /// Nothing: every loop takes the same time, and the state travels round it as a wave.
+    Waves,
+}
+
+/// The times of a wave machine; the compiler chooses those that are not set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WaveTimes {
+    /// Cycles for which robots sense the same, and in which each of them reacts.
+    pub beat: Option<u32>,
+    /// Cycles of a step, from one edge of the clock to the next.
+    pub step: Option<u32>,
 }
 
 /// The time for which inputs are held.

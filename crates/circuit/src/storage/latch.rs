@@ -53,6 +53,38 @@ impl Latch {
     }
 }
 
+/// What the cells of a latch show while it is open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Follower {
+    /// The one net that its data are copies or opposites of.
+    pub data: NetId,
+    /// Its cells, each with whether it shows the opposite of that net.
+    pub cells: Vec<(NetId, bool)>,
+}
+
+impl Follower {
+    /// A latch of one bit of data; `None` if it has more, or a cell that shows neither it nor its opposite.
+    pub fn of(netlist: &Netlist, inverters: &Inverters, latch: &Latch) -> Option<Self> {
+        let cone = Cone::new(netlist, &latch.cells);
+        let closed = latch.open == inverters.root(latch.enable).1;
+        let trial = Trial { cone: &cone, enable: latch.enable, closed, guards: &latch.guards };
+        let root = inverters.root(*latch.data.first()?).0;
+        let shown = |value: bool| {
+            let of_root = |net: &NetId| {
+                let (own, inverted) = inverters.root(*net);
+                (own == root).then_some((*net, Some(value != inverted)))
+            };
+            trial.opened(&latch.data.iter().map(of_root).collect::<Option<Values>>()?)
+        };
+        let [(low, _), (high, _)] = [shown(false)?, shown(true)?];
+        let cell = |&id: &NetId| match (low[&id], high[&id]) {
+            (Some(low), Some(high)) if low != high => Some((id, low)),
+            _ => None,
+        };
+        Some(Self { data: root, cells: latch.cells.iter().map(cell).collect::<Option<_>>()? })
+    }
+}
+
 /// A memory element or loop that is not timed by phases.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Unphased {

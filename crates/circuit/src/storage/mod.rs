@@ -12,7 +12,7 @@ use crate::loops::Loops;
 use crate::{NetId, Netlist};
 
 pub use cone::Inverters;
-pub use latch::{Latch, Unphased, WhyUnphased};
+pub use latch::{Follower, Latch, Unphased, WhyUnphased};
 
 /// Two latches that open in turn: the first while the clock has one value, the second while it has the other.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -47,6 +47,11 @@ impl Timing {
         Self::with(netlist, delays, library.kinds_of(netlist))
     }
 
+    /// The timing of a wave machine, in which a row is a step of so many cycles and no path is longer than another.
+    pub fn of_steps(cycles: u32) -> Self {
+        Self { times: Vec::new(), hold: cycles, critical_path: Vec::new(), storage: Storage::default() }
+    }
+
     /// Times a mapped netlist with the delay of each cell's own robot.
     pub fn with<'k>(netlist: &Netlist, delays: Delays, kind: impl Fn(NetId) -> &'k CellKind) -> Self {
         let mut storage = Storage::of(netlist, &kind);

@@ -5,17 +5,24 @@ use crate::check::fields::{self, Fields};
 use crate::check::instance::instance;
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::Expected;
+use crate::check::wording::{Expected, FieldError};
 use crate::check::world::Worlds;
 use crate::syntax::tree::{RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Hold, PhysicsWorld, RegisterStyle, Swarm};
+use nbc_base::model::{Hold, PhysicsWorld, RegisterStyle, Swarm, WaveTimes};
 
 /// The default library of a swarm; the prelude declares it.
 pub const DEFAULT_LIBRARY: &str = "shipped";
 
 /// The largest window of an output, in cycles.
 const MAX_WINDOW: u32 = 1000;
+
+/// What registers are made of, by name.
+const REGISTERS: [(&str, RegisterStyle); 3] =
+    [("master_slave", RegisterStyle::MasterSlave), ("pulsed", RegisterStyle::Pulsed), ("waves", RegisterStyle::Waves)];
+
+/// The longest step of a wave machine, in cycles.
+const MAX_STEP: u32 = 100_000;
 
 /// Checks a swarm.
 pub(crate) fn swarm(
@@ -43,13 +50,33 @@ pub(crate) fn swarm(
         }
         _ => Err(quantity::wrong_kind(Expected::Time("3 cycles"), value.span)),
     });
-    let registers = fields.read("registers", RegisterStyle::MasterSlave, |value| {
-        fields::choice(value, &[("master_slave", RegisterStyle::MasterSlave), ("pulsed", RegisterStyle::Pulsed)])
-    });
+    let registers = fields.read("registers", RegisterStyle::MasterSlave, |value| fields::choice(value, &REGISTERS));
+    let waves = wave_times(&mut fields, registers == RegisterStyle::Waves);
     let world = fields.read("world", PhysicsWorld::default(), |value| worlds.of(value, home));
     faults.extend(fields.finish());
     let (name, span) = (source.name.text.clone(), source.name.span);
-    Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers, world })
+    Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers, waves, world })
+}
+
+/// The times of a wave machine. It has no hold and no window, and other swarms have no beat and no step.
+fn wave_times(fields: &mut Fields<'_>, is_waves: bool) -> WaveTimes {
+    let mut time = |field, most| {
+        let read = |value: &ValueSyntax| match &value.kind {
+            ValueKind::Quantity(time) => {
+                let cycles = f64::from(quantity::cycles(time)?);
+                quantity::whole(cycles, 1..=most, value.span, "cycles").map(Some)
+            }
+            _ => Err(quantity::wrong_kind(Expected::Time("2 cycles"), value.span)),
+        };
+        fields.read(field, None, read)
+    };
+    let times = WaveTimes { beat: time("beat", MAX_WINDOW), step: time("step", MAX_STEP) };
+    for field in if is_waves { ["hold", "window"] } else { ["beat", "step"] } {
+        if let Some(place) = fields.value(field).map(|value| value.span) {
+            fields.faults.push(FieldError::NotOfWaves { field, is_waves }.at(place));
+        }
+    }
+    times
 }
 
 fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {

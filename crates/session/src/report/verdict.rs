@@ -17,18 +17,25 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
     let expected = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.expected));
     let observed = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.observed));
     table.push(vec![inputs.names(), expected.names(), observed.names(), String::new(), String::new()]);
-    for row in &verdict.rows {
+    for row in verdict.rows.iter().filter(|row| row.thread.unwrap_or(0) == 0) {
+        let same = verdict
+            .rows
+            .iter()
+            .filter(|other| other.thread.is_some() && other.line == row.line && other.row == row.row);
+        let passed = row.passed && same.into_iter().all(|other| other.passed);
         table.push(vec![
             inputs.values(&row.inputs),
             expected.values(&row.expected),
             observed.values(&row.observed),
             row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
-            pass_word(row.passed).to_owned(),
+            pass_word(passed).to_owned(),
         ]);
     }
     let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
     let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
-    let heading = format!("test {}{swarm}{title}: {}\n", verdict.circuit, pass_word(verdict.passed));
+    let threads = verdict.rows.iter().filter_map(|row| row.thread).max().map_or(0, |last| last + 1);
+    let threads = if threads > 1 { format!(" in {threads} threads") } else { String::new() };
+    let heading = format!("test {}{swarm}{title}{threads}: {}\n", verdict.circuit, pass_word(verdict.passed));
     let robots = describe_weak_robots(verdict);
     format!("{heading}{robots}{}{}", indented(&table), describe_rows(verdict))
 }
@@ -86,7 +93,8 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
     });
     let wrong: Vec<String> = wrong.collect();
     let bar = if inputs.is_empty() { "" } else { " | " };
-    let place = format!("{}:{}: row {}", verdict.file, row.line, row.row);
+    let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
+    let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
     let blame: String = describe_wrong_outputs(row).concat();
     format!("    {place}: {}{bar}{}\n{blame}", inputs.join(" "), wrong.join("; "))
 }
@@ -211,6 +219,7 @@ mod tests {
             weak_robots: Vec::new(),
             rows: vec![RowVerdict {
                 row: 2,
+                thread: None,
                 line: 7,
                 cycles: Some(12),
                 needed: Some(14),

@@ -28,6 +28,8 @@ pub(crate) enum FieldError {
     Missing { record: Record, field: &'static str, example: &'static str },
     /// A field that this kind of record does not have.
     Unknown { record: Record, field: String, known: Vec<&'static str>, meant: Suggestion },
+    /// A field of a swarm that a wave machine does not have, or that only a wave machine has.
+    NotOfWaves { field: &'static str, is_waves: bool },
 }
 
 impl FieldError {
@@ -46,6 +48,16 @@ impl FieldError {
                     Suggestion::Near(_) => error.with_suggestion(span, &meant),
                     _ => error.with_help(format!("its fields are {}", suggest::alternatives(&known, "and"))),
                 }
+            }
+            Self::NotOfWaves { field, is_waves: true } => {
+                let message = format!("a swarm of `registers: waves` has no `{field}`");
+                Diagnostic::new(Code::Value, message, span, "leave this out")
+                    .with_help("its rows are steps, whose length `step` sets")
+            }
+            Self::NotOfWaves { field, is_waves: false } => {
+                let message = format!("only a swarm of `registers: waves` has a `{field}`");
+                Diagnostic::new(Code::Value, message, span, "leave this out")
+                    .with_help("add `registers: waves` to make the circuit a wave machine")
             }
         }
     }

@@ -1,0 +1,87 @@
+//! Wave machines: clocked circuits in which every gate is a register too (docs/waves.md).
+//!
+//! A robot of clock 1 shows in each cycle what its stimuli of the cycle before ask for. If every loop of a circuit is
+//! as long as every other, in robots, its state travels round as a wave and needs no latch; and between two waves of
+//! one machine there is room for those of others.
+
+mod certify;
+mod graph;
+mod machine;
+mod phases;
+mod run;
+mod step;
+mod wording;
+
+pub use certify::{Certificate, certify};
+pub use machine::{Reading, WaveMachine, WaveOutput, WaveState};
+pub use step::{StateBit, Step};
+pub use wording::{CertifyError, WaveError};
+
+use crate::cells::CellLibrary;
+use crate::network::Network;
+use crate::options::{MapOptions, MappingObjective};
+use crate::synth::reduce;
+use crate::waves::graph::WaveLogic;
+use crate::waves::phases::Balancing;
+use crate::{MapError, Netlist};
+
+/// What a wave machine is made for.
+#[derive(Clone, Debug, Default)]
+pub struct WaveOptions {
+    /// Cycles of a step; the fewest if not set.
+    pub cycles: Option<u32>,
+    /// Cycles of a beat: every cell has a clock of at most so many cycles.
+    pub beat: u32,
+    /// How the logic is mapped.
+    pub mapping: MapOptions,
+}
+
+/// The cells that a wave machine with beats of so many cycles may use.
+pub fn usable(library: &CellLibrary, beat: u32) -> CellLibrary {
+    let is_usable = |kind: &crate::CellKind| kind.clock <= beat && (beat > 1 || !kind.glitches);
+    library.kinds().filter(|(_, kind)| is_usable(kind)).map(|(function, kind)| (function, kind.clone())).collect()
+}
+
+/// Makes a wave machine of a clocked circuit.
+///
+/// # Errors
+/// When the circuit has other memory than registers of one clock, or the library cannot make it.
+pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -> Result<WaveMachine, WaveError> {
+    let step = Step::of(source)?;
+    let beat = options.beat.max(1);
+    let cells = usable(library, beat);
+    let logic = WaveLogic::of(&step);
+    let mut best: Option<(u32, usize, WaveMachine)> = None;
+    let mut shortest = u32::MAX;
+    for mapped in mappings(&logic.network, &cells, &options.mapping)? {
+        let graph = logic.graph(&mapped);
+        let balancing = Balancing::new(&graph);
+        let least = balancing.least_period();
+        shortest = shortest.min(least);
+        let period = options.cycles.map_or(least, |cycles| cycles / beat);
+        let Some((phases, buffers)) = balancing.fewest_buffers(period) else { continue };
+        let robots = graph.gates.len() + buffers;
+        if best.as_ref().is_none_or(|(length, fewest, _)| (period, robots) < (*length, *fewest)) {
+            let machine = WaveMachine::new(&step, &graph, &phases, &cells, beat).ok_or(WaveError::NoBuffer)?;
+            best = Some((period, robots, machine));
+        }
+    }
+    let short = WaveError::ShortStep { wanted: options.cycles.unwrap_or(0), least: shortest * beat };
+    best.map(|(_, _, machine)| machine).ok_or(short)
+}
+
+/// The logic in cells of the library, in several ways: with few cells, and with short paths.
+fn mappings(logic: &Network, cells: &CellLibrary, options: &MapOptions) -> Result<Vec<Network>, WaveError> {
+    let stages = vec![0; logic.inputs];
+    let map = |objective| {
+        let options = MapOptions { objective, ..options.clone() };
+        reduce(logic, &stages, cells, &options).map_err(|missing| {
+            let known = cells.functions().collect();
+            WaveError::Unmapped(MapError::Incomplete { missing, known, completions: cells.completions() })
+        })
+    };
+    [MappingObjective::Area, MappingObjective::Delay].into_iter().map(map).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,192 @@
+//! One step of a clocked circuit: what follows from its inputs and its state, without the cells of its registers.
+
+use std::collections::BTreeMap;
+
+use crate::cells::CellKind;
+use crate::network::{Network, Signal, View};
+use crate::passes::{DissolveWires, Pass, Sweep};
+use crate::storage::{Follower, Inverters};
+use crate::waves::wording::WaveError;
+use crate::{Latch, NetId, Netlist, Node, Storage};
+use nbc_base::model::Function;
+
+/// A bit of the state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StateBit {
+    /// The net that shows it in the source.
+    pub name: String,
+    /// Its value before the first step.
+    pub start: bool,
+}
+
+/// A circuit as the step that its clock makes.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// The circuit's name.
+    pub name: String,
+    /// The input ports, the clock included.
+    pub inputs: Vec<String>,
+    /// The output ports.
+    pub outputs: Vec<String>,
+    /// The clock, as an index of the inputs; `None` if there is no register.
+    pub clock: Option<usize>,
+    /// Whether a step is a rise of the clock.
+    pub rises: bool,
+    /// The state.
+    pub state: Vec<StateBit>,
+    /// The logic: its inputs are the ports and then the state, its outputs the ports and then the next state.
+    pub logic: Network,
+}
+
+/// A register as the latches of a flip-flop.
+struct Register {
+    /// The cells of the second latch, each with whether it shows the opposite of the data.
+    shows: Vec<(NetId, bool)>,
+    /// The cells of the first latch, which nothing else may read.
+    first: Vec<NetId>,
+    /// The net of the data.
+    data: NetId,
+    /// The net that clocks it, and whether it takes the data when that rises.
+    clock: (NetId, bool),
+}
+
+impl Step {
+    /// The step of a circuit of which every register has the same clock.
+    ///
+    /// # Errors
+    /// When the circuit has other memory, other clocks, or a clock that is read as data.
+    pub fn of(source: &Netlist) -> Result<Self, WaveError> {
+        const KIND: CellKind = CellKind::uniform(1, 1.0);
+        let mut netlist = source.clone();
+        DissolveWires.run_on(&mut netlist).map_err(WaveError::Netlist)?;
+        Sweep.run(&mut netlist).map_err(WaveError::Netlist)?;
+        let storage = Storage::of(&netlist, |_| &KIND);
+        if let Some(unphased) = storage.unphased.first() {
+            return Err(WaveError::Loop { net: netlist.net_name(unphased.nets[0]) });
+        }
+        let registers = registers(&netlist, &storage)?;
+        let clock = clock(&netlist, &registers)?;
+        Self::cut(&netlist, &registers, clock)
+    }
+
+    /// The netlist cut open at its registers.
+    fn cut(netlist: &Netlist, registers: &[Register], clock: Option<(NetId, bool)>) -> Result<Self, WaveError> {
+        let shown = registers.iter().flat_map(|register| register.shows.iter().map(|&(id, _)| id));
+        let cuts: Vec<NetId> = shown.chain(registers.iter().flat_map(|register| register.first.clone())).collect();
+        let view = View::of(netlist, &cuts).map_err(|id| WaveError::Loop { net: netlist.net_name(id) })?;
+        let ports = netlist.inputs().len();
+        let mut logic = view.network.clone();
+        let wanted = netlist.outputs().iter().map(|&id| netlist.pins(id)[0]);
+        logic.outputs = wanted.chain(registers.iter().map(|register| register.data)).map(|n| view.signal[&n]).collect();
+        let logic = logic.swept();
+        // What each input of the cut logic is: a port, or a bit of the state, maybe inverted.
+        let mut place: BTreeMap<NetId, (usize, bool)> = BTreeMap::new();
+        for (at, register) in registers.iter().enumerate() {
+            place.extend(register.shows.iter().map(|&(id, inverted)| (id, (ports + at, inverted))));
+        }
+        let mut step = Network::new(ports + registers.len());
+        let used = used_inputs(&logic);
+        let mut made: Vec<Signal> = vec![0, 1];
+        for (at, &id) in netlist.inputs().iter().chain(&cuts).enumerate() {
+            if used[at] && Some(id) == clock.map(|(clock, _)| clock) {
+                return Err(WaveError::ClockIsRead { clock: netlist.net_name(id) });
+            }
+            let signal = match place.get(&id) {
+                _ if at < ports => step.input(at),
+                Some(&(bit, false)) => step.input(bit),
+                Some(&(bit, true)) if used[at] => step.add(Function::NOT, [step.input(bit); 2]),
+                Some(_) => 0,
+                None if used[at] => return Err(WaveError::Latch { net: netlist.net_name(id) }),
+                None => 0,
+            };
+            made.push(signal);
+        }
+        for gate in &logic.gates {
+            made.push(step.add(gate.function, gate.pins.map(|pin| made[pin as usize])));
+        }
+        step.outputs = logic.outputs.iter().map(|&output| made[output as usize]).collect();
+        let names = |ids: &[NetId]| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<_>>();
+        Ok(Self {
+            name: netlist.name.clone(),
+            inputs: names(netlist.inputs()),
+            outputs: names(netlist.outputs()),
+            clock: clock.and_then(|(clock, _)| netlist.inputs().iter().position(|&id| id == clock)),
+            rises: clock.is_none_or(|(_, rises)| rises),
+            state: registers.iter().map(|register| state_bit(netlist, register)).collect(),
+            logic: step,
+        })
+    }
+
+    /// The next state and the outputs before it, from the values of the ports and the state.
+    pub fn run(&self, inputs: &[bool], state: &[bool]) -> (Vec<bool>, Vec<bool>) {
+        let words: Vec<u64> = inputs.iter().chain(state).map(|&bit| u64::from(bit)).collect();
+        let values = self.logic.simulate(&words);
+        let shown: Vec<bool> = self.logic.outputs.iter().map(|&output| values[output as usize] & 1 == 1).collect();
+        let (outputs, next) = shown.split_at(self.outputs.len());
+        (outputs.to_vec(), next.to_vec())
+    }
+}
+
+/// Whether each input of a network is read.
+fn used_inputs(network: &Network) -> Vec<bool> {
+    let mut used = vec![false; network.signals()];
+    network.outputs.iter().for_each(|&output| used[output as usize] = true);
+    for gate in &network.gates {
+        (0..2).filter(|&pin| gate.function.depends_on(pin)).for_each(|pin| used[gate.pins[pin] as usize] = true);
+    }
+    used[2..2 + network.inputs].to_vec()
+}
+
+/// The registers of a netlist, each of two latches.
+fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, WaveError> {
+    let mut is_paired = vec![false; storage.latches.len()];
+    for pair in &storage.flip_flops {
+        (is_paired[pair.first], is_paired[pair.second]) = (true, true);
+    }
+    let latch_error = |latch: &Latch| WaveError::Latch { net: netlist.net_name(latch.cells[0]) };
+    if let Some((latch, _)) = storage.latches.iter().zip(&is_paired).find(|(_, is_paired)| !**is_paired) {
+        return Err(latch_error(latch));
+    }
+    let inverters = Inverters::of(netlist);
+    let register = |pair: &crate::FlipFlop| {
+        let [first, second] = [pair.first, pair.second].map(|latch| &storage.latches[latch]);
+        let follow = |latch: &Latch| Follower::of(netlist, &inverters, latch).ok_or_else(|| latch_error(latch));
+        let (taken, shown) = (follow(first)?, follow(second)?);
+        let (_, inverted) = *taken.cells.iter().find(|(id, _)| *id == shown.data).ok_or_else(|| latch_error(second))?;
+        Ok(Register {
+            shows: shown.cells.iter().map(|&(id, opposite)| (id, opposite != inverted)).collect(),
+            first: first.cells.clone(),
+            data: taken.data,
+            clock: (second.root, pair.rising),
+        })
+    };
+    storage.flip_flops.iter().map(register).collect()
+}
+
+/// The one clock of all registers, and whether a step is its rise.
+fn clock(netlist: &Netlist, registers: &[Register]) -> Result<Option<(NetId, bool)>, WaveError> {
+    let Some(first) = registers.first() else { return Ok(None) };
+    let name = |register: &Register| netlist.net_name(register.shows[0].0);
+    for register in registers {
+        if !matches!(netlist.node(register.clock.0), Node::Input(_)) {
+            let clock = netlist.net_name(register.clock.0);
+            return Err(WaveError::GatedClock { net: name(register), clock });
+        }
+        if register.clock.0 != first.clock.0 {
+            let nets = [first, register].map(name);
+            let clocks = [first, register].map(|register| netlist.net_name(register.clock.0));
+            return Err(WaveError::TwoClocks { nets, clocks });
+        }
+        if register.clock.1 != first.clock.1 {
+            let (rising, falling) = if first.clock.1 { (first, register) } else { (register, first) };
+            return Err(WaveError::BothEdges { rising: name(rising), falling: name(falling) });
+        }
+    }
+    Ok(Some(first.clock))
+}
+
+fn state_bit(netlist: &Netlist, register: &Register) -> StateBit {
+    let (id, inverted) = *register.shows.iter().find(|(_, inverted)| !inverted).unwrap_or(&register.shows[0]);
+    let start = netlist.cell(id).and_then(|cell| cell.start).unwrap_or(false);
+    StateBit { name: netlist.net_name(id), start: start != inverted }
+}

@@ -1,0 +1,107 @@
+//! Random machines against their sources, at the level of logic.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+use crate::registers::flip_flop;
+use crate::{NetId, Node};
+use nbc_base::model::Function;
+
+/// The robots of clock 1 in the shipped library.
+fn thin_cells() -> CellLibrary {
+    CellLibrary::uniform(Function::all().filter(|f| ![Function::XOR, Function::XNOR].contains(f) && f.arity() > 0))
+}
+
+/// A random machine with some ports and registers.
+fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
+    let mut draw = |bound: usize| (random.next_u32() as usize) % bound;
+    let mut netlist = Netlist::new("machine");
+    let ports: Vec<NetId> = (0..draw(3)).map(|at| netlist.add_input(format!("i{at}"))).collect();
+    let clock = netlist.add_input("clk");
+    let bits = draw(5);
+    let wires: Vec<NetId> = (0..bits).map(|at| netlist.add_wire(format!("w{at}"), None, None)).collect();
+    let mut nets: Vec<NetId> = ports.iter().chain(&wires).copied().collect();
+    if nets.is_empty() {
+        nets.push(netlist.add_constant(true));
+    }
+    for _ in 0..draw(12) {
+        let function = Function::all().filter(|function| function.depends_on(0)).nth(draw(12)).unwrap();
+        let pins = [nets[draw(nets.len())], nets[draw(nets.len())]];
+        nets.push(netlist.add_gate(function, &pins[..function.arity()]));
+    }
+    for (at, &wire) in wires.iter().enumerate() {
+        let data = nets[draw(nets.len())];
+        let q = flip_flop(&mut netlist, &format!("q{at}"), data, clock, draw(2) == 1);
+        netlist.drive(wire, 0, q);
+    }
+    for at in 0..1 + draw(3) {
+        let net = nets[draw(nets.len())];
+        netlist.add_output(format!("o{at}"), net);
+    }
+    netlist
+}
+
+/// What the source shows of each row: the first before an edge, each later one after one.
+fn expected(step: &Step, rows: &[Vec<bool>]) -> Vec<Vec<bool>> {
+    let mut state: Vec<bool> = step.state.iter().map(|bit| bit.start).collect();
+    let mut shown = Vec::new();
+    for (at, row) in rows.iter().enumerate() {
+        if at > 0 {
+            state = step.run(row, &state).1;
+        }
+        shown.push(step.run(row, &state).0);
+    }
+    shown
+}
+
+fn check(source: &Netlist, options: &WaveOptions, random: &mut ChaCha8Rng) -> Option<WaveMachine> {
+    let machine = match balance(source, &thin_cells(), options) {
+        Ok(machine) => machine,
+        Err(WaveError::Latch { .. } | WaveError::Loop { .. }) => return None,
+        Err(error) => panic!("{error}\n{source}"),
+    };
+    let step = Step::of(source).unwrap();
+    certify(&step, &machine).unwrap_or_else(|error| panic!("{error}\n{source}\n{}", machine.netlist));
+    let rows: Vec<Vec<bool>> =
+        (0..12).map(|_| step.inputs.iter().map(|_| random.next_u32() & 1 == 1).collect()).collect();
+    let expected = expected(&step, &rows);
+    for (thread, shown) in machine.run(&rows).into_iter().enumerate() {
+        assert_eq!(shown, expected, "machine {thread} of\n{source}\n{}", machine.netlist);
+    }
+    Some(machine)
+}
+
+#[test]
+fn random_machines_agree_with_their_sources_in_every_thread() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut made = 0;
+    for _ in 0..400 {
+        let source = random_machine(&mut random);
+        made += usize::from(check(&source, &WaveOptions::default(), &mut random).is_some());
+    }
+    assert!(made > 350, "{made} machines");
+}
+
+#[test]
+fn a_machine_with_a_wrong_phase_or_a_wrong_cell_is_not_proved() {
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    let (mut mixed, mut different) = (0, 0);
+    for _ in 0..100 {
+        let source = random_machine(&mut random);
+        let Some(machine) = check(&source, &WaveOptions::default(), &mut random) else { continue };
+        let step = Step::of(&source).unwrap();
+        let Some((&id, _)) = machine.phase.iter().next() else { continue };
+        if machine.period > 1 {
+            let mut wrong = machine.clone();
+            *wrong.phase.get_mut(&id).unwrap() += 1;
+            mixed += usize::from(certify(&step, &wrong).is_err());
+        }
+        let mut wrong = machine.clone();
+        if let Node::Cell(cell) = wrong.netlist.node_mut(id) {
+            cell.function = cell.function.inverted();
+        }
+        different += usize::from(certify(&step, &wrong).is_err());
+    }
+    assert!(mixed > 5 && different > 20, "{mixed} and {different} faults were found");
+}

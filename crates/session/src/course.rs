@@ -1,0 +1,101 @@
+//! How the rows of a test pass in physics: each held until the robots have settled, or as the steps of a wave machine.
+
+use std::collections::BTreeMap;
+
+use crate::compile::Compiled;
+use nbc_base::model::{CircuitTest, TestRow};
+use nbc_swarm::{RowHold, RowVerdict, SwarmTrace, WaveTest};
+
+/// The course of a test.
+#[derive(Clone, Debug)]
+pub(super) enum Course {
+    /// Rows one after the other, each with its hold.
+    Holds(Vec<RowHold>),
+    /// Steps of a wave machine.
+    Waves,
+}
+
+/// A test with its swarm and its course.
+#[derive(Clone, Copy)]
+pub(super) struct Running<'a> {
+    pub test: &'a CircuitTest,
+    pub rows: &'a [TestRow],
+    pub compiled: &'a Compiled,
+    pub course: &'a Course,
+}
+
+impl<'a> Running<'a> {
+    fn waves(self, rows: &'a [TestRow]) -> WaveTest<'a> {
+        let machine = self.compiled.mapping.waves.as_ref().expect("only wave machines run in waves");
+        WaveTest { test: self.test, rows, machine }
+    }
+
+    /// The cycles through the first `rows` rows.
+    pub fn cycles(self, rows: usize) -> usize {
+        match self.course {
+            Course::Holds(row_holds) => row_holds.iter().take(rows).map(|row_hold| row_hold.hold).sum(),
+            Course::Waves => self.waves(self.rows).machine.cycles(rows),
+        }
+    }
+
+    /// The input bits of each cycle through the first `rows` rows.
+    pub fn inputs(self, rows: usize) -> Vec<Vec<bool>> {
+        match self.course {
+            Course::Holds(row_holds) => {
+                let held = self.rows.iter().zip(row_holds).take(rows);
+                held.flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold)).collect()
+            }
+            Course::Waves => {
+                let WaveTest { rows: steps, machine, .. } = self.waves(&self.rows[..rows]);
+                let bit = |input, cycle| steps[machine.row_at(input, cycle, steps.len())].inputs[input];
+                let bits = |cycle| (0..machine.inputs.len()).map(|input| bit(input, cycle)).collect();
+                (0..machine.cycles(steps.len())).map(bits).collect()
+            }
+        }
+    }
+
+    /// The verdict on each row of which a trace has the results.
+    pub fn judge(self, trace: &SwarmTrace) -> Vec<RowVerdict> {
+        match self.course {
+            Course::Holds(row_holds) => {
+                nbc_swarm::judge_swarm(self.test, self.rows, row_holds, trace, &self.compiled.clocks())
+            }
+            Course::Waves => self.waves(self.rows).judge(trace),
+        }
+    }
+
+    /// Whether a row has failed whose last result is that of a trace's last cycle; to be asked after each cycle.
+    pub fn has_failed(self) -> Box<dyn FnMut(&SwarmTrace) -> bool + 'a> {
+        match self.course {
+            Course::Holds(row_holds) => {
+                let ends = row_holds.iter().scan(0, |end, row_hold| {
+                    *end += row_hold.hold;
+                    Some(*end)
+                });
+                let mut left = ends.zip(self.rows.iter().zip(row_holds)).peekable();
+                Box::new(move |trace| {
+                    let row = left.next_if(|(end, _)| *end == trace.cycles.len());
+                    row.is_some_and(|(_, (row, row_hold))| !nbc_swarm::passes(self.test, row, row_hold, trace))
+                })
+            }
+            Course::Waves => {
+                let waves = self.waves(self.rows);
+                let mut ends: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+                for thread in 0..waves.machine.period as usize {
+                    for (row, last) in
+                        (0..self.rows.len()).filter_map(|row| Some((row, waves.last_cycle(row, thread)?)))
+                    {
+                        ends.entry(last + 1).or_default().push((row, thread));
+                    }
+                }
+                Box::new(move |trace| {
+                    let ended = ends.get(&trace.cycles.len());
+                    let fails = |&(row, thread): &(usize, usize)| {
+                        waves.row(trace, row, thread).is_some_and(|verdict| !verdict.passed)
+                    };
+                    ended.is_some_and(|ended| ended.iter().any(fails))
+                })
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Circuits as wave machines: which machine is made of a circuit, and the steps that the rows of a test are.
+
+use crate::compile::Mapping;
+use crate::wording::{ChoiceError, WaveRowError};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{CircuitTest, Library, TestRow, WaveTimes};
+use nbc_circuit::waves::{Step, WaveMachine, WaveOptions, balance, certify};
+use nbc_circuit::{MapOptions, Netlist, Proof};
+
+/// The beats that are tried if the swarm names none, in cycles.
+const BEATS: [u32; 2] = [1, 2];
+
+/// The best wave machine of a circuit for its times, proved: the one whose robots and cycles of a step are the smallest
+/// product.
+///
+/// # Errors
+/// When the circuit cannot be one, or the library cannot make it.
+///
+/// # Panics
+/// When the machine is not proved to make the steps of the circuit, which is a fault of the compiler.
+pub(super) fn map_waves(
+    source: Netlist,
+    library: &Library,
+    times: WaveTimes,
+    options: &MapOptions,
+) -> Result<Mapping, Diagnostic> {
+    let beats = times.beat.map_or(BEATS.to_vec(), |beat| vec![beat]);
+    let made = beats.into_iter().map(|beat| {
+        let cells = nbc_swarm::cells(&nbc_swarm::within_beat(library, beat));
+        let options = WaveOptions { cycles: times.step, beat, mapping: options.clone() };
+        balance(&source, &cells, &options).map(|machine| (cells, machine))
+    });
+    let (made, errors): (Vec<_>, Vec<_>) = made.partition(Result::is_ok);
+    let weight = |machine: &WaveMachine| (machine.cells() * machine.cycles_per_step(), machine.beat);
+    let best = made.into_iter().filter_map(Result::ok).min_by_key(|(_, machine)| weight(machine));
+    let error = || errors.into_iter().filter_map(Result::err).next_back().expect("a beat is tried");
+    let (cells, machine) = best.ok_or_else(|| Diagnostic::from(ChoiceError::NoWaves(error())))?;
+    let step = Step::of(&source).expect("a machine was made of its step");
+    let certificate = certify(&step, &machine)
+        .unwrap_or_else(|error| panic!("the wave machine of `{}` differs from its source: {error}", source.name));
+    let cuts = step.state.into_iter().map(|bit| bit.name).collect();
+    let proof = Proof { method: certificate.method, cuts };
+    let netlist = machine.netlist.clone();
+    Ok(Mapping { source, netlist, cells, proof, registers: None, waves: Some(machine) })
+}
+
+/// The steps of a wave machine that the rows of a test are: the first is before the first edge of the clock, and each
+/// other is one edge. A machine without state makes a step of each row.
+///
+/// # Errors
+/// A diagnostic for each row that is no step.
+pub(super) fn steps(
+    test: &CircuitTest,
+    rows: &[TestRow],
+    machine: &WaveMachine,
+) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
+    let mut faults: Vec<Diagnostic> = Vec::new();
+    for row in rows.iter().filter(|row| row.hold.is_some()) {
+        let fault = WaveRowError::Hold { step: machine.cycles_per_step() }.at(row.span);
+        if !faults.contains(&fault) {
+            faults.push(fault);
+        }
+    }
+    let Some((clock, rises)) = machine.clock else {
+        return if faults.is_empty() { Ok(rows.to_vec()) } else { Err(faults) };
+    };
+    let name = || test.input_bits()[clock].clone();
+    let mut steps: Vec<TestRow> = Vec::new();
+    let mut before = None;
+    for row in rows {
+        let level = row.inputs[clock] == rises;
+        let is_checked = row.expected.iter().any(Option::is_some);
+        match before.replace(level) {
+            Some(false) if level => steps.push(row.clone()),
+            None => steps.push(row.clone()),
+            _ if is_checked => faults.push(WaveRowError::NoEdge { clock: name(), rises }.at(row.span)),
+            _ => {}
+        }
+    }
+    if faults.is_empty() { Ok(steps) } else { Err(faults) }
+}
