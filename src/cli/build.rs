@@ -12,9 +12,9 @@ use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::model::Column;
 use nbc_circuit::formats::{Design, blif, dot, verilog};
-use nbc_circuit::timing::{PulsedRegisters, fan_out};
-use nbc_circuit::{CellLibrary, Delays, NetId, Netlist, Race, Timing, levels, races, rings};
-use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema};
+use nbc_circuit::timing::fan_out;
+use nbc_circuit::{CellLibrary, NetId, Netlist, Race, levels, races, rings};
+use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema, WaveTiming};
 use nbc_session::store::{self, DiskWorld};
 use nbc_session::{CompileOptions, Mapping, Session};
 
@@ -97,29 +97,33 @@ impl BuildArguments {
 }
 
 fn emit(emit: Emit, mapping: Mapping) -> String {
-    let mapped = mapping.netlist;
     match emit {
-        Emit::Netlist => mapped.to_string(),
-        Emit::Blif => blif::write(&Design { logic: mapped, registers: Vec::new() }),
-        Emit::Verilog => verilog::write(&Design { logic: mapped, registers: Vec::new() }),
-        Emit::Dot => dot::write(&mapped),
-        Emit::Timing => describe_timing(&mapped, &mapping.cells, mapping.registers.as_ref()),
+        Emit::Netlist => mapping.netlist.to_string(),
+        Emit::Blif => blif::write(&Design { logic: mapping.netlist, registers: Vec::new() }),
+        Emit::Verilog => verilog::write(&Design { logic: mapping.netlist, registers: Vec::new() }),
+        Emit::Dot => dot::write(&mapping.netlist),
+        Emit::Timing => describe_timing(&mapping),
         Emit::Json => {
-            let document = Document::new(Schema::Build, describe(&mapped, &mapping.cells, mapping.registers.as_ref()));
+            let document = Document::new(Schema::Build, describe(&mapping));
             serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
         }
     }
 }
 
-fn describe_timing(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRegisters>) -> String {
-    let timing = Timing::of(mapped, library, Delays::Clock);
+fn describe_timing(mapping: &Mapping) -> String {
+    let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;
+    let timing = mapping.timing();
+    let loads = fan_out(mapped).into_iter().filter(|(id, _)| mapped.cell(*id).is_some());
+    let loads = report::describe_fan_out(loads.map(|(id, load)| (mapped.net_name(id), load)));
+    if let Some(machine) = waves {
+        return WaveTiming::of(machine).describe() + &loads;
+    }
     let path: Vec<String> = timing.critical_path.iter().map(|&id| mapped.net_name(id)).collect();
     let settles = report::describe_settling(timing.hold, &path, &ring_names(mapped));
-    let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers).describe();
+    let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()).describe();
     let memory: String =
         MemoryTimes::all(mapped, &timing, clocks(mapped, library)).iter().map(MemoryTimes::describe).collect();
-    let loads = fan_out(mapped).into_iter().filter(|(id, _)| mapped.cell(*id).is_some());
-    settles + &phases + &memory + &report::describe_fan_out(loads.map(|(id, load)| (mapped.net_name(id), load)))
+    settles + &phases + &memory + &loads
 }
 
 /// The nets of rings of inverters.
@@ -132,8 +136,14 @@ fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -
     |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock)
 }
 
-fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRegisters>) -> serde_json::Value {
-    let timing = Timing::of(mapped, library, Delays::Clock);
+fn describe(mapping: &Mapping) -> serde_json::Value {
+    let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;
+    let timing = mapping.timing();
+    // The rings and loops of a wave machine are its waves.
+    let (rings, races) = match waves {
+        None => (ring_names(mapped), races(mapped)),
+        Some(_) => (Vec::new(), Some(Vec::new())),
+    };
     let name = |id: &NetId| mapped.net_name(*id);
     let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
     let cells: Vec<_> = mapped
@@ -158,10 +168,11 @@ fn describe(mapped: &Netlist, library: &CellLibrary, registers: Option<&PulsedRe
         "depth": levels::depth(mapped),
         "hold": timing.hold,
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
-        "rings": ring_names(mapped),
+        "rings": rings,
         "memory": MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
-        "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers),
+        "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()),
+        "waves": waves.as_ref().map(WaveTiming::of),
         "proved": true,
-        "races": races(mapped).map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
+        "races": races.map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
     })
 }

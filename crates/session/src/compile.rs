@@ -39,7 +39,7 @@ impl Mapping {
     }
 
     /// When each net has settled; the hold of a wave machine is the length of a step.
-    fn timing(&self) -> Timing {
+    pub fn timing(&self) -> Timing {
         match &self.waves {
             None => Timing::of(&self.netlist, &self.cells, Delays::Clock),
             Some(machine) => Timing::of_steps(machine.cycles_per_step() as u32),

@@ -4,7 +4,6 @@
 mod checked;
 mod choice;
 mod compile;
-mod course;
 mod documents;
 mod error_pages;
 mod formatted;
@@ -24,6 +23,7 @@ mod simulation;
 pub mod store;
 mod swarm_run;
 mod test;
+mod test_timing;
 mod waves;
 mod wording;
 

@@ -18,9 +18,10 @@ impl Compiled {
 
     /// Arrival, required times and slack of each robot, the slowest path, and memory.
     pub fn swarm_timing(&self) -> SwarmTiming {
-        let Mapping { netlist, cells, registers, .. } = &self.mapping;
+        let Mapping { netlist, cells, registers, waves, .. } = &self.mapping;
         let phases = PhaseTiming::of(netlist, &self.timing, cells.kinds_of(netlist), registers.as_ref());
-        SwarmTiming::of(netlist, &self.timing, &self.assembly, phases)
+        let timing = SwarmTiming::of(netlist, &self.timing, &self.assembly, phases);
+        waves.iter().fold(timing, SwarmTiming::with_waves)
     }
 }
 

@@ -1,13 +1,13 @@
 //! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
 use crate::compile::{Compiled, compile};
-use crate::course::{Course, Running};
 use crate::hold;
 use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan::plans;
 use crate::robots::RobotSources;
 use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
+use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
@@ -59,7 +59,7 @@ pub struct TestCase<'a> {
 #[derive(Clone, Debug)]
 enum Subject {
     Gates(Netlist),
-    Robots(Box<Compiled>, Course),
+    Robots(Box<Compiled>, TestTiming),
 }
 
 /// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
@@ -87,18 +87,18 @@ pub(super) fn cases<'a>(
             return Ok(vec![case(Subject::Gates(netlist))]);
         }
         let mut one = case(Subject::Gates(Netlist::default()));
-        let course = match &compiled.mapping.waves {
+        let timing = match &compiled.mapping.waves {
             Some(machine) => {
                 one.rows = steps(test, &rows, machine)?;
-                Course::Waves
+                TestTiming::Waves
             }
             None => {
                 let row_holds = hold::row_holds(&rows, &netlist, &compiled);
                 compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
-                Course::Holds(row_holds)
+                TestTiming::Holds(row_holds)
             }
         };
-        cases.push(TestCase { subject: Subject::Robots(Box::new(compiled), course), ..one });
+        cases.push(TestCase { subject: Subject::Robots(Box::new(compiled), timing), ..one });
     }
     Ok(cases)
 }
@@ -130,30 +130,32 @@ impl TestRun {
 }
 
 impl TestCase<'_> {
-    /// The test with its swarm and its course; `None` at the level of logic.
-    fn running(&self) -> Option<Running<'_>> {
+    /// The test with its swarm and its timing; `None` at the level of logic.
+    fn timed(&self) -> Option<TimedTest<'_>> {
         match &self.subject {
             Subject::Gates(_) => None,
-            Subject::Robots(compiled, course) => Some(Running { test: self.test, rows: &self.rows, compiled, course }),
+            Subject::Robots(compiled, timing) => {
+                Some(TimedTest { test: self.test, rows: &self.rows, compiled, timing })
+            }
         }
     }
 
     /// The amount of work: cycles in physics, rows at the level of logic.
     pub fn work(&self) -> u64 {
-        self.running().map_or(self.rows.len(), |running| running.cycles(self.rows.len())) as u64
+        self.timed().map_or(self.rows.len(), |timed| timed.cycles(self.rows.len())) as u64
     }
 
     /// The hold of each row in physics; empty at the level of logic, and for wave machines.
     pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
-            Subject::Robots(_, Course::Holds(row_holds)) => row_holds,
-            Subject::Robots(_, Course::Waves) | Subject::Gates(_) => &[],
+            Subject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
+            Subject::Robots(_, TestTiming::Waves) | Subject::Gates(_) => &[],
         }
     }
 
     /// The swarm; `None` at the level of logic.
     fn compiled(&self) -> Option<&Compiled> {
-        self.running().map(|running| running.compiled)
+        self.timed().map(|timed| timed.compiled)
     }
 
     /// The declared swarm that is tested, if it is one.
@@ -163,7 +165,7 @@ impl TestCase<'_> {
 
     /// The swarm, and the input bits of each of its cycles through the first `rows` rows; `None` at the level of logic.
     pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
-        let inputs = self.running()?.inputs(rows);
+        let inputs = self.timed()?.inputs(rows);
         match self.subject {
             Subject::Gates(_) => None,
             Subject::Robots(compiled, _) => Some((*compiled, inputs)),
@@ -179,7 +181,7 @@ impl TestCase<'_> {
     pub fn trial_in(&self, world: PhysicsWorld) -> Self {
         let subject = match &self.subject {
             Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
-            Subject::Robots(compiled, course) => Subject::Robots(Box::new(compiled.in_world(world)), course.clone()),
+            Subject::Robots(compiled, timing) => Subject::Robots(Box::new(compiled.in_world(world)), timing.clone()),
         };
         Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true }
     }
@@ -196,9 +198,9 @@ impl TestCase<'_> {
 
     /// The simulation of its swarm, to be done elsewhere; `None` at the level of logic.
     pub fn task(&self) -> Option<SwarmTask> {
-        let running = self.running()?;
-        let Compiled { assembly, plan, .. } = running.compiled;
-        Some(SwarmTask::of(assembly, running.inputs(self.rows.len()), plan.window as usize))
+        let timed = self.timed()?;
+        let Compiled { assembly, plan, .. } = timed.compiled;
+        Some(SwarmTask::of(assembly, timed.inputs(self.rows.len()), plan.window as usize))
     }
 
     /// The end of the test when its swarm was simulated elsewhere, with these bits. There is no trace.
@@ -206,26 +208,26 @@ impl TestCase<'_> {
     /// # Panics
     /// When the bits belong to another swarm, or the test has none.
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
-        let running = self.running().expect("a test in physics");
-        let inputs = running.inputs(self.rows.len());
+        let timed = self.timed().expect("a test in physics");
+        let inputs = timed.inputs(self.rows.len());
         let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
-        let trace = bits.trace(&running.compiled.assembly, &inputs);
-        let (verdict, warnings) = judged(running, &trace, end);
+        let trace = bits.trace(&timed.compiled.assembly, &inputs);
+        let (verdict, warnings) = judged(timed, &trace, end);
         TestRun { verdict, end, swarm: None, hold: None, warnings }
     }
 
     /// Runs the test.
     pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
-        let Some(running) = self.running() else { return self.run_logic(observer) };
-        let inputs = running.inputs(self.rows.len());
-        let swarm = physics.swarm(running.compiled, inputs.len());
-        let mut has_failed = running.has_failed();
+        let Some(timed) = self.timed() else { return self.run_logic(observer) };
+        let inputs = timed.inputs(self.rows.len());
+        let swarm = physics.swarm(timed.compiled, inputs.len());
+        let mut has_failed = timed.has_failed();
         let mut is_enough = |trace: &SwarmTrace| self.ends_at_failure && has_failed(trace);
         let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
-        let (verdict, warnings) = judged(running, &trace, end);
-        let hold = match running.course {
-            Course::Holds(_) => hold::sufficient(&self.rows, running.compiled),
-            Course::Waves => running.compiled.timing.hold as usize,
+        let (verdict, warnings) = judged(timed, &trace, end);
+        let hold = match timed.timing {
+            TestTiming::Holds(_) => hold::sufficient(&self.rows, timed.compiled),
+            TestTiming::Waves => timed.compiled.timing.hold as usize,
         };
         drop(has_failed);
         let Subject::Robots(compiled, _) = self.subject else { unreachable!("a test in physics has robots") };
@@ -242,9 +244,9 @@ impl TestCase<'_> {
 }
 
 /// The verdict on a trace, and the warnings.
-fn judged(running: Running<'_>, trace: &SwarmTrace, end: RunEnd) -> (TestVerdict, Vec<Diagnostic>) {
-    let compiled = running.compiled;
-    let mut verdict = verdict(running.test, Level::Physics, Some(compiled), running.judge(trace));
+fn judged(timed: TimedTest<'_>, trace: &SwarmTrace, end: RunEnd) -> (TestVerdict, Vec<Diagnostic>) {
+    let compiled = timed.compiled;
+    let mut verdict = verdict(timed.test, Level::Physics, Some(compiled), timed.judge(trace));
     verdict.passed &= end == RunEnd::Complete;
     (verdict, compiled.warnings.clone())
 }

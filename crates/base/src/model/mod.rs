@@ -51,3 +51,6 @@ pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;
+
+/// Seconds of the robots' time in an actuation cycle: an env step is 30 substeps of a ten-thousandth of a second.
+pub const CYCLE_SECONDS: f64 = CYCLE_STEPS as f64 * 30.0 * 1e-4;

@@ -59,6 +59,8 @@ pub struct WaveMachine {
     pub state: Vec<WaveState>,
     /// The number of cells that only delay.
     pub buffers: usize,
+    /// Each driver with the buffers after it, in order.
+    chains: Vec<Vec<NetId>>,
 }
 
 /// What an output port shows of a row.
@@ -148,6 +150,11 @@ impl WaveMachine {
         (0..ends).flat_map(|beat| std::iter::repeat_n(bit(beat), self.beat as usize)).collect()
     }
 
+    /// The drivers of chains of buffers, in order, each with the number of its buffers.
+    pub fn chains(&self) -> Vec<(NetId, usize)> {
+        self.chains.iter().map(|chain| (chain[0], chain.len() - 1)).filter(|(_, buffers)| *buffers > 0).collect()
+    }
+
     /// The thread whose wave a cell reads in a cycle.
     pub fn thread_at(&self, cell: NetId, cycle: usize) -> usize {
         let beat = (cycle / self.beat as usize) as i64;
@@ -188,6 +195,7 @@ impl<'a> Builder<'a> {
             held: BTreeMap::new(),
             state: Vec::new(),
             buffers: 0,
+            chains: Vec::new(),
         };
         Self { step, graph, phases, buffer, machine, chains }
     }
@@ -216,6 +224,7 @@ impl<'a> Builder<'a> {
             self.note_state(bit, tap);
         }
         name_outputs(&mut self.machine.netlist);
+        self.machine.chains = std::mem::take(&mut self.chains).into_values().collect();
         self.begin_at_zero();
         self.machine
     }

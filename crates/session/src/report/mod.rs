@@ -51,6 +51,7 @@ mod table;
 mod timing;
 mod vcd;
 mod verdict;
+mod waves;
 
 pub use answer::{Answer, Outcome};
 pub use champions::{Champions, draw_champions};
@@ -96,3 +97,4 @@ pub use table::{Align, TextTable};
 pub use timing::{MemoryTimes, SwarmTiming, describe_fan_out, describe_path, describe_settling};
 pub use vcd::vcd;
 pub use verdict::{describe_failures, describe_simulation, describe_swarm, describe_test};
+pub use waves::WaveTiming;

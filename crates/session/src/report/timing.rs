@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::report::WaveTiming;
 use crate::report::phases::PhaseTiming;
 use nbc_base::diag::counted;
 use nbc_circuit::timing::fan_out;
+use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Memory, NetId, Netlist, Timing, rings};
 use nbc_swarm::{Assembly, Member};
 
@@ -25,6 +27,9 @@ pub struct SwarmTiming {
     pub memory: Vec<MemoryTimes>,
     /// The registers and clocks.
     pub phases: PhaseTiming,
+    /// The steps and phases, if it is a wave machine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub waves: Option<WaveTiming>,
 }
 
 /// A net of the slowest path.
@@ -96,11 +101,20 @@ impl SwarmTiming {
             robots: players.iter().map(robot).collect(),
             memory: MemoryTimes::all(mapped, timing, clock),
             phases,
+            waves: None,
         }
+    }
+
+    /// The timing of a wave machine, whose rings are waves and never need to settle.
+    pub fn with_waves(self, machine: &WaveMachine) -> Self {
+        Self { rings: Vec::new(), waves: Some(WaveTiming::of(machine)), ..self }
     }
 
     /// What a user of the swarm needs to know, in a line; `hold` suffices for the rows that were run.
     pub fn describe_hold(&self, hold: Option<usize>) -> String {
+        if let Some(waves) = &self.waves {
+            return waves.describe_step();
+        }
         if !self.rings.is_empty() {
             return describe_rings(&self.rings);
         }
@@ -115,7 +129,10 @@ impl SwarmTiming {
             None => step.net.clone(),
         };
         let path: Vec<String> = self.critical_path.iter().map(step).collect();
-        let mut text = describe_settling(self.hold, &path, &self.rings);
+        let mut text = match &self.waves {
+            Some(waves) => waves.describe(),
+            None => describe_settling(self.hold, &path, &self.rings),
+        };
         text += &self.phases.describe();
         text.extend(self.memory.iter().map(MemoryTimes::describe));
         text + &describe_fan_out(self.robots.iter().map(|robot| (robot.net.clone(), robot.fan_out)))

@@ -6,25 +6,25 @@ use crate::compile::Compiled;
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_swarm::{RowHold, RowVerdict, SwarmTrace, WaveTest};
 
-/// The course of a test.
+/// When the rows of a test begin and end.
 #[derive(Clone, Debug)]
-pub(super) enum Course {
+pub(super) enum TestTiming {
     /// Rows one after the other, each with its hold.
     Holds(Vec<RowHold>),
     /// Steps of a wave machine.
     Waves,
 }
 
-/// A test with its swarm and its course.
+/// A test with its swarm and its timing.
 #[derive(Clone, Copy)]
-pub(super) struct Running<'a> {
+pub(super) struct TimedTest<'a> {
     pub test: &'a CircuitTest,
     pub rows: &'a [TestRow],
     pub compiled: &'a Compiled,
-    pub course: &'a Course,
+    pub timing: &'a TestTiming,
 }
 
-impl<'a> Running<'a> {
+impl<'a> TimedTest<'a> {
     fn waves(self, rows: &'a [TestRow]) -> WaveTest<'a> {
         let machine = self.compiled.mapping.waves.as_ref().expect("only wave machines run in waves");
         WaveTest { test: self.test, rows, machine }
@@ -32,20 +32,20 @@ impl<'a> Running<'a> {
 
     /// The cycles through the first `rows` rows.
     pub fn cycles(self, rows: usize) -> usize {
-        match self.course {
-            Course::Holds(row_holds) => row_holds.iter().take(rows).map(|row_hold| row_hold.hold).sum(),
-            Course::Waves => self.waves(self.rows).machine.cycles(rows),
+        match self.timing {
+            TestTiming::Holds(row_holds) => row_holds.iter().take(rows).map(|row_hold| row_hold.hold).sum(),
+            TestTiming::Waves => self.waves(self.rows).machine.cycles(rows),
         }
     }
 
     /// The input bits of each cycle through the first `rows` rows.
     pub fn inputs(self, rows: usize) -> Vec<Vec<bool>> {
-        match self.course {
-            Course::Holds(row_holds) => {
+        match self.timing {
+            TestTiming::Holds(row_holds) => {
                 let held = self.rows.iter().zip(row_holds).take(rows);
                 held.flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold)).collect()
             }
-            Course::Waves => {
+            TestTiming::Waves => {
                 let WaveTest { rows: steps, machine, .. } = self.waves(&self.rows[..rows]);
                 let bit = |input, cycle| steps[machine.row_at(input, cycle, steps.len())].inputs[input];
                 let bits = |cycle| (0..machine.inputs.len()).map(|input| bit(input, cycle)).collect();
@@ -56,18 +56,18 @@ impl<'a> Running<'a> {
 
     /// The verdict on each row of which a trace has the results.
     pub fn judge(self, trace: &SwarmTrace) -> Vec<RowVerdict> {
-        match self.course {
-            Course::Holds(row_holds) => {
+        match self.timing {
+            TestTiming::Holds(row_holds) => {
                 nbc_swarm::judge_swarm(self.test, self.rows, row_holds, trace, &self.compiled.clocks())
             }
-            Course::Waves => self.waves(self.rows).judge(trace),
+            TestTiming::Waves => self.waves(self.rows).judge(trace),
         }
     }
 
     /// Whether a row has failed whose last result is that of a trace's last cycle; to be asked after each cycle.
     pub fn has_failed(self) -> Box<dyn FnMut(&SwarmTrace) -> bool + 'a> {
-        match self.course {
-            Course::Holds(row_holds) => {
+        match self.timing {
+            TestTiming::Holds(row_holds) => {
                 let ends = row_holds.iter().scan(0, |end, row_hold| {
                     *end += row_hold.hold;
                     Some(*end)
@@ -78,7 +78,7 @@ impl<'a> Running<'a> {
                     row.is_some_and(|(_, (row, row_hold))| !nbc_swarm::passes(self.test, row, row_hold, trace))
                 })
             }
-            Course::Waves => {
+            TestTiming::Waves => {
                 let waves = self.waves(self.rows);
                 let mut ends: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
                 for thread in 0..waves.machine.period as usize {

@@ -1,0 +1,106 @@
+//! The timing of a wave machine: its step, its threads, and the phase of each net.
+
+use serde::Serialize;
+
+use nbc_base::diag::counted;
+use nbc_base::model::CYCLE_SECONDS;
+use nbc_circuit::NetId;
+use nbc_circuit::waves::WaveMachine;
+
+/// When the robots of a wave machine read their nets.
+#[derive(Clone, Debug, Serialize)]
+pub struct WaveTiming {
+    /// Cycles of a step.
+    pub step: usize,
+    /// Cycles of a beat, for which robots sense the same.
+    pub beat: u32,
+    /// The number of threads: machines that run at once on the same robots.
+    pub threads: u32,
+    /// The number of robots.
+    pub robots: usize,
+    /// The number of robots that only delay a net.
+    pub buffers: usize,
+    /// The steps that each thread makes in a second of the robots' time.
+    pub steps_per_second: f64,
+    /// The input ports that are read, each with the beat of a step in which it is applied.
+    pub inputs: Vec<NetPhase>,
+    /// The robots in order, each with the beat of a step in which it reads its stimuli.
+    pub phases: Vec<NetPhase>,
+    /// The output ports, each with the beat of a step at whose end it is read.
+    pub outputs: Vec<NetPhase>,
+    /// The longest chains of robots that only delay a net, longest first.
+    pub chains: Vec<Chain>,
+}
+
+/// A net with a beat of a step.
+#[derive(Clone, Debug, Serialize)]
+pub struct NetPhase {
+    pub net: String,
+    pub phase: i64,
+}
+
+/// A net with the robots that delay it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chain {
+    pub net: String,
+    pub robots: usize,
+}
+
+impl WaveTiming {
+    /// The timing of a machine.
+    pub fn of(machine: &WaveMachine) -> Self {
+        let netlist = &machine.netlist;
+        let net = |id: NetId, phase: i64| NetPhase { net: netlist.net_name(id), phase };
+        let applied = netlist.inputs().iter().zip(&machine.inputs);
+        let mut chains: Vec<Chain> = machine
+            .chains()
+            .into_iter()
+            .map(|(driver, robots)| Chain { net: netlist.net_name(driver), robots })
+            .collect();
+        chains.sort_by_key(|chain| std::cmp::Reverse(chain.robots));
+        Self {
+            step: machine.cycles_per_step(),
+            beat: machine.beat,
+            threads: machine.period,
+            robots: machine.cells(),
+            buffers: machine.buffers,
+            steps_per_second: 1.0 / (machine.cycles_per_step() as f64 * CYCLE_SECONDS),
+            inputs: applied.filter_map(|(&id, phase)| Some(net(id, (*phase)?))).collect(),
+            phases: netlist.cells().map(|(id, _)| net(id, machine.phase[&id])).collect(),
+            outputs: netlist.outputs().iter().zip(&machine.outputs).map(|(&id, out)| net(id, out.phase)).collect(),
+            chains,
+        }
+    }
+
+    /// The step as a line for people.
+    pub fn describe_step(&self) -> String {
+        format!(
+            "step     {}, {} at once, {:.2} steps a second each\n",
+            counted(self.step, "cycle"),
+            counted(self.threads as usize, "thread"),
+            self.steps_per_second
+        )
+    }
+
+    /// The timing as lines for people.
+    pub fn describe(&self) -> String {
+        let mut text = self.describe_step();
+        if self.beat > 1 {
+            text += &format!("beat     {}: robots sense the same for so long\n", counted(self.beat as usize, "cycle"));
+        }
+        text += &format!("robots   {}, of which {} only delay\n", self.robots, self.buffers);
+        let list = |nets: &[NetPhase]| {
+            nets.iter().map(|net| format!("{} {}", net.net, net.phase)).collect::<Vec<_>>().join(", ")
+        };
+        for (word, nets) in [("inputs ", &self.inputs), ("phases ", &self.phases), ("outputs", &self.outputs)] {
+            if !nets.is_empty() {
+                text += &format!("{word}  {}\n", list(nets));
+            }
+        }
+        let chains: Vec<String> = self.chains.iter().map(|chain| format!("{} {}", chain.net, chain.robots)).collect();
+        if !chains.is_empty() {
+            text += &format!("chains   {}\n", chains.join(", "));
+        }
+        text
+    }
+}
