@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::cli::mapping::MappingArguments;
-use crate::cli::program::{CircuitArguments, RunsArguments};
+use crate::cli::options::circuit::{CircuitArguments, RunsArguments};
+use crate::cli::options::mapping::MappingArguments;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::model::Column;

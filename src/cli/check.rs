@@ -1,4 +1,4 @@
-//! `nbc check`: what is wrong with programs.
+//! `nbc check`: prints the errors and warnings of programs.
 
 use clap::Args;
 use serde_json::Value;

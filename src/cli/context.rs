@@ -102,7 +102,7 @@ impl Context {
         Ok(self.out.write_all(text.as_bytes())?)
     }
 
-    /// Clears the screen, where results are shown on one.
+    /// Clears the screen, if text is printed to a terminal.
     ///
     /// # Errors
     /// As [`Context::print`].
@@ -121,6 +121,22 @@ impl Context {
         let mut writer = serde_json::Serializer::with_formatter(&mut self.out, Visible);
         Document::new(schema, value).serialize(&mut writer).map_err(io::Error::from)?;
         Ok(writeln!(self.out)?)
+    }
+
+    /// Prints a result in the requested format: the value as JSON, or the text.
+    ///
+    /// # Errors
+    /// As [`Context::print`].
+    pub fn print_result<T: fmt::Display>(
+        &mut self,
+        schema: Schema,
+        value: &impl Serialize,
+        text: impl FnOnce() -> T,
+    ) -> Result<(), Failure> {
+        match self.format {
+            OutputFormat::Json => self.print_json(schema, value),
+            OutputFormat::Text => self.print(text()),
+        }
     }
 
     /// Flushes standard output.
@@ -171,11 +187,11 @@ impl Context {
 
 /// Writes diagnostics to standard error, as [`Context::tell`], from any thread.
 pub(super) fn tell(diagnostics: &[Diagnostic], sources: &Sources, color: bool) {
-    // The user's text is made visible by `render`; the colors are ours.
+    // `render` escapes the control characters of the user's text; those of the colors must stay.
     let _ = io::stderr().write_all(render::text(diagnostics, sources, color).as_bytes());
 }
 
-/// A text in which a word at the begin or end of a line that says that something passed or failed is green or red.
+/// The text with colors: `pass` in green, `fail` and `FAIL` in red, where they begin or end a line.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(paint_line).collect()
 }

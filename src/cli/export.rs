@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
-use crate::cli::wording::{SubjectError, UsageError};
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use nbc_base::model::Library;
 use nbc_session::report::{Document, Elites, Schema, robots_csv};
@@ -91,7 +91,7 @@ impl ExportArguments {
         let found =
             if self.what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(&self.what))? };
         if found.robots.is_empty() {
-            return Err(SubjectError::NothingToExport { path: self.what.clone() }.into());
+            return Err(UsageError::NothingToExport { path: self.what.clone() }.into());
         }
         Ok(found)
     }

@@ -1,17 +1,16 @@
-//! Why a command could not be carried out.
+//! The failure of a command.
 
 use std::io;
 use std::path::Path;
 
+use crate::cli::draw::wording::DrawError;
+use crate::cli::evolve::wording::EvolveError;
 #[cfg(feature = "gpu")]
-use crate::cli::wording::DeviceFailure;
-#[cfg(not(feature = "cluster"))]
-use crate::cli::wording::NoCluster;
-#[cfg(not(feature = "gpu"))]
-use crate::cli::wording::NoDevices;
-#[cfg(not(feature = "play"))]
-use crate::cli::wording::NoPage;
-use crate::cli::wording::{DrawError, SubjectError, UsageError};
+use crate::cli::gpu::wording::DeviceFailure;
+use crate::cli::runs::wording::RunChoiceError;
+#[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
+use crate::cli::wording::MissingFeature;
+use crate::cli::wording::UsageError;
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_base::source::Sources;
 
@@ -25,12 +24,12 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Input at fault in places of `sources`.
+    /// Errors of the input, with their places in `sources`.
     pub fn input(diagnostics: Vec<Diagnostic>, sources: Sources) -> Self {
         Self::Input(Diagnostics { list: diagnostics, sources })
     }
 
-    /// A fault without a place in a text.
+    /// One error without a place in a text.
     pub fn plain(diagnostic: Diagnostic) -> Self {
         Self::Input(diagnostic.into())
     }
@@ -57,70 +56,32 @@ impl From<Diagnostics> for Failure {
     }
 }
 
-impl From<UsageError> for Failure {
-    fn from(error: UsageError) -> Self {
-        Self::plain(error.into())
-    }
+/// Errors without a place in a text, which are worded as diagnostics.
+macro_rules! failures {
+    ($($(#[$when:meta])* $error:ty,)*) => {$(
+        $(#[$when])*
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::plain(error.into())
+            }
+        }
+    )*};
 }
 
-#[cfg(feature = "cluster")]
-impl From<nbc_cluster::ClusterError> for Failure {
-    fn from(error: nbc_cluster::ClusterError) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-#[cfg(not(feature = "cluster"))]
-impl From<NoCluster> for Failure {
-    fn from(error: NoCluster) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-#[cfg(feature = "gpu")]
-impl From<DeviceFailure> for Failure {
-    fn from(error: DeviceFailure) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-#[cfg(not(feature = "gpu"))]
-impl From<NoDevices> for Failure {
-    fn from(error: NoDevices) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-#[cfg(feature = "play")]
-impl From<nbc_play::PlayError> for Failure {
-    fn from(error: nbc_play::PlayError) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-#[cfg(not(feature = "play"))]
-impl From<NoPage> for Failure {
-    fn from(error: NoPage) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-impl From<nbc_lsp::ServerError> for Failure {
-    fn from(error: nbc_lsp::ServerError) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-impl From<SubjectError> for Failure {
-    fn from(error: SubjectError) -> Self {
-        Self::plain(error.into())
-    }
-}
-
-impl From<DrawError> for Failure {
-    fn from(error: DrawError) -> Self {
-        Self::plain(error.into())
-    }
+failures! {
+    #[cfg(feature = "cluster")]
+    nbc_cluster::ClusterError,
+    #[cfg(feature = "gpu")]
+    DeviceFailure,
+    DrawError,
+    EvolveError,
+    #[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
+    MissingFeature,
+    #[cfg(feature = "play")]
+    nbc_play::PlayError,
+    RunChoiceError,
+    nbc_lsp::ServerError,
+    UsageError,
 }
 
 impl From<io::Error> for Failure {

@@ -18,7 +18,7 @@ pub struct LspArguments {
 }
 
 impl LspArguments {
-    /// Serves until the client says goodbye or vanishes.
+    /// Serves until the client ends the session or closes its connection.
     ///
     /// # Errors
     /// When the client does not speak the protocol.

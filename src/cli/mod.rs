@@ -1,4 +1,6 @@
-//! The command line: one file per command, each with the arguments that clap reads and a `run` that does it.
+//! The command line: a file for each command, named for it, with the arguments that clap reads and a `run` that does
+//! it. A command with many parts is a folder. `nbc devices` is in `gpu`; `nbc worker` and `nbc workers` are in
+//! `cluster`.
 //!
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 
@@ -9,50 +11,39 @@ mod check;
 mod cluster;
 mod completions;
 mod context;
-mod device;
 mod draw;
+mod evolution_folder;
 mod evolve;
-mod executor;
 mod explain;
 mod export;
 mod failure;
 mod fmt;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod in_order;
 mod interrupt;
 mod library;
 mod lsp;
-mod mapping;
 mod new;
-#[cfg(not(feature = "cluster"))]
-mod no_cluster;
-#[cfg(not(feature = "gpu"))]
-mod no_gpu;
-#[cfg(not(feature = "play"))]
-mod no_play;
-mod ordered;
+#[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
+mod not_built;
+mod options;
 mod output;
 #[cfg(feature = "play")]
 mod play;
-mod program;
 mod progress;
-mod queue;
 mod robots;
 mod run;
-mod run_folder;
+mod runs;
 mod simulate;
 mod standard_input;
 mod status;
 mod synth;
+mod task_executor;
 mod test;
 mod threads;
-mod timings;
 mod watch;
 mod wording;
-#[cfg(feature = "cluster")]
-mod worker;
-#[cfg(feature = "cluster")]
-mod workers;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -63,12 +54,12 @@ use clap::{CommandFactory, Parser, Subcommand};
 use nbc_base::diag::{is_hidden, render, visible};
 use nbc_base::source::Sources;
 
-#[cfg(not(feature = "gpu"))]
-use no_gpu as gpu;
-#[cfg(not(feature = "play"))]
-use no_play as play;
 #[cfg(not(feature = "cluster"))]
-use {no_cluster as cluster, no_cluster as worker, no_cluster as workers};
+use not_built::cluster;
+#[cfg(not(feature = "gpu"))]
+use not_built::gpu;
+#[cfg(not(feature = "play"))]
+use not_built::play;
 
 pub use context::{Context, OutputFormat};
 pub use failure::Failure;
@@ -113,8 +104,8 @@ commands! {
     Synth(synth::SynthArguments),
     Test(test::TestArguments),
     Watch(watch::WatchArguments),
-    Worker(worker::WorkerArguments),
-    Workers(workers::WorkersArguments),
+    Worker(cluster::WorkerArguments),
+    Workers(cluster::WorkersArguments),
 }
 
 const EXAMPLES: &str = "\

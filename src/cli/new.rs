@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::wording::SubjectError;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
 use nbc_circuit::formats::is_word;
 use nbc_session::store;
@@ -55,9 +55,9 @@ impl NewArguments {
         let path = self.name.with_extension("nb");
         let shown = path.display().to_string();
         let name = path.file_stem().and_then(|stem| stem.to_str()).filter(|stem| is_word(stem));
-        let Some(name) = name else { return Err(SubjectError::NoWord { file: shown }.into()) };
+        let Some(name) = name else { return Err(UsageError::NoWord { file: shown }.into()) };
         if path.exists() {
-            return Err(SubjectError::Exists { file: shown }.into());
+            return Err(UsageError::Exists { file: shown }.into());
         }
         let text = STARTER.replace("NAME", name).replace("FILE", &shown);
         store::write(&path, text.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;

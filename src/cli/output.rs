@@ -1,4 +1,4 @@
-//! Standard output, which its reader may close at any moment.
+//! Standard output as a pipe whose reader may close it at any moment.
 
 use std::io::{self, BufWriter, Stdout, Write};
 

@@ -1,4 +1,4 @@
-//! `nbc play`: the robots live, in a browser.
+//! `nbc play`: serves a page that shows robots live in a browser.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 ///
 /// Serves a page in which programs are edited, their robots walk, and new robots are designed. It prints the page's
 /// address and opens it. The page can read and write only below the current folder, or the file's folder if that is
-/// elsewhere. Whoever knows the address can use it; Ctrl-C ends.
+/// elsewhere. Everyone who knows the address can use the page. Ctrl-C stops the server.
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc play
@@ -25,7 +25,7 @@ pub struct PlayArguments {
     /// The port; 0 is any free one
     #[arg(long, default_value_t = 0)]
     port: u16,
-    /// The address to listen at. Others than the default let other computers in
+    /// The address to listen at. The default accepts connections from this computer only
     #[arg(long, default_value = "127.0.0.1")]
     host: String,
     /// Do not open a browser

@@ -92,7 +92,7 @@ impl Progress {
         let elapsed = self.started.elapsed();
         if self.bar.is_hidden() {
             if let Some(line) = state.line(elapsed) {
-                // Where standard error is closed, nobody wants to know.
+                // If standard error is closed, there is nowhere to report it.
                 let _ = io::stderr().write_all(line.as_bytes());
             }
         } else {

@@ -1,26 +1,22 @@
 //! `nbc run`: compiles a file's circuits, tests and simulates their swarms, and draws the results.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::OpenDevice;
-use crate::cli::mapping::GoalArguments;
-use crate::cli::program::RunsArguments;
-use crate::cli::timings::{Chore, Timings};
-use crate::cli::wording::SubjectError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
-use nbc_base::diag::Diagnostic;
-use nbc_session::report::{
-    self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmOutcome, SwarmResult, SwarmTiming,
-};
+use crate::cli::options::circuit::RunsArguments;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::mapping::GoalArguments;
+use crate::cli::options::timings::{TimedStage, Timings};
+use crate::cli::runs::wording::RunChoiceError;
+use crate::cli::runs::{CompleteRun, run_list, unknown_run};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use nbc_session::report::{self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmResult, SwarmTiming};
 use nbc_session::store::{self, ResultPlace};
-use nbc_session::{
-    Checked, CompileOptions, RUNS, RunEnd, RunList, RunReport, Session, SimulationRun, SwarmRun, TestOptions, TestRun,
-};
-use nbc_swarm::{Level, Room};
+use nbc_session::{Checked, CompileOptions, RUNS, RunList, Session, SwarmRun, TestRun};
+use nbc_swarm::Room;
 
 /// Run the tests and simulations of a file in physics, with pictures and a report
 #[derive(Args)]
@@ -56,48 +52,12 @@ pub struct RunArguments {
     timings: Timings,
 }
 
-/// A test or a simulation that was run.
-pub(super) enum Ran {
-    Test(TestRun),
-    Simulation(SimulationRun),
-}
-
 /// The drawings of a run.
 struct Drawn<'a> {
-    ran: &'a Ran,
+    ran: &'a CompleteRun,
     spacetime: Svg,
     schematic: Svg,
     files: Vec<String>,
-}
-
-impl Ran {
-    /// The complete results of a report, in their order.
-    pub(super) fn complete(report: RunReport) -> Vec<Self> {
-        let tests = report.tests.into_iter().filter(|run| run.end == RunEnd::Complete).map(Self::Test);
-        let simulations = report.simulations.into_iter().filter(|run| run.end == RunEnd::Complete);
-        tests.chain(simulations.map(Self::Simulation)).collect()
-    }
-
-    pub(super) fn swarm(&self) -> &SwarmRun {
-        match self {
-            Self::Test(run) => run.swarm.as_ref().expect("the test was run in physics"),
-            Self::Simulation(run) => &run.swarm,
-        }
-    }
-
-    fn outcome(&self) -> SwarmOutcome<'_> {
-        match self {
-            Self::Test(run) => SwarmOutcome::Test(&run.verdict),
-            Self::Simulation(run) => SwarmOutcome::Simulation(&run.result),
-        }
-    }
-
-    fn warnings(&self) -> &[Diagnostic] {
-        match self {
-            Self::Test(run) => &run.warnings,
-            Self::Simulation(run) => &run.warnings,
-        }
-    }
 }
 
 impl RunArguments {
@@ -123,8 +83,8 @@ impl RunArguments {
         let report = run_list(&session, &file, &list, compile, &interrupt)?;
         device.end(context)?;
         let (all, left) = (list.len(), report.left);
-        let runs = Ran::complete(report);
-        context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(Ran::warnings)));
+        let runs = CompleteRun::complete(report);
+        context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(CompleteRun::warnings)));
         if interrupt.is_raised() {
             context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", all - left));
             if runs.is_empty() {
@@ -132,7 +92,7 @@ impl RunArguments {
             }
         }
         let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
-        let status = timer.time(Chore::Output, || self.report(&runs, &folder, context))?;
+        let status = timer.time(TimedStage::Output, || self.report(&runs, &folder, context))?;
         timer.report(context);
         Ok(if interrupt.is_raised() { Status::Interrupted } else { status })
     }
@@ -144,7 +104,11 @@ impl RunArguments {
             Some(name) => RunList { tests: file.tests(name).collect(), simulations: file.simulations(name).collect() },
             None => RunList::all(&file.program),
         };
-        if list.is_empty() { Err(nothing_to_run(file, only).into()) } else { Ok(list) }
+        if !list.is_empty() {
+            return Ok(list);
+        }
+        let nothing = || RunChoiceError::NothingToRun { file: file.path.clone() };
+        Err(only.map_or_else(nothing, |name| unknown_run(file, name)).into())
     }
 
     fn folder(&self) -> ResultPlace {
@@ -153,7 +117,7 @@ impl RunArguments {
     }
 
     /// Writes pictures and results, then prints the verdict.
-    fn report(&self, runs: &[Ran], folder: &Path, context: &mut Context) -> Result<Status, Failure> {
+    fn report(&self, runs: &[CompleteRun], folder: &Path, context: &mut Context) -> Result<Status, Failure> {
         let stems = stems(runs);
         let drawn =
             runs.iter().zip(&stems).map(|(run, stem)| draw(run, stem, folder)).collect::<Result<Vec<_>, _>>()?;
@@ -188,58 +152,23 @@ impl RunArguments {
     }
 }
 
-fn nothing_to_run(file: &Checked, only: Option<&str>) -> SubjectError {
-    let Some(name) = only else {
-        return SubjectError::NothingToRun { file: file.path.clone() };
-    };
-    unknown_run(file, name)
-}
-
-/// A name that no test and no simulation of a file has.
-pub(super) fn unknown_run(file: &Checked, name: &str) -> SubjectError {
-    let mut known = names_of_tests(file);
-    known.extend(file.program.simulations.iter().map(|simulation| simulation.swarm.clone()));
-    let known = known.into_iter().collect();
-    SubjectError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known }
-}
-
-/// The circuits and the titles of a file's tests.
-pub(super) fn names_of_tests(file: &Checked) -> BTreeSet<String> {
-    let tests = &file.program.tests;
-    let titles = tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty());
-    tests.iter().map(|test| test.circuit.to_string()).chain(titles).collect()
-}
-
-/// Runs tests and simulations in physics, with a bar.
-pub(super) fn run_list(
-    session: &Session,
-    file: &Checked,
-    list: &RunList<'_>,
-    compile: CompileOptions,
-    interrupt: &Interrupt,
-) -> Result<RunReport, Failure> {
-    let bar = Progress::new("simulating", 0);
-    let options = TestOptions { level: Some(Level::Physics), compile };
-    Ok(session.run_list(file, list, &options, &mut interrupt.observe(bar.whole()))?)
-}
-
 /// The names of the runs' files: the circuit's, with the swarm's if a test has several, and a number for repeated
 /// names.
-fn stems(runs: &[Ran]) -> Vec<String> {
+fn stems(runs: &[CompleteRun]) -> Vec<String> {
     let mut swarms: BTreeMap<(&str, usize), usize> = BTreeMap::new();
     for run in runs {
-        if let Ran::Test(TestRun { verdict, .. }) = run {
+        if let CompleteRun::Test(TestRun { verdict, .. }) = run {
             *swarms.entry((&verdict.circuit, verdict.line)).or_default() += 1;
         }
     }
-    let name = |run: &Ran| match run {
-        Ran::Test(TestRun { verdict, .. }) => match &verdict.swarm {
+    let name = |run: &CompleteRun| match run {
+        CompleteRun::Test(TestRun { verdict, .. }) => match &verdict.swarm {
             Some(swarm) if swarms[&(verdict.circuit.as_str(), verdict.line)] > 1 => {
                 format!("{}-{swarm}", verdict.circuit)
             }
             _ => verdict.circuit.clone(),
         },
-        Ran::Simulation(run) => format!("simulate-{}", run.result.swarm),
+        CompleteRun::Simulation(run) => format!("simulate-{}", run.result.swarm),
     };
     let names: Vec<String> = runs.iter().map(name).collect();
     let numbered = |(i, name): (usize, &String)| {
@@ -250,15 +179,11 @@ fn stems(runs: &[Ran]) -> Vec<String> {
     names.iter().enumerate().map(numbered).collect()
 }
 
-fn drawings(ran: &Ran, scheme: Scheme) -> Drawn<'_> {
-    let SwarmRun { compiled, trace } = ran.swarm();
-    Drawn { ran, spacetime: report::draw_swarm(trace), schematic: compiled.schematic(scheme), files: Vec::new() }
-}
-
 /// Draws a run and writes the drawings, the waveforms and the table of the cycles.
-fn draw<'a>(ran: &'a Ran, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
-    let mut drawn = drawings(ran, Scheme::default());
-    let trace = &ran.swarm().trace;
+fn draw<'a>(ran: &'a CompleteRun, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
+    let SwarmRun { compiled, trace } = ran.swarm();
+    let (spacetime, schematic) = (report::draw_swarm(trace), compiled.schematic(Scheme::default()));
+    let mut drawn = Drawn { ran, spacetime, schematic, files: Vec::new() };
     let files = [
         ("spacetime.svg", drawn.spacetime.finish().into_bytes()),
         ("spacetime.png", report::png(&drawn.spacetime)),
@@ -279,11 +204,6 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     store::write_result(path, bytes).map_err(|error| Failure::unwritable(path, &error))
 }
 
-/// The page of a test or simulation that was run.
-pub(super) fn run_page(source: &str, ran: &Ran, scheme: Scheme) -> String {
-    nbc_session::run_page(source, &[(ran.outcome(), ran.swarm())], scheme)
-}
-
 fn page_swarm<'a>(drawn: &'a Drawn<'a>) -> PageSwarm<'a> {
     let swarm = drawn.ran.swarm();
     PageSwarm {
@@ -300,14 +220,14 @@ fn describe(drawn: &Drawn<'_>) -> String {
     let trace = &drawn.ran.swarm().trace;
     let files: String = drawn.files.iter().map(|file| format!("{:<8} {file}\n", word_of(file))).collect();
     let (outcome, hold) = match drawn.ran {
-        Ran::Test(run) => (report::describe_test(&run.verdict), run.hold),
-        Ran::Simulation(run) => (report::describe_simulation(&run.result), None),
+        CompleteRun::Test(run) => (report::describe_test(&run.verdict), run.hold),
+        CompleteRun::Simulation(run) => (report::describe_simulation(&run.result), None),
     };
     let (swarm, hold) = (report::describe_swarm(trace), timing(drawn.ran).describe_hold(hold));
     format!("{}: {swarm}\n\n{outcome}\n{files}{hold}", trace.circuit)
 }
 
-/// The kind of a file, in a word.
+/// The label of a file in the summary.
 fn word_of(file: &str) -> &'static str {
     match file.rsplit('.').next() {
         Some("vcd") => "waves",
@@ -321,13 +241,13 @@ fn result<'a>(source: &'a str, drawn: &'a [Drawn<'a>]) -> RunResult<'a> {
     for one in drawn {
         let (trace, timing, files) = (&one.ran.swarm().trace, timing(one.ran), one.files.clone());
         match one.ran {
-            Ran::Test(run) => tests.push(SwarmResult::new(&run.verdict, trace, timing, files)),
-            Ran::Simulation(run) => simulations.push(SwarmResult::new(&run.result, trace, timing, files)),
+            CompleteRun::Test(run) => tests.push(SwarmResult::new(&run.verdict, trace, timing, files)),
+            CompleteRun::Simulation(run) => simulations.push(SwarmResult::new(&run.result, trace, timing, files)),
         }
     }
     RunResult::new(source, tests, simulations)
 }
 
-fn timing(ran: &Ran) -> SwarmTiming {
+fn timing(ran: &CompleteRun) -> SwarmTiming {
     ran.swarm().compiled.swarm_timing()
 }

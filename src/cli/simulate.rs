@@ -3,11 +3,11 @@
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::OpenDevice;
+use crate::cli::options::device::DeviceArguments;
 use crate::cli::robots::read_body;
-use crate::cli::wording::{RunWarning, UsageError};
-use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::cli::wording::{GroundEnds, UsageError};
+use crate::cli::{Context, Failure, Status};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
 use nbc_base::source::Sources;
@@ -67,10 +67,9 @@ impl SimulateArguments {
         device.end(context)?;
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Simulate, &Outcome::of(&schedule, &trajectory))?,
-            OutputFormat::Text => context.print(describe(&schedule, &trajectory))?,
-        }
+        context.print_result(Schema::Simulate, &Outcome::of(&schedule, &trajectory), || {
+            describe(&schedule, &trajectory)
+        })?;
         Ok(Status::Done)
     }
 }
@@ -79,7 +78,7 @@ impl SimulateArguments {
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
     let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;
-    Some(RunWarning::GroundEnds { step, width: setting.world_width }.into())
+    Some(GroundEnds { step, width: setting.world_width }.into())
 }
 
 impl<'a> Outcome<'a> {

@@ -4,7 +4,7 @@ use nbc_base::source::SourceWorld;
 use nbc_session::Session;
 use nbc_session::store::DiskWorld;
 
-/// What the command line calls it.
+/// The argument that stands for standard input.
 pub(super) const DASH: &str = "-";
 /// Its name in messages.
 const NAME: &str = "<stdin>";

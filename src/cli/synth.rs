@@ -7,9 +7,9 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::cli::mapping::{MappingArguments, functions};
+use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
-use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::cli::{Context, Failure, Status};
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
@@ -44,10 +44,10 @@ pub struct SynthArguments {
     /// Keep registers or expand them to cells [default: depends on the output format]
     #[arg(long, value_enum)]
     registers: Option<RegisterWord>,
-    /// Let outputs and next values in unreachable states be anything
+    /// Allow any outputs and next states in unreachable states
     ///
-    /// The circuit is then right only if its registers start at their start values. What is assumed of its states is
-    /// proved, and reported. Applies to designs whose registers are all flip-flops.
+    /// The result is then correct only if every register begins with its start value. The set of reachable states is
+    /// proved and reported. All registers of the design must be flip-flops.
     #[arg(long)]
     reachable_only: bool,
     /// Report how many cells a robot for each of these functions would save
@@ -208,10 +208,7 @@ impl SynthArguments {
             let cells = found.netlist.cells().count();
             report.what_if.insert(function.name().to_owned(), report.cells as i64 - cells as i64);
         }
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Synth, &report)?,
-            OutputFormat::Text => context.print(report.text())?,
-        }
+        context.print_result(Schema::Synth, &report, || report.text())?;
         Ok(Status::Done)
     }
 }

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use crate::cli::{Bench, Ran};
-use crate::schemas::validate;
+use crate::support::bench::{Bench, Ran};
+use crate::support::schema::validate;
 
 /// A small archive of small bodies with few behaviors, all of robots that err.
 const RUN: &str = "

@@ -12,8 +12,8 @@ use nbc_circuit::{CellKind, CellLibrary, Effort, MapOptions, map_with, prove};
 use crate::circuit::sum_of_products;
 use crate::flows::fewest_of_abc;
 use crate::generated::generated;
-use crate::language::root;
-use crate::synth::abc;
+use crate::support::abc::abc;
+use crate::support::root;
 
 fn files() -> Vec<PathBuf> {
     let folder = root().join("tests/benchmarks");

@@ -1,97 +1,15 @@
 //! The command line of the real program: its output and its exit status.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 use nbc_base::model::CYCLE_STEPS;
 use nbc_sim::Constants;
 use serde_json::Value;
 
-use crate::limits::{self, InTime};
-
-/// A schedule with every pattern for one cycle.
-pub const SHORT: &str = "\
-schedule short(s1, s2) {
-    0 0 for 1 cycles
-    0 1 for 1 cycles
-    1 0 for 1 cycles
-    1 1 for 1 cycles
-}
-
-";
-
-/// The program. It has one thread, because tests run side by side.
-pub fn program() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_nbc"));
-    command.env("RAYON_NUM_THREADS", "1");
-    command
-}
-
-/// A folder of its own for one test, with the program run inside it.
-pub struct Bench {
-    folder: tempfile::TempDir,
-}
-
-/// The output and exit status of a run of the program.
-pub struct Ran {
-    pub status: i32,
-    pub out: String,
-    pub err: String,
-}
-
-impl Bench {
-    pub fn new() -> Self {
-        Self { folder: tempfile::tempdir().unwrap() }
-    }
-
-    pub fn path(&self) -> &Path {
-        self.folder.path()
-    }
-
-    /// Writes a program into the folder, with the schedule `short` in front: every pattern for one cycle.
-    pub fn runs(&self, name: &str, text: impl std::fmt::Display) -> PathBuf {
-        self.file(name, format!("{SHORT}{text}"))
-    }
-
-    /// Writes a file into the folder.
-    pub fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.folder.path().join(name);
-        std::fs::write(&path, bytes).unwrap();
-        path
-    }
-
-    pub fn run(&self, arguments: &[&str]) -> Ran {
-        let Output { status, stdout, stderr } = self.command(arguments).output_in_time();
-        let text = |bytes| String::from_utf8(bytes).expect("the program prints text");
-        Ran { status: status.code().expect("the program ends by itself"), out: text(stdout), err: text(stderr) }
-    }
-
-    pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = program();
-        command.args(arguments).current_dir(self.path()).env_remove("NO_COLOR");
-        command
-    }
-}
-
-impl Ran {
-    /// Checks for an error on standard error only, with status 2 and without a panic.
-    #[track_caller]
-    pub fn expect_fault(&self, parts: &[&str]) {
-        assert_eq!(self.status, 2, "{}{}", self.out, self.err);
-        for part in parts {
-            assert!(self.err.contains(part), "{part:?} is not in\n{}", self.err);
-        }
-        assert!(!self.err.contains("panicked") && !self.err.contains('\u{1b}'), "{}", self.err);
-        assert_eq!(self.out, "");
-    }
-
-    #[track_caller]
-    pub fn expect_json(&self) -> Value {
-        assert_eq!(self.status, 0, "{}", self.err);
-        serde_json::from_str(&self.out).expect("standard output is JSON")
-    }
-}
+use crate::support::bench::Bench;
+use crate::support::limits::{self, InTime};
 
 const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
 
@@ -326,7 +244,7 @@ fn without_threads(prlimit: &Path, bench: &Bench, arguments: &[&str]) -> Output 
 #[test]
 #[cfg(target_os = "linux")]
 fn fewer_threads_do_the_work_if_the_system_refuses_some() {
-    let Some(prlimit) = crate::tools::PRLIMIT.find() else { return };
+    let Some(prlimit) = crate::support::tools::PRLIMIT.find() else { return };
     let bench = Bench::new();
     bench.file("walker.yaml", WALKER);
     bench.file("passing.nb", flip(true));
@@ -403,7 +321,7 @@ fn impossible_drawings_are_rejected_and_leave_no_file() {
 fn bench_prints_the_speed_as_json() {
     let ran = Bench::new().run(&["bench", "--swarm", "--format", "json"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
-    let figures = crate::schemas::validate("bench", &ran.out);
+    let figures = crate::support::schema::validate("bench", &ran.out);
     assert!(figures["machine"].is_string() && [4, 8].contains(&figures["width"].as_u64().unwrap()));
     let boxes: Vec<_> = figures["cases"].as_array().unwrap().iter().map(|case| case["box"].as_str().unwrap()).collect();
     assert_eq!(boxes, ["5x5", "7x7", "10x10"]);

@@ -12,7 +12,7 @@ use nbc_sim::Simulator;
 use nbc_swarm::evolve::{Search, SearchState};
 use nbc_swarm::evolve_generation;
 
-use crate::cli::SHORT;
+use crate::support::bench::SHORT;
 
 /// Generations within which a change has an effect.
 const GENERATIONS: u32 = 4;

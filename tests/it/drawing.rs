@@ -5,7 +5,7 @@ use std::fs;
 
 use roxmltree::Document;
 
-use crate::cli::{Bench, Ran};
+use crate::support::bench::{Bench, Ran};
 
 const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
 

@@ -5,7 +5,8 @@ use std::fs;
 use regex::Regex;
 use serde_json::Value;
 
-use crate::language::{programs, root};
+use crate::support::programs::programs;
+use crate::support::root;
 
 /// A rule of the grammar: a pattern, the scope of the whole match, and the scopes of its groups.
 struct Rule {

@@ -14,8 +14,8 @@ use nbc_swarm::evolve::{Search, recodings};
 use nbc_swarm::{evaluate, evaluate_bodies};
 use proptest::prelude::*;
 
-use crate::cli::{Bench, SHORT};
-use crate::limits::{InTime, Limit};
+use crate::support::bench::{Bench, SHORT};
+use crate::support::limits::{InTime, Limit};
 
 /// Two small runs, one for each objective.
 const RUNS: &str = "
@@ -121,7 +121,7 @@ fn a_signal_ends_a_run_with_a_checkpoint() {
         // The program watches signals before it estimates the time of a long run.
         let estimate = BufReader::new(child.stderr.take().unwrap()).lines().next().unwrap().unwrap();
         assert!(estimate.starts_with("at most about ") && estimate.contains(" hours on this machine"), "{estimate}");
-        crate::tools::signal(signal, child.id());
+        crate::support::tools::signal(signal, child.id());
         assert_eq!(child.wait().unwrap().code(), Some(4));
         assert!(bench.path().join(signal).join(CHECKPOINTS[0]).exists());
     }

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::cli::{Bench, Ran};
-use crate::language::root;
+use crate::support::bench::{Bench, Ran};
+use crate::support::root;
 
 /// Runs a circuit in full physics, with its results in the bench's folder `out`.
 fn run(bench: &Bench, circuit: &Path) -> Ran {

@@ -13,9 +13,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use regex::Regex;
 
-use crate::cli::Bench;
-use crate::language::{programs, root};
-use crate::tools::YOSYS;
+use crate::support::bench::Bench;
+use crate::support::programs::programs;
+use crate::support::root;
+use crate::support::tools::YOSYS;
 use crate::written::same;
 
 /// Every circuit of the gallery that has a test, as it is written.

@@ -5,8 +5,8 @@ use std::fs;
 use nbc_session::store::shipped_library;
 use serde_json::Value;
 
-use crate::cli::Bench;
-use crate::schemas::validate;
+use crate::support::bench::Bench;
+use crate::support::schema::validate;
 
 /// A run with two materials of its own, on two axes of one word.
 const RUN: &str = "

@@ -7,7 +7,7 @@ use nbc_lang::check;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
+use crate::support::bench::Bench;
 
 /// Declarations with one error each, whose names no other declaration uses. A word that begins no declaration is not
 /// included, because it belongs to the previous one.

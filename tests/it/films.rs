@@ -7,7 +7,7 @@ use std::rc::Rc;
 use nbc_base::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting, Spell};
 use nbc_session::report::{self, Color, FRAMES_PER_CYCLE, Film, Scheme, Stage};
 
-use crate::pictures::latch;
+use crate::support::traces::latch;
 
 const WALKER: [&str; 5] = ["66666", "46666", "44444", "44404", "44005"];
 

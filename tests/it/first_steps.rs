@@ -10,10 +10,10 @@ use nbc_session::store::DiskWorld;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::cli::Bench;
-use crate::language::root;
-use crate::limits::{self, Limit};
 use crate::manual::{Fence, fences};
+use crate::support::bench::Bench;
+use crate::support::limits::{self, Limit};
+use crate::support::root;
 
 const FINE: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n\ntest f {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
 
@@ -136,7 +136,7 @@ impl Running {
     /// Sends Ctrl-C; the exit status, the rest of standard output and all of standard error.
     #[cfg(unix)]
     fn interrupt(mut self) -> (Option<i32>, String, String) {
-        crate::tools::signal("INT", self.child.id());
+        crate::support::tools::signal("INT", self.child.id());
         let out = self.lines.map(|line| line.unwrap() + "\n").collect();
         let mut err = String::new();
         std::io::Read::read_to_string(&mut self.child.stderr.take().unwrap(), &mut err).unwrap();
@@ -258,7 +258,7 @@ fn circuit(bench: &Bench, file: &str, name: &str) -> (Netlist, Vec<(String, usiz
 
 #[test]
 fn each_pair_of_the_page_for_verilog_computes_the_same() {
-    if !crate::tools::YOSYS.is_there() {
+    if !crate::support::tools::YOSYS.is_there() {
         return;
     }
     let text = std::fs::read_to_string(root().join("docs/from-verilog.md")).unwrap();

@@ -6,7 +6,7 @@ use std::path::Path;
 use nbc_base::model::Function;
 use nbc_circuit::formats::{Design, blif};
 
-use crate::synth::abc;
+use crate::support::abc::abc;
 
 const RESYN2: &str =
     "balance; rewrite; refactor; balance; rewrite; rewrite -z; balance; refactor -z; rewrite -z; balance";

@@ -8,7 +8,7 @@ use nbc_lang::check;
 use nbc_lang::syntax;
 use proptest::prelude::*;
 
-use crate::language::programs;
+use crate::support::programs::programs;
 
 /// The canonical form of a text without syntax errors.
 fn formatted(text: &str) -> String {

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::cli::Bench;
-use crate::language::root;
+use crate::support::bench::Bench;
+use crate::support::root;
 
 /// The most bytes of one picture and of all together.
 const MOST: [u64; 2] = [1_000_000, 4_000_000];

@@ -4,8 +4,8 @@ use nbc_base::diag::{Code, Diagnostic, render};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 
-use crate::cli::Bench;
-use crate::limits::InTime;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
 
 fn found(text: String) -> Vec<Diagnostic> {
     let mut sources = Sources::default();

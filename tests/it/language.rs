@@ -1,71 +1,12 @@
 //! The language from outside: the prelude, the gallery, the manual.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use nbc_base::diag::render;
-use nbc_base::model::{CircuitTest, Palette, Program, Stimulation};
-use nbc_base::source::{MemoryWorld, Sources};
-use nbc_circuit::{Logic, elaborate, elaborate_reference};
-use nbc_lang::check::{self, Analysis};
+use nbc_base::model::Palette;
+use nbc_base::source::Sources;
+use nbc_lang::check::{self};
 use nbc_session::store::DiskWorld;
 
-/// The repository.
-pub(crate) fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Every .nb file in a folder of the repository.
-pub(crate) fn programs(folder: &str) -> Vec<PathBuf> {
-    let mut paths: Vec<_> = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "nb"));
-    paths.sort();
-    assert!(!paths.is_empty(), "{folder} holds programs");
-    paths
-}
-
-/// Checks a text that uses no files, and fails on any diagnostic.
-pub(crate) fn sound(name: &str, text: &str) -> Program {
-    let mut sources = Sources::default();
-    let file = sources.add(name, text);
-    let Analysis { program, diagnostics, .. } = check::check(&MemoryWorld::default(), &mut sources, file);
-    assert!(diagnostics.is_empty(), "{}", render::text(&diagnostics, &sources, false));
-    program
-}
-
-/// Runs a program's test at the level of logic, and fails at the first wrong row.
-pub(crate) fn passes(program: &Program, test: &CircuitTest) {
-    let mut logic = Logic::new(&elaborate(program, &test.circuit).unwrap());
-    match &test.stimulation {
-        Stimulation::Rows(rows) => {
-            for (at, row) in rows.iter().enumerate() {
-                let settled = logic.settle(&row.inputs);
-                let found = settled.unwrap_or_else(|_| logic.outputs());
-                let fits =
-                    row.expected.iter().zip(&found).all(|(expected, found)| expected.is_none_or(|e| e == *found));
-                assert!(
-                    fits,
-                    "{} {:?}, row {at}: expected {:?}, found {found:?}",
-                    test.circuit, test.title, row.expected
-                );
-            }
-        }
-        Stimulation::All { reference } => {
-            let mut expected = Logic::new(&elaborate_reference(program, reference).unwrap());
-            let bits = test.inputs.iter().map(|column| column.width).sum::<usize>();
-            for pattern in 0..1u32 << bits {
-                let inputs: Vec<_> = (0..bits).map(|bit| pattern >> bit & 1 == 1).collect();
-                assert_eq!(
-                    logic.settle(&inputs),
-                    expected.settle(&inputs),
-                    "{} {:?} at {inputs:?}",
-                    test.circuit,
-                    test.title
-                );
-            }
-        }
-    }
-}
+use crate::support::programs::{passes, programs, sound};
 
 #[test]
 fn the_prelude_has_the_papers_palette() {
@@ -76,7 +17,7 @@ fn the_prelude_has_the_papers_palette() {
 
 #[test]
 fn the_prelude_is_read_extended_and_redeclared() {
-    let read = crate::cli::Bench::new().run(&["explain", "prelude"]);
+    let read = crate::support::bench::Bench::new().run(&["explain", "prelude"]);
     assert!(read.out.contains("material muscle ") && read.out.contains("schedule sweep("), "{}", read.out);
 
     let extended = sound(

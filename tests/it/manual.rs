@@ -7,8 +7,9 @@ use nbc_base::diag::{Code, Diagnostic, Severity, render};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 
-use crate::cli::Bench;
-use crate::language::{passes, root};
+use crate::support::bench::Bench;
+use crate::support::programs::passes;
+use crate::support::root;
 
 /// A fenced piece of a page: the words after the fence, and the text.
 pub struct Fence {

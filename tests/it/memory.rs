@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::language::programs;
+use crate::support::programs::programs;
 
 /// The inputs of a random circuit.
 const INPUTS: [&str; 4] = ["a", "b", "clk", "en"];

@@ -6,7 +6,7 @@ use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Compiled, Session};
 use nbc_swarm::{Assembly, Settling};
 
-use crate::language::programs;
+use crate::support::programs::programs;
 
 /// The holds of a test's rows with certain robots.
 #[derive(Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use regex::Regex;
 
-use crate::language::root;
+use crate::support::root;
 
 /// A path of modules and items, which begins with the crate.
 type Item = Vec<String>;

@@ -8,8 +8,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::language::root;
-use crate::limits::InTime;
+use crate::support::limits::InTime;
+use crate::support::root;
 
 /// A crate of the program, with the texts under which it may be used.
 struct Crate {

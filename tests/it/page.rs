@@ -12,13 +12,13 @@ use nbc_base::model::{
 };
 use nbc_base::source::{FileId, Span};
 use nbc_session::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
-use nbc_swarm::{Assembly, Demand, Level, Member, Recorded, Recording, SwarmTrace, TestVerdict, judge_swarm};
+use nbc_swarm::{Assembly, Level, Member, Recorded, Recording, RowHold, SwarmTrace, TestVerdict, judge_swarm};
 use serde_json::Value;
 
-use crate::cli::Bench;
-use crate::limits::InTime;
-use crate::pictures::{large, latch, latch_netlist};
-use crate::tools::CHROMIUM;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::tools::CHROMIUM;
+use crate::support::traces::{large, latch, latch_netlist};
 
 pub fn robot(name: &str, function: Function) -> Robot {
     let rows = ["66666", "46666", "44444", "44404", "44005"];
@@ -72,8 +72,8 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         row: 1 + at,
     };
     let rows: Vec<TestRow> = [false, true, true].into_iter().enumerate().map(row).collect();
-    let demands = vec![Demand { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];
-    let rows = judge_swarm(&test, &rows, &demands, trace, &[4; 5]);
+    let row_holds = vec![RowHold { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];
+    let rows = judge_swarm(&test, &rows, &row_holds, trace, &[4; 5]);
     TestVerdict {
         file: test.file,
         line: test.line,

@@ -10,10 +10,10 @@ use nbc_base::model::{
 use nbc_session::store::{self, Checkpoint, DiskWorld};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
-use nbc_swarm::{Assembly, Exposure, Member, StimulusSource};
+use nbc_swarm::{Assembly, Member, StimulusSource, SwarmConditions};
 
-use crate::cli::Bench;
-use crate::language::root;
+use crate::support::bench::Bench;
+use crate::support::root;
 
 /// A folder with a run of format 1 in `out/hearts/seed-1`, whose third material is not the paper's.
 fn first_format() -> Bench {
@@ -228,8 +228,8 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         beat: 1,
         world: PhysicsWorld::default(),
     };
-    let exposure = Exposure { inputs: vec![vec![true], vec![false]], window: 1, poses: None };
-    let trace = nbc_swarm::simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
+    let conditions = SwarmConditions { inputs: vec![vec![true], vec![false]], window: 1, poses: None };
+    let trace = nbc_swarm::simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {});
     let spells = [2, 0].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: CYCLE_STEPS }).to_vec();
     for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {
         let trial = Trial { body: body.clone(), schedule: Schedule { spells: spells.clone() } };

@@ -15,10 +15,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::json;
 
-use crate::cli::Bench;
-use crate::language::root;
 use crate::memory::{CLOCK, ENABLE, Element, elements, libraries, mapped, next, program, text};
-use crate::schemas::validate;
+use crate::support::bench::Bench;
+use crate::support::root;
+use crate::support::schema::validate;
 
 /// A clock for each cell: one to three cycles, and at most two for cells that compute an enable.
 fn kinds(netlist: &Netlist, random: &mut ChaCha8Rng) -> BTreeMap<NetId, CellKind> {

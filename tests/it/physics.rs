@@ -242,11 +242,11 @@ fn published_robots_walk_as_published() {
 }
 
 /// A constant by its name, to be changed.
-type Knob = (&'static str, fn(&mut Constants) -> &mut f64);
+type NamedConstant = (&'static str, fn(&mut Constants) -> &mut f64);
 
 /// Every constant except thresholds for degenerate shapes (`parallel`, `shortest`, `nowhere`) and integers
 /// (`substeps`).
-const KNOBS: &[Knob] = &[
+const CONSTANTS: &[NamedConstant] = &[
     ("cell", |c| &mut c.cell),
     ("substep", |c| &mut c.substep),
     ("gravity", |c| &mut c.gravity),
@@ -275,33 +275,37 @@ const KNOBS: &[Knob] = &[
 ];
 
 /// Constants that matter only to a robot below the ground.
-const PLANE_KNOBS: &[Knob] = &[
+const PLANE_CONSTANTS: &[NamedConstant] = &[
     ("plane_stiffness", |c| &mut c.plane_stiffness),
     ("plane_friction", |c| &mut c.plane_friction),
     ("plane_slope", |c| &mut c.plane_slope),
 ];
 
-fn changed(knob: &Knob, factor: f64) -> Constants {
+fn changed(constant: &NamedConstant, factor: f64) -> Constants {
     let mut constants = Constants::default();
-    *knob.1(&mut constants) *= factor;
+    *constant.1(&mut constants) *= factor;
     constants
 }
 
 #[test]
 fn a_change_of_any_constant_by_one_percent_is_detected() {
     let cases = traces();
-    for knob in KNOBS {
+    for constant in CONSTANTS {
         for factor in [0.99, 1.01] {
-            let constants = changed(knob, factor);
+            let constants = changed(constant, factor);
             let seen = cases.iter().any(|case| case.difference(&simulate(case, &constants)) > TOLERANCE);
-            assert!(seen || is_clipped(knob, factor), "{} times {factor} changes no reference trajectory", knob.0);
+            assert!(
+                seen || is_clipped(constant, factor),
+                "{} times {factor} changes no reference trajectory",
+                constant.0
+            );
         }
     }
 }
 
 /// A wider range of targets has no effect, because no material exceeds the range.
-fn is_clipped(knob: &Knob, factor: f64) -> bool {
-    matches!((knob.0, factor < 1.0), ("least_target", true) | ("greatest_target", false))
+fn is_clipped(constant: &NamedConstant, factor: f64) -> bool {
+    matches!((constant.0, factor < 1.0), ("least_target", true) | ("greatest_target", false))
 }
 
 #[test]
@@ -316,8 +320,12 @@ fn a_robot_beyond_the_ground_comes_to_rest_on_the_plane() {
     assert_eq!(usual.fault, None);
     let last = *usual.com_y.last().unwrap();
     assert!((0.5..2.0).contains(&last), "it stands on the plane y = 0, and its center is {last} voxels high");
-    for knob in PLANE_KNOBS {
-        let other = fall(changed(knob, 1.01));
-        assert!(other.com_x != usual.com_x || other.com_y != usual.com_y, "{} changes nothing on the plane", knob.0);
+    for constant in PLANE_CONSTANTS {
+        let other = fall(changed(constant, 1.01));
+        assert!(
+            other.com_x != usual.com_x || other.com_y != usual.com_y,
+            "{} changes nothing on the plane",
+            constant.0
+        );
     }
 }

@@ -3,7 +3,7 @@
 use nbc::Session;
 use nbc_base::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
 use nbc_base::source::MemoryWorld;
-use nbc_session::report::{self, Champions, Course, Terrain};
+use nbc_session::report::{self, ArchiveMap, Champions, Course};
 use nbc_swarm::evolve::{Archive, Champion, Elite, NicheKey};
 use roxmltree::{Document, Node};
 
@@ -62,8 +62,8 @@ fn a_heat_map_colors_the_niches_that_are_filled() {
 fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
     let best = |elites: &[Elite]| elites.iter().map(|elite| elite.fitness[0]).fold(0.0, f64::max);
     let niches: Vec<(&NicheKey, f64)> = archive.niches().map(|(key, elites)| (key, best(elites))).collect();
-    let terrain = Terrain { unit: "distance (voxels)", axes: &axes(), niches: &niches };
-    report::draw_heatmap("gates", &terrain, x, y).finish()
+    let archive_map = ArchiveMap { unit: "distance (voxels)", axes: &axes(), niches: &niches };
+    report::draw_heatmap("gates", &archive_map, x, y).finish()
 }
 
 fn evolution() -> nbc_base::model::Evolution {

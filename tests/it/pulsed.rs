@@ -9,8 +9,8 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::language::root;
 use crate::memory::{Element, elements, mapped, next, text};
+use crate::support::root;
 
 /// All functions with random clocks; NAND and AND are quick in most libraries, as they must be for pulses.
 fn library(random: &mut ChaCha8Rng) -> CellLibrary {

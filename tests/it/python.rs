@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use regex::Regex;
 
-use crate::language::root;
+use crate::support::root;
 
 /// The files with this extension in these folders of `python/`.
 fn files(folders: &[&str], extension: &str) -> Vec<(PathBuf, String)> {

@@ -9,8 +9,8 @@ use nbc_circuit::reachable::{WhyEveryState, simplify};
 use nbc_circuit::{CellLibrary, Effort, Logic, MapOptions, Netlist};
 use proptest::prelude::*;
 
-use crate::cli::Bench;
-use crate::synth::abc_agrees;
+use crate::support::abc::abc_agrees;
+use crate::support::bench::Bench;
 
 /// A state machine with a register for each state, of which one is 1. It goes on while `x` is 1 and back to the start
 /// when `y` is 1. The states are tested one after the other, as in a chain of `else if`.

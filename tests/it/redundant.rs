@@ -7,8 +7,8 @@ use nbc_circuit::network::View;
 use nbc_circuit::{NetId, Netlist};
 use proptest::prelude::*;
 
-use crate::cli::Bench;
-use crate::synth::abc_agrees;
+use crate::support::abc::abc_agrees;
+use crate::support::bench::Bench;
 
 /// Two bits that count twice, a bit that stays 0, and a bit that nothing reads.
 const REDUNDANT: &str = "\

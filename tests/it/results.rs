@@ -2,8 +2,9 @@
 
 use serde_json::Value;
 
-use crate::cli::{Bench, flip};
-use crate::language::root;
+use crate::cli::flip;
+use crate::support::bench::Bench;
+use crate::support::root;
 
 #[test]
 fn a_ring_of_inverters_never_settles() {

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::cli::{Bench, Ran};
+use crate::support::bench::{Bench, Ran};
 
 /// A correct robot, and one with the same body whose file has errors.
 const TURNER: &str = "format: 1

@@ -6,28 +6,11 @@ use std::fs;
 use nbc_session::report::Schema;
 use serde_json::Value;
 
-use crate::cli::Bench;
-use crate::language::root;
+use crate::support::bench::Bench;
+use crate::support::root;
+use crate::support::schema::{schema, validate};
 
 const FLIP: &str = "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n";
-
-/// Asserts that a text is JSON by the schema of that word, and returns it.
-#[track_caller]
-pub fn validate(word: &str, text: &str) -> Value {
-    let found: Value = serde_json::from_str(text).unwrap_or_else(|error| panic!("{word}: {error}\n{text}"));
-    let schema = schema(word);
-    assert_eq!(found["schema"], schema["$id"], "the output says its schema");
-    let validator = jsonschema::draft202012::new(&schema).expect("a schema");
-    let faults: Vec<String> =
-        validator.iter_errors(&found).map(|fault| format!("{}: {fault}", fault.instance_path())).collect();
-    assert!(faults.is_empty(), "{word}:\n{}", faults.join("\n"));
-    found
-}
-
-fn schema(word: &str) -> Value {
-    let text = fs::read_to_string(root().join(format!("docs/schema/{word}.json"))).unwrap();
-    serde_json::from_str(&text).unwrap()
-}
 
 /// Runs a command with `--format json` and validates its output.
 #[track_caller]

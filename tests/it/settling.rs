@@ -9,9 +9,9 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::language::root;
 use crate::memory::{elements, mapped, text};
 use crate::page::robot;
+use crate::support::root;
 
 /// Robots of a swarm with random outputs until they have settled.
 struct RandomSwarm<'a> {
@@ -135,7 +135,7 @@ fn holds(file: &str) -> (f64, usize) {
         .tests
         .iter()
         .flat_map(of_test)
-        .flat_map(|case| case.demands().iter().map(|demand| demand.hold).collect::<Vec<_>>())
+        .flat_map(|case| case.row_holds().iter().map(|row_hold| row_hold.hold).collect::<Vec<_>>())
         .collect();
     (holds.iter().sum::<usize>() as f64 / holds.len() as f64, holds.into_iter().max().unwrap())
 }

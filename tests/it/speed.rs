@@ -8,9 +8,9 @@ use nbc_base::source::{MemoryWorld, Sources};
 use nbc_circuit::elaborate;
 use nbc_lang::check;
 
-use crate::cli::Bench;
-use crate::language::programs;
-use crate::limits::InTime;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::programs::programs;
 
 /// CPU time of this thread in seconds, which does not depend on other programs.
 fn processor_seconds() -> f64 {

@@ -10,11 +10,11 @@ use nbc_session::SwarmRun;
 use nbc_session::report::{Stage, describe_test};
 use nbc_session::store::shipped_library;
 use nbc_sim::Simulator;
-use nbc_swarm::{Assembly, Exposure, Member, Recording, Room, StimulusSource, SwarmTrace, simulate};
+use nbc_swarm::{Assembly, Member, Recording, Room, StimulusSource, SwarmConditions, SwarmTrace, simulate};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::language::programs;
+use crate::support::programs::programs;
 
 /// A circuit for the function of three inputs with these outputs, and a test of all its rows.
 fn program(truth: u8) -> String {
@@ -93,12 +93,12 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
     let (net, senses) = ("y".to_owned(), [StimulusSource::Constant(false); 2]);
     let member = Member { net, robot, senses, start: true, held: Default::default() };
-    let (outputs, shown) = (vec![crate::pictures::port("y")], vec![StimulusSource::Robot(0)]);
+    let (outputs, shown) = (vec![crate::support::traces::port("y")], vec![StimulusSource::Robot(0)]);
     let (inputs, world) = (Vec::new(), PhysicsWorld::default());
     let assembly =
         Assembly { circuit: "one".to_owned(), inputs, members: vec![member], outputs, shown, beat: 1, world };
-    let exposure = Exposure { inputs: vec![Vec::new(); 80], window: 1, poses: None };
-    let trace = simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {});
+    let conditions = SwarmConditions { inputs: vec![Vec::new(); 80], window: 1, poses: None };
+    let trace = simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {});
     let walked = trace.robots[0].com_x.last().unwrap() - trace.robots[0].com_x[0];
     assert!(walked > 250.0, "{walked}: not as far as the paper's ground reaches");
     assert!(trace.cycles.iter().all(|cycle| cycle.bits[0]));
@@ -121,13 +121,13 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
         circuit: "three".to_owned(),
         inputs: Vec::new(),
         members: shipped_library().robots[..3].iter().map(member).collect(),
-        outputs: vec![crate::pictures::port("y")],
+        outputs: vec![crate::support::traces::port("y")],
         shown: vec![StimulusSource::Robot(1)],
         world: PhysicsWorld::default(),
     };
     let run = |poses| {
-        let exposure = Exposure { inputs: vec![Vec::new(); 3], window: 1, poses };
-        simulate(&Simulator::default(), &assembly, &exposure, &mut |_| {})
+        let conditions = SwarmConditions { inputs: vec![Vec::new(); 3], window: 1, poses };
+        simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {})
     };
     let (plain, recorded) = (run(None), run(Some(Room::SWARM)));
     assert!(plain.recording.robots.is_empty());

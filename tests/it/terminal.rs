@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::cli::Bench;
-use crate::language::root;
+use crate::support::bench::Bench;
+use crate::support::root;
 
 /// Clears the screen, sets the title, rings, colors, and reads from right to left.
 const HOSTILE: &str = "\u{1b}[2J\u{1b}]0;pwned\u{7}\u{9b}31m\u{202e}x";

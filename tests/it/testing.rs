@@ -1,8 +1,9 @@
 //! `nbc test`: every kind of test detects errors, and the number of robots decides the level.
 
-use crate::cli::Bench;
-use crate::language::{programs, root};
-use crate::limits::InTime;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::programs::programs;
+use crate::support::root;
 
 const CIRCUITS: &str = "
 circuit exclusive(a, b) -> (q) { q = a xor b }

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use regex::Regex;
 
-use crate::language::root;
 use crate::modules::{Module, circles, imports, modules, place};
+use crate::support::root;
 
 /// The folders that share a crate, with their layers; such a folder imports lower layers only. Between crates, the
 /// manifests say who may import whom.

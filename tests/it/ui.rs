@@ -10,7 +10,8 @@ use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 use nbc_session::store::DiskWorld;
 
-use crate::language::{programs, root};
+use crate::support::programs::programs;
+use crate::support::root;
 
 /// The diagnostics of a file of the repository, by its path from the root.
 fn found(path: &str) -> (Vec<Diagnostic>, String) {

@@ -8,9 +8,9 @@ use nbc_circuit::elaborate;
 use nbc_circuit::formats::{CircuitFormat, aiger, blif};
 use nbc_lang::check;
 
-use crate::cli::Bench;
-use crate::limits::InTime;
-use crate::tools::YOSYS;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::tools::YOSYS;
 use crate::written::{order, same_in_order};
 
 /// A file of the folder, with the program that uses it checked; returns the program and its messages.

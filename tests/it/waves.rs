@@ -5,8 +5,8 @@ use std::io::Cursor;
 use nbc_session::report;
 use wellen::simple::{Waveform, read_from_reader};
 
-use crate::cli::Bench;
-use crate::pictures::latch;
+use crate::support::bench::Bench;
+use crate::support::traces::latch;
 
 /// The times in microseconds and values of a signal, by its full name.
 fn changes(waves: &mut Waveform, name: &str) -> Vec<(u64, String)> {

@@ -6,11 +6,11 @@ use nbc::{
 };
 use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_session::report::Stage;
-use nbc_swarm::{Assembly, Exposure, Recording, Room, SwarmTrace, simulate};
+use nbc_swarm::{Assembly, Recording, Room, SwarmConditions, SwarmTrace, simulate};
 
-use crate::cli::Bench;
-use crate::limits::InTime;
-use crate::schemas::validate;
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::schema::validate;
 
 const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.2, weak: 0.05, dead: 0.02, seed: 3 };
 
@@ -112,7 +112,7 @@ fn noisy() -> Assembly {
 
 fn trace(assembly: &Assembly, poses: Option<Room>) -> SwarmTrace {
     let inputs = (0..12).map(|cycle| vec![cycle / 4 % 2 == 1, cycle % 2 == 1]).collect();
-    simulate(&Simulator::default(), assembly, &Exposure { inputs, window: 1, poses }, &mut |_| {})
+    simulate(&Simulator::default(), assembly, &SwarmConditions { inputs, window: 1, poses }, &mut |_| {})
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn wrong_changes_are_explained() {
 /// A folder with the NAND of the library.
 fn bench_with_a_gate() -> Bench {
     let bench = Bench::new();
-    let text = std::fs::read_to_string(crate::language::root().join("library/robots/nand_5x5.yaml")).unwrap();
+    let text = std::fs::read_to_string(crate::support::root().join("library/robots/nand_5x5.yaml")).unwrap();
     bench.file("nand.yaml", &text);
     bench
 }

@@ -1,13 +1,13 @@
-//! A request to end a search early, which another thread can make.
+//! A flag by which another thread can end a search early.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A request to end a search of mapping early. The copies of a flag are one flag.
+/// A request to end a search of mapping early. Clones share their state.
 ///
-/// A search that was cancelled ends soon with the best network it has: of cells of the library and with the function of
-/// its source as any other, but of more cells than the whole search would need, and how many depends on the moment. A
-/// flag that is never raised does not affect the result.
+/// A cancelled search soon returns the best network so far. It consists of cells of the library and has the function of
+/// its source, but it may have more cells than after a complete search, depending on the moment. A flag that is never
+/// raised does not affect the result.
 #[derive(Clone, Debug, Default)]
 pub struct CancelFlag(Arc<AtomicBool>);
 

@@ -19,7 +19,7 @@ const DONE: u32 = u32::MAX;
 pub struct Components<'g> {
     graph: &'g NetGraph,
     /// When each node was visited, or [`NEW`] or [`DONE`].
-    met: Vec<u32>,
+    numbers: Vec<u32>,
     /// For each visited node, the earliest node that it leads back to.
     low: Vec<u32>,
     clock: u32,
@@ -31,14 +31,14 @@ impl<'g> Components<'g> {
     /// A new search of a netlist's graph.
     pub fn new(graph: &'g NetGraph) -> Self {
         let nodes = graph.node_bound();
-        Self { graph, met: vec![NEW; nodes], low: vec![NEW; nodes], clock: NEW, open: Vec::new() }
+        Self { graph, numbers: vec![NEW; nodes], low: vec![NEW; nodes], clock: NEW, open: Vec::new() }
     }
 
     /// The components that `roots` lead to by way of nodes that are `inside`, listeners before their drivers.
     pub fn from(&mut self, roots: impl IntoIterator<Item = NetId>, inside: impl Fn(NetId) -> bool) -> Vec<Vec<NetId>> {
         let mut components = Vec::new();
         for root in roots {
-            if inside(root) && self.met[root.index()] == NEW {
+            if inside(root) && self.numbers[root.index()] == NEW {
                 self.follow(root, &inside, &mut components);
             }
         }
@@ -49,17 +49,17 @@ impl<'g> Components<'g> {
     fn follow(&mut self, root: NetId, inside: &impl Fn(NetId) -> bool, components: &mut Vec<Vec<NetId>>) {
         let graph = self.graph;
         let listeners = |node: NetId| graph.neighbors_directed(node, Outgoing).detach();
-        self.meet(root);
+        self.discover(root);
         let mut way = vec![(root, listeners(root))];
         while let Some((node, ahead)) = way.last_mut() {
             let node = *node;
             match ahead.next_node(graph) {
                 Some(next) if !inside(next) => {}
-                Some(next) if self.met[next.index()] == NEW => {
-                    self.meet(next);
+                Some(next) if self.numbers[next.index()] == NEW => {
+                    self.discover(next);
                     way.push((next, listeners(next)));
                 }
-                Some(next) => self.low[node.index()] = self.low[node.index()].min(self.met[next.index()]),
+                Some(next) => self.low[node.index()] = self.low[node.index()].min(self.numbers[next.index()]),
                 None => {
                     way.pop();
                     if let Some(&(before, _)) = way.last() {
@@ -71,21 +71,21 @@ impl<'g> Components<'g> {
         }
     }
 
-    fn meet(&mut self, node: NetId) {
+    fn discover(&mut self, node: NetId) {
         self.clock += 1;
-        self.met[node.index()] = self.clock;
+        self.numbers[node.index()] = self.clock;
         self.low[node.index()] = self.clock;
         self.open.push(node);
     }
 
     /// The component of a node from which nothing leads further back.
     fn close(&mut self, node: NetId) -> Option<Vec<NetId>> {
-        if self.low[node.index()] != self.met[node.index()] {
+        if self.low[node.index()] != self.numbers[node.index()] {
             return None;
         }
         let first = self.open.iter().rposition(|&open| open == node).expect("a node is open until it is closed");
         let component = self.open.split_off(first);
-        component.iter().for_each(|member| self.met[member.index()] = DONE);
+        component.iter().for_each(|member| self.numbers[member.index()] = DONE);
         Some(component)
     }
 }

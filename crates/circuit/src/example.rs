@@ -1,7 +1,7 @@
-//! Netlists and networks that the tests of this folder share.
+//! Netlists, networks and libraries that the unit tests of this crate share.
 
-use crate::Netlist;
 use crate::network::{Network, Signal};
+use crate::{CellLibrary, Netlist};
 use nbc_base::model::Function;
 
 /// The paper's D latch as elaboration writes it: two wires for the feedback.
@@ -48,4 +48,9 @@ pub fn network(gates: &[(u8, u16, u16)]) -> Network {
     let signals = network.signals() as Signal;
     network.outputs = (signals - 6..signals).collect();
     network
+}
+
+/// A library of equal cells with the functions of these names, which have a blank between them.
+pub fn library(names: &str) -> CellLibrary {
+    CellLibrary::uniform(names.split(' ').filter(|name| !name.is_empty()).map(|name| Function::parse(name).unwrap()))
 }

@@ -72,7 +72,7 @@ impl Loops {
     }
 }
 
-/// The cells of a strongly connected part that are memory; `rest` has met no node of it.
+/// The cells of a strongly connected part that are memory; `rest` has reached no node of it.
 fn memory_of(netlist: &Netlist, core: &[NetId], rest: &mut Components) -> Vec<NetId> {
     let inside = |id: &NetId| core.binary_search(id).is_ok();
     let listeners = |id: NetId| netlist.fanout(id).into_iter().map(|(listener, _)| listener);

@@ -1,4 +1,4 @@
-//! Results on the way back from workers.
+//! The message with which a worker returns a result.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,14 +8,14 @@ use nbc_base::model::{Behavior, Character, Fault, FaultKind, Transition};
 use nbc_swarm::evolve::{CandidateOutcome, Scores};
 use nbc_swarm::{Evaluated, Measurement, SwarmBits, TaskResult, Work};
 
-/// A task that was done.
+/// The result of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnswerMessage {
     pub key: TaskKey,
     pub result: TaskResult,
 }
 
-/// [`AnswerMessage`] on the way.
+/// The encoded form of [`AnswerMessage`].
 #[derive(Serialize, Deserialize)]
 struct AnswerRecord {
     key: TaskKey,
@@ -57,7 +57,7 @@ enum FaultRecord {
 }
 
 impl AnswerMessage {
-    /// Its bytes; `None` for work that was stopped, which has no result.
+    /// The bytes of the message; `None` for work that was stopped, which has no result.
     pub fn encode(&self) -> Option<Vec<u8>> {
         let result = match &self.result {
             TaskResult::Evaluation(evaluated) => ResultRecord::of_evaluation(evaluated)?,
@@ -76,7 +76,7 @@ impl AnswerMessage {
         Some(encode(&AnswerRecord { key: self.key, result }))
     }
 
-    /// Reads. Whether the result fits the task is another question.
+    /// Reads a message. It does not check whether the task can have this result.
     ///
     /// # Errors
     /// [`MessageFault`] for anything but an answer.

@@ -17,20 +17,21 @@ use crate::wording::ClusterError;
 
 /// The stream of tasks.
 const STREAM: &str = "nbc-tasks";
-/// A task is given to another worker when its worker has been silent for this time.
+/// A task is given to another worker when its worker has not reported for this time.
 pub const SILENCE: Duration = Duration::from_secs(6);
 /// Tasks of a search that has ended without cleaning up are dropped after this time.
 const MOST_AGE: Duration = Duration::from_secs(60 * 60);
 /// The most time for a reply of the server.
 pub const PATIENCE: Duration = Duration::from_secs(5);
-/// That time when a program opens the queue: there is no second attempt, and a busy disk takes long to make a stream.
+/// The most time for a reply when a program opens the queue. It is longer, because there is no second attempt, and the
+/// server takes long to create a stream on a busy disk.
 const OPENING: Duration = Duration::from_secs(30);
-/// The time between attempts while another program makes the stream.
+/// The time between attempts while another program creates the stream.
 const PAUSE: Duration = Duration::from_millis(50);
-/// The most tasks in the hands of workers.
+/// The most tasks that workers have taken and not finished.
 const MOST_TAKEN: i64 = 1_000_000;
 
-/// A NATS server with JetStream, and what it asks of its clients.
+/// A NATS server with JetStream, and the files that clients need to connect.
 #[derive(Clone, Debug, Default)]
 pub struct NatsServer {
     /// Its address, such as `nats://localhost:4222` or `tls://nats.example.org`.
@@ -52,7 +53,7 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// Connects. Later interruptions are bridged by the client.
+    /// Connects. If the connection breaks later, the client connects again by itself.
     ///
     /// # Errors
     /// When the server cannot be reached or refuses the client.
@@ -88,8 +89,8 @@ impl Connection {
         Ok(Self { runtime, client, jetstream, server: shown })
     }
 
-    /// Lets this thread use the connection as long as the guard lives: the client starts tasks where it is used and
-    /// dropped.
+    /// Enters the runtime until the guard is dropped. A thread must do so before it uses or drops parts of the client,
+    /// which start asynchronous tasks.
     pub fn enter(&self) -> EnterGuard<'static> {
         self.runtime.enter()
     }
@@ -181,17 +182,17 @@ pub fn answer_subject(search: &str, worker: &str) -> String {
     format!("nbc.v{VERSION}.answer.{search}.{worker}")
 }
 
-/// The subject of what workers say about themselves.
+/// The subject of the reports of workers.
 pub fn worker_note_subject() -> String {
     format!("nbc.v{VERSION}.worker")
 }
 
-/// The subject of what searches say about themselves.
+/// The subject of the reports of searches.
 pub fn search_note_subject() -> String {
     format!("nbc.v{VERSION}.search")
 }
 
-/// The subject on which a worker is told what a search thinks of it.
+/// The subject of the replies to a worker, which say whether its results are accepted.
 pub fn reply_subject(worker: &str) -> String {
     format!("nbc.v{VERSION}.reply.{worker}")
 }
@@ -208,7 +209,7 @@ fn user_and_password(urls: &str) -> Option<(String, String)> {
     Some((decoded(url.username()?), decoded(url.password()?)))
 }
 
-/// The address without user and password.
+/// The addresses without users and passwords, for messages.
 fn without_password(url: &str) -> String {
     let hide = |url: &str| match (url.split_once("://"), url.rsplit_once('@')) {
         (Some((scheme, _)), Some((_, host))) => format!("{scheme}://{host}"),

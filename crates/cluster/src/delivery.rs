@@ -1,4 +1,5 @@
-//! The results of a worker on their way to searches: each is sent until it is received, and then its task is done.
+//! Delivery of results to searches. A result is sent until the search confirms it, and then its task is removed from
+//! the queue.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -22,12 +23,12 @@ pub struct Delivery {
     handle: Handle,
     client: async_nats::Client,
     worker: String,
-    open: JoinSet<Delivered>,
+    open: JoinSet<DeliveryEnd>,
 }
 
 /// How a delivery ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Delivered {
+pub enum DeliveryEnd {
     /// The search has the result.
     Received,
     /// The search has ended, or cannot be reached.
@@ -37,7 +38,7 @@ pub enum Delivered {
 }
 
 impl Delivery {
-    /// No deliveries yet.
+    /// Prepares the deliveries of a worker.
     pub fn new(connection: &Connection, worker: &str) -> Self {
         let handle = connection.runtime.handle().clone();
         Self { handle, client: connection.client.clone(), worker: worker.to_owned(), open: JoinSet::new() }
@@ -48,21 +49,21 @@ impl Delivery {
         let (client, subject) = (self.client.clone(), answer_subject(&search, &self.worker));
         let deliver = async move {
             match deliver(client, subject, bytes, acker).await {
-                None => Delivered::Unwanted { search },
-                Some(AnswerReply::Received) => Delivered::Received,
-                Some(reply) => Delivered::Rejected(reply),
+                None => DeliveryEnd::Unwanted { search },
+                Some(AnswerReply::Received) => DeliveryEnd::Received,
+                Some(reply) => DeliveryEnd::Rejected(reply),
             }
         };
         self.open.spawn_on(deliver, &self.handle);
     }
 
     /// The deliveries that have ended since the last call.
-    pub fn finished(&mut self) -> Vec<Delivered> {
+    pub fn finished(&mut self) -> Vec<DeliveryEnd> {
         std::iter::from_fn(|| self.open.try_join_next()).flatten().collect()
     }
 
     /// Waits for the others, at most for some time.
-    pub async fn finish(&mut self, most: Duration) -> Vec<Delivered> {
+    pub async fn finish(&mut self, most: Duration) -> Vec<DeliveryEnd> {
         let mut ended = Vec::new();
         let end = time::Instant::now() + most;
         while let Ok(Some(one)) = time::timeout_at(end, self.open.join_next()).await {

@@ -17,7 +17,7 @@ use nbc_session::report::{Align, TextTable};
 
 /// The time in which every worker and every search reports at least once.
 const WATCH: Duration = Duration::from_secs(3);
-/// The time between looks for a request to stop.
+/// The time between two checks of the request to stop.
 const GLANCE: Duration = Duration::from_millis(100);
 
 /// The searches and workers that have reported.
@@ -56,7 +56,7 @@ struct ListedWorker {
     redelivered: u64,
 }
 
-/// Hears the reports of searches and workers. It stays on the thread that opened it.
+/// Receives the reports of searches and workers. It must stay on the thread that opened it.
 pub struct ClusterWatch {
     searches: Subscriber,
     workers: Subscriber,

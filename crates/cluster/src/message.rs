@@ -11,7 +11,7 @@ pub const MOST_BYTES: usize = 256 * 1024;
 /// The most characters of a name.
 const MOST_NAME: usize = 100;
 
-/// What is wrong with a message.
+/// An error in a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageFault {
     /// It is longer than [`MOST_BYTES`].
@@ -32,7 +32,7 @@ pub struct TaskKey {
     pub index: u32,
 }
 
-/// What a worker says about itself now and then.
+/// The report that a worker sends regularly.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorkerNote {
     pub name: String,
@@ -48,7 +48,7 @@ pub struct WorkerNote {
     pub per_kilosecond: u64,
 }
 
-/// What a search says about itself now and then.
+/// The report that a search sends regularly.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SearchNote {
     pub name: String,

@@ -1,4 +1,4 @@
-//! The batches that wait for results, and who waits for them.
+//! The batches that wait for results, and the channels of the threads that wait for them.
 
 use std::collections::BTreeMap;
 use std::sync::mpsc::Sender;
@@ -11,7 +11,7 @@ use nbc_swarm::{Task, TaskResult};
 /// The time for which a run without a batch is still in progress: it may be about to hand in the next.
 const BETWEEN: Duration = Duration::from_secs(1);
 
-/// Tasks that are handed in together. Their results are passed on when all can be used.
+/// Tasks that are requested together. Their results are passed on when all can be used.
 pub struct BatchRequest {
     /// The number of the series that they belong to.
     pub run: u32,
@@ -29,7 +29,7 @@ pub struct OpenBatches {
     runs: BTreeMap<u32, Run>,
 }
 
-/// What a run has handed in.
+/// The batches that a run has requested.
 struct Run {
     /// The number of its batches, and that of those that are open.
     batches: u32,
@@ -38,7 +38,7 @@ struct Run {
     seen: Instant,
 }
 
-/// A batch, and who waits for it.
+/// A batch, and the channel for its results.
 struct Waiting {
     batch: TaskBatch,
     places: Vec<usize>,
@@ -87,7 +87,7 @@ impl OpenBatches {
         keys.into_iter().flat_map(|key| self.pass_on(key, &is_trusted)).collect()
     }
 
-    /// Forgets the results of a worker that nobody has verified, and returns their tasks.
+    /// Drops the unverified results of a worker, and returns their tasks.
     pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
         self.open.values_mut().flat_map(|waiting| waiting.batch.forget(worker)).collect()
     }

@@ -1,4 +1,4 @@
-//! The identity of a program's physics: machines that work for one search must have the same.
+//! An identifier of a program's physics. All machines that work for a search must have the same.
 
 use nbc_base::model::{Body, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
 use nbc_sim::Simulator;
@@ -12,7 +12,7 @@ const STEPS: u32 = 8;
 /// The bodies.
 const BODIES: usize = 2;
 
-/// The physics of a program.
+/// An identifier of a program's physics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PhysicsId(pub u64);
 

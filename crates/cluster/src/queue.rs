@@ -1,4 +1,4 @@
-//! The tasks of a program in a queue of a NATS server, done by workers.
+//! Sends the tasks of a program to a queue of a NATS server, and receives the results of workers.
 
 use std::time::Duration;
 
@@ -24,12 +24,12 @@ use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, TaskResult};
 
-/// The time between looks for a request to stop.
+/// The time between two checks of the request to stop.
 const TURN: Duration = Duration::from_millis(500);
-/// The age of a batch from which on its tasks are looked for at the server.
+/// The age of a batch at which the server is asked whether it still has the tasks.
 const OVERDUE: Duration = Duration::from_secs(5);
 
-/// The queue. It stays on the thread that opened it.
+/// The queue. It must stay on the thread that opened it.
 pub struct Queue {
     answers: Subscriber,
     batches: OpenBatches,
@@ -72,8 +72,8 @@ impl Queue {
         })
     }
 
-    /// Has the requested tasks done until nobody can request any more, or `cancel` is raised. Notes on the progress go
-    /// to `note`.
+    /// Sends the requested tasks and passes on their results, until all senders of requests are dropped or `cancel` is
+    /// raised. `note` receives notes on the progress.
     ///
     /// # Errors
     /// When results were used that may be wrong.
@@ -100,7 +100,7 @@ impl Queue {
         }
     }
 
-    /// Whether there are tasks, or can be.
+    /// Whether there are tasks, or more can be requested.
     fn is_wanted(&self, requests: &UnboundedReceiver<BatchRequest>) -> bool {
         !self.batches.is_empty() || !requests.is_closed() || !requests.is_empty()
     }
@@ -148,7 +148,7 @@ impl Queue {
         }
     }
 
-    /// As many tasks as a thread can take without leaving another one idle.
+    /// The number of tasks that a thread should take together, so that no other thread is left without any.
     fn together(&mut self) -> u8 {
         let fair = self.batches.missing() / self.reports.workers.summary().threads.max(1);
         fair.clamp(1, TOGETHER.into()) as u8
@@ -193,7 +193,7 @@ impl Queue {
         AnswerReply::Received
     }
 
-    /// Does a task here; its result is not used before.
+    /// Does a task here. The results of workers for it are not used before this is done.
     fn check(&mut self, key: TaskKey, claims: Vec<(String, TaskResult)>) {
         let Some(batch) = self.batches.get(key) else { return };
         batch.doubt(key);
@@ -214,7 +214,7 @@ impl Queue {
         self.checker.set_used(workers);
     }
 
-    /// Refuses a worker that was wrong, and lets others do its work again.
+    /// Refuses a worker after a wrong result, and sends its tasks again.
     fn reject(&mut self, worker: &str, reason: &str) {
         self.checker.refuse_wrong(worker, reason);
         let lost = self.batches.forget(worker);
@@ -227,7 +227,7 @@ impl Queue {
         }
     }
 
-    /// Sends again what the server did not take and what it has lost.
+    /// Sends the tasks again that the server did not accept or has lost.
     async fn look(&mut self) {
         let again = self.sender.retry().await;
         self.send(again);
@@ -236,8 +236,8 @@ impl Queue {
     }
 }
 
-/// Who sent an answer: the name in its subject, and the connection to which the reply goes. Whoever sends in the name
-/// of another has another connection, and so is another worker.
+/// The sender of an answer: the name in its subject, and the connection to which the reply goes. A sender that uses the
+/// name of another worker has another connection, so it counts as another worker.
 fn sender(message: &Message) -> String {
     let name = message.subject.rsplit('.').next().unwrap_or_default();
     // The inbox of a connection, without the number of the request. No part of a subject has a space.

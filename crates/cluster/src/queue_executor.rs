@@ -1,4 +1,4 @@
-//! The queue as an executor: any thread can hand in tasks and wait for their results.
+//! The queue as an executor: any thread can request tasks and wait for their results.
 
 use std::sync::mpsc;
 use std::thread::{self, JoinHandle};
@@ -28,7 +28,7 @@ pub struct QueueOptions {
     pub trust_workers: bool,
     /// Stops all work.
     pub cancel: CancelFlag,
-    /// Shows what goes wrong.
+    /// Shows faults to the user.
     pub log: Log,
 }
 
@@ -96,7 +96,8 @@ impl Executor for QueueExecutor {
     }
 }
 
-/// Some tasks in batches: evaluations are of use only all together, each other task by itself.
+/// The batches of some tasks: all evaluations together, because a generation needs all of them, and each other task
+/// alone.
 fn batches(tasks: &[Task], places: Vec<usize>) -> Vec<Vec<usize>> {
     let is_evaluation = |&place: &usize| matches!(tasks[place], Task::Evaluation(..));
     let (evaluations, others): (Vec<usize>, Vec<usize>) = places.into_iter().partition(is_evaluation);
@@ -104,7 +105,7 @@ fn batches(tasks: &[Task], places: Vec<usize>) -> Vec<Vec<usize>> {
     together.into_iter().chain(others.into_iter().map(|place| vec![place])).collect()
 }
 
-/// Whether the messages of a task are not too long. Others are done here.
+/// Whether a task and its result fit into messages. Other tasks are done here.
 fn fits(task: &Task) -> bool {
     let (bytes, answer) = match task {
         // The body of a candidate is small.

@@ -1,4 +1,4 @@
-//! What a search hears from workers, and what it tells those who watch.
+//! The reports that a search receives from workers and sends to `nbc workers`.
 
 use std::time::{Duration, Instant};
 
@@ -32,12 +32,12 @@ pub struct UnfitWorker {
 }
 
 impl Reports {
-    /// Nothing was heard or told yet.
+    /// The state before the first report.
     pub fn new(client: Client, search: String, physics: PhysicsId, notes: Subscriber) -> Self {
         Self { client, search, physics, notes, workers: WorkerStatistics::default(), reported: None }
     }
 
-    /// Takes the report of a worker. Returns the worker if it has other physics; it is told so.
+    /// Takes the report of a worker. If the worker has other physics, replies so and returns it.
     pub async fn take(&mut self, message: &Message) -> Option<UnfitWorker> {
         let note = WorkerNote::decode(&message.payload).ok()?;
         if note.physics == self.physics.0 && note.program == PROGRAM {
@@ -54,8 +54,8 @@ impl Reports {
         Some(UnfitWorker { name, reason })
     }
 
-    /// Tells those who watch, now and then, about these numbers of runs in progress, of tasks without a result and
-    /// of refused workers.
+    /// Sends a report if one is due, with these numbers of runs in progress, tasks without a result and refused
+    /// workers.
     pub async fn tell(&mut self, runs: usize, waiting: usize, refused: usize) {
         if self.reported.is_some_and(|reported| reported.elapsed() < REPORT) {
             return;

@@ -37,7 +37,7 @@ enum Trust {
     Verified,
 }
 
-/// What an answer was good for.
+/// The effect of an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// It is the first result of its task.
@@ -114,7 +114,7 @@ impl TaskBatch {
         }
     }
 
-    /// Forgets the results of a worker that nobody has verified, and returns their tasks.
+    /// Drops the unverified results of a worker, and returns their tasks.
     pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
         let is_its = |result: &Option<TakenResult>| {
             result.as_ref().is_some_and(|taken| taken.worker == worker && taken.trust == Trust::Claimed)

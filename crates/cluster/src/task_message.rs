@@ -1,4 +1,4 @@
-//! Tasks on the way to workers.
+//! The message with which a worker receives a task.
 
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub struct TaskMessage {
     pub task: Task,
 }
 
-/// [`TaskMessage`] on the way.
+/// The encoded form of [`TaskMessage`].
 #[derive(Serialize, Deserialize)]
 struct TaskRecord {
     key: TaskKey,
@@ -103,7 +103,7 @@ enum SourceRecord {
 }
 
 impl TaskMessage {
-    /// Its bytes.
+    /// The bytes of the message.
     pub fn encode(&self) -> Vec<u8> {
         encode(&TaskRecord { key: self.key, together: self.together, work: WorkRecord::of(&self.task) })
     }
@@ -237,12 +237,12 @@ impl SwarmRecord {
                 held: member.held.each_ref().map(|bits| (bits.len() as u32, pack(bits.iter().copied()))),
             });
         }
-        let inputs = &task.exposure.inputs;
+        let inputs = &task.conditions.inputs;
         Self {
             bodies: bodies.into_iter().map(BodyRecord::of).collect(),
             members,
             world: task.assembly.world,
-            window: task.exposure.window as u32,
+            window: task.conditions.window as u32,
             beat: task.assembly.beat,
             cycles: inputs.len() as u32,
             width: inputs.first().map_or(0, Vec::len) as u32,

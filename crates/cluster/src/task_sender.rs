@@ -1,4 +1,4 @@
-//! Tasks on their way to the queue. A task that the server does not take is kept.
+//! Sends tasks to the queue. Keeps those that the server does not accept, to send them again.
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ use crate::task_message::TaskMessage;
 
 /// The time before another attempt.
 const AGAIN: Duration = Duration::from_secs(1);
-/// The time between looks for tasks that the server has lost.
+/// The time between two searches for tasks that the server has lost.
 const LOOK: Duration = Duration::from_secs(5);
 
 /// The tasks that are being sent, and those that must be sent again.
@@ -28,13 +28,13 @@ pub struct TaskSender {
     kept: BTreeSet<TaskKey>,
     failed: Instant,
     looked: Instant,
-    /// The last fault, told once.
+    /// The last fault, so that it is logged once.
     trouble: Option<String>,
     log: Log,
 }
 
 impl TaskSender {
-    /// Without tasks.
+    /// A sender without tasks.
     pub fn new(connection: &Connection, token: String, search: &str, log: Log) -> Self {
         let (jetstream, handle) = (connection.jetstream.clone(), connection.runtime.handle().clone());
         Self {
@@ -116,7 +116,7 @@ impl TaskSender {
         Ok(pairs.map_err(|error| text(&error))?.into_iter().map(|(subject, _)| subject).collect())
     }
 
-    /// Removes this search's tasks from the server. If the server is away, it drops them when they are too old.
+    /// Removes this search's tasks from the server. A server that cannot be reached drops them when they are too old.
     pub async fn clear(&self) {
         if let Ok(stream) = Connection::stream(&self.jetstream).await {
             let _ = stream.purge().filter(task_subjects(&self.token, &self.search)).await;

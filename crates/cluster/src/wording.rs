@@ -1,4 +1,4 @@
-//! Why work on several machines cannot be done, as data, and how it is worded.
+//! Errors of work on several machines, and their messages.
 
 use nbc_base::diag::{Code, Diagnostic};
 
@@ -35,7 +35,7 @@ pub enum ClusterError {
     Rejected {
         /// Its name.
         name: String,
-        /// What is wrong with it.
+        /// The reason.
         reason: &'static str,
     },
     /// A client that cannot be started.

@@ -18,7 +18,7 @@ use crate::worker_thread::WorkerThread;
 use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 
-/// How a worker works.
+/// The options of a worker.
 #[derive(Clone, Debug)]
 pub struct WorkerOptions {
     /// The server with the tasks.
@@ -27,11 +27,11 @@ pub struct WorkerOptions {
     pub name: Option<String>,
     /// Lets the worker finish what it has begun, and end.
     pub cancel: CancelFlag,
-    /// Shows what goes wrong.
+    /// Shows faults to the user.
     pub log: Log,
 }
 
-/// A worker that is connected to a server. It stays on the thread that opened it.
+/// A worker that is connected to a server. It must stay on the thread that opened it.
 pub struct Worker {
     queue: PullConsumer,
     state: WorkerState,
@@ -72,7 +72,7 @@ impl Worker {
         self.state.tally.evaluations.load(Ordering::Relaxed)
     }
 
-    /// Works on some threads, each for itself, until it is cancelled.
+    /// Does tasks on this number of threads until the worker is cancelled.
     ///
     /// # Errors
     /// When a search rejects the results.

@@ -1,4 +1,4 @@
-//! What the threads of a worker share: its connection, its name, what it has done.
+//! The state that the threads of a worker share: its connection, its name, the number of tasks done.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -10,7 +10,7 @@ use tokio::time;
 
 use crate::Log;
 use crate::connection::{Connection, reply_subject, worker_note_subject};
-use crate::delivery::{Delivered, Delivery};
+use crate::delivery::{Delivery, DeliveryEnd};
 use crate::message::{AnswerReply, WorkerNote, encode};
 use crate::physics::{PROGRAM, PhysicsId};
 use crate::wording::ClusterError;
@@ -21,7 +21,7 @@ pub const REPORT: Duration = Duration::from_secs(2);
 /// Tasks of a search that did not receive an answer are dropped for this time.
 const SHUNNED: Duration = Duration::from_secs(10);
 
-/// What the threads of a worker share.
+/// The state that the threads of a worker share.
 pub struct WorkerState {
     pub name: String,
     pub connection: Connection,
@@ -35,7 +35,7 @@ pub struct WorkerState {
     silent: Mutex<BTreeMap<String, Instant>>,
 }
 
-/// What a worker has done so far.
+/// The number of tasks that a worker has done.
 #[derive(Default)]
 pub struct Tally {
     pub evaluations: AtomicU64,
@@ -64,16 +64,16 @@ impl WorkerState {
     ///
     /// # Errors
     /// When a search has rejected a result.
-    pub fn count(&self, ended: Vec<Delivered>) -> Result<(), ClusterError> {
+    pub fn count(&self, ended: Vec<DeliveryEnd>) -> Result<(), ClusterError> {
         for one in ended {
             match one {
-                Delivered::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
-                Delivered::Unwanted { search } => {
+                DeliveryEnd::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
+                DeliveryEnd::Unwanted { search } => {
                     let mut silent = self.silent.lock().unwrap_or_else(PoisonError::into_inner);
                     silent.retain(|_, since| since.elapsed() < SHUNNED);
                     silent.insert(search, Instant::now());
                 }
-                Delivered::Rejected(reply) => {
+                DeliveryEnd::Rejected(reply) => {
                     self.rejected.store(true, Ordering::Relaxed);
                     let reason = match reply {
                         AnswerReply::OtherPhysics => "its physics is different",
@@ -92,7 +92,7 @@ impl WorkerState {
         Delivery::new(&self.connection, &self.name)
     }
 
-    /// Reports now and then to those who watch.
+    /// Starts to send reports at regular times.
     pub fn report(&self, threads: u32) {
         let (client, tally, name) = (self.connection.client.clone(), Arc::clone(&self.tally), self.name.clone());
         let physics = self.physics.0;
@@ -116,7 +116,7 @@ impl WorkerState {
         });
     }
 
-    /// Logs if a search cannot use this worker.
+    /// Starts to listen for replies, and logs those of searches that cannot use this worker.
     pub fn listen(&self) {
         let (client, name, log) = (self.connection.client.clone(), self.name.clone(), self.log);
         self.connection.runtime.spawn(async move {

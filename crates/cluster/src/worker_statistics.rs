@@ -1,4 +1,4 @@
-//! The workers of a search, as far as they have reported lately, and what they did.
+//! The workers that have reported to a search in the last seconds, and the number of their results.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 use crate::message::WorkerNote;
 use nbc_base::diag::counted;
 
-/// A worker that has not reported for this time is gone.
+/// A worker that has not reported for this time does not count.
 const GONE: Duration = Duration::from_secs(10);
 /// The time over which speed is measured.
 const WINDOW: Duration = Duration::from_secs(10);
-/// The time for which a summary is good.
+/// The time after which a summary is computed again.
 const FRESH: Duration = Duration::from_millis(200);
 
 /// The workers, by name.
@@ -48,7 +48,7 @@ impl WorkerStatistics {
         self.taken += 1;
     }
 
-    /// The numbers, at most a moment old.
+    /// The numbers, at most a fifth of a second old.
     pub fn summary(&mut self) -> Summary {
         let now = Instant::now();
         if let Some((_, summary)) = self.summary.filter(|(made, _)| now - *made < FRESH) {

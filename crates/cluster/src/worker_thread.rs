@@ -1,4 +1,4 @@
-//! One thread of a worker: takes tasks, does them together, delivers the results.
+//! One thread of a worker: takes tasks, does them together, and delivers the results.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -22,26 +22,26 @@ use nbc_swarm::{Task, perform};
 
 /// The most time for which a thread asks for a task at once.
 const REQUEST: Duration = Duration::from_secs(5);
-/// The time between looks for a signal.
+/// The time between two checks of the request to stop.
 const GLANCE: Duration = Duration::from_millis(100);
 /// The time before another attempt after a fault.
 const AGAIN: Duration = Duration::from_secs(1);
 /// The most time for the deliveries in progress at the end.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// A thread.
+/// The state of a thread.
 pub struct WorkerThread<'a> {
     worker: &'a WorkerState,
     queue: PullConsumer,
     delivery: Delivery,
     /// The number of tasks to take together, as the last search wished.
     together: usize,
-    /// The last fault, told once.
+    /// The last fault, so that it is logged once.
     trouble: Option<String>,
 }
 
-/// A task in the hands of a worker.
-struct Taken {
+/// A task that the thread has taken.
+struct OpenTask {
     message: TaskMessage,
     /// The name of the search.
     search: String,
@@ -75,7 +75,7 @@ impl<'a> WorkerThread<'a> {
         self.worker.count(ended)
     }
 
-    /// Tells a fault, waits and connects to the queue again.
+    /// Logs a fault, waits, and connects to the queue again.
     async fn recover(&mut self, reason: String) {
         if self.trouble.as_ref() != Some(&reason) {
             (self.worker.log)(&format!("worker `{}`: {reason}; trying again\n", self.worker.name));
@@ -87,8 +87,8 @@ impl<'a> WorkerThread<'a> {
         }
     }
 
-    /// Takes what waits, at most as many tasks as should be taken together; waits for one if there is none.
-    async fn fetch(&mut self) -> Result<Vec<Taken>, String> {
+    /// Takes waiting tasks, at most as many as should be taken together; waits for one if there is none.
+    async fn fetch(&mut self) -> Result<Vec<OpenTask>, String> {
         let mut taken = Vec::new();
         let most = self.together;
         let waiting = self.queue.fetch().max_messages(most).messages().await.map_err(text)?;
@@ -106,7 +106,7 @@ impl<'a> WorkerThread<'a> {
     }
 
     /// Takes the tasks of a request, until it or this worker ends.
-    async fn take(&mut self, mut batch: Batch, taken: &mut Vec<Taken>) -> Result<(), String> {
+    async fn take(&mut self, mut batch: Batch, taken: &mut Vec<OpenTask>) -> Result<(), String> {
         // A server that dies does not end the request.
         let end = time::Instant::now() + REQUEST + PATIENCE;
         while time::Instant::now() < end && !(self.worker.is_ending() && taken.is_empty()) {
@@ -119,7 +119,7 @@ impl<'a> WorkerThread<'a> {
         Ok(())
     }
 
-    async fn accept(&mut self, message: Message, taken: &mut Vec<Taken>) {
+    async fn accept(&mut self, message: Message, taken: &mut Vec<OpenTask>) {
         let again = message.info().is_ok_and(|info| info.delivered > 1);
         self.worker.tally.redelivered.fetch_add(u64::from(again), Ordering::Relaxed);
         let (message, acker) = message.split();
@@ -127,7 +127,7 @@ impl<'a> WorkerThread<'a> {
         match (TaskMessage::decode(&message.payload), search) {
             (Ok(task), Some(search)) => {
                 self.together = task.together.clamp(1, TOGETHER).into();
-                taken.push(Taken { message: task, search: search.to_owned(), acker: Arc::new(acker) });
+                taken.push(OpenTask { message: task, search: search.to_owned(), acker: Arc::new(acker) });
             }
             // Nobody can do this task, or nobody wants it.
             _ => _ = acker.ack_with(AckKind::Term).await,
@@ -135,7 +135,7 @@ impl<'a> WorkerThread<'a> {
     }
 
     /// Does the tasks and starts to deliver the results.
-    fn perform(&mut self, taken: Vec<Taken>) {
+    fn perform(&mut self, taken: Vec<OpenTask>) {
         let ackers: Vec<Arc<Acker>> = taken.iter().map(|taken| Arc::clone(&taken.acker)).collect();
         let holding = self.worker.connection.runtime.spawn(hold(ackers));
         let tasks: Vec<Task> = taken.iter().map(|taken| taken.message.task.clone()).collect();
@@ -149,7 +149,7 @@ impl<'a> WorkerThread<'a> {
     }
 }
 
-/// Tells the server now and then that the tasks are being worked on.
+/// Tells the server at regular times that the tasks are in progress.
 async fn hold(ackers: Vec<Arc<Acker>>) {
     loop {
         time::sleep(SILENCE / 3).await;

@@ -1,4 +1,4 @@
-//! Requests for help with a place: its meaning, what may be written there, fixes.
+//! Requests about a place in a text: hover, completion, signature help and fixes.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use nbc_base::source::Span;
 use nbc_session::Checked;
 
 impl Server<'_> {
-    /// What is known of a place: at once, or as soon as it is compiled, but not later than a moment.
+    /// Answers a hover. If its figures must be compiled first, the answer waits for them for a short time.
     pub(super) fn hover(&mut self, id: RequestId, asked: lsp::HoverParams) -> Option<Response> {
         let place = asked.text_document_position_params;
         let Some(checked) = self.checked(&place.text_document.uri) else { return Some(Response::new_ok(id, ())) };
@@ -82,7 +82,8 @@ impl Server<'_> {
         Ok(Some(found))
     }
 
-    /// The robots and the clock of a circuit, if they are known; else the client will ask again.
+    /// The robots and the clock of a circuit; `None` if they are not compiled yet. The client is asked to request them
+    /// again when they are.
     pub(super) fn summary(&mut self, checked: &Arc<Checked>, subject: &Subject) -> Option<String> {
         match self.compiler.ask(checked, subject) {
             FigureState::Done(Some(Figures::Circuit(figures))) => Some(figures.summary()),

@@ -1,4 +1,4 @@
-//! What the server can do, and what its client can.
+//! The capabilities of the server and of its client.
 
 use gen_lsp_types::{
     CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions, DocumentLinkOptions, ExecuteCommandOptions,
@@ -12,7 +12,7 @@ use crate::settings::Settings;
 use crate::workspace::Workspace;
 use crate::{completion, runs, semantics};
 
-/// What is known of the client. Of what it can do, only this matters; the rest may be missing or wrong.
+/// The client as its `initialize` request describes it. Only these parts are read; others may be missing or wrong.
 #[derive(Clone, Debug)]
 pub(super) struct Client {
     pub(super) encoding: Encoding,
@@ -24,7 +24,7 @@ pub(super) struct Client {
     pub(super) trusts_verilog: bool,
 }
 
-/// What the client does on request.
+/// Requests and notifications of the server that the client supports.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Abilities {
     /// Asks for lenses, hints and tokens again.
@@ -38,7 +38,7 @@ pub(super) struct Abilities {
 }
 
 impl Client {
-    /// What the parameters of the initialization say.
+    /// Reads the parameters of the `initialize` request.
     pub(super) fn of(parameters: &Value) -> Self {
         let encodings = parameters.pointer("/capabilities/general/positionEncodings").cloned().unwrap_or_default();
         let encodings: Vec<PositionEncodingKind> = serde_json::from_value(encodings).unwrap_or_default();
@@ -61,7 +61,7 @@ impl Client {
     }
 }
 
-/// What the server can do.
+/// The capabilities of the server, for the answer to `initialize`.
 pub(super) fn capabilities(encoding: Encoding) -> ServerCapabilities {
     let sync = TextDocumentSyncOptions {
         open_close: Some(true),

@@ -29,7 +29,7 @@ impl Server<'_> {
         Ok(Some(found))
     }
 
-    /// Starts a command; its end is the answer.
+    /// Starts a command. The answer is sent when it ends.
     pub(super) fn execute(&mut self, id: RequestId, asked: lsp::ExecuteCommandParams) -> Option<Response> {
         let (order, checked) = match self.ordered(&asked) {
             Ok(ordered) => ordered,
@@ -63,7 +63,7 @@ impl Server<'_> {
         self.send(Message::Notification(Notification::new("$/progress".to_owned(), told)));
     }
 
-    /// Passes on what a run tells.
+    /// Passes the progress or the result of a run to the client.
     pub(super) fn told(&mut self, event: RunEvent) {
         match event {
             RunEvent::Progress { token, percentage, message } => {
@@ -82,7 +82,7 @@ impl Server<'_> {
         }
     }
 
-    /// Shows a result to the user, who may have an editor that does nothing with the answer.
+    /// Shows a result to the user as a message, because some editors do not show the answer to a command.
     fn show(&self, outcome: &RunOutcome) {
         let message = match &outcome.path {
             Some(path) => format!("{}: {path}", outcome.text),

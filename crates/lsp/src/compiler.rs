@@ -1,4 +1,4 @@
-//! Compiles on a thread of its own, so that diagnostics never wait for it.
+//! Compiles circuits on a thread of its own, so that diagnostics never wait for a compilation.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -18,16 +18,16 @@ type Key = (String, Subject);
 /// The most figures that are kept.
 const MOST: usize = 4096;
 
-/// What is known, and the thread that finds out more.
+/// The figures computed so far, and the thread that computes more.
 pub(super) struct Compiler {
     jobs: Sender<Job>,
     results: Receiver<Compilation>,
     /// Keeps the channel of results open.
     _outbox: Sender<Compilation>,
     known: BTreeMap<Key, (Weak<Checked>, Option<Figures>)>,
-    /// What the thread has not yet done.
+    /// The subjects that are not yet compiled.
     asked: BTreeSet<Key>,
-    /// What ends the jobs that are not yet done, by their sources.
+    /// The flags that end the jobs in progress, by their sources.
     flags: Vec<(Weak<Checked>, CancelFlag)>,
 }
 
@@ -38,14 +38,14 @@ struct Job {
     cancel: CancelFlag,
 }
 
-/// A job that is done; without a source if it was stale.
+/// The result of a job; without a source if the source had changed.
 pub(super) struct Compilation {
     checked: Weak<Checked>,
     key: Key,
     figures: Option<Figures>,
 }
 
-/// What is known of a subject.
+/// The state of the figures of a subject.
 pub(super) enum FigureState<'a> {
     /// It is being compiled.
     NotYet,
@@ -63,12 +63,12 @@ impl Compiler {
         Self { jobs, results, _outbox: outbox, known: BTreeMap::new(), asked: BTreeSet::new(), flags: Vec::new() }
     }
 
-    /// The jobs that are done.
+    /// Receives the results of jobs.
     pub(super) fn results(&self) -> &Receiver<Compilation> {
         &self.results
     }
 
-    /// What is known of a subject; what is not known will be.
+    /// The figures of a subject. If they are not known, a job to compute them is started.
     pub(super) fn ask(&mut self, checked: &Arc<Checked>, subject: &Subject) -> FigureState<'_> {
         let key = (checked.path.clone(), subject.clone());
         if checked.has_errors() {
@@ -105,7 +105,7 @@ impl Compiler {
         self.known.insert(key, (checked, figures));
     }
 
-    /// Ends the jobs of sources that have changed: those that nobody holds any more but the thread.
+    /// Ends the jobs of sources that have changed: only the thread still has a reference to these.
     pub(super) fn cancel_stale(&mut self) {
         self.flags.retain(|(checked, flag)| {
             let is_stale = checked.strong_count() <= 1;
@@ -126,7 +126,7 @@ fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
     std::ptr::eq(of.as_ptr(), Arc::as_ptr(checked))
 }
 
-/// Does one job after another. A source that nobody holds any more has changed, and its jobs are stale.
+/// Does one job after another. Skips jobs whose source has changed: there is no other reference to it.
 fn work(world: SharedWorld, jobs: &Receiver<Job>, results: &Sender<Compilation>) {
     let session = Session::new(world);
     for Job { checked, key, cancel } in jobs {

@@ -1,4 +1,4 @@
-//! What only compiling tells of a circuit or of a net: robots, times, the slowest path.
+//! The figures of a circuit or a net for which it must be compiled: robots, times, the slowest path.
 
 use nbc_base::diag::counted;
 use nbc_base::model::Instance;
@@ -6,7 +6,7 @@ use nbc_base::source::Span;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, CompileOptions, Mapping, Session};
 
-/// What is to be compiled.
+/// A circuit or a net to compile.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Subject {
     /// A circuit as the swarm of that name, or as the first that is declared for it.
@@ -41,7 +41,7 @@ pub(super) struct CircuitFigures {
 impl Subject {
     /// Compiles a subject of a source without errors; `None` if it cannot be made.
     ///
-    /// A compilation that is cancelled has figures that are not to be used.
+    /// The figures of a cancelled compilation must not be used.
     pub(super) fn compile(&self, session: &Session, checked: &Checked, cancel: &CancelFlag) -> Option<Figures> {
         match self {
             Self::Circuit(circuit, swarm) => {

@@ -59,7 +59,8 @@ fn named(name: &str) -> Uri {
     if name.contains("://") || name.starts_with("untitled:") { Uri(name.to_owned()) } else { uri::uri(name) }
 }
 
-/// A text of the program as a file that editors can open. If it cannot be written, there is nothing to lead to.
+/// Writes a text of the program to a file that editors can open, and returns its path. If the file cannot be written,
+/// there is none at that path.
 pub(super) fn readable(name: &str, text: &str) -> String {
     let Ok(folder) = store::temporary_folder() else { return name.to_owned() };
     let path = folder.join(name);

@@ -47,7 +47,7 @@ fn is_in(place: Span, file: FileId, part: Span) -> bool {
     place.file == file && part.start <= place.end && place.start <= part.end
 }
 
-/// The widths of nets whose declarations do not tell.
+/// The widths of nets that are declared without one.
 fn widths(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     let text = &files.checked.sources.file(file).text;
     let declared = files.checked.uses.of_file(file).filter(|found| {
@@ -79,7 +79,8 @@ fn operands(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     calls.filter(|(_, call)| is_in(call.span, file, part)).flat_map(|(body, call)| of_call(files, body, call)).collect()
 }
 
-/// The hints of one call, if it is one. An operand with the name of its port needs none, and a single one neither.
+/// The hints of an expression that is a call. An operand that is named like its port gets none, nor does a single
+/// operand.
 fn of_call(files: &Files<'_>, body: &BodySyntax, call: &ExpressionSyntax) -> Vec<InlayHint> {
     let ExpressionSyntaxKind::Call { name, operands, .. } = &call.kind else { return Vec::new() };
     let checked = files.checked;

@@ -1,4 +1,4 @@
-//! The interface of a circuit, as written.
+//! The name, parameters and ports of a circuit as they are written in its declaration.
 
 use crate::files::Files;
 use nbc_base::model::{Circuit, Net};

@@ -1,4 +1,4 @@
-//! Answers that wait for what is being compiled, but not for long.
+//! Hovers that wait a short time for figures that are being compiled.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use lsp_server::RequestId;
 
 use crate::figures::Subject;
 
-/// How long a hover waits for figures. Longer is felt as a delay; without figures it is shown too.
+/// The longest time that a hover waits for figures. Users notice a longer delay. After that time it is shown without.
 const PATIENCE: Duration = Duration::from_millis(400);
 
 /// A hover that waits for the figures of a subject.

@@ -1,4 +1,4 @@
-//! What can be done with a declaration, above it.
+//! Code lenses: commands above declarations.
 
 use gen_lsp_types::{CodeLens, Command};
 use serde_json::{Value, json};

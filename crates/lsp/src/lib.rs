@@ -1,6 +1,6 @@
 //! The language in editors, by the Language Server Protocol.
 //!
-//! A door over a `Session`: texts of the editor go in, and what the session knows of them comes out.
+//! The server passes the texts of the editor to a `Session`, and answers requests with its results.
 
 mod aids;
 mod buffers;
@@ -58,7 +58,7 @@ use pending::Pending;
 use server::Server;
 pub use wire::{NO_MESSAGE, message};
 
-/// Serves an editor on standard input and output until it says goodbye or vanishes.
+/// Serves an editor on standard input and output until it ends the session or closes its connection.
 ///
 /// # Errors
 /// When the client does not speak the protocol.
@@ -73,8 +73,8 @@ pub fn serve_standard() -> Result<ServerEnd, ServerError> {
 /// The most messages that wait to be handled.
 const WAITING: usize = 32;
 
-/// The same connection with a queue of messages. So the server knows whether a text has changed again, and checks only
-/// what is newest.
+/// The connection with a queue of messages in front of the server. The server looks ahead in the queue: if another
+/// change of a text is waiting, it does not check the older text.
 fn queued(connection: Connection) -> (Connection, Pending) {
     let Connection { sender, receiver: arriving } = connection;
     let (queue, receiver) = bounded(WAITING);
@@ -91,7 +91,7 @@ fn queued(connection: Connection) -> (Connection, Pending) {
     (Connection { sender, receiver }, pending)
 }
 
-/// Serves a client until it says goodbye or vanishes.
+/// Serves a client until it ends the session or closes its connection.
 ///
 /// # Errors
 /// When it does not speak the protocol.
@@ -106,8 +106,8 @@ pub fn serve(
     Ok(Server::new(&connection, client, Arc::new(GuardedWorld::new(world, permit)), pending).run())
 }
 
-/// Serves a client that sends these texts, each of which should be a message, and then vanishes. For the fuzzer, which
-/// needs no pipe.
+/// Serves a client that sends these texts, each of which should be a message, and then closes its connection. The
+/// fuzzer calls this, because it needs no pipe.
 pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let (server, client) = Connection::memory();
@@ -119,7 +119,7 @@ pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let _ = serve(server, world);
 }
 
-/// What the client says of itself; `None` if it leaves at once.
+/// The abilities and settings of the client, from its `initialize` request; `None` if the connection ends before.
 fn greeted(connection: &Connection, pending: &Pending) -> Result<Option<Client>, ServerError> {
     loop {
         let message = connection.receiver.recv();

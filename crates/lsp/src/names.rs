@@ -95,7 +95,7 @@ impl Server<'_> {
         }
     }
 
-    /// A new name for a declaration in all sources, or why that is not possible.
+    /// The edits that rename a declaration in all sources, or the reason why that is not possible.
     pub(super) fn renamed(&mut self, checked: &Checked, found: NameUse, new: &str) -> Result<WorkspaceEdit, String> {
         let mut rename = Rename::new(&self.files(checked), found, new);
         self.all_sources().into_iter().for_each(|source| rename.add(source));

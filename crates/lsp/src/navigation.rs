@@ -1,4 +1,4 @@
-//! From a name to its uses, and new names.
+//! The uses of a name, and edits that rename it.
 
 use gen_lsp_types::{
     BaseSymbolInformation, DocumentHighlight, DocumentHighlightKind, Location, SymbolKind, TextEdit, Uri,

@@ -1,4 +1,4 @@
-//! Messages that have arrived and are not handled yet, as far as they make stale what is being checked.
+//! Messages that wait in the queue and would make the current check out of date.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -7,7 +7,8 @@ use lsp_server::Message;
 
 use nbc_circuit::CancelFlag;
 
-/// Counts changes that wait to be handled, and ends translations meanwhile. Its copies are one.
+/// Counts changes that wait to be handled. While one waits, translations of Verilog are cancelled. Clones share their
+/// state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pending(Arc<Mutex<State>>);
 
@@ -21,7 +22,7 @@ struct State {
 }
 
 impl Pending {
-    /// A message has arrived.
+    /// Counts a message that has arrived.
     pub(super) fn add(&self, message: &Message) {
         if is_change(message) {
             let mut state = self.state();
@@ -30,7 +31,7 @@ impl Pending {
         }
     }
 
-    /// A message that had arrived is handled now.
+    /// Counts a message that is being handled now.
     pub(super) fn take(&self, message: &Message) {
         if is_change(message) {
             let mut state = self.state();
@@ -41,14 +42,14 @@ impl Pending {
         }
     }
 
-    /// The client is gone.
+    /// Records that the connection has closed.
     pub(super) fn end(&self) {
         let mut state = self.state();
         state.is_over = true;
         state.cancel.raise();
     }
 
-    /// What ends a translation that begins now.
+    /// The flag that ends a translation that begins now.
     pub(super) fn cancel(&self) -> CancelFlag {
         self.state().cancel.clone()
     }

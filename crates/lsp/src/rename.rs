@@ -70,8 +70,8 @@ impl<'a> Rename<'a> {
         Some(Span { file: home.id, ..declared })
     }
 
-    /// What would change, or why that is not possible: the program has an error that it did not have, or another name
-    /// gets or loses a meaning.
+    /// The edits, or the reason why the name cannot be used: the program would have a new error, or another name would
+    /// get another meaning.
     pub(super) fn finish(self, buffers: &Buffers, world: SharedWorld) -> Result<WorkspaceEdit, String> {
         let mut session = Session::new(world);
         for buffer in buffers.iter() {

@@ -64,7 +64,7 @@ impl Server<'_> {
         })
     }
 
-    /// Answers a request now. A bug of a handler is an answer too, and the server goes on.
+    /// Answers a request now. If the handler panics, the answer is an error, and the server continues.
     fn answer<R: lsp::Request>(
         &mut self,
         request: Request,
@@ -79,7 +79,7 @@ impl Server<'_> {
         self.answer_later::<R>(request, respond).expect("it was answered")
     }
 
-    /// Answers a request, perhaps later.
+    /// Answers a request now or, if the handler returns `None`, later.
     fn answer_later<R: lsp::Request>(
         &mut self,
         request: Request,

@@ -1,4 +1,4 @@
-//! What to select around a place, from the word to the whole file.
+//! Selections around a place, from the word to the whole file.
 
 use gen_lsp_types::SelectionRange;
 

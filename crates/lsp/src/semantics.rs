@@ -1,4 +1,4 @@
-//! What each token means, for colors.
+//! Semantic tokens: the meaning of each token, which determines its color.
 
 use gen_lsp_types::{SemanticToken, SemanticTokens, SemanticTokensLegend};
 

@@ -1,4 +1,4 @@
-//! The loop of the server: messages come in, buffers change, answers and diagnostics go out.
+//! The loop of the server: it receives messages, changes buffers, and sends answers and diagnostics.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -49,7 +49,7 @@ pub(super) struct Server<'c> {
     published: BTreeMap<String, (Arc<Checked>, BTreeSet<String>)>,
 }
 
-/// An answer, or why there is none.
+/// An answer, or the reason for a refusal.
 pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, String>;
 
 impl<'c> Server<'c> {
@@ -75,7 +75,7 @@ impl<'c> Server<'c> {
         }
     }
 
-    /// Serves until the client says goodbye or vanishes.
+    /// Serves until the client ends the session or closes its connection.
     pub(super) fn run(mut self) -> ServerEnd {
         self.watch();
         loop {
@@ -97,7 +97,7 @@ impl<'c> Server<'c> {
         }
     }
 
-    /// Handles a message; how the server ends, if it was the last.
+    /// Handles a message. Returns how the server ends, if this was the last message.
     fn message(&mut self, message: Message) -> Option<ServerEnd> {
         self.pending.take(&message);
         match message {
@@ -135,7 +135,7 @@ impl<'c> Server<'c> {
         }
     }
 
-    /// Asks the client for what figures are shown in, as far as it can.
+    /// Asks the client to request lenses and hints again, which contain figures, as far as it supports this.
     fn refresh_figures(&mut self) {
         if self.abilities.refreshes_lenses {
             self.ask::<CodeLensRefreshRequest>(());
@@ -145,7 +145,7 @@ impl<'c> Server<'c> {
         }
     }
 
-    /// Asks the client for everything that it shows of open texts, as far as it can.
+    /// Asks the client to request again all that it shows of open texts, as far as it supports this.
     fn refresh(&mut self) {
         self.refresh_figures();
         if self.abilities.refreshes_tokens {
@@ -153,7 +153,7 @@ impl<'c> Server<'c> {
         }
     }
 
-    /// Asks the client for something whose answer does not matter.
+    /// Sends a request to the client. Its answer is ignored.
     pub(super) fn ask<R: lsp::Request>(&mut self, parameters: R::Params) {
         self.asked += 1;
         let method = R::METHOD.to_string();
@@ -175,7 +175,7 @@ impl<'c> Server<'c> {
         });
     }
 
-    /// A client that has vanished ends the loop at its next message.
+    /// Sends a message. If the connection is closed, the loop ends at its next message.
     pub(super) fn send(&self, message: Message) {
         let _ = self.connection.sender.send(message);
     }

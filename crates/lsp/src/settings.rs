@@ -1,4 +1,4 @@
-//! What a user may switch off.
+//! The settings of a user.
 
 use serde_json::Value;
 
@@ -47,7 +47,7 @@ impl Settings {
         default.with(parameters.get("initializationOptions").unwrap_or(&Value::Null))
     }
 
-    /// The settings after a change; what it does not name stays, and what is not understood is ignored.
+    /// The settings after a change. Settings that it does not contain stay, and unknown ones are ignored.
     pub(super) fn with(self, change: &Value) -> Self {
         let known = |path: &str, before: bool| change.pointer(path).and_then(Value::as_bool).unwrap_or(before);
         let hints = self.inlay_hints;

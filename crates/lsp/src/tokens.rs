@@ -1,5 +1,4 @@
-//! The tokens of a text, for what editors ask about a place that the tree does not tell, such as one in a text that is
-//! not yet complete.
+//! The tokens of a text, for requests about places that are not in the tree, such as in an incomplete declaration.
 
 use nbc_lang::syntax;
 use nbc_lang::syntax::{Token, TokenKind};

@@ -1,5 +1,4 @@
-//! Messages over standard input and output: their lengths, their texts, and what is answered to those that are not
-//! messages.
+//! Messages over standard input and output: their headers, their texts, and the answers to texts that are not messages.
 
 use std::io::{self, BufRead, Read, Write};
 use std::thread::{self, JoinHandle};
@@ -36,7 +35,7 @@ impl Wire {
     /// Waits until all is written.
     ///
     /// # Errors
-    /// What the client has broken, or why nothing could be written.
+    /// The rule of the protocol that the client broke, or the error of the output.
     pub(super) fn join(self) -> Result<(), String> {
         let read = self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()));
         // What came before a broken message is still answered.
@@ -45,7 +44,7 @@ impl Wire {
     }
 }
 
-/// Hands on all messages until `exit` or the end of the input.
+/// Passes on all messages until `exit` or the end of the input.
 fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), String> {
     loop {
         let arrived = match read(input) {
@@ -70,7 +69,7 @@ fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), 
     }
 }
 
-/// Answers what is not a message. The protocol has no request for it, so there may be no number.
+/// Answers a text that is not a message with an error. The id is null if the text has none.
 fn refuse(id: Value, code: ErrorCode, reason: &str) {
     let answer = json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": reason } }).to_string();
     let mut output = io::stdout().lock();
@@ -136,7 +135,7 @@ pub fn message(value: Value) -> Result<Message, Value> {
     }
 }
 
-/// The length of the next text, which the lines before it tell; `None` at the end of the input.
+/// The length of the next text, from its header; `None` at the end of the input.
 fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
     let mut length = None;
     loop {

@@ -1,11 +1,11 @@
-//! What can be wrong with a client, as data, and how it is worded.
+//! Errors of the language server, and their messages.
 
 use nbc_base::diag::{Code, Diagnostic};
 
 /// A client of the language server that breaks the protocol.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ServerError {
-    /// What is wrong.
+    /// The rule that was broken.
     Protocol(String),
 }
 

@@ -1,4 +1,4 @@
-//! Robots and bodies for a page: the library's cards, how a body walks, and robot files.
+//! Robots and bodies for a page: the list of the library, measurements of a body, and robot files.
 
 use serde_json::{Value, json};
 
@@ -96,7 +96,7 @@ fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
     Stage::of_trial(&Setting::default(), body, &schedule, CYCLE_STEPS / FRAMES)
 }
 
-/// How a body walks, and which gate it is.
+/// Simulates a body under the four patterns, and measures it as a gate.
 ///
 /// # Errors
 /// When it cannot be simulated.
@@ -121,7 +121,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
     })))
 }
 
-/// Displacements and behavior of a body, and a sketch of its character if it is asked for, which takes longer.
+/// Displacements and behavior of a body; if `is_whole`, also a rough measurement of its character, which takes longer.
 fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Character>), Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let simulator = job.simulator();

@@ -1,4 +1,4 @@
-//! The connections of a server. Those that stay silent are closed, and the oldest make room for new ones.
+//! The connections of a server. Connections without a request are closed. If there are too many, the oldest is closed.
 
 use std::collections::VecDeque;
 use std::convert::Infallible;
@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// The time between two attempts while the system gives no more connections.
 const BREATH: Duration = Duration::from_millis(50);
 
-/// Answers all who connect.
+/// Accepts connections and answers their requests.
 pub(super) async fn serve(listener: TcpListener, router: Router) -> Infallible {
     let mut open: VecDeque<AbortHandle> = VecDeque::new();
     loop {

@@ -21,7 +21,8 @@ const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
 const MOST_GENERATIONS: u32 = 1000;
 /// Bodies of a generation.
 const BATCH: u32 = 16;
-/// Generations of neighbors of a start none of which is a gate. After them random bodies are tried.
+/// The number of generations without a gate in which neighbors of the start are tried. After them, random bodies are
+/// tried.
 const NEARBY: u32 = 3;
 
 /// Searches for gates.
@@ -62,8 +63,8 @@ fn declared(width: usize, height: usize, generations: u32) -> Evolution {
     checked.program.evolution("play").expect("it is declared above").clone()
 }
 
-/// Those bodies that walk for long as they do in the short holds of the search: in the designer the others would be of
-/// another kind than the square that was clicked.
+/// The bodies whose behavior in long simulations is that in the short holds of the search. The others would appear in
+/// the designer with another behavior than in the archive.
 fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Scores)> {
     let bodies: Vec<Body> = measured.iter().map(|(body, _)| body.clone()).collect();
     let walked = walk(simulator, &bodies);
@@ -74,7 +75,7 @@ fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Sc
     both.filter(|((_, scores), walked)| is_steady(scores, *walked)).map(|(measured, _)| measured).collect()
 }
 
-/// An archive that is being filled.
+/// The search and its archive.
 struct Tending {
     evolution: Evolution,
     archive: Archive,

@@ -14,7 +14,7 @@ use nbc_session::store::{self, FolderWorld};
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
-/// The files that a page has read, with the stamps that it knows.
+/// The files that a page has read, with their stamps at that time. A stamp changes with its file.
 pub(super) struct PageFiles {
     world: FolderWorld,
     known: BTreeMap<String, Option<String>>,
@@ -36,7 +36,7 @@ impl PageFiles {
         store::source_files([root.to_owned()]).into_iter().filter_map(one).collect()
     }
 
-    /// The text of a file, which is watched from now on.
+    /// The text of a file. From now on, changes of the file are reported.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -96,7 +96,7 @@ impl PageFiles {
         store::create_folder(&self.folder_of(path)?).map_err(|error| Refused::unwritable(path, &error))
     }
 
-    /// The files that have other stamps than the page knows, as events.
+    /// The files that have changed since the page read them, as events.
     pub(super) fn changes(&mut self) -> Vec<(String, Value)> {
         let stamps: Vec<_> = self.known.keys().map(|path| (path.clone(), self.stamp(path))).collect();
         let mut changed = Vec::new();
@@ -118,7 +118,7 @@ impl PageFiles {
     }
 }
 
-/// The examples: names and what they are about.
+/// The examples: their names and descriptions.
 pub(super) fn examples() -> Vec<Value> {
     let mut files: Vec<_> =
         EXAMPLES.files().filter(|file| file.path().extension().is_some_and(|e| e == "nb")).collect();
@@ -134,7 +134,7 @@ pub(super) fn examples() -> Vec<Value> {
     files.into_iter().map(one).collect()
 }
 
-/// An example as if it were read.
+/// An example, in the form of [`PageFiles::read`].
 ///
 /// # Errors
 /// When there is none of that name.

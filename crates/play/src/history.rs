@@ -1,4 +1,4 @@
-//! The last cycles of a live swarm, to go back to.
+//! The last cycles of a live swarm, which can be shown again.
 
 use std::collections::VecDeque;
 
@@ -12,7 +12,7 @@ const ROOM: usize = 64 << 20;
 /// The least bytes of a point in a snapshot: position and velocity.
 const POINT: usize = 32;
 
-/// What is remembered of a cycle.
+/// The recorded state of a cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LoggedCycle {
     /// The bits of the inputs, of the robots and of the outputs.
@@ -53,7 +53,7 @@ pub(super) struct SwarmHistory {
 }
 
 impl SwarmHistory {
-    /// The history of a swarm at its start, which will remember at least that many cycles.
+    /// The history of a swarm at its start. It keeps at least `memory` cycles.
     pub(super) fn new(start: &LiveSwarm, memory: u32) -> Self {
         let points: usize = start.trace().recording.robots.iter().map(|robot| robot.points).sum();
         let all = (memory as usize * points * POINT).div_ceil(ROOM);
@@ -75,7 +75,7 @@ impl SwarmHistory {
         self.first() + self.log.len() as u32
     }
 
-    /// The cycles with the numbers after `cycle`, as far as they are remembered, with the first number.
+    /// The recorded cycles after `cycle`, and the number of the first of them.
     pub(super) fn after(&self, cycle: u32) -> (u32, impl ExactSizeIterator<Item = &LoggedCycle>) {
         let skipped = cycle.clamp(self.first(), self.last()) - self.first();
         (self.first() + skipped + 1, self.log.range(skipped as usize..))
@@ -94,8 +94,8 @@ impl SwarmHistory {
         (*at, snapshot)
     }
 
-    /// Remembers the last cycle of a swarm that has done `cycle` cycles, and has forgotten the rest. What was
-    /// remembered from this cycle on is replaced.
+    /// Records the last cycle of a swarm that has done `cycle` cycles and whose trace contains only the last one. It
+    /// replaces the records from this cycle on.
     pub(super) fn push(&mut self, cycle: u32, logged: LoggedCycle, swarm: &LiveSwarm) {
         self.log.truncate((cycle - 1 - self.first()) as usize);
         self.marks.retain(|(at, _)| *at < cycle);

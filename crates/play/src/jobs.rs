@@ -1,4 +1,4 @@
-//! Long requests, each on a thread of its own, with progress, and to be cancelled.
+//! Long requests: each runs on a thread of its own, reports its progress, and can be cancelled.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -25,7 +25,7 @@ pub(super) struct Jobs {
     outbox: Outbox,
 }
 
-/// How a request can be stopped.
+/// The handle to stop a request that runs.
 struct Running {
     stop: CancelFlag,
     monitor: Arc<Monitor>,
@@ -39,18 +39,18 @@ impl Running {
     }
 }
 
-/// A request that runs: its progress, and whether it is to stop.
+/// A request that runs, as its own thread sees it.
 pub(super) struct Job {
     pub(super) id: u64,
     pub(super) outbox: Outbox,
     pub(super) stop: CancelFlag,
     monitor: Arc<Monitor>,
     end: Instant,
-    /// The percentage that was told last.
+    /// The percentage that was reported last.
     told: u64,
 }
 
-/// How a request ended: with an answer, or it left the answer to another thread.
+/// The answer of a request; `None` if another thread will answer.
 pub(super) type JobEnd = Result<Option<Value>, Refused>;
 
 impl Jobs {
@@ -103,7 +103,7 @@ impl Jobs {
 }
 
 impl Drop for Jobs {
-    /// Nobody waits for them any more.
+    /// Stops the requests, because the page has left.
     fn drop(&mut self) {
         lock(&self.running).values().for_each(Running::stop);
     }
@@ -119,15 +119,15 @@ impl Job {
         Simulator::monitored(self.monitor.clone())
     }
 
-    /// Ends it if it is to stop.
+    /// Must be called now and then, so that the request can be stopped.
     ///
     /// # Errors
-    /// When it is to stop.
+    /// When the request must stop.
     pub(super) fn check(&self) -> Result<(), Refused> {
         if self.stop.is_raised() { Err(self.reason(Refused::Cancelled)) } else { Ok(()) }
     }
 
-    /// Work that was stopped because it took too long says so.
+    /// The reason for a refusal; that of work which was stopped because it took too long is [`Refused::TimedOut`].
     fn reason(&self, refused: Refused) -> Refused {
         match refused {
             Refused::Cancelled if self.end < Instant::now() => Refused::TimedOut { seconds: TIME.as_secs() },

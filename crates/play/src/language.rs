@@ -1,4 +1,4 @@
-//! The socket of the language server: the one that editors start, for the texts of the page.
+//! The web socket of a language server for the texts of the page.
 
 use std::sync::Arc;
 use std::thread;
@@ -47,10 +47,10 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     pump(socket, requests, outgoing, &served.waiting).await;
 }
 
-/// A message of the page; none if it is not for the server. Whatever folders it names, it works in the served one.
+/// A message of the page; `None` if it is not for the server. Folders that it names are replaced by the served folder.
 ///
 /// # Errors
-/// The answer to what is no message.
+/// The answer to a text that is not a message.
 fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
     if text.is_empty() {
         return Ok(None);
@@ -77,7 +77,7 @@ fn refusal(id: &Value, code: ErrorCode, message: &str) -> Value {
     json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
 }
 
-/// The options of a page, with trust in the Verilog of the folder.
+/// The options of a page, with the permission to translate Verilog of the folder.
 fn trusting(options: Option<&Value>) -> Value {
     let mut options = options.filter(|options| options.is_object()).cloned().unwrap_or_else(|| json!({}));
     options["verilog"] = json!({ "trusted": true });

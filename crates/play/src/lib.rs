@@ -39,14 +39,15 @@ pub use wording::PlayError;
 use page::Page;
 use served::Served;
 
-/// The time between two looks for a request to stop.
+/// The time between two checks of the request to stop.
 const LOOK: Duration = Duration::from_millis(100);
-/// The file that a browser is told to open. So the token is in no list of processes.
+/// The start and the end of the name of the file that a browser opens. With a file, the token is not in the arguments
+/// of the browser, which other users can list.
 const REDIRECT: (&str, &str) = ("open-", ".html");
 /// Bytes of a random token.
 const TOKEN: usize = 16;
 
-/// What is served, and where.
+/// The options of a server.
 #[derive(Clone, Debug, Default)]
 pub struct PlayOptions {
     /// The program to open first. The page can read and write only below the current folder, or the file's folder if
@@ -62,7 +63,7 @@ pub struct PlayOptions {
     pub token: Option<String>,
 }
 
-/// A server that listens.
+/// A server that has its address, and serves nothing until [`PlayServer::serve`].
 pub struct PlayServer {
     runtime: Runtime,
     listener: TcpListener,
@@ -129,8 +130,8 @@ impl PlayServer {
     }
 }
 
-/// Serves a page that sends these texts, each of which should be a request, and waits for each. For the fuzzer, which
-/// needs no socket.
+/// Serves a page that sends these texts, each of which should be a request, and waits for each answer. The fuzzer calls
+/// this, because it needs no socket.
 pub fn serve_texts(folder: &Path, texts: &[&str]) {
     /// The time for a long request. What is left of it is stopped.
     const PATIENCE: Duration = Duration::from_millis(250);

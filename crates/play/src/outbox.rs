@@ -1,5 +1,5 @@
-//! What a page is still to be sent. Texts wait in a queue; of the swarm's frames only the newest waits, so that a slow
-//! page never holds up the swarm.
+//! The messages to send to a page. Texts wait in a queue. Of the frames of a swarm only the newest is kept, so that a
+//! slow page does not slow down the swarm.
 
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
@@ -9,12 +9,12 @@ use tokio::sync::{Notify, mpsc};
 
 use crate::refusal::Refusal;
 
-/// Texts that may wait, and their bytes, unless one alone has more. Work that has more to tell waits until the page has
-/// received some.
+/// The most texts that wait, and their bytes; one text alone may be longer. A thread that adds more waits until the
+/// page has received some.
 const ROOM: usize = 256;
 const MOST_BYTES: usize = 4 << 20;
 
-/// The end at which a session puts messages. Clones put them into the same box.
+/// The end that takes messages. Clones share one queue.
 #[derive(Clone)]
 pub(super) struct Outbox {
     texts: mpsc::Sender<Utf8Bytes>,
@@ -22,7 +22,7 @@ pub(super) struct Outbox {
     frame: Arc<FrameSlot>,
 }
 
-/// The end from which a socket takes them.
+/// The end from which a socket reads messages.
 pub(super) struct Outgoing {
     texts: mpsc::Receiver<Utf8Bytes>,
     load: Arc<Load>,
@@ -41,7 +41,7 @@ impl FrameSlot {
     }
 }
 
-/// The bytes of the texts that wait; none once the page is gone, when nobody needs to wait any more.
+/// The bytes of the texts that wait; `None` after the page has left, when threads do not wait.
 struct Load {
     bytes: Mutex<Option<usize>>,
     less: Condvar,
@@ -56,7 +56,7 @@ impl Load {
         *bytes = bytes.map(|bytes| bytes + size);
     }
 
-    /// Takes texts away: one of that size, or all for ever.
+    /// Removes one text of that size, or all texts because the page has left.
     fn take(&self, size: Option<usize>) {
         let mut bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
         *bytes = bytes.zip(size).map(|(bytes, size)| bytes.saturating_sub(size));
@@ -64,7 +64,7 @@ impl Load {
     }
 }
 
-/// The two ends of a new box.
+/// The two ends of a new queue.
 pub(super) fn outbox() -> (Outbox, Outgoing) {
     let (texts, incoming) = mpsc::channel(ROOM);
     let load = Arc::new(Load { bytes: Mutex::new(Some(0)), less: Condvar::new() });
@@ -73,7 +73,7 @@ pub(super) fn outbox() -> (Outbox, Outgoing) {
 }
 
 impl Outbox {
-    /// Tells an event, or the progress of a request. Nobody reads it when the page is gone.
+    /// Sends an event, or the progress of a request.
     pub(super) fn tell(&self, message: &Value) {
         self.send(message.to_string());
     }
@@ -92,26 +92,26 @@ impl Outbox {
         });
     }
 
-    /// Whether a frame can be put.
+    /// Whether no frame is waiting.
     pub(super) fn has_room(&self) -> bool {
         self.frame.with(|frame| frame.is_none())
     }
 
-    /// Puts a frame in place of one that still waits.
+    /// Sends a frame, instead of the one that still waits.
     pub(super) fn put(&self, frame: Vec<u8>) {
         self.frame.with(|slot| *slot = Some(frame));
         self.frame.filled.notify_one();
     }
 
-    /// Takes back the frame that waits; whether there was one.
+    /// Removes the frame that waits. Returns whether there was one.
     pub(super) fn clear(&self) -> bool {
         self.frame.with(|slot| slot.take().is_some())
     }
 }
 
 impl Outgoing {
-    /// The next message, texts first; `None` when nobody can put any more. No message is lost when the wait is given
-    /// up.
+    /// The next message, texts first; `None` when the other end is closed. If this future is dropped, no message is
+    /// lost.
     pub(super) async fn next(&mut self) -> Option<Message> {
         loop {
             tokio::select! {

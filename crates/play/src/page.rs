@@ -1,5 +1,5 @@
-//! The page: what `web/` builds, in the program or in a folder. A browser keeps scripts and styles, because their names
-//! have a hash of their contents.
+//! The files of the page, which `web/` builds: those in the program, or those of a folder. Browsers cache scripts and
+//! styles without limit, because their names contain a hash of their contents.
 
 use std::borrow::Cow;
 use std::fs;
@@ -12,7 +12,7 @@ use axum::response::{IntoResponse, Response};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-/// What a browser may keep for as long as it likes.
+/// The cache header of files that never change.
 const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
 
 /// The texts of the page.

@@ -1,4 +1,4 @@
-//! What a page is told of a program, its circuits and its tests, and the work on them.
+//! Programs for a page: their description as JSON, and compiling and testing their circuits.
 
 use serde_json::{Value, json};
 
@@ -16,7 +16,7 @@ use nbc_swarm::{Level, LiveSwarm};
 /// The most robots of a live swarm.
 pub(super) const MOST_ROBOTS: usize = 2000;
 
-/// A checked program.
+/// The description of a checked program: its diagnostics, circuits and tests.
 pub(super) fn program(checked: &Checked) -> Value {
     let own = checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == checked.file);
     let circuits: Vec<Value> = own

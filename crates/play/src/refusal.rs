@@ -1,4 +1,4 @@
-//! Why a request of the page cannot be done, and how it is worded.
+//! The reasons for which requests of a page are refused, and their messages.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -52,7 +52,7 @@ pub(super) enum Refused {
     Source(Diagnostics),
 }
 
-/// An answer that says why there is no other.
+/// The answer to a refused request.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Refusal {
     message: String,

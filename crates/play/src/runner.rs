@@ -1,4 +1,4 @@
-//! The thread that runs a page's swarm at its pace, remembers its last cycles, and shows it.
+//! The thread that simulates a page's swarm at the chosen speed, records its last cycles, and sends frames to the page.
 
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -17,7 +17,7 @@ use nbc_swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
 const FRAME_TIME: Duration = Duration::from_millis(15);
-/// The time by which a swarm may be late without catching up.
+/// A swarm that is late by more than this does not catch up.
 const LATE: Duration = Duration::from_millis(250);
 /// Voxels of ground that are left when a swarm is stopped.
 const GROUND_LEFT: f64 = 64.0;
@@ -37,7 +37,7 @@ pub(super) struct LoadedSwarm {
     pub(super) stop: CancelFlag,
 }
 
-/// What a page wants of its swarm.
+/// A message to the thread.
 pub(super) enum SwarmOrder {
     Load(Box<LoadedSwarm>),
     /// With the request to answer.
@@ -59,7 +59,7 @@ pub(super) enum Change {
     View { robots: Vec<usize> },
 }
 
-/// Starts the thread. It ends when nobody can order any more.
+/// Starts the thread. It ends when all senders are dropped.
 pub(super) fn start(outbox: Outbox) -> Sender<SwarmOrder> {
     let (sender, orders) = channel();
     thread::spawn(move || Runner { orders, outbox, shown: None }.run());
@@ -72,7 +72,7 @@ struct Runner {
     shown: Option<Shown>,
 }
 
-/// The pace of a swarm that runs.
+/// The speed of a running swarm.
 struct Pace {
     /// Cycles a second; none for as many as can be.
     speed: Option<f64>,
@@ -170,7 +170,7 @@ impl Runner {
     }
 }
 
-/// How long a runner waits for an order.
+/// How long the thread waits for a message.
 enum Wait {
     Forever,
     For(Duration),
@@ -220,7 +220,8 @@ impl Shown {
         self.pace.as_ref().is_some_and(|pace| pace.next <= Instant::now())
     }
 
-    /// Does a cycle of its pace. Returns the reason if it cannot go on.
+    /// Simulates the next cycle, and sets the time of the one after it. Returns the reason if the swarm cannot
+    /// continue.
     fn go_on(&mut self) -> Option<String> {
         let fault = self.cycle().or_else(|| self.ground_ends());
         if fault.is_some() {
@@ -319,7 +320,7 @@ impl Shown {
         self.is_new = true;
     }
 
-    /// Back to a new start.
+    /// Sets the swarm to its start.
     fn reset(&mut self) {
         self.set_paused();
         self.swarm.restore(&self.start);
@@ -355,7 +356,7 @@ impl Shown {
         Ok(())
     }
 
-    /// The last cycles, from a snapshot on.
+    /// The last `cycles` cycles and those before them up to a snapshot.
     fn excerpt(&self, cycles: u32) -> Excerpt {
         let now = self.now();
         let (from, start) = self.history.mark(now.saturating_sub(cycles));

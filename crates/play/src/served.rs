@@ -1,4 +1,4 @@
-//! What all pages of a server share: the folder, the address, and who may come in.
+//! The state that all pages of a server share: the folder, the address, and the access rules.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, UdpSocket};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub(super) const MOST_BYTES: usize = 1 << 20;
 const MOST_SOCKETS: usize = 32;
 const SOCKETS_OF_PAGE: usize = 2;
 
-/// What is served, and to whom.
+/// The state that all pages of a server share.
 pub(super) struct Served {
     pub(super) world: FolderWorld,
     /// The `file:` URI of the folder.

@@ -1,4 +1,4 @@
-//! The server: the page, its two sockets, and the files that it takes away.
+//! The routes of the server: the page, its two web sockets, and its downloads.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use axum::routing::{any, get};
 use crate::served::{MOST_BYTES, Served};
 use crate::{language, live};
 
-/// What a page may load and do: only what comes from here.
+/// The content security policy: a page may load and connect to this server only.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: \
                       blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
 
-/// What a visitor reads while there are too many pages. It asks again by itself, because one that was left may count
-/// for a moment.
+/// The page that is sent while too many pages are open. It reloads itself, because a page that was just closed may
+/// still be counted.
 const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
                     <meta http-equiv=\"refresh\" content=\"5\">\n<title>nbc is full</title>\n\
                     <h1>This server has no room for another page</h1>\n\
@@ -52,7 +52,7 @@ async fn part(
     served.page.part(&name, &headers).unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
 }
 
-/// Lets in only this server's page, by its token, its host and its origin, and adds what keeps others out.
+/// Refuses requests without the token, or from another host or origin, and adds security headers to answers.
 async fn guard(State(served): State<Arc<Served>>, request: Request, next: Next) -> Response {
     let token = request.uri().path().split('/').nth(1).unwrap_or_default();
     let known = served.knows(token);
@@ -85,7 +85,7 @@ async fn language_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUp
     accept(served, upgrade, language::serve)
 }
 
-/// Opens a socket if there are not too many.
+/// Opens a web socket, unless there are too many.
 fn accept<F: Future<Output = ()> + Send + 'static>(
     served: Arc<Served>,
     upgrade: WebSocketUpgrade,

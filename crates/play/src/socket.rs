@@ -10,9 +10,9 @@ use tokio::time::{interval, sleep, timeout};
 
 use crate::outbox::Outgoing;
 
-/// The time for which a page may not read before it is disconnected.
+/// A page that does not read for this time is disconnected.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// Messages a second that a page may send for long, and how many at once.
+/// Messages per second that a page may send on average, and how many at once.
 const RATE: f64 = 200.0;
 const BURST: f64 = 2000.0;
 
@@ -21,13 +21,13 @@ pub(super) const WAITING: usize = 64;
 /// The bytes of messages that may wait for one page, and for all together. One message of a page may always wait.
 const MOST_BYTES: usize = 4 << 20;
 const MOST_IN_ALL: usize = 32 << 20;
-/// The time between two pauses, of which whoever handles the messages hears.
+/// The time between the empty texts that are passed on as pauses.
 const PAUSE: Duration = Duration::from_millis(500);
-/// The time between two looks for room.
+/// The time between two checks for room.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// The messages of a page that wait to be handled. While there are too many, no more are read, and the page's own
-/// computer keeps what it sends.
+/// The messages of a page that wait to be handled. While there are too many, the socket is not read, so further
+/// messages stay on the page's computer.
 struct Backlog<'a> {
     /// The oldest first.
     sizes: VecDeque<usize>,
@@ -47,7 +47,7 @@ impl<'a> Backlog<'a> {
         self.all.fetch_add(size, Ordering::Relaxed);
     }
 
-    /// Notes that only this many still wait.
+    /// Removes the oldest messages, so that this many are left.
     fn settle(&mut self, waiting: usize) {
         while self.sizes.len() > waiting
             && let Some(size) = self.sizes.pop_front()
@@ -68,7 +68,8 @@ impl Drop for Backlog<'_> {
     }
 }
 
-/// Passes texts of a page to `requests` and sends it what is `outgoing`, until it is gone. An empty text is a pause.
+/// Passes texts of a page to `requests` and sends it the messages of `outgoing`, until it is gone. An empty text stands
+/// for a pause.
 pub(super) async fn pump(
     mut socket: WebSocket,
     requests: mpsc::Sender<Utf8Bytes>,
@@ -108,7 +109,7 @@ pub(super) async fn pump(
     }
 }
 
-/// Messages that may still be sent.
+/// The number of messages that a page may still send, which grows with time.
 struct Allowance {
     left: f64,
     at: Instant,

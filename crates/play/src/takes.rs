@@ -1,12 +1,12 @@
-//! Files that were made for a page to take away. Each can be fetched once.
+//! Files that were made for a page to download. Each can be fetched once.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
-/// Files that wait; the oldest make room for new ones.
+/// The most files that wait. If there are more, the oldest is dropped.
 const MOST: usize = 8;
 
-/// The files that wait.
+/// The files that wait to be fetched, and the number of the last one.
 #[derive(Default)]
 pub(super) struct Takes(Mutex<(u64, VecDeque<Take>)>);
 

@@ -1,4 +1,4 @@
-//! Files for a page to take away, made from a part of a swarm's run.
+//! Makes files for a page to download from a part of a swarm's run: pages, films, pictures, waveforms and tables.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! What one socket of a page can do: its texts, its swarm, its requests. It has a thread of its own.
+//! The state of one connected page: its texts, its swarm, its requests. Each page has a thread of its own.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
@@ -23,7 +23,7 @@ use nbc_session::store::GuardedWorld;
 use nbc_session::{Checked, Choice, Compiled, Session};
 use nbc_swarm::Room;
 
-/// The time between two looks at the files that the page has read.
+/// The time between two checks of the files that the page has read.
 const LOOK: Duration = Duration::from_millis(500);
 
 /// A page that is connected.
@@ -41,7 +41,7 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    /// A page that has come; `gone` is raised when it leaves.
+    /// A page that has connected; `gone` is raised when it disconnects.
     pub(super) fn new(served: Arc<Served>, outbox: Outbox, gone: CancelFlag) -> Self {
         let world = served.world.clone();
         Self {
@@ -57,7 +57,7 @@ impl Visit {
         }
     }
 
-    /// Answers requests until the page is gone. An empty message is a pause in which nothing came.
+    /// Answers requests until the page disconnects. An empty message stands for a pause without messages.
     pub(super) fn serve(mut self, mut requests: mpsc::Receiver<Utf8Bytes>) {
         while let Some(text) = requests.blocking_recv() {
             if !text.is_empty() {
@@ -88,7 +88,7 @@ impl Visit {
         }
     }
 
-    /// Tells of files that were changed.
+    /// Reports files that have changed.
     fn look(&mut self) {
         self.looked = Instant::now();
         for (path, event) in self.files.changes() {

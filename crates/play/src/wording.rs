@@ -1,8 +1,8 @@
-//! Why a page cannot be served, as data, and how it is worded.
+//! The reasons for which pages cannot be served, and their messages.
 
 use nbc_base::diag::{Code, Diagnostic};
 
-/// Why a page cannot be served.
+/// The reason for which pages cannot be served.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlayError {
     /// An address at which nothing can listen.
@@ -21,7 +21,7 @@ pub enum PlayError {
         /// What the system says.
         reason: String,
     },
-    /// Something that the server needs of the system and does not get.
+    /// A resource that the system does not provide, such as threads.
     System {
         /// What the system says.
         reason: String,

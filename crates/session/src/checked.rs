@@ -24,7 +24,7 @@ pub struct Checked {
     pub program: Program,
     /// Errors and warnings, in order of place.
     pub diagnostics: Vec<Diagnostic>,
-    /// The names with a meaning, and their declarations.
+    /// Each use of a declared name, with the place of its declaration.
     pub uses: NameUses,
     /// The widths of the nets that were built.
     pub widths: NetWidths,

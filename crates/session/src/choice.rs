@@ -1,4 +1,4 @@
-//! Finds the circuit and the test that a user's words refer to.
+//! Finds the circuit, test or simulation that a user names.
 
 use crate::checked::Checked;
 use crate::wording::ChoiceError;
@@ -6,7 +6,7 @@ use nbc_base::diag::{Diagnostic, Diagnostics, Suggestion};
 use nbc_base::model::{Circuit, CircuitTest, Instance, Program, Simulation, Swarm};
 use nbc_circuit::is_same_instance;
 
-/// A choice of a circuit; the source decides what is left open.
+/// A choice of a circuit. For what is `None`, the source decides.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// A circuit, such as `adder` or `adder[8]`.

@@ -67,8 +67,12 @@ impl Documents {
         }
         let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
         let translations = RefCell::new(std::mem::take(&mut self.translations));
-        let asking =
-            Asking { world: &self.world, asked: RefCell::default(), translations, is_cancelled: Cell::default() };
+        let asking = RecordingWorld {
+            world: &self.world,
+            asked: RefCell::default(),
+            translations,
+            is_cancelled: Cell::default(),
+        };
         let checked = Arc::new(Checked::read(&asking, path, revision));
         self.translations = asking.translations.into_inner();
         if asking.is_cancelled.get() {
@@ -84,7 +88,7 @@ impl Documents {
         self.known.contains_key(path)
     }
 
-    /// The identities of the files and folders that the result for `path` depends on; those that are missing too.
+    /// The identities of the files and folders that the result for `path` depends on, including missing ones.
     pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
         self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
     }
@@ -98,7 +102,7 @@ impl Documents {
 }
 
 /// A world that records what was read, and translates no text twice.
-struct Asking<'a> {
+struct RecordingWorld<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
     translations: RefCell<Translations>,
@@ -106,13 +110,13 @@ struct Asking<'a> {
     is_cancelled: Cell<bool>,
 }
 
-impl Asking<'_> {
+impl RecordingWorld<'_> {
     fn note(&self, path: &str) {
         self.asked.borrow_mut().insert(self.world.identity(path));
     }
 }
 
-impl SourceWorld for Asking<'_> {
+impl SourceWorld for RecordingWorld<'_> {
     fn read(&self, path: &str) -> Result<String, FileError> {
         self.note(path);
         self.world.read(path)
@@ -198,9 +202,9 @@ mod tests {
     }
 
     /// A world with a translator that counts its work.
-    struct Translating(MemoryWorld, Arc<AtomicUsize>);
+    struct CountingTranslator(MemoryWorld, Arc<AtomicUsize>);
 
-    impl SourceWorld for Translating {
+    impl SourceWorld for CountingTranslator {
         fn read(&self, path: &str) -> Result<String, FileError> {
             self.0.read(path)
         }
@@ -222,7 +226,7 @@ mod tests {
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
         let count = Arc::new(AtomicUsize::new(0));
-        let mut documents = Documents::new(Box::new(Translating(world, count.clone())));
+        let mut documents = Documents::new(Box::new(CountingTranslator(world, count.clone())));
         let mut check = |path, text: &str| {
             documents.update(path, 0, text);
             assert_eq!(documents.checked("a.nb").diagnostics, []);
@@ -237,9 +241,9 @@ mod tests {
     }
 
     /// A world whose first translation is cancelled.
-    struct Impatient(Translating);
+    struct CancelledTranslator(CountingTranslator);
 
-    impl SourceWorld for Impatient {
+    impl SourceWorld for CancelledTranslator {
         fn read(&self, path: &str) -> Result<String, FileError> {
             self.0.read(path)
         }
@@ -259,7 +263,7 @@ mod tests {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
-        let mut documents = Documents::new(Box::new(Impatient(Translating(world, Arc::default()))));
+        let mut documents = Documents::new(Box::new(CancelledTranslator(CountingTranslator(world, Arc::default()))));
         assert!(documents.checked("a.nb").has_errors());
         assert!(!documents.is_known("a.nb"));
         assert_eq!(documents.checked("a.nb").diagnostics, []);

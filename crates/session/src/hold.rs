@@ -1,4 +1,4 @@
-//! How long the rows of a test are held, and warnings of rows that end before their robots have settled.
+//! The hold of each row of a test, and warnings of rows that end before their robots have settled.
 
 use crate::compile::Compiled;
 use crate::wording::SwarmWarning;
@@ -6,7 +6,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, Hold, TestRow};
 use nbc_base::source::Span;
 use nbc_circuit::{Netlist, Timing};
-use nbc_swarm::{Demand, STEADY_CYCLES, Settling, resting_outputs};
+use nbc_swarm::{RowHold, STEADY_CYCLES, Settling, resting_outputs};
 
 /// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
 /// [`STEADY_CYCLES`].
@@ -14,10 +14,10 @@ const STEADY_EXTRA: usize = STEADY_CYCLES - 1;
 
 /// The hold of each row: until every robot has settled for any delays, but not longer than static timing requires. Rows
 /// that cannot be shown to settle are held for that time.
-pub(super) fn demands(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled) -> Vec<Demand> {
+pub(super) fn row_holds(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled) -> Vec<RowHold> {
     let holds = holds(rows, compiled, compiled.plan.hold);
-    let demand = |([hold, needed], rests): ([usize; 2], Vec<bool>)| Demand { hold, needed, rests };
-    holds.into_iter().zip(resting_outputs(rows, netlist)).map(demand).collect()
+    let row_hold = |([hold, needed], rests): ([usize; 2], Vec<bool>)| RowHold { hold, needed, rests };
+    holds.into_iter().zip(resting_outputs(rows, netlist)).map(row_hold).collect()
 }
 
 /// For each row, the cycles for which it is held, and those that its robots need; rows without a hold of their own are
@@ -59,24 +59,24 @@ pub(super) fn sufficient(rows: &[TestRow], compiled: &Compiled) -> usize {
 pub(super) fn warnings(
     test: &CircuitTest,
     rows: &[TestRow],
-    demands: &[Demand],
+    row_holds: &[RowHold],
     compiled: &Compiled,
     sufficient: impl FnOnce() -> usize,
 ) -> Vec<Diagnostic> {
     let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
     let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
     let warning = |hold, needed, place| SwarmWarning::ShortHold { hold, needed, path: path.clone() }.at(place);
-    let short = || rows.iter().zip(demands).filter(|(_, demand)| demand.hold < demand.needed);
+    let short = || rows.iter().zip(row_holds).filter(|(_, row_hold)| row_hold.hold < row_hold.needed);
     let usual = short().find(|(row, _)| row.hold.is_none());
     let mut own: Vec<(Span, usize, usize)> = Vec::new();
-    for (row, demand) in short().filter(|(row, _)| row.hold.is_some()) {
+    for (row, row_hold) in short().filter(|(row, _)| row.hold.is_some()) {
         match own.last_mut() {
             // The two halves of a pulse.
-            Some((place, _, needed)) if *place == row.span => *needed = demand.needed.max(*needed),
-            _ => own.push((row.span, demand.hold, demand.needed)),
+            Some((place, _, needed)) if *place == row.span => *needed = row_hold.needed.max(*needed),
+            _ => own.push((row.span, row_hold.hold, row_hold.needed)),
         }
     }
-    let usual = usual.map(|(_, demand)| warning(demand.hold, sufficient(), test.span));
+    let usual = usual.map(|(_, row_hold)| warning(row_hold.hold, sufficient(), test.span));
     let own = own.into_iter().map(|(place, hold, needed)| warning(hold, needed, place));
     usual.into_iter().chain(own).collect()
 }

@@ -1,4 +1,5 @@
-//! What every door calls: from source text to swarms, tests, files and reports. `compile.rs` has the stages in order.
+//! The interface that every door calls: from source text to swarms, tests, files and reports. `compile.rs` has the
+//! stages in order.
 
 mod checked;
 mod choice;

@@ -2,8 +2,8 @@
 
 use nbc_circuit::CancelFlag;
 
-/// Follows long work. A door implements it for its bar, its page or its protocol. `()` ignores progress, and a closure
-/// receives it.
+/// Receives the progress of long work, and can stop it. Each door implements it. `()` ignores progress; a closure of
+/// `(done, all)` receives it.
 pub trait Observer {
     /// One of several tests and simulations begins, counted from 0; the progress that follows is its own.
     fn begin(&mut self, part: usize, parts: usize) {
@@ -47,7 +47,7 @@ impl<F: FnMut(u64, u64)> Observer for Cancellable<F> {
     }
 }
 
-/// Follows one of several cases of a test, of which `before` is done of `all`.
+/// Reports the progress of one of several cases of a test; `before` of `all` parts were done in earlier cases.
 pub(super) struct CaseObserver<'a> {
     pub(super) whole: &'a mut dyn Observer,
     pub(super) before: u64,

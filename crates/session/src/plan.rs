@@ -2,7 +2,7 @@
 
 use crate::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
 use crate::options::CompileOptions;
-use crate::robots::Supply;
+use crate::robots::RobotSources;
 use crate::wording::ChoiceError;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Hold, Instance, Library, PhysicsWorld, Program, RegisterStyle, Swarm, WaveTimes};
@@ -35,7 +35,7 @@ pub struct Plan {
 /// # Errors
 /// When robots cannot be read, or the chosen swarm is not one of the circuit's.
 pub(super) fn plans(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     circuit: &Instance,
     options: &CompileOptions,
@@ -44,10 +44,12 @@ pub(super) fn plans(
     match (&options.swarm, &swarms[..]) {
         (Some(name), swarms) => {
             let swarm = chosen(program, circuit, name, swarms).map_err(|fault| vec![fault])?;
-            Ok(vec![of_swarm(supply, program, circuit, Some(swarm), options)?])
+            Ok(vec![of_swarm(sources, program, circuit, Some(swarm), options)?])
         }
-        (None, []) => Ok(vec![of_swarm(supply, program, circuit, None, options)?]),
-        (None, swarms) => swarms.iter().map(|swarm| of_swarm(supply, program, circuit, Some(swarm), options)).collect(),
+        (None, []) => Ok(vec![of_swarm(sources, program, circuit, None, options)?]),
+        (None, swarms) => {
+            swarms.iter().map(|swarm| of_swarm(sources, program, circuit, Some(swarm), options)).collect()
+        }
     }
 }
 
@@ -56,13 +58,13 @@ pub(super) fn plans(
 /// # Errors
 /// As [`plans`], and when several swarms are declared and none is chosen.
 pub(super) fn plan(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     circuit: &Instance,
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
     check_swarm_is_clear(program, circuit, options.swarm.as_deref()).map_err(|fault| vec![fault])?;
-    Ok(plans(supply, program, circuit, options)?.remove(0))
+    Ok(plans(sources, program, circuit, options)?.remove(0))
 }
 
 /// The plan of a circuit for a declared swarm, or for the default library.
@@ -70,13 +72,13 @@ pub(super) fn plan(
 /// # Errors
 /// When robots cannot be read.
 pub(super) fn of_swarm(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     circuit: &Instance,
     declaration: Option<&Swarm>,
     options: &CompileOptions,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let library = robots(supply, program, declaration.map(|swarm| swarm.library.as_str()), options)?;
+    let library = robots(sources, program, declaration.map(|swarm| swarm.library.as_str()), options)?;
     Ok(Plan {
         circuit: circuit.clone(),
         swarm: declaration.map(|swarm| swarm.name.clone()),
@@ -94,15 +96,15 @@ pub(super) fn of_swarm(
 /// # Errors
 /// When they cannot be read.
 pub(super) fn robots(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     library: Option<&str>,
     options: &CompileOptions,
 ) -> Result<Library, Vec<Diagnostic>> {
     match (&options.robots, program.library(library.unwrap_or(DEFAULT_LIBRARY))) {
         (Some(robots), _) => Ok(robots.clone()),
-        (None, Some(declared)) => supply.library(declared, &options.runs),
-        (None, None) => Ok(supply.shipped().clone()),
+        (None, Some(declared)) => sources.library(declared, &options.runs),
+        (None, None) => Ok(sources.shipped().clone()),
     }
 }
 

@@ -13,13 +13,13 @@ use nbc_swarm::{Room, SwarmSnapshot};
 pub struct Excerpt {
     /// The swarm's circuit.
     pub compiled: Compiled,
-    /// The swarm at the begin of the part.
+    /// The state of the swarm at the start of the part.
     pub start: SwarmSnapshot,
     /// The input bits of each cycle.
     pub inputs: Vec<Vec<bool>>,
 }
 
-/// Simulates the part again; the same robots do the same.
+/// Simulates the part again, with the same result.
 pub(super) fn replay(physics: &Physics, excerpt: &Excerpt, observer: &mut dyn Observer) -> SimulationRun {
     let Excerpt { compiled, start, inputs } = excerpt;
     // The robots are where they were in their world, so this is the world of live swarms.

@@ -10,7 +10,7 @@ use nbc_base::source::SourceWorld;
 
 /// Everything that robots can be read from.
 #[derive(Clone, Copy)]
-pub(super) struct Supply<'a> {
+pub(super) struct RobotSources<'a> {
     pub(super) world: &'a dyn SourceWorld,
     /// The built-in robots, after their first use.
     pub(super) shipped: &'a OnceLock<Library>,
@@ -18,7 +18,7 @@ pub(super) struct Supply<'a> {
     pub(super) file: &'a str,
 }
 
-impl<'a> Supply<'a> {
+impl<'a> RobotSources<'a> {
     /// The built-in robots.
     pub(super) fn shipped(self) -> &'a Library {
         self.shipped.get_or_init(store::shipped_library)

@@ -57,7 +57,7 @@ impl Session {
         Ok(self.run_cases(checked, test, options, observer)?.0)
     }
 
-    /// The runs of a test, and whether all came to their end.
+    /// The runs of a test, and whether all were completed.
     fn run_cases(
         &self,
         checked: &Checked,
@@ -95,15 +95,15 @@ mod tests {
     const TEXT: &str = "circuit f(a) -> (q) { q = not a }\nswarm one { circuit: f }\nswarm two { circuit: f }\n\
                         test f {\n a | q\n 0 | 1 for 3 cycles\n}\nsimulate one with schedule (a) { 0 for 3 cycles }\n";
 
-    /// Notes all that it is told, and stops the work after so many steps.
-    struct Notes {
+    /// Records all that it is told, and stops the work after so many steps.
+    struct RecordingObserver {
         told: Vec<(u64, u64)>,
         parts: Vec<(usize, usize)>,
         most: usize,
         cancel: CancelFlag,
     }
 
-    impl Observer for Notes {
+    impl Observer for RecordingObserver {
         fn begin(&mut self, part: usize, parts: usize) {
             self.parts.push((part, parts));
         }
@@ -120,12 +120,12 @@ mod tests {
         }
     }
 
-    fn check(most: usize) -> (Notes, RunReport) {
+    fn check(most: usize) -> (RecordingObserver, RunReport) {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", TEXT);
         let mut session = Session::new(world);
         let checked = session.checked("a.nb");
-        let mut notes = Notes { told: Vec::new(), parts: Vec::new(), most, cancel: CancelFlag::default() };
+        let mut notes = RecordingObserver { told: Vec::new(), parts: Vec::new(), most, cancel: CancelFlag::default() };
         let list = RunList::all(&checked.program);
         let report = session.run_list(&checked, &list, &TestOptions::default(), &mut notes).unwrap();
         (notes, report)

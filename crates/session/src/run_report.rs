@@ -1,4 +1,4 @@
-//! What is to be run, and what came of it.
+//! A list of tests and simulations, and the results of running it.
 
 use nbc_base::model::{CircuitTest, Program, Simulation};
 
@@ -6,7 +6,7 @@ use crate::report;
 use crate::simulation::SimulationRun;
 use crate::test::TestRun;
 
-/// What is to be run, in this order.
+/// Tests and simulations to run, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct RunList<'a> {
     /// The tests.
@@ -32,7 +32,8 @@ impl<'a> RunList<'a> {
     }
 }
 
-/// The results of tests and simulations. One that was cancelled has what was done before, and says so in its `end`.
+/// The results of tests and simulations. One that was cancelled has the results up to then, and its `end` is
+/// [`RunEnd::Cancelled`](crate::RunEnd::Cancelled).
 #[derive(Clone, Debug, Default)]
 pub struct RunReport {
     /// The tests in order, each once for each swarm of its circuit.

@@ -8,8 +8,8 @@ use nbc_base::source::{SourceFile, Sources, Span};
 /// The most env steps of a schedule.
 const MAX_STEPS: u64 = 10_000_000;
 
-/// Reads a schedule of two stimuli: entries parted by blanks, each two stimulus bits, `*`, and cycles or env steps.
-/// `name` is what the text is called in messages.
+/// Reads a schedule of two stimuli: entries with blanks between them, each of two stimulus bits, `*`, and a number of
+/// cycles or env steps. Messages call the text `name`.
 ///
 /// # Errors
 /// A diagnostic for each entry that is wrong, at its place.
@@ -86,9 +86,9 @@ mod tests {
     use nbc_base::source::Sources;
 
     /// A fault's message and the text at its place.
-    type Told = (String, String);
+    type FaultAtPlace = (String, String);
 
-    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<Told>> {
+    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
         let mut sources = Sources::default();
         let id = sources.add("--schedule", text);
         let told = |spell: Spell| (spell.pattern.to_string(), spell.steps);

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
-use crate::robots::Supply;
+use crate::robots::RobotSources;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
@@ -25,12 +25,13 @@ use nbc_swarm::{Level, LiveSwarm, Room};
 pub struct Session {
     documents: Documents,
     physics: Physics,
-    /// The robots in the program, once they have been asked for.
+    /// The built-in robots, which are read at their first use.
     shipped: OnceLock<Library>,
 }
 
 impl Session {
-    /// The cycles for which a swarm has ground, even if a robot walks its own width in each.
+    /// The length of the ground of [`Session::swarm`]: enough for a robot that moves by its own width in each of this
+    /// many cycles.
     pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
 
     /// A session over the sources of a world.
@@ -44,14 +45,14 @@ impl Session {
         self
     }
 
-    /// The same session, with a recording of the poses of its swarms, as far as there is room.
+    /// The same session, which also records the poses of its swarms. `room` limits the size of a recording.
     pub fn with_poses(mut self, room: Room) -> Self {
         self.physics.poses = Some(room);
         self
     }
 
-    /// Gives the source at `path` another text than the world has, as an editor does. A text of an older revision than
-    /// the last is ignored.
+    /// Sets the text of the source at `path`, which hides the file of the world. A text with a lower revision than the
+    /// last one is ignored.
     pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
         self.documents.update(path, revision, text);
     }
@@ -73,8 +74,8 @@ impl Session {
         self.documents.is_known(path)
     }
 
-    /// The files and folders that the source at `path` depends on, as far as it was checked: itself, files that it
-    /// uses, and folders of robots, also those that are missing.
+    /// The files and folders that the last check of the source at `path` read or looked for: the source itself, files
+    /// that it uses, and folders of robots.
     pub fn dependencies(&self, path: &str) -> Vec<String> {
         self.documents.asked(path).map(str::to_owned).collect()
     }
@@ -120,13 +121,13 @@ impl Session {
         library: Option<&str>,
         options: &CompileOptions,
     ) -> Result<Library, Diagnostics> {
-        let robots = plan::robots(self.supply(checked), &checked.program, library, options);
+        let robots = plan::robots(self.sources(checked), &checked.program, library, options);
         let robots = robots.map_err(|faults| checked.fail(faults))?;
         Ok(nbc_swarm::prefer(robots, options.objective))
     }
 
-    fn supply<'a>(&'a self, checked: &'a Checked) -> Supply<'a> {
-        Supply { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
+    fn sources<'a>(&'a self, checked: &'a Checked) -> RobotSources<'a> {
+        RobotSources { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
     }
 
     /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
@@ -134,7 +135,7 @@ impl Session {
     /// # Errors
     /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let mapping = compile::map(&checked.program, &plan, &options.mapping(), checked.place(circuit));
         mapping.map_err(|faults| checked.fail(faults))
@@ -151,13 +152,13 @@ impl Session {
         net: Span,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
-        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
         let mapping = compile::map_net(&checked.program, &plan, net, options.mapping());
         mapping.map_err(|faults| checked.fail(faults))
     }
 
-    /// Elaborates a circuit, maps it onto cells that need not be of robots, and proves the result.
+    /// Elaborates a circuit, maps it onto these cells, which need not be robots, and proves the result.
     ///
     /// # Errors
     /// When the circuit cannot be built, or a function is missing among the cells.
@@ -184,7 +185,7 @@ impl Session {
         circuit: &Instance,
         options: &CompileOptions,
     ) -> Result<Compiled, Diagnostics> {
-        let plan = plan::plan(self.supply(checked), &checked.program, circuit, options);
+        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let compiled =
             plan.and_then(|plan| compile::compile(&checked.program, plan, &options.mapping(), checked.place(circuit)));
         compiled.map_err(|faults| checked.fail(faults))
@@ -201,7 +202,7 @@ impl Session {
         test: &'a CircuitTest,
         options: &TestOptions,
     ) -> Result<Vec<TestCase<'a>>, Diagnostics> {
-        test::cases(self.supply(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
+        test::cases(self.sources(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
     }
 
     /// Runs one case of a test.
@@ -220,7 +221,7 @@ impl Session {
         options: &CompileOptions,
         observer: &mut dyn Observer,
     ) -> Result<SimulationRun, Diagnostics> {
-        let compiled = simulation::compiled(self.supply(checked), &checked.program, simulation, options);
+        let compiled = simulation::compiled(self.sources(checked), &checked.program, simulation, options);
         let compiled = compiled.map_err(|faults| checked.fail(faults))?;
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }

@@ -1,10 +1,10 @@
-//! Simulations: a declared swarm under a schedule of its inputs, without a demand on its outputs.
+//! Simulations: a declared swarm under a schedule of its inputs, without expected outputs.
 
 use crate::compile::{self, Compiled};
 use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan;
-use crate::robots::Supply;
+use crate::robots::RobotSources;
 use crate::swarm_run::{Physics, RunEnd, SwarmRun};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Program, Simulation};
@@ -31,13 +31,13 @@ pub struct SimulationRun {
 /// # Panics
 /// When the simulation is of another program.
 pub(super) fn compiled(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     simulation: &Simulation,
     options: &CompileOptions,
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let swarm = program.swarm(&simulation.swarm).expect("a simulation names a swarm of its program");
-    let mut plan = plan::of_swarm(supply, program, &swarm.circuit, Some(swarm), options)?;
+    let mut plan = plan::of_swarm(sources, program, &swarm.circuit, Some(swarm), options)?;
     plan.world = simulation.world.unwrap_or(plan.world);
     compile::compile(program, plan, &options.mapping(), simulation.span)
 }

@@ -5,7 +5,8 @@ use crate::observer::Observer;
 use nbc_sim::Simulator;
 use nbc_swarm::{LiveSwarm, Room, SwarmTrace};
 
-/// The cycles for which a live swarm has ground, even if a robot walks its own width in each.
+/// The length of the ground of a live swarm: enough for a robot that moves by its own width in each of this many
+/// cycles.
 pub(super) const LIVE_CYCLES: usize = 1000;
 
 /// A swarm with its trace.
@@ -13,7 +14,7 @@ pub(super) const LIVE_CYCLES: usize = 1000;
 pub struct SwarmRun {
     /// The circuit, compiled.
     pub compiled: Compiled,
-    /// What each robot showed in each cycle.
+    /// The bits and the path of each robot.
     pub trace: SwarmTrace,
 }
 
@@ -52,13 +53,13 @@ impl Physics {
     }
 }
 
-/// Runs a swarm on with these input bits in each cycle.
+/// Continues a swarm with these input bits in each cycle.
 pub(super) fn run(swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
     run_until(swarm, inputs, &mut |_| false, observer)
 }
 
-/// Runs a swarm on with these input bits in each cycle, to the end of the first after which `is_enough` says that its
-/// trace is.
+/// Continues a swarm with these input bits in each cycle. Stops after the first cycle for whose trace `is_enough` is
+/// true.
 pub(super) fn run_until(
     mut swarm: LiveSwarm,
     inputs: &[Vec<bool>],

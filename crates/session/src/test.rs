@@ -5,14 +5,14 @@ use crate::hold;
 use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan::plans;
-use crate::robots::Supply;
+use crate::robots::RobotSources;
 use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
-use nbc_swarm::{Demand, Level, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
+use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
 
 /// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
@@ -67,7 +67,7 @@ enum Subject {
 /// # Errors
 /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
 pub(super) fn cases<'a>(
-    supply: Supply<'_>,
+    sources: RobotSources<'_>,
     program: &Program,
     test: &'a CircuitTest,
     options: &TestOptions,
@@ -80,7 +80,7 @@ pub(super) fn cases<'a>(
         return Ok(vec![case(Subject::Gates(netlist))]);
     }
     let mut cases = Vec::new();
-    for mut plan in plans(supply, program, &test.circuit, &options.compile)? {
+    for mut plan in plans(sources, program, &test.circuit, &options.compile)? {
         plan.world = test.world.unwrap_or(plan.world);
         let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
@@ -93,9 +93,9 @@ pub(super) fn cases<'a>(
                 TestTiming::Waves
             }
             None => {
-                let demands = hold::demands(&rows, &netlist, &compiled);
-                compiled.warnings.extend(short_holds(program, test, &rows, &demands, &compiled));
-                TestTiming::Holds(demands)
+                let row_holds = hold::row_holds(&rows, &netlist, &compiled);
+                compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
+                TestTiming::Holds(row_holds)
             }
         };
         cases.push(TestCase { subject: Subject::Robots(Box::new(compiled), timing), ..one });
@@ -108,7 +108,7 @@ fn short_holds(
     program: &Program,
     test: &CircuitTest,
     own: &[TestRow],
-    demands: &[Demand],
+    row_holds: &[RowHold],
     compiled: &Compiled,
 ) -> Vec<Diagnostic> {
     let sufficient = || {
@@ -117,7 +117,7 @@ fn short_holds(
         let cycles = others.map(|rows| hold::sufficient(&rows, compiled));
         cycles.fold(hold::sufficient(own, compiled), usize::max)
     };
-    hold::warnings(test, own, demands, compiled, sufficient)
+    hold::warnings(test, own, row_holds, compiled, sufficient)
 }
 
 impl TestRun {
@@ -146,9 +146,9 @@ impl TestCase<'_> {
     }
 
     /// The hold of each row in physics; empty at the level of logic, and for wave machines.
-    pub fn demands(&self) -> &[Demand] {
+    pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
-            Subject::Robots(_, TestTiming::Holds(demands)) => demands,
+            Subject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
             Subject::Robots(_, TestTiming::Waves) | Subject::Gates(_) => &[],
         }
     }

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use crate::compile::Compiled;
 use nbc_base::model::{CircuitTest, TestRow};
-use nbc_swarm::{Demand, RowVerdict, SwarmTrace, WaveTest};
+use nbc_swarm::{RowHold, RowVerdict, SwarmTrace, WaveTest};
 
 /// When the rows of a test begin and end.
 #[derive(Clone, Debug)]
 pub(super) enum TestTiming {
     /// Rows one after the other, each with its hold.
-    Holds(Vec<Demand>),
+    Holds(Vec<RowHold>),
     /// Steps of a wave machine.
     Waves,
 }
@@ -33,7 +33,7 @@ impl<'a> TimedTest<'a> {
     /// The cycles through the first `rows` rows.
     pub fn cycles(self, rows: usize) -> usize {
         match self.timing {
-            TestTiming::Holds(demands) => demands.iter().take(rows).map(|demand| demand.hold).sum(),
+            TestTiming::Holds(row_holds) => row_holds.iter().take(rows).map(|row_hold| row_hold.hold).sum(),
             TestTiming::Waves => self.waves(self.rows).machine.cycles(rows),
         }
     }
@@ -41,9 +41,9 @@ impl<'a> TimedTest<'a> {
     /// The input bits of each cycle through the first `rows` rows.
     pub fn inputs(self, rows: usize) -> Vec<Vec<bool>> {
         match self.timing {
-            TestTiming::Holds(demands) => {
-                let held = self.rows.iter().zip(demands).take(rows);
-                held.flat_map(|(row, demand)| std::iter::repeat_n(row.inputs.clone(), demand.hold)).collect()
+            TestTiming::Holds(row_holds) => {
+                let held = self.rows.iter().zip(row_holds).take(rows);
+                held.flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold)).collect()
             }
             TestTiming::Waves => {
                 let WaveTest { rows: steps, machine, .. } = self.waves(&self.rows[..rows]);
@@ -57,8 +57,8 @@ impl<'a> TimedTest<'a> {
     /// The verdict on each row of which a trace has the results.
     pub fn judge(self, trace: &SwarmTrace) -> Vec<RowVerdict> {
         match self.timing {
-            TestTiming::Holds(demands) => {
-                nbc_swarm::judge_swarm(self.test, self.rows, demands, trace, &self.compiled.clocks())
+            TestTiming::Holds(row_holds) => {
+                nbc_swarm::judge_swarm(self.test, self.rows, row_holds, trace, &self.compiled.clocks())
             }
             TestTiming::Waves => self.waves(self.rows).judge(trace),
         }
@@ -67,15 +67,15 @@ impl<'a> TimedTest<'a> {
     /// Whether a row has failed whose last result is that of a trace's last cycle; to be asked after each cycle.
     pub fn has_failed(self) -> Box<dyn FnMut(&SwarmTrace) -> bool + 'a> {
         match self.timing {
-            TestTiming::Holds(demands) => {
-                let ends = demands.iter().scan(0, |end, demand| {
-                    *end += demand.hold;
+            TestTiming::Holds(row_holds) => {
+                let ends = row_holds.iter().scan(0, |end, row_hold| {
+                    *end += row_hold.hold;
                     Some(*end)
                 });
-                let mut left = ends.zip(self.rows.iter().zip(demands)).peekable();
+                let mut left = ends.zip(self.rows.iter().zip(row_holds)).peekable();
                 Box::new(move |trace| {
                     let row = left.next_if(|(end, _)| *end == trace.cycles.len());
-                    row.is_some_and(|(_, (row, demand))| !nbc_swarm::passes(self.test, row, demand, trace))
+                    row.is_some_and(|(_, (row, row_hold))| !nbc_swarm::passes(self.test, row, row_hold, trace))
                 })
             }
             TestTiming::Waves => {

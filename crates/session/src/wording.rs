@@ -1,4 +1,4 @@
-//! What can be wrong with compiling and running a program without errors, as data, and how it is worded.
+//! Errors and warnings of compiling and running a program that has no errors itself, and their messages.
 
 use crate::report;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};

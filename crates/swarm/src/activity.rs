@@ -1,4 +1,4 @@
-//! The activity of a swarm's outputs in a simulation, which has no expected outputs.
+//! The activity of a swarm's outputs in a simulation. Simulations have no expected outputs.
 
 use serde::Serialize;
 

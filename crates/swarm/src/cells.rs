@@ -3,8 +3,8 @@
 use nbc_base::model::{Character, Function, Library, Pattern, Robot};
 use nbc_circuit::{CellKind, CellLibrary, MappingObjective};
 
-/// A library in which the robots that an objective prefers come first: those with the shortest clocks for the delay,
-/// and those with the widest margins for the margin. For the area all are equal, and the order stays.
+/// The library with the robots first that suit the objective: those with the shortest clocks for the delay, those with
+/// the widest margins for the margin. For the area, the order stays.
 pub fn prefer(library: Library, objective: MappingObjective) -> Library {
     let mut robots = library.robots;
     let faster = |a: &Character, b: &Character| a.clock.cmp(&b.clock);

@@ -1,4 +1,4 @@
-//! One evaluation as plain data: what it depends on and what comes out, wherever it is made.
+//! The input and the result of an evaluation as plain data, so that it can be done on any machine.
 
 use crate::evolve::{CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
@@ -14,9 +14,9 @@ pub struct EvaluationProtocol {
     pub variable: Schedule,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
-    /// The world of all simulations but those in others.
+    /// The world of all simulations but those in `others`.
     pub world: PhysicsWorld,
-    /// Worlds in which the gate objective tries bodies again.
+    /// Further worlds in which the gate objective evaluates bodies.
     pub others: Vec<PhysicsWorld>,
 }
 
@@ -35,7 +35,7 @@ pub(super) fn setting(world: &PhysicsWorld) -> Setting {
 pub struct EvaluationTask {
     /// Its voxels.
     pub body: Body,
-    /// What it must beat. An evaluation ends early when it cannot.
+    /// The elites that it must beat. An evaluation ends early when the body cannot beat them.
     pub rivals: Rivals,
 }
 

@@ -1,9 +1,9 @@
-//! Who does tasks: the simulator of this program, or workers elsewhere.
+//! The interface to what does tasks: the simulator of this program, or workers on other machines.
 
 use crate::{SwarmBits, Task, TaskResult, evaluate_tasks, measure, screen};
 use nbc_sim::Simulator;
 
-/// Does tasks. The results depend on the tasks alone, not on where they are done. Any thread can hand in tasks.
+/// Does tasks. The results depend on the tasks alone, not on the machine. Any thread can call it.
 pub trait Executor: Sync {
     /// The result of each task, which is of the task's kind; `None` if the work was stopped. Calls `observe` after each
     /// task. `run` is the number of a series of calls, such as those of an evolution run; calls at the same time have

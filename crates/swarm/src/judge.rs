@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::assemble::start_cycles;
-use crate::{Lapse, RowVerdict, SwarmTrace};
+use crate::{RowVerdict, SwarmTrace, WrongOutput};
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_circuit::{Logic, Netlist};
 
@@ -12,7 +12,7 @@ pub const STEADY_CYCLES: usize = 2;
 
 /// The hold of a test's row, and what is known of its outputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Demand {
+pub struct RowHold {
     /// Cycles for which the row is held.
     pub hold: usize,
     /// Cycles for which `hold: auto` would hold it.
@@ -43,7 +43,7 @@ pub(super) fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], ste
         cycles: None,
         needed: None,
         passed: row.expected.iter().zip(outputs).zip(steady).all(meets),
-        lapses: Vec::new(),
+        wrong_outputs: Vec::new(),
         late: Vec::new(),
     }
 }
@@ -78,9 +78,9 @@ fn rests(logic: &mut Logic, row: &TestRow) -> Vec<bool> {
 ///
 /// # Panics
 /// When the trace is shorter than the row.
-pub fn passes(test: &CircuitTest, row: &TestRow, demand: &Demand, trace: &SwarmTrace) -> bool {
+pub fn passes(test: &CircuitTest, row: &TestRow, row_hold: &RowHold, trace: &SwarmTrace) -> bool {
     let end = trace.cycles.len();
-    let steady = steady_outputs(trace, &(end - demand.hold..end), demand);
+    let steady = steady_outputs(trace, &(end - row_hold.hold..end), row_hold);
     judge_row(test, row, &trace.cycles[end - 1].outputs, &steady).passed
 }
 
@@ -92,49 +92,49 @@ pub fn passes(test: &CircuitTest, row: &TestRow, demand: &Demand, trace: &SwarmT
 pub fn judge_swarm(
     test: &CircuitTest,
     rows: &[TestRow],
-    demands: &[Demand],
+    row_holds: &[RowHold],
     trace: &SwarmTrace,
     clocks: &[u32],
 ) -> Vec<RowVerdict> {
     let mut start = 0;
-    let judge = |(row, demand): (&TestRow, &Demand)| {
-        let cycles = start..start + demand.hold;
+    let judge = |(row, row_hold): (&TestRow, &RowHold)| {
+        let cycles = start..start + row_hold.hold;
         start = cycles.end;
         if cycles.end > trace.cycles.len() {
             return None;
         }
         let last = &trace.cycles[cycles.end - 1];
-        let steady = steady_outputs(trace, &cycles, demand);
+        let steady = steady_outputs(trace, &cycles, row_hold);
         let verdict = judge_row(test, row, &last.outputs, &steady);
         let mut wrong = if verdict.passed { Vec::new() } else { wrong(trace, cycles.clone(), clocks) };
-        let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(lapse, _)| lapse);
-        let late = late.filter(|lapse| lapse.cycle + 1 == cycles.end).collect();
-        let lapses = wrong.into_iter().map(|(lapse, _)| lapse).collect();
-        Some(RowVerdict { cycles: Some(demand.hold), needed: Some(demand.needed), lapses, late, ..verdict })
+        let late = wrong.extract_if(.., |(_, settled)| !*settled).map(|(wrong, _)| wrong);
+        let late = late.filter(|wrong| wrong.cycle + 1 == cycles.end).collect();
+        let wrong_outputs = wrong.into_iter().map(|(wrong, _)| wrong).collect();
+        Some(RowVerdict { cycles: Some(row_hold.hold), needed: Some(row_hold.needed), wrong_outputs, late, ..verdict })
     };
-    rows.iter().zip(demands).map_while(judge).collect()
+    rows.iter().zip(row_holds).map_while(judge).collect()
 }
 
 /// Which outputs had one value over the last cycles of a row, and not by chance.
-fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>, demand: &Demand) -> Vec<bool> {
+fn steady_outputs(trace: &SwarmTrace, cycles: &Range<usize>, row_hold: &RowHold) -> Vec<bool> {
     let last = &trace.cycles[cycles.end - 1].outputs;
     let end = &trace.cycles[cycles.end.saturating_sub(STEADY_CYCLES).max(cycles.start)..cycles.end];
     let had_one_value = |bit: usize| end.iter().all(|cycle| cycle.outputs[bit] == last[bit]);
-    demand.rests.iter().enumerate().map(|(bit, &rests)| rests && had_one_value(bit)).collect()
+    row_hold.rests.iter().enumerate().map(|(bit, &rests)| rests && had_one_value(bit)).collect()
 }
 
 /// The robots that were wrong in these cycles, in order of cycles, and whether their stimuli had been stable long
 /// enough.
-fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Lapse, bool)> {
+fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(WrongOutput, bool)> {
     let start = start_cycles(clocks.iter().copied());
     let robots = || trace.robots.iter().zip(clocks).enumerate();
     let of_cycle = |cycle: usize| {
         robots().filter_map(move |(k, (robot, &clock))| {
             let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
             let (net, name) = (robot.net.clone(), robot.robot.clone());
-            let lapse = || Lapse { net, robot: name, cycle, sensed, output };
+            let wrong = || WrongOutput { net, robot: name, cycle, sensed, output };
             let settled = || cycle + 1 >= start && is_settled(trace, cycle, k, clock as usize);
-            (output != robot.function.output(sensed[0], sensed[1])).then(|| (lapse(), settled()))
+            (output != robot.function.output(sensed[0], sensed[1])).then(|| (wrong(), settled()))
         })
     };
     cycles.flat_map(of_cycle).collect()
@@ -225,9 +225,9 @@ mod tests {
     }
 
     fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> RowVerdict {
-        let demand = Demand { hold: cycles.len(), needed: 4, rests: vec![true] };
+        let row_hold = RowHold { hold: cycles.len(), needed: 4, rests: vec![true] };
         let row = row(cycles[0].0, expected);
-        judge_swarm(&test(), &[row], &[demand], &inverter(cycles), &[clock]).remove(0)
+        judge_swarm(&test(), &[row], &[row_hold], &inverter(cycles), &[clock]).remove(0)
     }
 
     #[test]
@@ -250,7 +250,7 @@ mod tests {
     fn check(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32, passed: bool, wrong_cycles: &[usize]) {
         let verdict = judged(cycles, expected, clock);
         assert_eq!(verdict.passed, passed);
-        let found: Vec<usize> = verdict.lapses.iter().map(|lapse| lapse.cycle).collect();
+        let found: Vec<usize> = verdict.wrong_outputs.iter().map(|wrong| wrong.cycle).collect();
         assert_eq!(found, wrong_cycles);
     }
 
@@ -264,9 +264,9 @@ mod tests {
     fn an_output_that_keeps_changing_fails_even_if_it_had_one_value_for_a_while() {
         let (row, trace) = (row(true, Some(false)), inverter(&[(true, false); 3]));
         let passed = |rests: bool| {
-            let demand = Demand { hold: 3, needed: 3, rests: vec![rests] };
-            let passed = passes(&test(), &row, &demand, &trace);
-            assert_eq!(judge_swarm(&test(), std::slice::from_ref(&row), &[demand], &trace, &[1])[0].passed, passed);
+            let row_hold = RowHold { hold: 3, needed: 3, rests: vec![rests] };
+            let passed = passes(&test(), &row, &row_hold, &trace);
+            assert_eq!(judge_swarm(&test(), std::slice::from_ref(&row), &[row_hold], &trace, &[1])[0].passed, passed);
             passed
         };
         assert!(passed(true) && !passed(false));

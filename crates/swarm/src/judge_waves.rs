@@ -1,7 +1,7 @@
 //! Judges whether a wave machine passes a test: each row in each of its threads.
 
 use crate::judge::judge_row;
-use crate::{Lapse, RowVerdict, SwarmTrace};
+use crate::{RowVerdict, SwarmTrace, WrongOutput};
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_circuit::NetId;
 use nbc_circuit::waves::{Reading, WaveMachine};
@@ -35,12 +35,12 @@ impl WaveTest<'_> {
         };
         let outputs = outputs.map(value).collect::<Option<Vec<bool>>>()?;
         let verdict = judge_row(self.test, &self.rows[row], &outputs, &vec![true; outputs.len()]);
-        let lapses = match (verdict.passed, self.last_cycle(row, thread)) {
-            (false, Some(last)) => self.lapses(trace, last, thread),
+        let wrong_outputs = match (verdict.passed, self.last_cycle(row, thread)) {
+            (false, Some(last)) => self.wrong_outputs(trace, last, thread),
             _ => Vec::new(),
         };
         let cycles = Some(machine.cycles_per_step());
-        Some(RowVerdict { thread: Some(thread), cycles, needed: cycles, lapses, ..verdict })
+        Some(RowVerdict { thread: Some(thread), cycles, needed: cycles, wrong_outputs, ..verdict })
     }
 
     /// The last cycle at whose end an output shows the result of a row in a thread; none if all show start values.
@@ -54,7 +54,7 @@ impl WaveTest<'_> {
     }
 
     /// The robots that were wrong in the step of a thread whose last output is read in a cycle.
-    fn lapses(&self, trace: &SwarmTrace, last: usize, thread: usize) -> Vec<Lapse> {
+    fn wrong_outputs(&self, trace: &SwarmTrace, last: usize, thread: usize) -> Vec<WrongOutput> {
         let machine = self.machine;
         let cells: Vec<NetId> = machine.netlist.cells().map(|(id, _)| id).collect();
         let first = (last + 1).saturating_sub(machine.cycles_per_step());
@@ -64,7 +64,7 @@ impl WaveTest<'_> {
             let robot = &trace.robots[k];
             let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
             let is_wrong = output != robot.function.output(sensed[0], sensed[1]);
-            (is_wrong && machine.thread_at(cells[k], cycle) == thread).then(|| Lapse {
+            (is_wrong && machine.thread_at(cells[k], cycle) == thread).then(|| WrongOutput {
                 net: robot.net.clone(),
                 robot: robot.robot.clone(),
                 cycle,

@@ -1,5 +1,5 @@
-//! What goes wrong for a robot in a world with noise (docs/physics.md 15). Everything is drawn from a stream of its own
-//! for each robot, so it depends on the world and the robot's number only.
+//! The noise of a world for each robot (docs/physics.md 15). Each robot has a random stream of its own, so its noise
+//! depends only on the world and the robot's number.
 
 use std::sync::Arc;
 
@@ -20,9 +20,9 @@ pub(crate) struct RobotNoise<'a> {
     robot: u64,
 }
 
-/// What is drawn; each has its own stream.
+/// The kinds of random noise; each has its own stream.
 #[derive(Clone, Copy)]
-enum Draw {
+enum NoiseKind {
     Start,
     Missed,
     Dead,
@@ -34,23 +34,27 @@ impl<'a> RobotNoise<'a> {
         Self { noise, robot: robot as u64 }
     }
 
-    fn rng(self, draw: Draw) -> ChaCha8Rng {
+    fn rng(self, kind: NoiseKind) -> ChaCha8Rng {
         let mut rng = ChaCha8Rng::seed_from_u64(self.noise.seed);
-        rng.set_stream(self.robot * 4 + draw as u64);
+        rng.set_stream(self.robot * 4 + kind as u64);
         rng
     }
 
     /// Voxels by which it starts to the right of its place.
     pub(crate) fn shift(self) -> f64 {
-        if self.noise.start > 0.0 { self.noise.start * (2.0 * unit(&mut self.rng(Draw::Start)) - 1.0) } else { 0.0 }
+        if self.noise.start > 0.0 {
+            self.noise.start * (2.0 * unit(&mut self.rng(NoiseKind::Start)) - 1.0)
+        } else {
+            0.0
+        }
     }
 
-    /// Whether it misses its stimuli in a cycle. There is nothing to keep in the first.
+    /// Whether the robot misses its stimuli in a cycle and keeps those of the cycle before. It never misses the first.
     pub(crate) fn misses(self, cycle: usize) -> bool {
         if self.noise.missed <= 0.0 || cycle == 0 {
             return false;
         }
-        let mut rng = self.rng(Draw::Missed);
+        let mut rng = self.rng(NoiseKind::Missed);
         // A number takes two words of the stream.
         rng.set_word_pos(2 * cycle as u128);
         unit(&mut rng) < self.noise.missed
@@ -83,7 +87,7 @@ impl<'a> RobotNoise<'a> {
         }
         let mut materials: Vec<Material> = body.palette().materials().iter().map(|own| weakened(own, weak)).collect();
         let mut codes = body.codes().to_vec();
-        let mut rng = self.rng(Draw::Dead);
+        let mut rng = self.rng(NoiseKind::Dead);
         // A palette without room for another material has no dead voxels.
         let code = (materials.len() < Palette::MAX_MATERIALS).then_some(materials.len() as u8 + 1);
         for voxel in codes.iter_mut().filter(|voxel| is_active(body, **voxel)) {

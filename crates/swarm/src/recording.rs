@@ -4,7 +4,7 @@
 use nbc_base::model::CYCLE_STEPS;
 use nbc_sim::Flock;
 
-/// How large a recording may be.
+/// The limit of the size of a recording, and the choice of its frame rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Room {
     /// The most bytes, so that a page with a few recordings stays below five megabytes.
@@ -14,11 +14,11 @@ pub struct Room {
 }
 
 impl Room {
-    /// For a swarm: better a jerky film than one without all robots.
+    /// For a swarm: all robots, if necessary with few frames.
     pub const SWARM: Self = Self { bytes: 1_500_000, strides: &[7, 12, 21, 42, 84] };
-    /// For a swarm that is watched while it runs: all robots, smooth; the recording is taken away cycle by cycle.
+    /// For a swarm that is shown while it runs: all robots with many frames. The recording is emptied in every cycle.
     pub const LIVE: Self = Self { bytes: usize::MAX, strides: &[7] };
-    /// For gaits of elites: some smooth ones are better than many jerky ones.
+    /// For gaits of elites: as many as fit with many frames.
     pub const GAITS: Self = Self { bytes: 2_400_000, strides: &[7, 12, 14] };
 
     /// The stride, and the number of robots, for which there is room; `points` are those of each robot.

@@ -32,7 +32,7 @@ pub struct WorldTrial {
     pub failed: Option<(usize, usize)>,
     /// The robot that failed first; `None` if the test passed, or if each robot did what its stimuli require, but some
     /// had missed theirs or had no time.
-    pub culprit: Option<RobotMargin>,
+    pub first_failing: Option<RobotMargin>,
     /// The smallest margin.
     pub least: Option<RobotMargin>,
 }
@@ -57,8 +57,8 @@ impl WorldTrial {
         let wrong = || margins.iter().filter(|(cycle, _, margin)| *margin <= 0.0 && *cycle < end);
         // An error in an earlier row may show up late, as a wrong bit that was stored.
         let first = wrong().find(|(cycle, ..)| *cycle >= start).or_else(|| wrong().next_back());
-        let culprit = failed.and(first).map(named);
-        Self { world, failed: failed.map(|row| (row.row, row.line)), culprit, least }
+        let first_failing = failed.and(first).map(named);
+        Self { world, failed: failed.map(|row| (row.row, row.line)), first_failing, least }
     }
 }
 
@@ -85,7 +85,7 @@ pub struct Robustness {
     #[serde(rename = "yield")]
     pub passed: Proportion,
     /// The robots that fail first, those of most worlds first.
-    pub fails_first: Vec<Culprit>,
+    pub fails_first: Vec<FailingRobot>,
     /// The smallest margin in the worlds in which the test passes, with the number of its world.
     pub least: Option<WorldMargin>,
     /// The worlds in which the test fails.
@@ -94,7 +94,7 @@ pub struct Robustness {
 
 /// A robot that fails first in some worlds.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Culprit {
+pub struct FailingRobot {
     /// The net that the robot drives.
     pub net: String,
     /// The robot's name in its library.
@@ -139,7 +139,7 @@ impl Robustness {
         let numbered = || trials.iter().enumerate();
         let failure = |(world, trial): (usize, &WorldTrial)| {
             let (row, line) = trial.failed?;
-            Some(WorldFailure { world, physics: trial.world, row, line, first: trial.culprit.clone() })
+            Some(WorldFailure { world, physics: trial.world, row, line, first: trial.first_failing.clone() })
         };
         let margin = |(world, trial): (usize, &WorldTrial)| {
             let margin = trial.least.clone().filter(|_| trial.failed.is_none())?;
@@ -156,24 +156,24 @@ impl Robustness {
             variation,
             scale,
             passed: Proportion { successes: trials.len() - failures.len(), attempts: trials.len() },
-            fails_first: culprits(&failures),
+            fails_first: failing_robots(&failures),
             least: numbered().filter_map(margin).min_by(|a, b| a.margin.margin.total_cmp(&b.margin.margin)),
             failures,
         }
     }
 }
 
-fn culprits(failures: &[WorldFailure]) -> Vec<Culprit> {
+fn failing_robots(failures: &[WorldFailure]) -> Vec<FailingRobot> {
     let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
     for first in failures.iter().filter_map(|failure| failure.first.as_ref()) {
         *counts.entry((&first.net, &first.robot)).or_default() += 1;
     }
-    let culprit = |((net, robot), worlds): ((&str, &str), usize)| Culprit {
+    let failing = |((net, robot), worlds): ((&str, &str), usize)| FailingRobot {
         net: net.to_owned(),
         robot: robot.to_owned(),
         worlds,
     };
-    let mut culprits: Vec<Culprit> = counts.into_iter().map(culprit).collect();
-    culprits.sort_by_key(|culprit| Reverse(culprit.worlds));
-    culprits
+    let mut failing_robots: Vec<FailingRobot> = counts.into_iter().map(failing).collect();
+    failing_robots.sort_by_key(|robot| Reverse(robot.worlds));
+    failing_robots
 }

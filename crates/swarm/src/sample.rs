@@ -8,7 +8,7 @@ use nbc_base::model::{PhysicsWorld, Variation};
 /// A sample of worlds around one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldSample {
-    /// What varies, and how much.
+    /// The varied factors, each with its largest change.
     pub variation: Variation,
     /// The seed of all worlds.
     pub seed: u64,

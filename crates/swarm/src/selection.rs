@@ -25,7 +25,7 @@ pub struct Selection {
 
 /// An elite with its run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Nominee {
+pub struct RobotCandidate {
     /// The elite that is to become a robot.
     pub elite: Elite,
     /// Its run.
@@ -49,50 +49,53 @@ pub enum Selected {
 
 impl Selection {
     /// Chooses the elites to be screened: the fittest, each body once.
-    pub fn nominate(&self, mut nominees: Vec<Nominee>) -> Vec<Nominee> {
-        nominees.sort_by(|a, b| worth(&b.elite).total_cmp(&worth(&a.elite)));
-        let mut chosen: Vec<Nominee> = Vec::new();
-        for nominee in nominees {
-            if chosen.len() < self.tries && chosen.iter().all(|known| known.elite.body != nominee.elite.body) {
-                chosen.push(nominee);
+    pub fn candidates_of(&self, mut candidates: Vec<RobotCandidate>) -> Vec<RobotCandidate> {
+        candidates.sort_by(|a, b| worth(&b.elite).total_cmp(&worth(&a.elite)));
+        let mut chosen: Vec<RobotCandidate> = Vec::new();
+        for candidate in candidates {
+            if chosen.len() < self.tries && chosen.iter().all(|known| known.elite.body != candidate.elite.body) {
+                chosen.push(candidate);
             }
         }
         chosen
     }
 
-    /// The amount of work for this many nominees, in the unit reported by [`Selection::select`].
-    pub fn cost(&self, nominees: usize) -> u64 {
-        nominees as u64 + MEASUREMENT_COST * nominees.min(self.finalists) as u64
+    /// The amount of work for this many candidates, in the unit reported by [`Selection::select`].
+    pub fn cost(&self, candidates: usize) -> u64 {
+        candidates as u64 + MEASUREMENT_COST * candidates.min(self.finalists) as u64
     }
 
-    /// Screens the nominees, measures the best of them, and takes the best of those; reports the work done to
+    /// Screens the candidates, measures the best of them, and takes the best of those; reports the work done to
     /// `observe`. `None` if the work was stopped; `run` is the number that the executor asks for.
     pub fn select(
         &self,
         executor: &dyn Executor,
         run: usize,
         behavior: Behavior,
-        nominees: &[Nominee],
+        candidates: &[RobotCandidate],
         observe: &dyn Fn(u64),
     ) -> Option<Selected> {
-        let screening = |nominee: &Nominee| {
-            let body = nominee.elite.body.clone();
+        let screening = |candidate: &RobotCandidate| {
+            let body = candidate.elite.body.clone();
             Task::Screening { body, behavior, most: LONGEST_CLOCK }
         };
-        let screenings: Vec<Task> = nominees.iter().map(screening).collect();
+        let screenings: Vec<Task> = candidates.iter().map(screening).collect();
         let screened = executor.perform(run, &screenings, &|| observe(1))?;
-        let ranks = screened.into_iter().zip(nominees).map(|(result, nominee)| (Rank::of(result, nominee), nominee));
-        let mut ranked: Vec<(Rank, &Nominee)> = ranks.collect();
+        let ranks =
+            screened.into_iter().zip(candidates).map(|(result, candidate)| (Rank::of(result, candidate), candidate));
+        let mut ranked: Vec<(Rank, &RobotCandidate)> = ranks.collect();
         ranked.sort_by(|(a, _), (b, _)| a.compare(b));
-        let finalists: Vec<&Nominee> = ranked.into_iter().take(self.finalists).map(|(_, nominee)| nominee).collect();
+        let finalists: Vec<&RobotCandidate> =
+            ranked.into_iter().take(self.finalists).map(|(_, candidate)| candidate).collect();
         let measurements: Vec<Task> =
-            finalists.iter().map(|nominee| Task::Measurement(nominee.elite.body.clone())).collect();
+            finalists.iter().map(|candidate| Task::Measurement(candidate.elite.body.clone())).collect();
         let measured = executor.perform(run, &measurements, &|| observe(MEASUREMENT_COST))?;
-        let judged = measured.into_iter().zip(finalists).map(|(result, nominee)| self.judge(result, behavior, nominee));
+        let judged =
+            measured.into_iter().zip(finalists).map(|(result, candidate)| self.judge(result, behavior, candidate));
         Some(judged.min_by(Selected::compare).unwrap_or(Selected::Missing))
     }
 
-    fn judge(&self, result: TaskResult, behavior: Behavior, nominee: &Nominee) -> Selected {
+    fn judge(&self, result: TaskResult, behavior: Behavior, candidate: &RobotCandidate) -> Selected {
         let measurement = match result.measured() {
             Ok(measurement) => measurement,
             Err(fault) => return Selected::Faulty(fault),
@@ -100,7 +103,7 @@ impl Selection {
         if measurement.behavior != behavior {
             return Selected::Other(measurement.behavior);
         }
-        let robot = Box::new(robot(nominee, measurement));
+        let robot = Box::new(robot(candidate, measurement));
         if robot.character.error_rate <= self.max_error { Selected::Robot(robot) } else { Selected::Erring(robot) }
     }
 }
@@ -122,18 +125,18 @@ impl Selected {
     }
 }
 
-/// The result of a nominee in short sequences: its clock and margin, or its fitness if no clock was without errors.
+/// The result of a candidate in short sequences: its clock and margin, or its fitness if no clock was without errors.
 struct Rank {
     clock: u32,
     margin: f64,
 }
 
 impl Rank {
-    fn of(result: TaskResult, nominee: &Nominee) -> Self {
+    fn of(result: TaskResult, candidate: &RobotCandidate) -> Self {
         match result.screened() {
             Ok(Some((clock, margin))) => Self { clock, margin },
             // A fault or errors at every clock: ranked last.
-            Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&nominee.elite) },
+            Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&candidate.elite) },
         }
     }
 
@@ -147,17 +150,17 @@ fn worth(elite: &Elite) -> f64 {
     elite.fitness[0] + elite.fitness[1]
 }
 
-fn robot(nominee: &Nominee, measurement: Measurement) -> Robot {
+fn robot(candidate: &RobotCandidate, measurement: Measurement) -> Robot {
     let Measurement { displacement, behavior, character } = measurement;
-    let (body, function) = (&nominee.elite.body, behavior.function());
+    let (body, function) = (&candidate.elite.body, behavior.function());
     Robot {
         name: format!("{function}_{}x{}", body.width(), body.height()),
         behavior,
         body: body.clone(),
         displacement,
         character,
-        provenance: nominee.provenance.clone(),
-        genotype: Some(nominee.elite.genotype.clone()),
+        provenance: candidate.provenance.clone(),
+        genotype: Some(candidate.elite.genotype.clone()),
     }
 }
 
@@ -172,7 +175,7 @@ mod tests {
 
     const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };
 
-    fn nominee(rows: &[&str], fitness: f64) -> Nominee {
+    fn candidate(rows: &[&str], fitness: f64) -> RobotCandidate {
         let elite = Elite {
             fitness: [fitness, 0.0],
             behavior: "RRRR".parse().unwrap(),
@@ -183,7 +186,7 @@ mod tests {
             evaluations: 1,
         };
         let (program, version, evolution) = ("nbc".to_owned(), "0".to_owned(), "small".to_owned());
-        Nominee {
+        RobotCandidate {
             elite,
             provenance: Provenance { program, version, evolution, seed: 1, generation: 1, evaluations: 1 },
         }
@@ -191,19 +194,19 @@ mod tests {
 
     #[test]
     fn the_fittest_are_screened_each_body_once() {
-        let nominees = [(["33"], 1.0), (["34"], 3.0), (["34"], 2.0), (["43"], 2.5), (["44"], 0.5)];
-        let chosen = SELECTION.nominate(nominees.map(|(rows, fitness)| nominee(&rows, fitness)).to_vec());
-        let fitnesses: Vec<f64> = chosen.iter().map(|nominee| nominee.elite.fitness[0]).collect();
+        let candidates = [(["33"], 1.0), (["34"], 3.0), (["34"], 2.0), (["43"], 2.5), (["44"], 0.5)];
+        let chosen = SELECTION.candidates_of(candidates.map(|(rows, fitness)| candidate(&rows, fitness)).to_vec());
+        let fitnesses: Vec<f64> = chosen.iter().map(|candidate| candidate.elite.fitness[0]).collect();
         assert_eq!(fitnesses, [3.0, 2.5, 1.0]);
     }
 
     #[test]
     fn the_work_reported_is_the_work_announced() {
-        let nominees = [nominee(&["33"], 1.0), nominee(&["3"], 2.0), nominee(&["34"], 0.0)];
+        let candidates = [candidate(&["33"], 1.0), candidate(&["3"], 2.0), candidate(&["34"], 0.0)];
         let done = Cell::new(0);
         let observe = |more| done.set(done.get() + more);
-        SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &nominees, &observe);
-        assert_eq!(done.get(), SELECTION.cost(nominees.len()));
+        SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &candidates, &observe);
+        assert_eq!(done.get(), SELECTION.cost(candidates.len()));
         let found =
             SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
         assert_eq!((found, SELECTION.cost(0)), (Some(Selected::Missing), 0));
@@ -215,7 +218,7 @@ mod tests {
         let measured = measure(&Simulator::default(), &body).unwrap();
         let judge = |behavior, max_error| {
             let result = TaskResult::Measurement(Ok(measured.clone()));
-            Selection { max_error, ..SELECTION }.judge(result, behavior, &nominee(&["34"], 1.0))
+            Selection { max_error, ..SELECTION }.judge(result, behavior, &candidate(&["34"], 1.0))
         };
         let own = measured.behavior;
         assert!(matches!(judge(own, measured.character.error_rate), Selected::Robot(_)));

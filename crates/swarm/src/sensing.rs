@@ -1,4 +1,4 @@
-//! What the robots of a swarm sense of each other.
+//! The stimuli of the robots of a swarm, which follow from the outputs of other robots.
 
 use crate::noise::RobotNoise;
 use crate::{Assembly, SwarmTrace};
@@ -15,12 +15,12 @@ pub(super) struct Sensing {
     outputs: Vec<bool>,
     /// What each robot senses in the first cycles instead of its sources.
     held: Vec<[Vec<bool>; 2]>,
-    /// What goes wrong in their world.
+    /// The noise of their world.
     noise: WorldNoise,
 }
 
 impl Sensing {
-    /// Before the first cycle of a swarm.
+    /// The outputs before the first cycle of a swarm.
     pub fn of(assembly: &Assembly) -> Self {
         let outputs = assembly.members.iter().map(|member| member.start).collect();
         Self {

@@ -3,9 +3,9 @@
 use crate::{Assembly, LiveSwarm, Room, SwarmTrace};
 use nbc_sim::Simulator;
 
-/// The conditions of a simulation: inputs, schedule, and how motion is read.
+/// The conditions of a simulation: the inputs, and how motion is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Exposure {
+pub struct SwarmConditions {
     /// The input ports' bits in each cycle.
     pub inputs: Vec<Vec<bool>>,
     /// Cycles over which a displacement is measured; its sign is the output. The paper's is one.
@@ -14,17 +14,18 @@ pub struct Exposure {
     pub poses: Option<Room>,
 }
 
-/// Simulates a swarm in its world through an exposure, calling `observe` with the number of finished cycles after each.
+/// Simulates a swarm in its world under these conditions, calling `observe` with the number of finished cycles after
+/// each cycle.
 ///
 /// # Panics
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.
 pub fn simulate(
     simulator: &Simulator,
     assembly: &Assembly,
-    exposure: &Exposure,
+    conditions: &SwarmConditions,
     observe: &mut dyn FnMut(usize),
 ) -> SwarmTrace {
-    let Exposure { inputs, window, poses } = exposure;
+    let SwarmConditions { inputs, window, poses } = conditions;
     let mut swarm = LiveSwarm::new(simulator, assembly, inputs.len(), *window, *poses);
     for (cycle, inputs) in inputs.iter().enumerate() {
         swarm.step(inputs);

@@ -1,17 +1,17 @@
 //! The simulation of a swarm as plain data: bodies, wires and inputs go in, the robots' bits come out.
 
 use crate::sensing::Sensing;
-use crate::{Assembly, CycleTrace, Exposure, Member, StimulusSource, SwarmTrace, simulate};
+use crate::{Assembly, CycleTrace, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
 use nbc_base::model::{Behavior, Body, Character, Column, PhysicsWorld, Provenance, Robot};
 use nbc_sim::Simulator;
 
-/// A swarm to be simulated: what its bits depend on, without names.
+/// The simulation of a swarm, without names: all that the resulting bits depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwarmTask {
     /// The robots and their wiring.
     pub assembly: Assembly,
     /// The inputs of each cycle, and over how many cycles displacements are measured.
-    pub exposure: Exposure,
+    pub conditions: SwarmConditions,
 }
 
 /// The output of each robot at the end of each cycle.
@@ -21,7 +21,7 @@ pub struct SwarmBits {
     pub cycles: Vec<Vec<bool>>,
 }
 
-/// What the bits of a swarm depend on in one of its robots.
+/// The part of a robot that the bits of its swarm depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
     /// Its voxels.
@@ -65,7 +65,7 @@ impl SwarmTask {
             beat: 1,
             world,
         };
-        Self { assembly, exposure: Exposure { inputs, window, poses: None } }
+        Self { assembly, conditions: SwarmConditions { inputs, window, poses: None } }
     }
 
     /// The number of robots.
@@ -75,7 +75,7 @@ impl SwarmTask {
 
     /// The number of cycles.
     pub fn cycles(&self) -> usize {
-        self.exposure.inputs.len()
+        self.conditions.inputs.len()
     }
 }
 
@@ -105,7 +105,7 @@ impl PlainMember {
 impl SwarmBits {
     /// Simulates a swarm.
     pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
-        let trace = simulate(simulator, &task.assembly, &task.exposure, &mut |_| ());
+        let trace = simulate(simulator, &task.assembly, &task.conditions, &mut |_| ());
         Self { cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
@@ -162,8 +162,8 @@ mod tests {
         let (assembly, simulator) = (latch(), Simulator::default());
         let inputs: Vec<Vec<bool>> = (0..6).map(|cycle| vec![cycle % 2 == 0, cycle > 2]).collect();
         for window in [1, 2] {
-            let exposure = Exposure { inputs: inputs.clone(), window, poses: None };
-            let full = simulate(&simulator, &assembly, &exposure, &mut |_| ());
+            let conditions = SwarmConditions { inputs: inputs.clone(), window, poses: None };
+            let full = simulate(&simulator, &assembly, &conditions, &mut |_| ());
             let bits = SwarmBits::simulate(&simulator, &SwarmTask::of(&assembly, inputs.clone(), window));
             let trace = bits.trace(&assembly, &inputs);
             assert_eq!((trace.cycles, trace.shown, trace.inputs), (full.cycles, full.shown, full.inputs));

@@ -1,4 +1,4 @@
-//! Work as plain data: what its result depends on and what comes out, wherever it is made.
+//! Tasks and their results as plain data, so that they can be done on any machine.
 
 use std::sync::Arc;
 
@@ -29,18 +29,18 @@ pub enum Task {
 /// The result of a task of the same kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TaskResult {
-    /// What the candidate is worth.
+    /// The outcome of the candidate.
     Evaluation(Evaluated),
     /// The clock and the margin, if there is a clock without errors.
     Screening(Result<Option<(u32, f64)>, Fault>),
     /// The character of the body and its walk, unless it became unstable.
     Measurement(Result<Measurement, Fault>),
-    /// What the robots showed.
+    /// The outputs of the robots.
     Swarm(SwarmBits),
 }
 
 impl TaskResult {
-    /// That of an evaluation.
+    /// The result of an evaluation.
     ///
     /// # Panics
     /// When it is of another task, as in all methods here.
@@ -51,7 +51,7 @@ impl TaskResult {
         }
     }
 
-    /// That of a screening.
+    /// The result of a screening.
     ///
     /// # Errors
     /// The fault of a simulation.
@@ -62,7 +62,7 @@ impl TaskResult {
         }
     }
 
-    /// That of a measurement.
+    /// The result of a measurement.
     ///
     /// # Errors
     /// The fault of a simulation.
@@ -73,7 +73,7 @@ impl TaskResult {
         }
     }
 
-    /// That of a swarm.
+    /// The result of a swarm.
     pub fn bits(self) -> SwarmBits {
         match self {
             Self::Swarm(bits) => bits,

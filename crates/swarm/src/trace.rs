@@ -27,7 +27,7 @@ pub struct SwarmTrace {
     pub recording: Recording,
 }
 
-/// One robot's part.
+/// The part of a trace about one robot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobotTrace {
     /// The net whose bit it is.

@@ -9,9 +9,9 @@ use nbc_base::model::{Column, Value};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
-    /// Gates.
+    /// Gates without physics, each of which takes one time step.
     Logic,
-    /// Robots.
+    /// Robots in full physics.
     Physics,
 }
 
@@ -77,15 +77,16 @@ pub struct RowVerdict {
     /// Whether every checked output had its expected value and kept it.
     pub passed: bool,
     /// If the row failed: robots that were wrong although their stimuli had been stable for at least their clock.
-    pub lapses: Vec<Lapse>,
+    #[serde(rename = "lapses")]
+    pub wrong_outputs: Vec<WrongOutput>,
     /// If the row failed: robots that were wrong in its last cycle and whose stimuli had been stable for less than
     /// their clock.
-    pub late: Vec<Lapse>,
+    pub late: Vec<WrongOutput>,
 }
 
 /// A robot whose output was not its function of its stimuli.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Lapse {
+pub struct WrongOutput {
     /// The net with the wrong bit.
     pub net: String,
     /// The robot's name.

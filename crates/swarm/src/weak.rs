@@ -1,4 +1,4 @@
-//! Robots of a swarm that cannot be relied upon.
+//! Robots of a swarm that are likely to give wrong outputs.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! What can be wrong with assembling a swarm, as data, and how it is worded.
+//! Errors of the assembly of swarms, and their messages.
 
 use std::error::Error;
 use std::fmt;

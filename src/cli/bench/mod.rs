@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
 use crate::cli::gpu::{DeviceFigures, OpenDevice};
-use crate::cli::timings::{meter, part_seconds};
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::timings::{meter, part_seconds};
+use crate::cli::{Context, Failure, Progress, Status};
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::{Kernel, LaneBackend, Part};
 
@@ -88,10 +88,7 @@ impl BenchArguments {
         let (machine, width) = (machine(kernel), kernel.lanes());
         let figures = Figures { machine, width, cases, swarm, device: device.figures() };
         device.end(context)?;
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Bench, &figures)?,
-            OutputFormat::Text => context.print(describe(&figures))?,
-        }
+        context.print_result(Schema::Bench, &figures, || describe(&figures))?;
         Ok(Status::Done)
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::draw::kind::{Kind, kinds};
-use crate::cli::draw::order::Order;
+use crate::cli::draw::request::DrawRequest;
 
 /// Draw a robot, a library, an evolution run, or a circuit and its swarm
 #[derive(Args)]
@@ -27,5 +27,5 @@ pub struct DrawArguments {
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: PathBuf,
     #[command(flatten)]
-    pub(super) order: Order,
+    pub(super) request: DrawRequest,
 }

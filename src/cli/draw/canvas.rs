@@ -1,10 +1,10 @@
-//! The file of a picture; its extension selects the format.
+//! The file that a picture is written to. Its extension selects the format.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind};
-use crate::cli::wording::DrawError;
+use crate::cli::draw::wording::DrawError;
 use crate::cli::{Failure, Progress};
 use nbc_session::report::{self, Film, Stage};
 use nbc_session::store;
@@ -19,11 +19,11 @@ impl Canvas {
     /// The file, if its name fits the kind of picture.
     pub(super) fn new(path: &Path, kind: &dyn PictureKind) -> Result<Self, DrawError> {
         let extension = path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-        if kind.extensions().contains(&extension.as_str()) {
+        if kind.description().extensions.contains(&extension.as_str()) {
             return Ok(Self { path: path.to_owned(), extension });
         }
-        let expected = kind.extensions().iter().map(|extension| format!("`.{extension}`")).collect();
-        Err(DrawError::Extension { path: path.display().to_string(), expected, kind: kind.word() })
+        let expected = kind.description().extensions.iter().map(|extension| format!("`.{extension}`")).collect();
+        Err(DrawError::Extension { path: path.display().to_string(), expected, kind: kind.description().word })
     }
 
     /// Writes the file.

@@ -1,19 +1,19 @@
-//! The kind of a picture on the command line: one of the table.
+//! The argument `--as`: a kind of picture by its word.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::cli::draw::picture::PictureKind;
 use crate::cli::draw::pictures::PICTURES;
 
-/// A kind of the table.
+/// A kind of picture that a user chose.
 #[derive(Clone, Copy)]
 pub(super) struct Kind(pub(super) &'static dyn PictureKind);
 
-/// Reads a kind by its word.
+/// The parser of `--as`, whose help lists all kinds.
 pub(super) fn kinds() -> impl TypedValueParser<Value = Kind> {
-    let value = |kind: &&dyn PictureKind| PossibleValue::new(kind.word()).help(kind.about());
+    let value = |kind: &&dyn PictureKind| PossibleValue::new(kind.description().word).help(kind.description().about);
     PossibleValuesParser::new(PICTURES.iter().map(value)).try_map(|word| {
-        let kind = PICTURES.into_iter().find(|kind| kind.word() == word);
+        let kind = PICTURES.into_iter().find(|kind| kind.description().word == word);
         kind.map(Kind).ok_or("not a kind of picture")
     })
 }

@@ -2,15 +2,16 @@
 
 mod arguments;
 mod canvas;
+mod evolution_run;
 mod kind;
 mod options;
-mod order;
 mod picture;
 mod pictures;
 mod program;
-mod robot;
-mod run;
-mod several;
+mod request;
+mod titled_body;
+mod titled_robots;
+pub(super) mod wording;
 
 use std::path::Path;
 
@@ -20,13 +21,13 @@ use nbc_session::store;
 
 use canvas::Canvas;
 use kind::Kind;
-use order::Order;
 use picture::{Drawing, PictureKind, SubjectKind};
-use robot::TitledBody;
+use request::DrawRequest;
+use titled_body::TitledBody;
 
 pub(super) use arguments::DrawArguments;
+pub(super) use evolution_run::{is_run, read as read_run};
 pub(super) use pictures::run_page;
-pub(super) use run::{is_run, read as read_run};
 
 impl DrawArguments {
     /// Draws and writes.
@@ -34,13 +35,13 @@ impl DrawArguments {
     /// # Errors
     /// When the subject is invalid, has no such picture, or the file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let Self { kind: Kind(kind), output, order } = self;
+        let Self { kind: Kind(kind), output, request } = self;
         let canvas = Canvas::new(&output, kind)?;
-        let subject = subject_kind(&order.what);
-        options::check_options(&order, kind, subject)?;
-        canvas.write(draw(kind, subject, &order, context)?)?;
+        let subject = subject_kind(&request.what);
+        options::check_options(&request, kind, subject)?;
+        canvas.write(draw(kind, subject, &request, context)?)?;
         if context.format == OutputFormat::Json {
-            let drawn = serde_json::json!({ "file": output, "kind": kind.word() });
+            let drawn = serde_json::json!({ "file": output, "kind": kind.description().word });
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)
@@ -51,34 +52,39 @@ fn subject_kind(what: &str) -> SubjectKind {
     let path = Path::new(what);
     match () {
         () if what.ends_with(".nb") => SubjectKind::Program,
-        () if run::is_run(path) => SubjectKind::Run,
+        () if evolution_run::is_run(path) => SubjectKind::Run,
         () if what == "shipped" || path.is_dir() => SubjectKind::Library,
         () => SubjectKind::Robot,
     }
 }
 
-fn draw(kind: &dyn PictureKind, subject: SubjectKind, order: &Order, context: &Context) -> Result<Drawing, Failure> {
+fn draw(
+    kind: &dyn PictureKind,
+    subject: SubjectKind,
+    request: &DrawRequest,
+    context: &Context,
+) -> Result<Drawing, Failure> {
     match subject {
-        SubjectKind::Program => kind.of_program(order),
+        SubjectKind::Program => kind.of_program(request),
         SubjectKind::Run => {
-            let results = run::read(Path::new(&order.what), context)?;
-            let Some(behavior) = order.behavior else { return kind.of_run(&results, order) };
-            let robot = run::champion(&results, behavior).ok_or_else(|| order.none_of(behavior))?;
-            kind.of_robot(&robot, order)
+            let results = evolution_run::read(Path::new(&request.what), context)?;
+            let Some(behavior) = request.behavior else { return kind.of_run(&results, request) };
+            let robot = evolution_run::champion(&results, behavior).ok_or_else(|| request.none_of(behavior))?;
+            kind.of_robot(&robot, request)
         }
-        SubjectKind::Library => draw_library(kind, order),
-        SubjectKind::Robot => kind.of_robot(&robot(&order.what)?, order),
+        SubjectKind::Library => draw_library(kind, request),
+        SubjectKind::Robot => kind.of_robot(&robot(&request.what)?, request),
     }
 }
 
-fn draw_library(kind: &dyn PictureKind, order: &Order) -> Result<Drawing, Failure> {
-    let what = &order.what;
+fn draw_library(kind: &dyn PictureKind, request: &DrawRequest) -> Result<Drawing, Failure> {
+    let what = &request.what;
     let library = if what == "shipped" { store::shipped_library() } else { robots::robots_of(Path::new(what))? };
-    let Some(behavior) = order.behavior else {
-        return kind.of_library(&several::of_library(what, &library), order);
+    let Some(behavior) = request.behavior else {
+        return kind.of_library(&titled_robots::of_library(what, &library), request);
     };
     let robot = library.robots_for(behavior.function()).next();
-    kind.of_robot(&TitledBody::of(robot.ok_or_else(|| order.none_of(behavior))?), order)
+    kind.of_robot(&TitledBody::of(robot.ok_or_else(|| request.none_of(behavior))?), request)
 }
 
 fn robot(what: &str) -> Result<TitledBody, Failure> {

@@ -1,11 +1,11 @@
 //! What every kind of picture provides.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::robot::TitledBody;
-use crate::cli::draw::run::best_champions;
-use crate::cli::draw::several::Several;
-use crate::cli::wording::DrawError;
+use crate::cli::draw::evolution_run::best_champions;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
+use crate::cli::draw::titled_robots::TitledRobots;
+use crate::cli::draw::wording::DrawError;
 use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
 
 /// What is drawn.
@@ -31,55 +31,61 @@ pub(super) enum FilmFormat {
     Gif,
 }
 
-/// A kind of picture. What it cannot show is refused, with the kind of subject that it is for.
-pub(super) trait PictureKind: Sync {
+/// The description of a kind of picture.
+pub(super) struct KindDescription {
     /// The word for it on the command line.
-    fn word(&self) -> &'static str;
-
+    pub(super) word: &'static str,
     /// A line about it in the help.
-    fn about(&self) -> &'static str;
-
+    pub(super) about: &'static str,
     /// The extensions of its files.
-    fn extensions(&self) -> &'static [&'static str] {
-        &["svg", "png"]
-    }
-
+    pub(super) extensions: &'static [&'static str],
     /// The options that change the picture, of those that not every kind has.
-    fn options(&self) -> &'static [&'static str] {
-        &[]
-    }
-
+    pub(super) options: &'static [&'static str],
     /// The kind of subject that it is for: the one to name if another is given. A kind for libraries also shows the
     /// best robots of a run.
-    fn subject(&self) -> SubjectKind;
+    pub(super) subject: SubjectKind,
+}
+
+impl KindDescription {
+    /// A kind of picture as SVG or PNG without options.
+    pub(super) fn new(word: &'static str, about: &'static str, subject: SubjectKind) -> Self {
+        Self { word, about, extensions: &["svg", "png"], options: &[], subject }
+    }
+}
+
+/// A kind of picture. What it cannot show is refused, with the kind of subject that it is for.
+pub(super) trait PictureKind: Sync {
+    /// Its name and what it applies to.
+    fn description(&self) -> KindDescription;
 
     /// Draws one robot.
-    fn of_robot(&self, _robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        Err(self.refuse(SubjectKind::Robot, order))
+    fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Err(self.refuse(SubjectKind::Robot, request))
     }
 
     /// Draws the robots of a library.
-    fn of_library(&self, _robots: &Several, order: &Order) -> Result<Drawing, Failure> {
-        Err(self.refuse(SubjectKind::Library, order))
+    fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Err(self.refuse(SubjectKind::Library, request))
     }
 
     /// Draws an evolution run; its best robots, if this is a picture of several robots.
-    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
-        match self.subject() {
-            SubjectKind::Library => self.of_library(&best_champions(results), order),
-            _ => Err(self.refuse(SubjectKind::Run, order)),
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+        match self.description().subject {
+            SubjectKind::Library => self.of_library(&best_champions(results), request),
+            _ => Err(self.refuse(SubjectKind::Run, request)),
         }
     }
 
     /// Draws the circuit of a source file, or its swarm.
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Err(self.refuse(SubjectKind::Program, order))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Err(self.refuse(SubjectKind::Program, request))
     }
 
     /// The error for a subject that has no such picture.
-    fn refuse(&self, given: SubjectKind, order: &Order) -> Failure {
-        let (what, kind) = (order.what.clone(), self.word());
-        DrawError::Kind { what, given: noun(given), expected: wanted(self.subject(), given), kind }.into()
+    fn refuse(&self, given: SubjectKind, request: &DrawRequest) -> Failure {
+        let KindDescription { word: kind, subject, .. } = self.description();
+        let what = request.what.clone();
+        DrawError::Kind { what, given: noun(given), expected: wanted(subject, given), kind }.into()
     }
 }
 

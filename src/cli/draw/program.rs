@@ -1,8 +1,8 @@
 //! The circuit of a source file to be drawn, and the run of its swarm.
 
-use crate::cli::draw::order::Order;
-use crate::cli::run::{Ran, names_of_tests, run_list};
-use crate::cli::wording::DrawError;
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::wording::DrawError;
+use crate::cli::runs::{CompleteRun, names_of_tests, run_list};
 use crate::cli::{Failure, Interrupt};
 use nbc_base::model::{CircuitTest, Instance};
 use nbc_circuit::is_same_instance;
@@ -10,7 +10,7 @@ use nbc_session::store::DiskWorld;
 use nbc_session::{Checked, CompileOptions, Compiled, RunList, Session};
 use nbc_swarm::Room;
 
-impl Order {
+impl DrawRequest {
     /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
     pub(super) fn compiled(&self) -> Result<Compiled, Failure> {
         let mut session = Session::new(DiskWorld);
@@ -26,7 +26,7 @@ impl Order {
 
     /// The chosen test, run in physics: the first one, or the first simulation if the file has no test. Poses are
     /// recorded if there is room for them.
-    pub(super) fn ran(&self, poses: Option<Room>) -> Result<Ran, Failure> {
+    pub(super) fn ran(&self, poses: Option<Room>) -> Result<CompleteRun, Failure> {
         let session = Session::new(DiskWorld);
         let mut session = match poses {
             Some(room) => session.with_poses(room),
@@ -68,9 +68,14 @@ impl Order {
 }
 
 /// The first run of a list.
-fn run_one(session: &Session, file: &Checked, list: &RunList<'_>, options: CompileOptions) -> Result<Ran, Failure> {
+fn run_one(
+    session: &Session,
+    file: &Checked,
+    list: &RunList<'_>,
+    options: CompileOptions,
+) -> Result<CompleteRun, Failure> {
     let report = run_list(session, file, list, options, &Interrupt::default())?;
-    Ok(Ran::complete(report).into_iter().next().expect("nothing interrupts it"))
+    Ok(CompleteRun::complete(report).into_iter().next().expect("nothing interrupts it"))
 }
 
 /// The first test of that title or circuit.

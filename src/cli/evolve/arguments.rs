@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::device::DeviceArguments;
-use crate::cli::queue::QueueArguments;
-use crate::cli::timings::Timings;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
+use crate::cli::options::timings::Timings;
 use nbc_session::RUNS;
 use nbc_session::store::ResultPlace;
 

@@ -1,29 +1,29 @@
-//! All runs of a command: as many at once as their tasks can be done.
+//! All runs of a command: one at a time on this machine, or many at once if workers do the tasks.
 
 use std::sync::Arc;
 
 use crate::cli::evolve::arguments::EvolveArguments;
 use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::{Ended, EvolutionRun};
-use crate::cli::executor::OpenExecutor;
-use crate::cli::ordered::in_order;
-use crate::cli::timings::Timer;
-use crate::cli::wording::RunWarning;
+use crate::cli::evolve::wording::ProgressGaps;
+use crate::cli::in_order::in_order;
+use crate::cli::options::timings::Timer;
+use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, Interrupt, context};
 use nbc_base::model::Evolution;
 use nbc_base::source::Sources;
 use nbc_swarm::evolve::Champion;
 
-/// Makes runs.
+/// The runs of a command, and what does their tasks.
 pub(super) struct Campaign<'a> {
     pub(super) arguments: &'a EvolveArguments,
     pub(super) timer: &'a Timer,
     pub(super) interrupt: &'a Interrupt,
-    pub(super) executor: OpenExecutor,
+    pub(super) executor: TaskExecutor,
     pub(super) open: Arc<OpenRuns>,
 }
 
-/// A run that was made.
+/// A run that ended, with its results.
 pub(super) struct MadeRun<'a> {
     pub(super) evolution: &'a Evolution,
     pub(super) seed: u64,
@@ -77,7 +77,7 @@ impl<'a> Campaign<'a> {
 
     /// Makes a run until it is finished or stopped. After an error, the other runs are stopped.
     fn make_run(&self, place: usize, evolution: &'a Evolution, seed: u64, color: bool) -> Result<MadeRun<'a>, Failure> {
-        let warn = |warning: RunWarning| context::tell(&[warning.into()], &Sources::default(), color);
+        let warn = |warning: ProgressGaps| context::tell(&[warning.into()], &Sources::default(), color);
         let made = EvolutionRun::open(self.arguments, evolution, seed, self.timer, &warn).and_then(|mut run| {
             self.open.begin(run.generation(), evolution.generations);
             let evolved = self.evolve(&mut run, place);

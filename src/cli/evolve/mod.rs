@@ -4,6 +4,7 @@ mod arguments;
 mod campaign;
 mod open_runs;
 mod run;
+pub(super) mod wording;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,9 +16,9 @@ use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::campaign::{Campaign, MadeRun};
 use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::Ended;
-use crate::cli::executor::OpenExecutor;
+use crate::cli::evolve::wording::EvolveError;
 use crate::cli::gpu::OpenDevice;
-use crate::cli::wording::SubjectError;
+use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Evolution, SearchObjective};
@@ -39,7 +40,7 @@ const QUICK_GENERATIONS: u32 = 200;
 const LONG: u64 = 20_000;
 const SAMPLE: usize = 8;
 
-/// The output for programs.
+/// The output as JSON.
 #[derive(Default, Serialize)]
 struct Results {
     runs: Vec<Ended>,
@@ -81,7 +82,7 @@ impl EvolveArguments {
         results.end(context, if finished { Status::Done } else { Status::Interrupted })
     }
 
-    /// What makes the evaluations. Says how long that will take, or how much can be made at once.
+    /// Opens what does the evaluations, and logs how long they will take or how many cores they can use.
     fn executor(
         &self,
         device: OpenDevice,
@@ -89,9 +90,9 @@ impl EvolveArguments {
         interrupt: &Interrupt,
         open: &Arc<OpenRuns>,
         context: &Context,
-    ) -> Result<OpenExecutor, Failure> {
+    ) -> Result<TaskExecutor, Failure> {
         let open = Arc::clone(open);
-        let executor = OpenExecutor::open(device, &self.queue, interrupt, move |note| open.note(note))?;
+        let executor = TaskExecutor::open(device, &self.queue, interrupt, move |note| open.note(note))?;
         if executor.is_elsewhere() {
             let cores = counted(cores(declared, executor.threads_for_runs()), "core");
             context.log(&format!("keeps about {cores} busy\n"));
@@ -153,7 +154,7 @@ impl Results {
             context.print_json(Schema::Evolve, self)?;
         }
         if status == Status::Done && !self.has_robots {
-            context.tell(&[SubjectError::NoRobotFound.into()], &Sources::default());
+            context.tell(&[EvolveError::NoRobotFound.into()], &Sources::default());
             return Ok(Status::TestFailed);
         }
         Ok(status)
@@ -218,12 +219,12 @@ impl EvolveArguments {
         let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
         if let Some(name) = &self.run {
             let found = program.evolution(name).cloned();
-            let unknown = || SubjectError::UnknownEvolution { name: name.clone(), known: known() };
+            let unknown = || EvolveError::UnknownEvolution { name: name.clone(), known: known() };
             return Ok(vec![found.ok_or_else(unknown)?]);
         }
         let Some(path) = &self.file else { return Ok(program.evolutions) };
         if program.own_evolutions.is_empty() {
-            return Err(SubjectError::NoEvolution { file: path.display().to_string(), known: known() }.into());
+            return Err(EvolveError::NoEvolution { file: path.display().to_string(), known: known() }.into());
         }
         let own = program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name));
         Ok(own.cloned().collect())

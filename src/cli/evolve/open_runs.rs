@@ -1,10 +1,10 @@
-//! The progress of the runs that are being made.
+//! The progress display of all runs in progress together.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::cli::Progress;
 
-/// The progress of the runs that are being made, of all together.
+/// The progress display of all runs in progress together.
 #[derive(Default)]
 pub(super) struct OpenRuns(Mutex<State>);
 
@@ -48,7 +48,7 @@ impl OpenRuns {
         }
     }
 
-    /// A run is no longer made. Without any, nothing is shown.
+    /// Counts a run that has ended. The display is removed after the last one.
     pub(super) fn end(&self) {
         let mut state = self.lock();
         state.runs -= 1;

@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::cli::Failure;
+use crate::cli::evolution_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::evolve::arguments::EvolveArguments;
-use crate::cli::run_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
-use crate::cli::timings::{Chore, Timer};
-use crate::cli::wording::{RunWarning, SubjectError};
+use crate::cli::evolve::wording::{EvolveError, ProgressGaps};
+use crate::cli::options::timings::{TimedStage, Timer};
 use nbc_base::model::Evolution;
 use nbc_session::report::{EvolutionLine, History, evolution_table};
 use nbc_session::store::{self, Checkpoint, FolderLock, LockFault};
@@ -60,7 +60,7 @@ impl<'a> EvolutionRun<'a> {
         evolution: &Evolution,
         seed: u64,
         timer: &'a Timer,
-        warn: &dyn Fn(RunWarning),
+        warn: &dyn Fn(ProgressGaps),
     ) -> Result<Self, Failure> {
         let folder = arguments.folder(Path::new(&evolution.name).join(format!("seed-{seed}")));
         let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
@@ -112,12 +112,12 @@ impl<'a> EvolutionRun<'a> {
     /// The tasks of the next generation. The time of everything except simulation is counted.
     pub(super) fn ask(&mut self) -> Vec<Task> {
         let started = Instant::now();
-        self.candidates = self.timer.time(Chore::Development, || self.search.ask());
+        self.candidates = self.timer.time(TimedStage::Development, || self.search.ask());
         let protocol = Arc::new(EvaluationProtocol::of(self.search.evolution()));
         let task = |candidate: &Candidate| {
             Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&self.search, &candidate.body))
         };
-        let tasks = self.timer.time(Chore::Archive, || self.candidates.iter().map(task).collect());
+        let tasks = self.timer.time(TimedStage::Archive, || self.candidates.iter().map(task).collect());
         self.searching += started.elapsed().as_secs_f64();
         tasks
     }
@@ -128,11 +128,11 @@ impl<'a> EvolutionRun<'a> {
         let results: Vec<Evaluated> = results.into_iter().map(TaskResult::evaluated).collect();
         let outcomes: Vec<CandidateOutcome> = results.iter().map(|evaluated| evaluated.outcome).collect();
         let (candidates, started) = (std::mem::take(&mut self.candidates), Instant::now());
-        self.timer.time(Chore::Archive, || self.search.tell(&candidates, &outcomes));
+        self.timer.time(TimedStage::Archive, || self.search.tell(&candidates, &outcomes));
         self.searching += started.elapsed().as_secs_f64();
         self.work = results.iter().fold(self.work, |sum, evaluated| sum.plus(evaluated.work));
         let line = EvolutionLine::of(&self.search, self.work);
-        self.timer.time(Chore::Output, || self.append(&line))?;
+        self.timer.time(TimedStage::Output, || self.append(&line))?;
         if self.saved.elapsed() >= self.checkpoint_every {
             self.save_timed()?;
             self.saved = Instant::now();
@@ -142,7 +142,7 @@ impl<'a> EvolutionRun<'a> {
 
     /// Writes a checkpoint.
     pub(super) fn save_timed(&self) -> Result<(), Failure> {
-        self.timer.time(Chore::Output, || self.save())
+        self.timer.time(TimedStage::Output, || self.save())
     }
 
     fn save(&self) -> Result<(), Failure> {
@@ -160,7 +160,7 @@ impl<'a> EvolutionRun<'a> {
 
     /// Drops the lines of generations after the checkpoint, which will be made again. A damaged file is set aside and
     /// reported.
-    fn trim_progress(&self, warn: &dyn Fn(RunWarning)) -> Result<(), Failure> {
+    fn trim_progress(&self, warn: &dyn Fn(ProgressGaps)) -> Result<(), Failure> {
         let write = |path: &Path, bytes: &[u8]| {
             store::write_result(path, bytes).map_err(|error| Failure::unwritable(path, &error))
         };
@@ -175,7 +175,7 @@ impl<'a> EvolutionRun<'a> {
                 write(&aside, &bytes)?;
                 kept = Some(aside.display().to_string());
             }
-            warn(RunWarning::GapsInRun { path: path.display().to_string(), damage, aside: kept });
+            warn(ProgressGaps::InRun { path: path.display().to_string(), damage, aside: kept });
         }
         write(&path, history.print().as_bytes())
     }
@@ -230,11 +230,11 @@ impl<'a> EvolutionRun<'a> {
 
 fn not_ours(folder: &Path, fault: LockFault) -> Failure {
     match fault {
-        LockFault::Held { process } => SubjectError::Held { folder: folder.display().to_string(), process }.into(),
+        LockFault::Held { process } => EvolveError::Held { folder: folder.display().to_string(), process }.into(),
         LockFault::Io(error) => Failure::unwritable(&folder.join("lock"), &error),
     }
 }
 
 fn would_overwrite(path: &Path) -> Failure {
-    SubjectError::HasRun { folder: path.display().to_string() }.into()
+    EvolveError::HasRun { folder: path.display().to_string() }.into()
 }

@@ -1,10 +1,10 @@
-//! `nbc devices`: the OpenCL devices of this machine, and whether their results are those of this processor.
+//! `nbc devices`: lists the OpenCL devices of this machine, and compares their results with those of the processor.
 
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::wording::DeviceFailure;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::cli::gpu::wording::DeviceFailure;
+use crate::cli::{Context, Failure, Progress, Status};
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::{BoxComparison, LaneBackend, OpenClBackend, OpenClDevice, SelfTest};
@@ -24,7 +24,7 @@ pub struct DevicesArguments {
     self_test: bool,
 }
 
-/// A device, and what was found out about it.
+/// A device with the result of its test.
 #[derive(Serialize)]
 struct DeviceReport {
     number: usize,
@@ -67,10 +67,7 @@ impl DevicesArguments {
         };
         let reports: Vec<DeviceReport> = devices.iter().map(report).collect();
         drop(bar);
-        match context.format {
-            OutputFormat::Json => context.print_json(Schema::Devices, &serde_json::json!({ "devices": reports }))?,
-            OutputFormat::Text => context.print(describe(&reports))?,
-        }
+        context.print_result(Schema::Devices, &serde_json::json!({ "devices": reports }), || describe(&reports))?;
         Ok(if reports.iter().all(|report| report.usable) { Status::Done } else { Status::TestFailed })
     }
 }

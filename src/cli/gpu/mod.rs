@@ -1,10 +1,10 @@
-//! OpenCL devices: the choice of one, their list, and their speed.
+//! OpenCL devices: `nbc devices`, the device that a command uses, and its speed.
 
-mod chosen;
 mod devices;
-
+mod open_device;
 mod speed;
+pub(in crate::cli) mod wording;
 
-pub use chosen::OpenDevice;
 pub use devices::DevicesArguments;
+pub use open_device::OpenDevice;
 pub use speed::DeviceFigures;

@@ -10,9 +10,9 @@ use nbc_sim::{Constants, OpenClBackend, Simulator};
 
 /// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];
-/// Robots in flight, ...
+/// Numbers of robots that are simulated at once.
 const ROBOTS: [usize; 5] = [64, 512, 2048, 8192, 32_768];
-/// ... unless so many take longer than this.
+/// If a number of robots takes longer than this, larger ones are not measured.
 const PATIENCE: Duration = Duration::from_secs(4);
 
 /// How fast a device is.

@@ -7,19 +7,19 @@ use std::sync::Arc;
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
-use crate::cli::executor::OpenExecutor;
-use crate::cli::ordered::in_order;
-use crate::cli::queue::QueueArguments;
+use crate::cli::evolution_folder::{CHECKPOINT, checkpoints, read_checkpoint};
+use crate::cli::evolve::wording::EvolveError;
+use crate::cli::in_order::in_order;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
 use crate::cli::robots::behavior;
-use crate::cli::run_folder::{CHECKPOINT, checkpoints, read_checkpoint};
-use crate::cli::wording::SubjectError;
+use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::model::{Behavior, Provenance, Robot};
 use nbc_session::report::{Answer, Schema};
 use nbc_session::store::{self, Checkpoint, ResultPlace};
 use nbc_swarm::evolve::Elite;
-use nbc_swarm::{Nominee, Selected, Selection};
+use nbc_swarm::{RobotCandidate, Selected, Selection};
 
 /// Measure the best gates of evolution runs and write them as robot files
 #[derive(Args)]
@@ -55,7 +55,7 @@ pub struct AddArguments {
     queue: QueueArguments,
 }
 
-/// The output for programs.
+/// The output as JSON.
 #[derive(Serialize)]
 struct Answers<'a> {
     folder: &'a Path,
@@ -72,11 +72,11 @@ impl AddArguments {
         let asked = self.asked(&selection)?;
         let into = ResultPlace::new(Some(&self.into), &self.into, "");
         into.probe().map_err(|error| Failure::unwritable(&self.into, &error))?;
-        let work = asked.iter().map(|(_, nominees)| selection.cost(nominees.len())).sum();
+        let work = asked.iter().map(|(_, candidates)| selection.cost(candidates.len())).sum();
         let bar = Arc::new(Progress::new("measuring", work));
-        let tasks = OpenExecutor::choose(self.device, &self.queue, &bar, context)?;
-        let select = |place: usize, (behavior, nominees): &(Behavior, Vec<Nominee>)| {
-            (*behavior, selection.select(tasks.executor(), place, *behavior, nominees, &|more| bar.add(more)))
+        let tasks = TaskExecutor::choose(self.device, &self.queue, &bar, context)?;
+        let select = |place: usize, (behavior, candidates): &(Behavior, Vec<RobotCandidate>)| {
+            (*behavior, selection.select(tasks.executor(), place, *behavior, candidates, &|more| bar.add(more)))
         };
         let mut answers = Vec::new();
         let mut tell = |(behavior, selected): (Behavior, Option<Selected>)| {
@@ -131,20 +131,20 @@ impl AddArguments {
     }
 
     /// The requested behaviors, in order of their functions' bits, with the elites to screen.
-    fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<Nominee>)>, Failure> {
+    fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<RobotCandidate>)>, Failure> {
         let is_asked = |behavior: &Behavior| self.behavior.is_empty() || self.behavior.contains(behavior);
-        let mut nominees: BTreeMap<Behavior, Vec<Nominee>> =
+        let mut candidates: BTreeMap<Behavior, Vec<RobotCandidate>> =
             Behavior::all().filter(is_asked).map(|behavior| (behavior, Vec::new())).collect();
         for path in self.checkpoints()? {
             let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
             for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
-                if let Some(found) = nominees.get_mut(&elite.behavior) {
-                    found.push(Nominee { elite: elite.clone(), provenance: provenance(&checkpoint, elite) });
+                if let Some(found) = candidates.get_mut(&elite.behavior) {
+                    found.push(RobotCandidate { elite: elite.clone(), provenance: provenance(&checkpoint, elite) });
                 }
             }
         }
         let mut asked: Vec<_> =
-            nominees.into_iter().map(|(behavior, found)| (behavior, selection.nominate(found))).collect();
+            candidates.into_iter().map(|(behavior, found)| (behavior, selection.candidates_of(found))).collect();
         asked.sort_by_key(|(behavior, _)| behavior.function());
         Ok(asked)
     }
@@ -175,5 +175,5 @@ fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {
 }
 
 fn missing(path: &Path) -> Failure {
-    SubjectError::NoCheckpoint { path: path.display().to_string() }.into()
+    EvolveError::NoCheckpoint { path: path.display().to_string() }.into()
 }

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use crate::cli::device::DeviceArguments;
-use crate::cli::queue::QueueArguments;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
 use crate::cli::robots::{named, robots_of};
-use crate::cli::{Context, Failure, OutputFormat, Status};
+use crate::cli::{Context, Failure, Status};
 use nbc_base::model::{Library, Robot};
 use nbc_session::report::{self, Listing, Schema};
 use nbc_session::store;
@@ -84,17 +84,11 @@ impl LibraryArguments {
 
 fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {
     let list = Listing::all(library);
-    match context.format {
-        OutputFormat::Json => context.print_json(Schema::Library, &serde_json::json!({ "robots": list }))?,
-        OutputFormat::Text => context.print(Listing::table(&list))?,
-    }
+    context.print_result(Schema::Library, &serde_json::json!({ "robots": list }), || Listing::table(&list))?;
     Ok(Status::Done)
 }
 
 fn show(robot: &Robot, context: &mut Context) -> Result<Status, Failure> {
-    match context.format {
-        OutputFormat::Json => context.print_json(Schema::Robot, &store::RobotRecord::of(robot))?,
-        OutputFormat::Text => context.print(report::describe_robot(robot))?,
-    }
+    context.print_result(Schema::Robot, &store::RobotRecord::of(robot), || report::describe_robot(robot))?;
     Ok(Status::Done)
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::cli::device::DeviceArguments;
-use crate::cli::executor::OpenExecutor;
-use crate::cli::ordered::in_order;
-use crate::cli::queue::QueueArguments;
+use crate::cli::in_order::in_order;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
+use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Character, Library, Robot};
@@ -42,7 +42,7 @@ pub fn verify(
     context: &mut Context,
 ) -> Result<Status, Failure> {
     let bar = Arc::new(Progress::new("verifying", library.robots.len() as u64));
-    let tasks = OpenExecutor::choose(device, queue, &bar, context)?;
+    let tasks = TaskExecutor::choose(device, queue, &bar, context)?;
     let robots: Vec<&Robot> = library.robots.iter().collect();
     let mut findings = Vec::new();
     let keep = |finding| {

@@ -9,13 +9,13 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::cli::cluster::open_queue;
-use crate::cli::executor::threads;
-use crate::cli::mapping::GoalArguments;
-use crate::cli::ordered::in_order;
-use crate::cli::program::RunsArguments;
-use crate::cli::queue::QueueArguments;
-use crate::cli::run::unknown_run;
-use crate::cli::wording::SubjectError;
+use crate::cli::in_order::in_order;
+use crate::cli::options::circuit::RunsArguments;
+use crate::cli::options::mapping::GoalArguments;
+use crate::cli::options::queue::QueueArguments;
+use crate::cli::runs::unknown_run;
+use crate::cli::runs::wording::RunChoiceError;
+use crate::cli::task_executor::threads;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_session::report::{self, Schema};
@@ -169,7 +169,7 @@ impl TestArguments {
 fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
     let file = session.open(&path.to_string_lossy())?;
     if file.program.tests.is_empty() {
-        return Err(SubjectError::NoTest { file: file.path.clone() }.into());
+        return Err(RunChoiceError::NoTest { file: file.path.clone() }.into());
     }
     Ok(file)
 }

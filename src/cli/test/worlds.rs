@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::ordered::in_order;
-use crate::cli::wording::DrawError;
+use crate::cli::draw::wording::DrawError;
+use crate::cli::in_order::in_order;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};
@@ -19,7 +19,7 @@ const WORLDS: u32 = 100;
 /// The worlds in which tests run.
 #[derive(Args)]
 pub(super) struct WorldsArguments {
-    /// Run each test in physics in so many worlds [default: 100]
+    /// The number of worlds in which each test runs [default: 100]
     #[arg(long, value_name = "N", requires = "vary", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     worlds: Option<u32>,
     /// The largest changes of the worlds, such as `friction=10%,gravity=5%`, or `all=10%`; may be given several times

@@ -11,9 +11,9 @@ use serde_json::{Map, Value, json};
 
 use crate::cluster::server::Server;
 use crate::cluster::{Running, assert_same, bench};
-use crate::limits::InTime;
-use crate::schemas::validate;
-use crate::tools::OPENSSL;
+use crate::support::limits::InTime;
+use crate::support::schema::validate;
+use crate::support::tools::OPENSSL;
 
 #[test]
 fn servers_that_cannot_be_used_are_named_without_the_password() {
@@ -94,7 +94,7 @@ fn credentials_with_few_rights_suffice_and_are_needed() {
 
 /// Makes a root certificate and one for this machine, as docs/cluster.md says.
 fn issue_certificates(folder: &Path) {
-    let page = fs::read_to_string(crate::language::root().join("docs/cluster.md")).unwrap();
+    let page = fs::read_to_string(crate::support::root().join("docs/cluster.md")).unwrap();
     let indented = page.lines().filter_map(|line| line.strip_prefix("    "));
     let commands: Vec<&str> =
         indented.filter(|line| line.starts_with("openssl ") || line.starts_with("echo ")).collect();

@@ -3,10 +3,10 @@
 
 use std::fs;
 
-use crate::cli::{Bench, Ran};
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, files, worker};
+use crate::support::bench::{Bench, Ran};
 
 /// A circuit with a test that it passes, one that it fails, and one at the level of logic.
 const LATCH: &str = "\

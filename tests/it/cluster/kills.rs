@@ -6,11 +6,11 @@ use std::time::Duration;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_equal, assert_same, bench, evolve, files, worker};
-use crate::language::root;
+use crate::support::bench::Bench;
+use crate::support::root;
 
 #[test]
 fn two_workers_that_are_both_killed_once_give_the_bytes_of_a_run_alone() {

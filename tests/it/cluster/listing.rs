@@ -6,9 +6,9 @@ use std::process::Stdio;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{bench, evolve, worker};
-use crate::limits::Limit;
-use crate::schemas::validate;
-use crate::tools;
+use crate::support::limits::Limit;
+use crate::support::schema::validate;
+use crate::support::tools;
 
 #[test]
 fn workers_and_searches_are_listed() {

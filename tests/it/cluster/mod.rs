@@ -3,13 +3,13 @@
 mod access;
 mod answers;
 mod commands;
-mod crowd;
+mod fake_workers;
 mod kills;
 mod listing;
+mod many_workers;
 mod outages;
 mod recipes;
 mod server;
-mod stand_ins;
 mod wire;
 
 use std::collections::BTreeMap;
@@ -22,10 +22,10 @@ use std::sync::{Arc, Condvar, Mutex, OnceLock};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use crate::cli::{Bench, Ran};
 use crate::cluster::server::Server;
-use crate::limits::PATIENCE;
-use crate::tools;
+use crate::support::bench::{Bench, Ran};
+use crate::support::limits::PATIENCE;
+use crate::support::tools;
 
 const SMALL: &str = "\
 evolution small { box: 3 x 3, variable: short, fixed: 1 cycles, batch: 8, generations: 12, seed: 1..3 }

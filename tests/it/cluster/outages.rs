@@ -6,12 +6,12 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
-use crate::limits;
-use crate::tools::skip;
+use crate::support::bench::Bench;
+use crate::support::limits;
+use crate::support::tools::skip;
 
 /// Runs a command of the system; whether it succeeded.
 fn succeeds(line: &str) -> bool {

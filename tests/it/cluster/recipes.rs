@@ -9,12 +9,12 @@ use std::time::{Duration, Instant};
 
 use serde_yaml::Value;
 
-use crate::cli::Bench;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench};
-use crate::language::root;
-use crate::limits::PATIENCE;
+use crate::support::bench::Bench;
+use crate::support::limits::PATIENCE;
+use crate::support::root;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_nbc");
 

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::limits::PATIENCE;
-use crate::tools::NATS_SERVER;
+use crate::support::limits::PATIENCE;
+use crate::support::tools::NATS_SERVER;
 
 /// The server, which is killed when it is dropped.
 pub struct Server {

@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use crate::cluster::server::Server;
-use crate::limits::PATIENCE;
+use crate::support::limits::PATIENCE;
 
 /// A connection that receives every message of the program.
 pub struct Wire {

@@ -17,7 +17,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::determinism::{GOLDEN, bits, broken_palette, hash, own_palette, patchwork, point_bits, swarm_of_bodies};
-use crate::tools::skip;
+use crate::support::tools::skip;
 
 /// Work-items of a group on a processor, and a number at which groups wait for each other.
 const GROUPS: [usize; 2] = [1, 8];

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use crate::cli::{Bench, Ran};
 use crate::gpu::{device, first_device};
-use crate::limits::InTime;
-use crate::schemas::validate;
+use crate::support::bench::{Bench, Ran};
+use crate::support::limits::InTime;
+use crate::support::schema::validate;
 
 const RUNS: &str = "\
 evolution walks { from: gates, box: 3 x 2, variable: short, fixed: 1 cycles, batch: 6, generations: 6, seed: 3 }

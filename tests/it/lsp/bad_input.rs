@@ -2,11 +2,11 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
 use crate::lsp::HALF;
-use crate::lsp::client::{Client, at, file, place, uri};
+use crate::lsp::client::{Client, at, file, opened, place, uri};
 use crate::lsp::renaming::client_of;
-use crate::lsp::typist::Typist;
+use crate::lsp::typing_client::TypingClient;
+use crate::support::bench::Bench;
 
 const NOT_TEXT: &[u8] = b"circuit half(a, b) -> (s, c) {\n    s = \xff\n}\n";
 
@@ -72,10 +72,7 @@ fn commands_refuse_what_is_not_utf_8() {
 
 #[test]
 fn edits_that_come_at_once_are_checked_once() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", &crate::speed::long_program());
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", &crate::speed::long_program());
     client.diagnostics(&uri);
     let start = json!({ "line": 0, "character": 0 });
     let edits = 40;
@@ -93,11 +90,11 @@ fn edits_that_come_at_once_are_checked_once() {
 #[cfg(target_os = "linux")]
 fn memory_after_100_000_edits_is_that_after_100() {
     let bench = Bench::new();
-    let mut typist = Typist::start(&bench);
-    typist.type_until(100, 1);
-    let before = typist.megabytes();
-    typist.type_until(100_000, 50);
-    let after = typist.megabytes();
+    let mut typing_client = TypingClient::start(&bench);
+    typing_client.type_until(100, 1);
+    let before = typing_client.megabytes();
+    typing_client.type_until(100_000, 50);
+    let after = typing_client.megabytes();
     assert!(after - before < 20.0, "{before:.1} MB became {after:.1} MB");
-    typist.goodbye();
+    typing_client.goodbye();
 }

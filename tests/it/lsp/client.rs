@@ -7,8 +7,8 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use lsp_server::{Message, Response};
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use crate::limits::Limit;
+use crate::support::bench::Bench;
+use crate::support::limits::Limit;
 
 /// A running server and its client.
 pub(super) struct Client {
@@ -200,6 +200,15 @@ pub(super) fn uri(path: &Path) -> String {
 pub(super) fn file(bench: &Bench, name: &str, text: &str) -> (String, String) {
     bench.file(name, text);
     (uri(&bench.path().join(name)), text.to_owned())
+}
+
+/// A client with one open file in a folder of its own: the folder, the client, the URI and the text.
+pub(super) fn opened(name: &str, text: &str) -> (Bench, Client, String, String) {
+    let bench = Bench::new();
+    let (uri, text) = file(&bench, name, text);
+    let mut client = Client::start();
+    client.open(&uri, &text);
+    (bench, client, uri, text)
 }
 
 /// The place of a word in a text that has it, in lines and characters.

@@ -5,12 +5,12 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::cli::Bench;
-use crate::language::root;
-use crate::limits::InTime;
 use crate::lsp::client::at;
 use crate::manual::fences;
-use crate::tools::{EMACS, NEOVIM};
+use crate::support::bench::Bench;
+use crate::support::limits::InTime;
+use crate::support::root;
+use crate::support::tools::{EMACS, NEOVIM};
 
 /// The circuit that a user asks about.
 const NAME: &str = "d_latch";

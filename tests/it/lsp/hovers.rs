@@ -4,9 +4,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::json;
 
-use crate::cli::Bench;
-use crate::lsp::client::{Client, file, place};
+use crate::lsp::client::{Client, file, opened, place};
 use crate::lsp::{ADDER, HALF};
+use crate::support::bench::Bench;
 
 /// Hovers over a word of an open text until the answer has what only compiling tells, and returns it.
 fn settled(client: &mut Client, uri: &str, text: &str, word: &str, wanted: &str) -> String {
@@ -45,14 +45,10 @@ fn a_circuit_is_shown_with_its_comment_its_ports_its_robots_and_its_slowest_path
 
 #[test]
 fn a_net_is_shown_with_its_width_what_it_depends_on_and_its_robots() {
-    let bench = Bench::new();
-    let (uri, text) = file(
-        &bench,
+    let (_bench, mut client, uri, text) = opened(
         "a.nb",
         "circuit f[n = 4](a[n], b[n], c) -> (q) {\n    t = a and b\n    u init 0 = any(t) nor u\n    q = u and c\n}\n",
     );
-    let mut client = Client::start();
-    client.open(&uri, &text);
     let shown = settled(&mut client, &uri, &text, "t = a", "Made alone");
     assert!(shown.contains("- width: 4 bits\n- depends on `a`, `b`\n"), "{shown}");
     assert!(shown.contains("it takes 4 cells as written and **4 robots**"), "{shown}");
@@ -64,10 +60,7 @@ fn a_net_is_shown_with_its_width_what_it_depends_on_and_its_robots() {
 
 #[test]
 fn figures_are_of_the_text_as_it_is_now() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", "circuit f(a, b) -> (q) {\n    q = a nand b\n}\n");
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, text) = opened("a.nb", "circuit f(a, b) -> (q) {\n    q = a nand b\n}\n");
     settled(&mut client, &uri, &text, "f(a", "**1 robot**");
     let longer = text.replace("a nand b", "(a nand b) xor c").replace("a, b", "a, b, c");
     let change = json!({ "textDocument": { "uri": uri, "version": 2 }, "contentChanges": [{ "text": longer }] });
@@ -85,14 +78,10 @@ fn figures_are_of_the_text_as_it_is_now() {
 
 #[test]
 fn materials_and_schedules_are_shown_with_their_curves() {
-    let bench = Bench::new();
-    let (uri, text) = file(
-        &bench,
+    let (_bench, mut client, uri, text) = opened(
         "a.nb",
         "evolution mine { materials: [muscle, s1_grow, bone], variable: sweep }\nlibrary l { from: mine }\n",
     );
-    let mut client = Client::start();
-    client.open(&uri, &text);
     for word in ["muscle", "s1_grow", "sweep"] {
         let shown = hover(&mut client, &uri, &text, word);
         let [picture] = &pictures(&shown)[..] else { panic!("{word}: {shown}") };
@@ -106,15 +95,11 @@ fn materials_and_schedules_are_shown_with_their_curves() {
 
 #[test]
 fn a_function_is_shown_as_the_robot_that_computes_it() {
-    let bench = Bench::new();
-    let (uri, text) = file(
-        &bench,
+    let (_bench, mut client, uri, text) = opened(
         "a.nb",
         "circuit f(a, b) -> (q) {\n    q = a nand b\n}\n\nlibrary few { from: shipped, behaviors: [nand, RRRL] }\n\n\
          swarm s { circuit: f, library: few }\n",
     );
-    let mut client = Client::start();
-    client.open(&uri, &text);
     for (word, begins) in
         [("nand b", "`and`, `or`, `xor`"), ("nand, ", "The best robot for `nand`"), ("RRRL", "The best robot")]
     {
@@ -132,14 +117,8 @@ fn a_function_is_shown_as_the_robot_that_computes_it() {
 
 #[test]
 fn keywords_fields_and_constants_are_explained() {
-    let bench = Bench::new();
-    let (uri, text) = file(
-        &bench,
-        "a.nb",
-        "circuit f(a[4]) -> (q) {\n    q = a == 4'd10\n}\n\nswarm s { circuit: f, window: 3 cycles }\n",
-    );
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, text) =
+        opened("a.nb", "circuit f(a[4]) -> (q) {\n    q = a == 4'd10\n}\n\nswarm s { circuit: f, window: 3 cycles }\n");
     let shown = hover(&mut client, &uri, &text, "circuit f");
     assert!(shown.starts_with("A circuit has inputs") && shown.contains("```nb\ncircuit half_adder"), "{shown}");
     let shown = hover(&mut client, &uri, &text, "window");

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use crate::cli::Bench;
-use crate::language::programs;
 use crate::lsp::client::{Client, file};
-use crate::lsp::typist::Typist;
+use crate::lsp::typing_client::TypingClient;
 use crate::speed::long_program;
+use crate::support::bench::Bench;
+use crate::support::programs::programs;
 
 /// Edits of each text.
 const EDITS: usize = 40;
@@ -65,15 +65,15 @@ fn measure_latencies() {
 #[ignore = "measures a release build"]
 fn measure_memory_over_edits() {
     let bench = Bench::new();
-    let mut typist = Typist::start(&bench);
+    let mut typing_client = TypingClient::start(&bench);
     println!("| edits | memory |\n|---|---|");
     let mut held = Vec::new();
     // The first edits come in a message each; a million cannot.
     for (edits, each) in [(100, 1), (1000, 1), (10_000, 1), (100_000, 1), (1_000_000, 1000), (2_000_000, 1000)] {
-        typist.type_until(edits, each);
-        held.push(typist.megabytes());
-        println!("| {edits} | {:.1} MB |", typist.megabytes());
+        typing_client.type_until(edits, each);
+        held.push(typing_client.megabytes());
+        println!("| {edits} | {:.1} MB |", typing_client.megabytes());
     }
     assert!(held.iter().all(|megabytes| megabytes - held[0] < 20.0));
-    typist.goodbye();
+    typing_client.goodbye();
 }

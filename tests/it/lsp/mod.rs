@@ -8,7 +8,7 @@ mod latency;
 mod protocol;
 mod renaming;
 mod runs;
-mod typist;
+mod typing_client;
 #[cfg(target_os = "linux")]
 mod verilog;
 mod views;
@@ -18,8 +18,8 @@ use std::io::Write;
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use client::{Client, at, file, place};
+use crate::support::bench::Bench;
+use client::{Client, at, file, opened, place};
 
 pub(crate) const ADDER: &str = "\
 use \"half.nb\"
@@ -47,10 +47,7 @@ circuit half(a, b) -> (s, c) {
 
 #[test]
 fn errors_are_published_while_typing_and_fixed_by_quick_fixes() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", "circuit gate(a, b) -> (q) {\n    q = a & b\n}\n");
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, text) = opened("a.nb", "circuit gate(a, b) -> (q) {\n    q = a & b\n}\n");
     let found = client.diagnostics(&uri);
     let [problem] = &found.as_array().unwrap()[..] else { panic!("{found}") };
     assert_eq!((&problem["code"], &problem["severity"]), (&json!("syntax"), &json!(1)));
@@ -109,10 +106,7 @@ fn names_lead_to_their_declarations_in_other_files_and_in_the_prelude() {
 
 #[test]
 fn a_text_is_formatted_as_by_the_program() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", "circuit   f(a)->(q){q=not a}\n");
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (bench, mut client, uri, _) = opened("a.nb", "circuit   f(a)->(q){q=not a}\n");
     let asked = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let edits = client.ask("textDocument/formatting", asked.clone()).unwrap();
     assert_eq!(bench.run(&["fmt", "a.nb"]).status, 0);
@@ -173,10 +167,7 @@ fn characters_are_counted_as_was_agreed() {
 
 #[test]
 fn wrong_messages_are_answered_and_the_server_goes_on() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", HALF);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", HALF);
     assert!(client.ask("workspace/nonsense", json!({})).unwrap_err().contains("`workspace/nonsense`"));
     assert!(client.ask("textDocument/hover", json!({ "position": 3 })).is_err());
     let far = json!({ "textDocument": { "uri": uri }, "position": { "line": 4_000_000, "character": 9 } });

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use lsp_server::ErrorCode;
 use serde_json::{Value, json};
 
-use crate::limits;
+use crate::support::limits;
 
 /// A frame with a message.
 fn frame(message: &Value) -> String {

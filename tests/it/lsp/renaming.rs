@@ -2,9 +2,9 @@
 
 use serde_json::json;
 
-use crate::cli::Bench;
 use crate::lsp::client::{Client, at, file, place, uri};
 use crate::lsp::{ADDER, HALF};
+use crate::support::bench::Bench;
 
 #[test]
 fn a_new_name_is_written_in_all_open_files() {

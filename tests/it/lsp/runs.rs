@@ -4,8 +4,8 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use crate::lsp::client::{Client, file};
+use crate::lsp::client::{Client, file, opened};
+use crate::support::bench::Bench;
 
 const TESTED: &str = "\
 circuit f(a, b) -> (q) {
@@ -42,10 +42,7 @@ fn execute(client: &mut Client, command: &Value) -> Result<Value, String> {
 
 #[test]
 fn lenses_run_tests_and_simulations_and_give_their_pages() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", TESTED);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", TESTED);
     let found = lenses(&mut client, &uri);
     let ran = execute(&mut client, titled(&found, "run in physics", 4)).unwrap();
     assert_eq!((&ran["passed"], &ran["text"]), (&json!(true), &json!("pass: 1 of 1 passed")));
@@ -87,10 +84,7 @@ fn a_lens_tells_the_robots_and_the_clock() {
 
 #[test]
 fn the_progress_of_a_run_is_told() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", TESTED);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", TESTED);
     let asked = json!({ "command": "nbc.run", "arguments": [{ "uri": uri }], "workDoneToken": "mine" });
     let ran = client.ask("workspace/executeCommand", asked).unwrap();
     assert_eq!(ran["passed"], true);
@@ -129,10 +123,7 @@ fn a_run_can_be_cancelled_and_the_server_answers_meanwhile() {
 
 #[test]
 fn wrong_commands_are_refused() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", "circuit f(a) -> (q) { q = b }\n");
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", "circuit f(a) -> (q) { q = b }\n");
     let mut ask = |command: &str, arguments: Value| {
         let asked = json!({ "command": command, "arguments": arguments });
         client.ask("workspace/executeCommand", asked).unwrap_err()

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use crate::lsp::client::{Client, at, uri};
-use crate::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
-use crate::tools::{YOSYS, signal};
+use crate::support::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
+use crate::support::tools::{YOSYS, signal};
 
 fn parameters(trusted: &Value) -> Value {
     json!({ "capabilities": {}, "initializationOptions": { "verilog": { "trusted": trusted } } })
@@ -44,7 +44,7 @@ fn verilog_of_a_trusted_workspace_is_translated() {
     if !YOSYS.is_there() {
         return;
     }
-    let bench = crate::cli::Bench::new();
+    let bench = crate::support::bench::Bench::new();
     bench.file("m.v", MODULE);
     let own = uri(&bench.file("a.nb", USER));
     let mut client = Client::initialized(&parameters(&json!(true)));

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use crate::lsp::client::{Client, at, file, uri};
+use crate::lsp::client::{Client, at, file, opened, uri};
 use crate::lsp::{ADDER, HALF};
+use crate::support::bench::Bench;
 
 fn whole(uri: &str) -> Value {
     let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 9999, "character": 0 } });
@@ -110,10 +110,7 @@ fn what_depends_on_settings_and_files_is_asked_for_again() {
 
 #[test]
 fn a_selection_grows_from_the_word_to_the_file() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", CALLS);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, text) = opened("a.nb", CALLS);
     let asked = json!({ "textDocument": { "uri": uri }, "positions": [at(&text, "any(t))")] });
     let found = client.ask("textDocument/selectionRange", asked).unwrap();
     let mut ranges = Vec::new();
@@ -228,10 +225,7 @@ fn files_and_folders_that_a_source_names_are_links() {
 
 #[test]
 fn the_declarations_in_a_range_are_formatted_and_the_others_stay() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", "circuit f(a)->(q){q=a}\n\n\n\ncircuit g(a)->(q){q=f(a)}\n");
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, text) = opened("a.nb", "circuit f(a)->(q){q=a}\n\n\n\ncircuit g(a)->(q){q=f(a)}\n");
     let range = json!({ "start": at(&text, "circuit g"), "end": at(&text, "q=f") });
     let asked =
         json!({ "textDocument": { "uri": uri }, "range": range, "options": { "tabSize": 4, "insertSpaces": true } });

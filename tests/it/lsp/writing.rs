@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::Bench;
-use crate::lsp::client::{Client, at, file, place};
+use crate::lsp::client::{Client, at, file, opened, place};
+use crate::support::bench::Bench;
 
 const START: &str = "\
 // Adds two bits.
@@ -34,10 +34,7 @@ fn labels(list: &[Value]) -> Vec<&str> {
 
 #[test]
 fn completion_knows_the_place() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", START);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", START);
     let cases: [(&str, &[&str], &[&str]); 20] = [
         ("$", &["circuit", "use"], &["and", "half"]),
         ("// no$", &[], &["circuit"]),
@@ -113,10 +110,7 @@ fn completion_finds_the_files_and_folders_of_a_path() {
 
 #[test]
 fn a_completed_call_has_its_operands_its_signature_and_its_comment() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", START);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", START);
     let found = completions(&mut client, &uri, "circuit f(p) -> (q) {\n    q = ha$");
     let half = found.iter().find(|item| item["label"] == "half").unwrap();
     assert_eq!((&half["insertText"], &half["insertTextFormat"]), (&json!("half(${1:a}, ${2:b})"), &json!(2)));
@@ -129,10 +123,7 @@ fn a_completed_call_has_its_operands_its_signature_and_its_comment() {
 
 #[test]
 fn the_signature_of_a_call_shows_the_operand_that_is_being_written() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", START);
-    let mut client = Client::start();
-    client.open(&uri, &text);
+    let (_bench, mut client, uri, _) = opened("a.nb", START);
     let mut active = |rest: &str| {
         let text = format!("{START}circuit f(p[4], q[4]) -> (r[4]) {{\n    r = {rest}");
         let place = place(&uri, &text, "$");

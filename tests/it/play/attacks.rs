@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 use super::page::Server;
-use crate::limits;
+use crate::support::limits;
 
 fn text(message: &Value) -> Message {
     Message::text(message.to_string())

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
-use crate::cli::program;
-use crate::limits::Limit;
+use crate::support::bench::program;
+use crate::support::limits::Limit;
 
 /// A running server.
 pub(super) struct Server {

@@ -4,7 +4,7 @@ use serde_json::json;
 use tungstenite::Message;
 
 use super::page::Server;
-use crate::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
+use crate::support::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
 
 #[test]
 fn verilog_that_reaches_the_machine_is_refused_before_yosys_begins() {

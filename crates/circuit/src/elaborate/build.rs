@@ -62,8 +62,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Moves errors found since then in another file to `place`, where the circuit is used, because the user may not
-    /// know the file that declares it.
+    /// Moves the errors after the first `known` ones that are in another file to `place`. There the circuit is used;
+    /// the user may not know the file that declares it.
     pub(super) fn show_at(&mut self, place: Span, known: usize) {
         for fault in &mut self.diagnostics[known..] {
             if fault.labels.first().is_some_and(|label| label.span.file != place.file) {

@@ -19,12 +19,12 @@ pub(super) fn elements(netlist: &Netlist, loops: &Loops) -> Vec<Vec<NetId>> {
     let mut elements: Vec<Vec<NetId>> = Vec::new();
     for (start, _) in starts {
         let cycle = shortest_loop(netlist, start);
-        let met: Vec<usize> = cycle.iter().filter_map(|id| element_of.get(id).copied()).collect();
-        let own = met.iter().copied().min().unwrap_or(elements.len());
+        let found: Vec<usize> = cycle.iter().filter_map(|id| element_of.get(id).copied()).collect();
+        let own = found.iter().copied().min().unwrap_or(elements.len());
         if own == elements.len() {
             elements.push(Vec::new());
         }
-        let merged = met.into_iter().filter(|&other| other != own).collect::<std::collections::BTreeSet<_>>();
+        let merged = found.into_iter().filter(|&other| other != own).collect::<std::collections::BTreeSet<_>>();
         let others: Vec<NetId> = merged.into_iter().flat_map(|other| std::mem::take(&mut elements[other])).collect();
         for id in cycle.into_iter().chain(others) {
             if element_of.insert(id, own) != Some(own) {

@@ -334,11 +334,11 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::cells::CellLibrary;
+    use crate::example::library;
 
     /// The fewest cells for a function of three inputs, checked to compute it.
     fn fewest(cells: &str, targets: &[u8]) -> usize {
-        let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
+        let library = library(cells);
         let prices = Prices::of(&library);
         let network = wanted(targets);
         let ExactResult::Made(made) = fewer(&network, &prices, MOST_CELLS as u32, u64::MAX, &CancelFlag::default())
@@ -405,7 +405,7 @@ mod tests {
     fn impossible_and_aborted_searches_are_distinguished() {
         let (never, now) = (CancelFlag::default(), CancelFlag::default());
         now.raise();
-        let prices = Prices::of(&CellLibrary::uniform([Function::NAND]));
+        let prices = Prices::of(&library("nand"));
         assert_eq!(fewer(&wanted(&[0x96]), &prices, 8, u64::MAX, &never), ExactResult::Impossible);
         assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, 100, &never), ExactResult::Unknown);
         assert_eq!(fewer(&wanted(&[0x96]), &prices, 9, u64::MAX, &now), ExactResult::Unknown);

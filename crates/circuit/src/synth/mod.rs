@@ -8,7 +8,7 @@ mod parts;
 mod phases;
 pub mod prices;
 pub mod reduce;
-mod roam;
+mod samples;
 mod shared_pairs;
 mod surroundings;
 pub mod walk;

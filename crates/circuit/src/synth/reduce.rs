@@ -1,4 +1,4 @@
-//! The course of a synthesis: which searches run, in which order, for which effort.
+//! The reduction of a network: which searches run, in which order, for which effort.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -14,9 +14,9 @@ use crate::synth::graph::{Graph, every_pattern};
 use crate::synth::parts::in_parts;
 use crate::synth::phases::assign_phases;
 use crate::synth::prices::Prices;
-use crate::synth::roam::roam;
+use crate::synth::samples::improve_on_samples;
 use crate::synth::shared_pairs::share_pairs;
-use crate::synth::walk::{self, MANY_GATES, Pace, WalkPlan};
+use crate::synth::walk::{self, DelayGoal, MANY_GATES, WalkPlan};
 use nbc_base::model::Function;
 
 /// The most inputs of a network that is searched as a whole.
@@ -53,17 +53,17 @@ pub fn reduce(
     options: &MapOptions,
 ) -> Result<Network, Function> {
     let target = Prices::of(library);
-    let course = Course { prices: &target, stages, effort: options.effort, cancel: &options.cancel };
+    let reduction = Reduction { prices: &target, stages, effort: options.effort, cancel: &options.cancel };
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_796e_7468);
     let direct = cover(network, &target, stages)?;
     if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
         return Ok(direct);
     }
-    let best = course.search_both_ways(network, &direct, &mut random)?;
-    let best = course.fewest(best);
+    let best = reduction.search_both_ways(network, &direct, &mut random)?;
+    let best = reduction.fewest(best);
     Ok(match options.objective {
-        MappingObjective::Delay => course.quicken(&best, &mut random),
-        _ => course.shorten(&best, &mut random),
+        MappingObjective::Delay => reduction.shorten_slowest_path(&best, &mut random),
+        _ => reduction.shorten(&best, &mut random),
     })
 }
 
@@ -92,9 +92,9 @@ pub fn reduce_within(network: &Network, library: &CellLibrary, care: &CareSet, o
         Effort::Normal => 60 * gates,
         Effort::High => 200 * gates,
     };
-    let plan = WalkPlan { cancel: Some(&options.cancel), ..WalkPlan::calm(visits.min(CARE_WORK / gates)) };
+    let plan = WalkPlan { cancel: Some(&options.cancel), ..WalkPlan::downhill(visits.min(CARE_WORK / gates)) };
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6363_6172_6573);
-    roam(&start, &ideal, &[], Some(care), plan, &mut random)
+    improve_on_samples(&start, &ideal, &[], Some(care), plan, &mut random)
 }
 
 /// The cheaper of two networks; of equal cost, the one with the shorter slowest path, or the first.
@@ -133,7 +133,7 @@ fn is_narrow(network: &Network) -> bool {
 
 /// The parameters of all searches of a synthesis.
 #[derive(Clone, Copy)]
-struct Course<'a> {
+struct Reduction<'a> {
     prices: &'a Prices,
     /// The number of kept cells before each input.
     stages: &'a [u32],
@@ -141,10 +141,10 @@ struct Course<'a> {
     cancel: &'a CancelFlag,
 }
 
-impl<'a> Course<'a> {
+impl<'a> Reduction<'a> {
     /// A walk that never climbs and never turns back.
-    fn calm(&self, visits: u64) -> WalkPlan<'a> {
-        WalkPlan { cancel: Some(self.cancel), ..WalkPlan::calm(visits) }
+    fn downhill(&self, visits: u64) -> WalkPlan<'a> {
+        WalkPlan { cancel: Some(self.cancel), ..WalkPlan::downhill(visits) }
     }
 
     /// The search for the library's prices, and the search that first minimizes the number of gates of any kind.
@@ -164,7 +164,7 @@ impl<'a> Course<'a> {
         }
         // An exclusive or is counted as slightly less than its cells.
         let ideal = Prices::abstracted(2 * exclusive - 1);
-        let few = Course { prices: &ideal, ..*self }.search(&cover(network, &ideal, self.stages)?, 1, random);
+        let few = Reduction { prices: &ideal, ..*self }.search(&cover(network, &ideal, self.stages)?, 1, random);
         let mapped = cover(&few, self.prices, self.stages)?;
         let other = self.search(&cheaper(direct.clone(), mapped, self.prices), 2, random);
         Ok(cheaper(best, other, self.prices))
@@ -177,11 +177,11 @@ impl<'a> Course<'a> {
         let start = (0..2).try_fold(cover(network, &ideal, self.stages)?, |now, _| {
             Ok(cheaper(now.clone(), cover(&share_pairs(&now), &ideal, self.stages)?, &ideal))
         })?;
-        let few = Course { prices: &ideal, ..*self }.search(&start, 1, random);
+        let few = Reduction { prices: &ideal, ..*self }.search(&start, 1, random);
         let mut best = self.in_phases(direct.clone(), &few, random)?;
         let halfway = self.prices.halfway();
         let start = cover(&best, &halfway, self.stages)?;
-        let few = Course { prices: &halfway, ..*self }.search(&start, 2, random);
+        let few = Reduction { prices: &halfway, ..*self }.search(&start, 2, random);
         best = self.in_phases(best, &few, random)?;
         Ok(self.search(&best, 1, random))
     }
@@ -218,10 +218,10 @@ impl<'a> Course<'a> {
         };
         let words = (1u64 << network.inputs).div_ceil(64);
         let visits = visits.min(WHOLE_WORK / (words * gates.max(1)));
-        let calm = self.calm(visits * share);
-        let bold = WalkPlan { climb: 400, patience: visits / 4, ..calm };
+        let downhill = self.downhill(visits * share);
+        let bold = WalkPlan { climb: 400, patience: visits / 4, ..downhill };
         let mut walk = || {
-            let first = walk::improve_all(network, self.prices, self.stages, calm, random);
+            let first = walk::improve_all(network, self.prices, self.stages, downhill, random);
             walk::improve_all(&first, self.prices, self.stages, bold, random)
         };
         // With few inputs a walk is cheap, so a new start is worth more than a longer walk.
@@ -239,7 +239,7 @@ impl<'a> Course<'a> {
             let first = below(random, NEAR_GATES) + 1;
             let near = self.no_dearer(best, |best| {
                 in_parts(best, self.stages, first, NEAR_GATES, |part, stages| {
-                    let plan = self.calm(round.near(part.gates.len() as u64, gates));
+                    let plan = self.downhill(round.near(part.gates.len() as u64, gates));
                     walk::improve(part, self.prices, stages, &[], plan, random)
                 })
             });
@@ -249,8 +249,8 @@ impl<'a> Course<'a> {
             let first = below(random, FAR_GATES) + 1;
             self.no_dearer(near, |near| {
                 in_parts(near, self.stages, first, FAR_GATES, |part, stages| {
-                    let plan = self.calm(round.far(part.gates.len() as u64, gates));
-                    roam(part, self.prices, stages, None, plan, random)
+                    let plan = self.downhill(round.far(part.gates.len() as u64, gates));
+                    improve_on_samples(part, self.prices, stages, None, plan, random)
                 })
             })
         })
@@ -282,7 +282,7 @@ impl<'a> Course<'a> {
     /// Makes gates earlier where that costs nothing, so that a network of the same cells settles sooner.
     fn shorten(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let visits = (SHORTENING_VISITS * network.gates.len() as u64).min(MOST_SHORTENING);
-        let plan = WalkPlan { pace: Pace::Shorten, ..self.calm(visits) };
+        let plan = WalkPlan { delay: DelayGoal::Shorten, ..self.downhill(visits) };
         match is_narrow(network) {
             true => walk::improve_all(network, self.prices, self.stages, plan, random),
             false => walk::improve(network, self.prices, self.stages, &[], plan, random),
@@ -290,7 +290,7 @@ impl<'a> Course<'a> {
     }
 
     /// Alternately shortens the slowest path and reduces the cost without making the path longer.
-    fn quicken(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
+    fn shorten_slowest_path(&self, network: &Network, random: &mut ChaCha8Rng) -> Network {
         let rounds = match self.effort {
             Effort::Fast => 1,
             Effort::Normal => 3,
@@ -300,11 +300,11 @@ impl<'a> Course<'a> {
         let mut best = network.clone();
         let mut now = network.clone();
         for _ in 0..rounds {
-            for pace in [Pace::Hurry, Pace::Keep] {
-                let plan = WalkPlan { pace, ..self.calm((10 * now.gates.len() as u64).min(3_000)) };
+            for delay in [DelayGoal::SlowestPath, DelayGoal::Keep] {
+                let plan = WalkPlan { delay, ..self.downhill((10 * now.gates.len() as u64).min(3_000)) };
                 now = match is_narrow(&now) {
                     true => walk::improve_all(&now, self.prices, self.stages, plan, random),
-                    false => roam(&now, self.prices, self.stages, None, plan, random),
+                    false => improve_on_samples(&now, self.prices, self.stages, None, plan, random),
                 };
             }
             if rank(&now) < rank(&best) {
@@ -365,11 +365,8 @@ fn depth(network: &Network, prices: &Prices) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::example::library;
     use crate::proof::equal;
-
-    fn library(names: &str) -> CellLibrary {
-        CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
-    }
 
     fn reduced(network: &Network, cells: &str) -> Network {
         reduce(network, &[], &library(cells), &MapOptions::default()).unwrap()

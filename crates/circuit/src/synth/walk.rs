@@ -23,29 +23,29 @@ pub struct WalkPlan<'a> {
     /// Visits without a new best after which the search returns to the best so far.
     pub patience: u64,
     /// Whether time matters, and how.
-    pub pace: Pace,
+    pub delay: DelayGoal,
     /// Ends the walk early, if there is one.
     pub cancel: Option<&'a CancelFlag>,
 }
 
 /// The role of delay in the walk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Pace {
+pub enum DelayGoal {
     /// Delay does not matter.
     #[default]
     Any,
     /// No output may become later.
     Keep,
     /// Gates on the slowest paths are made earlier at any cost.
-    Hurry,
+    SlowestPath,
     /// Gates are made earlier where that costs nothing.
     Shorten,
 }
 
 impl WalkPlan<'_> {
     /// A walk that never climbs and never turns back.
-    pub fn calm(visits: u64) -> Self {
-        Self { visits, climb: 0, patience: u64::MAX, pace: Pace::Any, cancel: None }
+    pub fn downhill(visits: u64) -> Self {
+        Self { visits, climb: 0, patience: u64::MAX, delay: DelayGoal::Any, cancel: None }
     }
 
     /// Whether the walk is to end.
@@ -65,10 +65,10 @@ pub fn improve(
     random: &mut ChaCha8Rng,
 ) -> Network {
     let graph = Graph::new(network, prices, stages, patterns);
-    let mut walk = Walk::new(graph, plan.pace, random);
+    let mut walk = Walk::new(graph, plan.delay, random);
     walk.surroundings = patterns.is_empty().then(Surroundings::default);
-    if plan.pace == Pace::Hurry {
-        (0..plan.visits).take_while(|_| !plan.is_cancelled()).for_each(|_| walk.hurry());
+    if plan.delay == DelayGoal::SlowestPath {
+        (0..plan.visits).take_while(|_| !plan.is_cancelled()).for_each(|_| walk.shorten_slowest_path());
         return walk.graph.network();
     }
     let mut best = walk.graph.network();
@@ -125,9 +125,9 @@ pub fn improve_all(
 /// The state of a walk, with room for its sums.
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
-    pace: Pace,
+    delay: DelayGoal,
     /// Whether a visit looks only for candidates that are likely to pay.
-    thrifty: bool,
+    selective: bool,
     /// The cost of an exclusive or.
     exclusive: u32,
     /// The time at which the outputs must be correct.
@@ -150,16 +150,16 @@ struct Walk<'p, 'r> {
 /// Above this number of gates, a visit looks only for candidates that are likely to pay.
 pub const MANY_GATES: usize = 150;
 /// The highest cost of making one gate earlier.
-const HURRY_PRICE: u32 = 6;
+const MOST_DELAY_PRICE: u32 = 6;
 
 impl<'p, 'r> Walk<'p, 'r> {
-    fn new(graph: Graph<'p>, pace: Pace, random: &'r mut ChaCha8Rng) -> Self {
+    fn new(graph: Graph<'p>, delay: DelayGoal, random: &'r mut ChaCha8Rng) -> Self {
         Self {
-            thrifty: graph.order().len() > MANY_GATES,
+            selective: graph.order().len() > MANY_GATES,
             exclusive: graph.prices().cost(Function::XOR).unwrap_or(0),
             deadline: graph.depth(),
             graph,
-            pace,
+            delay,
             limit: u32::MAX,
             required: Vec::new(),
             random,
@@ -179,19 +179,19 @@ impl<'p, 'r> Walk<'p, 'r> {
     fn visit(&mut self, slack: u32) -> bool {
         let at = self.below(self.graph.order().len());
         let gate = self.graph.order()[at];
-        match self.pace {
-            Pace::Keep => {
+        match self.delay {
+            DelayGoal::Keep => {
                 self.require();
                 self.limit = self.required[gate as usize];
             }
-            Pace::Shorten => self.limit = self.graph.node(gate).arrival - 1,
-            Pace::Any | Pace::Hurry => {}
+            DelayGoal::Shorten => self.limit = self.graph.node(gate).arrival - 1,
+            DelayGoal::Any | DelayGoal::SlowestPath => {}
         }
         self.change(gate, slack)
     }
 
     /// Visits a random gate on a slowest path to make it earlier.
-    fn hurry(&mut self) {
+    fn shorten_slowest_path(&mut self) {
         self.deadline = self.graph.depth();
         self.require();
         let (graph, required) = (&self.graph, &self.required);
@@ -200,7 +200,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         if !critical.is_empty() {
             let gate = critical[self.below(critical.len())];
             self.limit = self.graph.node(gate).arrival - 1;
-            self.change(gate, HURRY_PRICE);
+            self.change(gate, MOST_DELAY_PRICE);
         }
     }
 
@@ -220,8 +220,8 @@ impl<'p, 'r> Walk<'p, 'r> {
     /// Looks for a replacement of a gate that costs at most `slack`; returns whether the network changed.
     fn change(&mut self, gate: Signal, slack: u32) -> bool {
         let released = self.graph.released(gate) + slack;
-        let deep = released >= if self.thrifty { 2 * self.graph.prices().unit() } else { 2 };
-        self.finder.exclusive = !self.thrifty || released + 2 * self.graph.prices().unit() >= self.exclusive;
+        let deep = released >= if self.selective { 2 * self.graph.prices().unit() } else { 2 };
+        self.finder.exclusive = !self.selective || released + 2 * self.graph.prices().unit() >= self.exclusive;
         match self.surroundings.take() {
             Some(mut surroundings) => {
                 self.look_around(&mut surroundings, gate, deep);
@@ -416,7 +416,7 @@ mod tests {
             let prices = Prices::of(&library);
             let covered = crate::synth::reduce::cover(&source, &prices, &stages).unwrap();
             let mut random = ChaCha8Rng::seed_from_u64(1);
-            let plan = WalkPlan::calm(10 * gates.len() as u64);
+            let plan = WalkPlan::downhill(10 * gates.len() as u64);
             let walked = improve(&covered, &prices, &stages, &[], plan, &mut random);
             prop_assert!(equal(&source, &walked).is_ok());
             prop_assert!(walked.gates.len() <= covered.gates.len());
@@ -447,7 +447,7 @@ mod tests {
         let all = Function::all().filter(|function| function.arity() == 2);
         let prices = Prices::of(&CellLibrary::uniform(all));
         let mut random = ChaCha8Rng::seed_from_u64(1);
-        let walked = improve(&network, &prices, &[], &[], WalkPlan::calm(20), &mut random);
+        let walked = improve(&network, &prices, &[], &[], WalkPlan::downhill(20), &mut random);
         assert_eq!(walked.gates.len(), 1);
     }
 }

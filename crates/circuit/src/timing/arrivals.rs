@@ -1,8 +1,8 @@
-//! When changes arrive, along the turns of a phase.
+//! When changes arrive, along the updates of a phase.
 
 use crate::cells::CellKind;
 use crate::timing::phase::Phase;
-use crate::timing::turn::Turn;
+use crate::timing::update::NetUpdate;
 use crate::{NetId, Netlist, Node};
 
 /// Which delay a cell has.
@@ -15,7 +15,7 @@ pub enum Delays {
     Transition,
 }
 
-/// An event: a turn falls (0) or rises (1).
+/// An event: an update falls (0) or rises (1).
 pub(super) type Event = (usize, usize);
 
 /// A netlist with the delays of its cells.
@@ -36,12 +36,12 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Delay<'_, F> {
         }
     }
 
-    /// When a turn that nothing drives changes: inputs and constants at once, a cell of a loop after its clock.
-    fn launch(&self, phase: &Phase, turn: &Turn) -> Option<u32> {
-        let net = phase.net(turn);
+    /// When an update that nothing drives changes: inputs and constants at once, a cell of a loop after its clock.
+    fn launch(&self, phase: &Phase, update: &NetUpdate) -> Option<u32> {
+        let net = phase.net(update);
         match self.netlist.node(net) {
             Node::Input(_) | Node::Constant(_) => Some(0),
-            Node::Cell(_) if turn.pins.is_empty() && !phase.is_silent(turn) && phase.is_real(turn) => {
+            Node::Cell(_) if update.pins.is_empty() && !phase.is_silent(update) && phase.is_real(update) => {
                 Some((self.kind)(net).clock)
             }
             _ => None,
@@ -49,9 +49,9 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Delay<'_, F> {
     }
 }
 
-/// The latest changes of the turns of a phase.
+/// The latest changes of the updates of a phase.
 pub(super) struct Arrivals {
-    /// The latest fall and rise of each turn; `None` if it does not change.
+    /// The latest fall and rise of each update; `None` if it does not change.
     pub times: Vec<[Option<u32>; 2]>,
     /// The event that each waits for.
     before: Vec<[Option<Event>; 2]>,
@@ -60,25 +60,25 @@ pub(super) struct Arrivals {
 impl Arrivals {
     /// The changes after any inputs switched.
     pub fn of<'k>(delay: &Delay<'_, impl Fn(NetId) -> &'k CellKind>, phase: &Phase) -> Self {
-        Self::from(delay, phase, |turn| delay.launch(phase, turn))
+        Self::from(delay, phase, |update| delay.launch(phase, update))
     }
 
-    /// The changes after those of the turns for which `start` gives a time.
+    /// The changes after those of the updates for which `start` gives a time.
     pub fn from<'k>(
         delay: &Delay<'_, impl Fn(NetId) -> &'k CellKind>,
         phase: &Phase,
-        start: impl Fn(&Turn) -> Option<u32>,
+        start: impl Fn(&NetUpdate) -> Option<u32>,
     ) -> Self {
-        let mut arrivals = Self { times: Vec::with_capacity(phase.turns.len()), before: Vec::new() };
-        for turn in &phase.turns {
-            let mut times = [start(turn); 2];
+        let mut arrivals = Self { times: Vec::with_capacity(phase.updates.len()), before: Vec::new() };
+        for update in &phase.updates {
+            let mut times = [start(update); 2];
             let mut causes = [None; 2];
             // What a closed latch may still change is in its start.
-            let pins = if phase.is_silent(turn) { &[][..] } else { &turn.pins };
+            let pins = if phase.is_silent(update) { &[][..] } else { &update.pins };
             for &(pin, driver) in pins {
                 for (value, output) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let Some(launched) = arrivals.times[driver][value] else { continue };
-                    let Some(cycles) = delay.cycles(phase.net(turn), pin, value, output) else { continue };
+                    let Some(cycles) = delay.cycles(phase.net(update), pin, value, output) else { continue };
                     let time = Some(launched + cycles);
                     if time > times[output] || causes[output].is_none() && time == times[output] {
                         times[output] = time;
@@ -92,25 +92,26 @@ impl Arrivals {
         arrivals
     }
 
-    /// The latest change of a turn.
-    pub fn latest(&self, turn: usize) -> Option<u32> {
-        self.times[turn][0].max(self.times[turn][1])
+    /// The latest change of an update.
+    pub fn latest(&self, update: usize) -> Option<u32> {
+        self.times[update][0].max(self.times[update][1])
     }
 
-    /// The latest event of all, the earliest turn of several.
+    /// The latest event of all, the earliest update of several.
     pub fn last(&self, counts: impl Fn(usize) -> bool) -> Option<(u32, Event)> {
-        let events = (0..self.times.len()).filter(|&turn| counts(turn)).flat_map(|turn| [(turn, 0), (turn, 1)]);
+        let events =
+            (0..self.times.len()).filter(|&update| counts(update)).flat_map(|update| [(update, 0), (update, 1)]);
         let timed = events.filter_map(|event: Event| Some((self.times[event.0][event.1]?, event)));
         timed.max_by_key(|&(time, event)| (time, std::cmp::Reverse(event)))
     }
 
-    /// The slack of each turn, if all must have changed after `hold` cycles.
+    /// The slack of each update, if all must have changed after `hold` cycles.
     pub fn slack<'k>(&self, delay: &Delay<'_, impl Fn(NetId) -> &'k CellKind>, phase: &Phase, hold: u32) -> Vec<u32> {
-        let mut required = vec![[hold; 2]; phase.turns.len()];
-        for (i, turn) in phase.turns.iter().enumerate().rev() {
-            for &(pin, driver) in &turn.pins {
+        let mut required = vec![[hold; 2]; phase.updates.len()];
+        for (i, update) in phase.updates.iter().enumerate().rev() {
+            for &(pin, driver) in &update.pins {
                 for (value, output) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    if let Some(cycles) = delay.cycles(phase.net(turn), pin, value, output) {
+                    if let Some(cycles) = delay.cycles(phase.net(update), pin, value, output) {
                         let before = required[i][output].saturating_sub(cycles);
                         required[driver][value] = required[driver][value].min(before);
                     }
@@ -126,8 +127,8 @@ impl Arrivals {
 
     /// The nets from a source to an event.
     pub fn path(&self, phase: &Phase, event: Event) -> Vec<NetId> {
-        let steps = std::iter::successors(Some(event), |&(turn, value)| self.before[turn][value]);
-        let mut nets: Vec<_> = steps.map(|(turn, _)| phase.net(&phase.turns[turn])).collect();
+        let steps = std::iter::successors(Some(event), |&(update, value)| self.before[update][value]);
+        let mut nets: Vec<_> = steps.map(|(update, _)| phase.net(&phase.updates[update])).collect();
         nets.reverse();
         nets
     }

@@ -8,7 +8,7 @@ use petgraph::visit::NodeIndexable;
 use crate::cells::CellKind;
 use crate::timing::arrivals::{Arrivals, Delay, Delays};
 use crate::timing::phase::{MOST_ROOTS, Passage, Phase, RootValues, earliest, passages, phases};
-use crate::timing::turn::Turn;
+use crate::timing::update::NetUpdate;
 use crate::{Latch, NetId, Netlist, Node, Storage};
 
 /// After this many periods without an end, data do not arrive in time.
@@ -26,7 +26,7 @@ pub struct ClockTimes {
     pub low: u32,
     /// The least time from one rise to the next.
     pub period: u32,
-    /// For at most so many cycles after a latch has opened, its data may arrive, if the clock is no slower than that.
+    /// The longest time between the opening of a latch and the arrival of its data, at this period.
     pub borrowed: u32,
     /// The times of the other inputs.
     pub inputs: Vec<InputTimes>,
@@ -171,13 +171,13 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
     fn changes(&self, phases: &[(Vec<Passage>, Phase)], late: &[u32]) -> Vec<u32> {
         let mut changes = late.to_vec();
         for (_, phase) in phases {
-            let start = |turn: &Turn| match phase.net(turn) {
+            let start = |update: &NetUpdate| match phase.net(update) {
                 net if net == self.clock => Some(0),
-                net => Some(late[net.index()]).filter(|&late| late > 0 && phase.is_real(turn)),
+                net => Some(late[net.index()]).filter(|&late| late > 0 && phase.is_real(update)),
             };
             let arrivals = Arrivals::from(&self.delay(), phase, start);
-            for (i, turn) in phase.turns.iter().enumerate().filter(|(_, turn)| phase.is_real(turn)) {
-                let change = &mut changes[turn.node.index()];
+            for (i, update) in phase.updates.iter().enumerate().filter(|(_, update)| phase.is_real(update)) {
+                let change = &mut changes[update.node.index()];
                 *change = (*change).max(arrivals.latest(i).unwrap_or(0));
             }
         }
@@ -195,11 +195,11 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         let edge = |rises: bool| {
             let mut times: Option<InputTimes> = None;
             for (passages, phase) in &halves[usize::from(!rises)] {
-                let launch = |turn: &Turn| (phase.net(turn) == input).then_some(0);
+                let launch = |update: &NetUpdate| (phase.net(update) == input).then_some(0);
                 let arrivals = Arrivals::from(&self.delay(), phase, launch);
                 let earliest = earliest(self.netlist, self.storage, passages, &[input], &[]);
                 for latch in self.open(!rises) {
-                    let settled = (0..).zip(&phase.turns).filter(|(_, turn)| latch.cells.contains(&turn.node));
+                    let settled = (0..).zip(&phase.updates).filter(|(_, update)| latch.cells.contains(&update.node));
                     let Some(settled) = settled.filter_map(|(i, _)| arrivals.latest(i)).max() else { continue };
                     let setup = settled.saturating_sub(latch.chain.len() as u32);
                     let closed = latch.chain.iter().map(|&id| (self.kind)(id).clock).sum();
@@ -235,9 +235,9 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
     fn slowest(&self, ends: PathEnds, halves: &Halves, from: &[NetId], to: &BTreeSet<NetId>) -> Option<ClockPath> {
         let mut slowest: Option<ClockPath> = None;
         for (_, phase) in halves.iter().flatten() {
-            let launch = |turn: &Turn| from.contains(&phase.net(turn)).then_some(0);
+            let launch = |update: &NetUpdate| from.contains(&phase.net(update)).then_some(0);
             let arrivals = Arrivals::from(&self.delay(), phase, launch);
-            if let Some((cycles, event)) = arrivals.last(|turn| to.contains(&phase.turns[turn].node))
+            if let Some((cycles, event)) = arrivals.last(|update| to.contains(&phase.updates[update].node))
                 && slowest.as_ref().is_none_or(|slowest| cycles > slowest.cycles)
             {
                 slowest = Some(ClockPath { ends, cycles, nets: arrivals.path(phase, event) });

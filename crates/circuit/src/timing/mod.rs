@@ -8,7 +8,7 @@ mod arrivals;
 mod clock;
 mod phase;
 mod pulsed;
-mod turn;
+mod update;
 mod wording;
 
 use petgraph::visit::NodeIndexable;
@@ -76,8 +76,8 @@ impl Timing {
         let mut times: Vec<Option<NetTime>> = vec![None; netlist.graph().node_bound()];
         for (phase, arrivals) in &timed {
             let slack = arrivals.slack(&delay, phase, hold);
-            for (i, turn) in phase.turns.iter().enumerate().filter(|(_, turn)| phase.is_real(turn)) {
-                let time = &mut times[turn.node.index()];
+            for (i, update) in phase.updates.iter().enumerate().filter(|(_, update)| phase.is_real(update)) {
+                let time = &mut times[update.node.index()];
                 let old = time.unwrap_or(NetTime { arrival: 0, slack: hold });
                 let arrival = old.arrival.max(arrivals.latest(i).unwrap_or(0));
                 *time = Some(NetTime { arrival, slack: old.slack.min(slack[i]) });

@@ -10,7 +10,7 @@ use petgraph::visit::{EdgeRef, NodeIndexable};
 use crate::cells::CellKind;
 use crate::known::answer;
 use crate::netlist::NetGraph;
-use crate::timing::turn::{Turn, unroll};
+use crate::timing::update::{NetUpdate, unroll};
 use crate::{Latch, NetId, Netlist, Node, Storage};
 
 /// The most nets that open and close latches whose values are all tried.
@@ -39,14 +39,14 @@ type FirstChanges = Vec<Option<u32>>;
 /// The values of the roots of latches.
 pub(super) type RootValues = BTreeMap<NetId, bool>;
 
-/// A phase as a graph of turns.
+/// A phase as a graph of updates.
 pub(super) struct Phase {
     /// The net of each node that is a second copy of a guard: the guard with only its enable.
     copies: BTreeMap<NetId, NetId>,
     /// The cells of closed latches.
     silent: BTreeSet<NetId>,
-    /// The turns.
-    pub turns: Vec<Turn>,
+    /// The updates.
+    pub updates: Vec<NetUpdate>,
     /// The loops that are not one latch.
     pub loops: Vec<Vec<NetId>>,
 }
@@ -68,23 +68,23 @@ impl Phase {
         }
         let latches = storage.latches.iter();
         let elements = latches.map(|latch| (latch.cells[0], (&latch.cells[..], latch.rounds))).collect();
-        let (turns, loops) = unroll(&graph, &elements);
-        Self { copies, silent, turns, loops }
+        let (updates, loops) = unroll(&graph, &elements);
+        Self { copies, silent, updates, loops }
     }
 
-    /// The net of a turn.
-    pub fn net(&self, turn: &Turn) -> NetId {
-        self.copies.get(&turn.node).copied().unwrap_or(turn.node)
+    /// The net of an update.
+    pub fn net(&self, update: &NetUpdate) -> NetId {
+        self.copies.get(&update.node).copied().unwrap_or(update.node)
     }
 
-    /// Whether a turn is that of a net itself, and not of a copy of a guard.
-    pub fn is_real(&self, turn: &Turn) -> bool {
-        !self.copies.contains_key(&turn.node)
+    /// Whether an update is that of a net itself, and not of a copy of a guard.
+    pub fn is_real(&self, update: &NetUpdate) -> bool {
+        !self.copies.contains_key(&update.node)
     }
 
-    /// Whether a turn is that of a cell of a closed latch.
-    pub fn is_silent(&self, turn: &Turn) -> bool {
-        self.silent.contains(&turn.node)
+    /// Whether an update is that of a cell of a closed latch.
+    pub fn is_silent(&self, update: &NetUpdate) -> bool {
+        self.silent.contains(&update.node)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Checks of what workers answer: whether a task can have a result, and some of their work done again here.
+//! Checks the results of workers: whether a task can have such a result, and some of them by doing the task here, too.
 
 mod plausible;
 
@@ -15,12 +15,12 @@ use nbc_swarm::{Task, TaskResult, perform};
 
 pub use plausible::is_plausible;
 
-/// The share of the time that is spent on workers that have passed.
+/// The share of the time that is spent on further checks of workers that have passed their first.
 const SHARE: f64 = 0.02;
 /// Messages that are not answers have a line each up to this number, then fewer.
 const JUNK_LINES: u64 = 8;
 
-/// What is known of the workers, and the work that is being done again.
+/// The trust in each worker, and the checks in progress.
 pub struct Checker {
     handle: Handle,
     log: Log,
@@ -36,7 +36,7 @@ pub struct Checker {
     spent: Duration,
 }
 
-/// What is known of a worker.
+/// The history of a worker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Known {
     standing: Standing,
@@ -75,7 +75,7 @@ impl Check {
 }
 
 impl Checker {
-    /// Knows no workers.
+    /// A checker without workers.
     pub fn new(handle: Handle, is_trusting: bool, log: Log) -> Self {
         Self {
             handle,
@@ -172,8 +172,8 @@ impl Checker {
         self.unsound.as_deref()
     }
 
-    /// Counts a message that is not an answer. Anybody can send one in the name of a worker, so it is no fault of that
-    /// worker. Many make few lines.
+    /// Counts a message that is not an answer. Anybody can send one in the name of a worker, so the worker is not
+    /// refused. After a few messages, only some are logged.
     pub fn count_junk(&mut self, worker: &str) {
         self.junk += 1;
         if self.junk < JUNK_LINES || self.junk.is_power_of_two() {

@@ -23,7 +23,7 @@ pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
     }
 }
 
-/// Whether the numbers belong together, and are not NaN, which equals nothing.
+/// Whether the numbers agree with each other and none is NaN.
 fn is_possible(Measurement { displacement, behavior, character }: &Measurement) -> bool {
     let rates = [character.error_rate, character.glitch_rate];
     displacement.iter().all(|number| number.is_finite())

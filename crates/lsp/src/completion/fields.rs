@@ -1,11 +1,11 @@
-//! The fields of declarations and what they may hold. `tests` compares them with the checker.
+//! The fields of declarations and their possible values. `tests` compares them with the checker.
 
 use std::iter;
 
 use nbc_base::model::Variation;
 use nbc_lang::check::NameKind;
 
-/// What a field may hold.
+/// The possible values of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
     /// One of these words, or anything else that is not completed.

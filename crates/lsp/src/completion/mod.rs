@@ -1,4 +1,4 @@
-//! What may be written at a place: words of the language, declared names, fields, units, and calls of circuits.
+//! Completions at a place: words of the language, declared names, fields, units, and calls of circuits.
 
 mod fields;
 mod item;
@@ -102,7 +102,7 @@ fn field(name: &str) -> CompletionItem {
     CompletionItem { insert_text, ..item(name, CompletionItemKind::Field, "field") }
 }
 
-/// What the value of a field may be.
+/// The completions of the value of a field.
 fn values(files: &Files<'_>, keyword: &str, field: &str) -> Vec<CompletionItem> {
     let choices = |list: &[&str]| list.iter().map(|word| item(word, CompletionItemKind::EnumMember, field)).collect();
     match fields::of(keyword).iter().find(|(name, _)| *name == field).map(|(_, holds)| *holds) {

@@ -9,7 +9,7 @@ use crate::spot::Spot;
 use nbc_base::source::Span;
 use nbc_lang::check::{beside, is_usable};
 
-/// What a path leads to.
+/// The kind of file or folder that a path should name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathKind {
     /// A file that a program can use.
@@ -20,7 +20,8 @@ pub(super) enum PathKind {
 /// The most entries of a folder that are offered.
 const MOST: usize = 1000;
 
-/// What the name at a place may be, in a path that begins at the byte `start`. A folder may lead to more.
+/// The completions of the name at a place, in a path that begins at the byte `start`. Folders are offered too, because
+/// they may contain what is wanted.
 pub(super) fn items(spot: &Spot<'_>, start: usize, kind: PathKind) -> Vec<CompletionItem> {
     let typed = &spot.text()[start..spot.offset];
     let (folder, name) = typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1));

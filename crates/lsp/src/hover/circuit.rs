@@ -15,7 +15,7 @@ pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option
     (Some(interface(files, circuit)), subject)
 }
 
-/// What a declared swarm is made of.
+/// The circuit of a declared swarm, as a subject to compile.
 pub(super) fn of_swarm(files: &Files<'_>, name: &str) -> Option<Subject> {
     let swarm = files.checked.program.swarm(name)?;
     Some(Subject::Circuit(swarm.circuit.clone(), Some(swarm.name.clone())))

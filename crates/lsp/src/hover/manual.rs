@@ -77,8 +77,8 @@ fn names(text: &str, word: &str) -> bool {
     text.split(&format!("`{word}")).skip(1).any(|rest| !rest.starts_with(is_word))
 }
 
-/// What a section says of a word: `row`, or the paragraph that names it, or else its first paragraph; and the first
-/// example with the word, of the section or else of the manual.
+/// The description of a word in a section, and an example. The description is `row`, or the paragraph that names the
+/// word, or the first paragraph. The example is the first with the word in the section, or else in the manual.
 fn meaning(heading: &str, word: &str, row: Option<String>) -> Option<String> {
     let blocks = blocks(section(heading)?);
     let mut prose = blocks.iter().filter(|block| !block.starts_with('|') && !block.starts_with("```"));
@@ -119,7 +119,7 @@ fn blocks(section: &str) -> Vec<&str> {
     blocks
 }
 
-/// Links to pages of the manual lead nowhere from an editor.
+/// A text without links, because pages of the manual cannot be opened from an editor.
 fn without_links(text: &str) -> String {
     let mut parts = text.split("](");
     let mut plain = parts.next().unwrap_or_default().to_owned();

@@ -25,11 +25,11 @@ pub(super) struct Shown {
     pub(super) place: Span,
     /// Markdown.
     pub(super) text: String,
-    /// What would have to be compiled to say more.
+    /// The circuit or net whose figures can be added when it is compiled.
     pub(super) subject: Option<Subject>,
 }
 
-/// What is known about a place without compiling anything.
+/// The part of a hover that is known without compiling.
 pub(super) fn show(spot: &Spot<'_>, session: &Session, pictures: bool) -> Option<Shown> {
     if let Some(found) = spot.name() {
         return Some(of_name(spot, found, session, pictures));

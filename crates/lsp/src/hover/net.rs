@@ -8,7 +8,7 @@ use crate::hover::circuit::{instance, width};
 use nbc_base::model::{Block, Circuit, ExpressionId, ExpressionKind, NetSlot, Statement};
 use nbc_base::source::Span;
 
-/// What is known of the net declared at a place.
+/// The width of the net declared at a place, and what it depends on.
 pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option<Subject>) {
     let mut lines: Vec<String> = Vec::new();
     lines.extend(width(files, declared).map(|bits| format!("- width: {bits}")));

@@ -1,4 +1,4 @@
-//! Robots: a function is a robot, and a library is many.
+//! Hovers of functions and libraries: their robots.
 
 use std::collections::BTreeSet;
 

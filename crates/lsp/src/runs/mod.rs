@@ -47,7 +47,7 @@ impl Runs {
         Self { running: Vec::new(), outbox, inbox, results: ResultFolder::default() }
     }
 
-    /// What the runs tell.
+    /// Receives the progress and the results of the runs.
     pub(super) fn events(&self) -> &Receiver<RunEvent> {
         &self.inbox
     }
@@ -95,7 +95,7 @@ impl Running {
 }
 
 impl Drop for Runs {
-    /// Nobody waits for them any more.
+    /// Stops the runs, because no client waits for them.
     fn drop(&mut self) {
         self.running.iter().for_each(Running::cancel);
     }

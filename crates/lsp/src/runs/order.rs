@@ -1,4 +1,4 @@
-//! What a command is to run.
+//! The arguments of a command: what it should run.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::runs::command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
 use nbc_session::{Checked, Choice};
 use nbc_swarm::Level;
 
-/// What to do with a source.
+/// A command on a source.
 #[derive(Clone, Debug)]
 pub(crate) struct RunOrder {
     /// The source.

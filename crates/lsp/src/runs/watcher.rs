@@ -1,4 +1,4 @@
-//! Follows a run: tells its progress, and stops it.
+//! The observer of a run: reports its progress, and stops it.
 
 use crossbeam_channel::Sender;
 use gen_lsp_types::ProgressToken;
@@ -8,20 +8,20 @@ use crate::runs::outcome::RunOutcome;
 use nbc_circuit::CancelFlag;
 use nbc_session::Observer;
 
-/// What a run tells.
+/// A message of a run to the server.
 pub(crate) enum RunEvent {
     Progress { token: ProgressToken, percentage: u32, message: String },
     Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, String> },
 }
 
-/// Tells the progress of a run, and whether it is to stop.
+/// Reports the progress of a run, and stops it when the client cancels it.
 pub(super) struct Watcher {
     pub(super) token: Option<ProgressToken>,
     pub(super) outbox: Sender<RunEvent>,
     pub(super) stop: CancelFlag,
     /// The part of the run that is being done, from 0, and the number of parts.
     pub(super) part: (u64, u64),
-    /// The percentage that was told last.
+    /// The percentage that was reported last.
     pub(super) told: u32,
 }
 

@@ -12,7 +12,7 @@ use nbc_session::store;
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunList, RunReport, Session, TestOptions};
 use nbc_swarm::{Level, Room};
 
-/// Does what is ordered; an error is a message for people.
+/// Does the work of a command; an error is a message for people.
 pub(super) fn perform(
     world: SharedWorld,
     checked: &Checked,
@@ -114,7 +114,7 @@ fn written(checked: &Checked, results: &Path, name: &str, text: &str) -> Result<
     Ok(path)
 }
 
-/// Faults as a message: the first of them.
+/// The first of the diagnostics as a message.
 fn said(faults: &Diagnostics) -> String {
     faults.list.first().map_or_else(String::new, |fault| fault.message.clone())
 }

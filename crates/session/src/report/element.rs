@@ -1,4 +1,4 @@
-//! What drawings consist of. Lengths are pixels; y increases downwards.
+//! The elements of drawings. Lengths are pixels; y increases downwards.
 
 use crate::report::Color;
 
@@ -74,7 +74,7 @@ impl Type {
         Self { color, ..self }
     }
 
-    /// Standing so relative to its point.
+    /// With this position relative to its point.
     pub fn anchored(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }

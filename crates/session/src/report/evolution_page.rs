@@ -24,14 +24,14 @@ const SCRIPT: &str = include_str!("../../assets/page/archive.js");
 const GAIT_CYCLES: usize = 2;
 
 /// A drawing of the page with its heading.
-pub struct Plate {
+pub struct PageFigure {
     /// The line above the drawing.
     pub heading: String,
     /// The plot or picture, as vectors.
     pub drawing: Svg,
 }
 
-/// An elite on the page.
+/// The best elite of a niche on the page, with its seed.
 struct Entry<'a> {
     key: &'a NicheKey,
     seed: u64,
@@ -39,7 +39,7 @@ struct Entry<'a> {
 }
 
 /// The page for the runs of one declaration. The gaits are simulated here.
-pub fn draw_evolution_page(results: &EvolutionResults, plates: &[Plate], scheme: Scheme) -> String {
+pub fn draw_evolution_page(results: &EvolutionResults, figures: &[PageFigure], scheme: Scheme) -> String {
     let entries = ranked(results);
     let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);
     let (pace, gaits) = record(&entries);
@@ -49,7 +49,7 @@ pub fn draw_evolution_page(results: &EvolutionResults, plates: &[Plate], scheme:
         heading: &results.name,
         passed: behaviors > 0,
         verdict: verdict(results, behaviors, entries.len()),
-        body: archive(results, left_out) + &plates.iter().map(plate).collect::<String>(),
+        body: archive(results, left_out) + &figures.iter().map(figure).collect::<String>(),
         data: data(results, &entries, &gaits, pace, &looks),
         script: SCRIPT,
     }
@@ -142,9 +142,9 @@ fn number(value: f64) -> String {
     format!("{value:.2}")
 }
 
-fn plate(plate: &Plate) -> String {
-    let heading = escape(&plate.heading);
-    format!("<section>\n<h2>{heading}</h2>\n{}</section>\n", picture(&plate.drawing, &plate.heading))
+fn figure(figure: &PageFigure) -> String {
+    let heading = escape(&figure.heading);
+    format!("<section>\n<h2>{heading}</h2>\n{}</section>\n", picture(&figure.drawing, &figure.heading))
 }
 
 fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], pace: u32, looks: &Looks) -> Value {

@@ -10,7 +10,7 @@ const BOLD: &[u8] = include_bytes!("../../assets/DejaVuSans-Bold-subset.ttf");
 pub(super) struct Outline {
     /// `None` for a text without ink.
     pub path: Option<Path>,
-    /// The way from the start to the end of the text.
+    /// The distance from the start to the end of the text, in pixels.
     pub width: f32,
 }
 
@@ -33,7 +33,7 @@ impl Outline {
 /// Draws letter after letter in the units of the font.
 struct Pen {
     path: PathBuilder,
-    /// Where the present letter begins.
+    /// The start of the current letter.
     x: f32,
 }
 

@@ -35,7 +35,7 @@ const MAP: [Color; 5] = [
 type Cells = BTreeMap<(u16, u16), f64>;
 
 /// An archive as a map shows it.
-pub struct Terrain<'a> {
+pub struct ArchiveMap<'a> {
     /// The meaning of the first fitness, with its unit.
     pub unit: &'a str,
     /// The archive's axes.
@@ -49,10 +49,10 @@ pub struct Terrain<'a> {
 ///
 /// # Panics
 /// When an axis is not there.
-pub fn draw_heatmap(title: &str, terrain: &Terrain<'_>, x: usize, y: usize) -> Svg {
-    let axes = (terrain.axes[x], terrain.axes[y]);
-    let split = terrain.axes.iter().position(|axis| *axis == Axis::Behavior).filter(|&axis| axis != x && axis != y);
-    let maps = collect(terrain, x, y, split);
+pub fn draw_heatmap(title: &str, archive_map: &ArchiveMap<'_>, x: usize, y: usize) -> Svg {
+    let axes = (archive_map.axes[x], archive_map.axes[y]);
+    let split = archive_map.axes.iter().position(|axis| *axis == Axis::Behavior).filter(|&axis| axis != x && axis != y);
+    let maps = collect(archive_map, x, y, split);
     let range = range_of(maps.values().flat_map(Cells::values).copied(), 0.0);
     let shown: Vec<Option<u16>> = split.map_or(vec![None], |_| (0..16).map(Some).collect());
     let columns = COLUMNS.min(shown.len());
@@ -73,13 +73,13 @@ pub fn draw_heatmap(title: &str, terrain: &Terrain<'_>, x: usize, y: usize) -> S
             map.draw(svg, corner, (&word, function));
         });
     }
-    draw_key(&mut svg, LEFT + columns as f64 * pitch.0 + 14.0, range, terrain.unit);
+    draw_key(&mut svg, LEFT + columns as f64 * pitch.0 + 14.0, range, archive_map.unit);
     svg
 }
 
-fn collect(terrain: &Terrain<'_>, x: usize, y: usize, split: Option<usize>) -> BTreeMap<Option<u16>, Cells> {
+fn collect(archive_map: &ArchiveMap<'_>, x: usize, y: usize, split: Option<usize>) -> BTreeMap<Option<u16>, Cells> {
     let mut maps: BTreeMap<Option<u16>, Cells> = BTreeMap::new();
-    for &(NicheKey(key), best) in terrain.niches {
+    for &(NicheKey(key), best) in archive_map.niches {
         let cells = maps.entry(split.map(|axis| key[axis])).or_default();
         let cell = cells.entry((key[x], key[y])).or_insert(best);
         *cell = cell.max(best);

@@ -17,7 +17,7 @@ pub struct Listing {
     pub name: String,
     /// Its four letters.
     pub behavior: String,
-    /// The gate it is.
+    /// The function that it computes as a gate.
     pub function: &'static str,
     /// Its bounding box, columns by rows, such as `5x5`.
     #[serde(rename = "box")]

@@ -9,7 +9,7 @@ use crate::report::scheme::Scheme;
 use crate::report::svg::Svg;
 use nbc_base::model::{Body, Drive, Material, MaterialKind, Palette, Response};
 
-/// How one material looks.
+/// The appearance of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// The color of its voxels.

@@ -64,13 +64,13 @@ pub use discovery::{Discovery, draw_discovery};
 pub use document::{Document, Schema};
 pub use element::{Anchor, Paint, Point, Type};
 pub use evolution::{EvolutionLine, evolution_table};
-pub use evolution_page::{Plate, draw_evolution_page};
+pub use evolution_page::{PageFigure, draw_evolution_page};
 pub use evolution_results::{EvolutionResults, SeedRun, axis_word};
 pub use export::{Elites, robots_csv};
 #[cfg(feature = "pictures")]
 pub use film::{FRAMES_PER_CYCLE, Film, write_apng, write_gif};
 pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
-pub use heatmap::{Terrain, draw_heatmap, heat};
+pub use heatmap::{ArchiveMap, draw_heatmap, heat};
 pub use history::{History, ProgressLine};
 pub use html::{base64, embedded};
 pub use listing::{Listing, describe_robot};

@@ -1,4 +1,4 @@
-//! Bodies on pages: their voxels, the looks of these, and their materials.
+//! Bodies on pages: their voxels, the appearance of these, and their materials.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use nbc_base::diag::counted;
 use nbc_base::model::{Body, Material};
 use nbc_swarm::{Assembly, Member, Recorded, RobotTrace, StimulusSource, SwarmTrace};
 
-/// How voxels look, for the page's script.
+/// The appearance of materials, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {
     let data = |(material, Look { color, mark }): (&Material, Look)| {
         let mut data = json!({ "name": material.name, "color": color.to_string() });
@@ -31,7 +31,7 @@ pub fn materials(body: &Body) -> String {
     material_words(body).join("; ")
 }
 
-/// What a page says of a robot of a swarm: pairs of a word and a text.
+/// The description of a robot of a swarm for a page: pairs of a word and a text.
 pub fn about_robot(robot: &RobotTrace, member: &Member) -> Value {
     let (body, character) = (&member.robot.body, &member.robot.character);
     let wired = |i: usize| match robot.senses[i] {

@@ -8,7 +8,7 @@ use nbc_swarm::{SimulationResult, SwarmTrace, TestVerdict};
 /// The results of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct RunResult<'a> {
-    /// The program that found it.
+    /// The name of the program that made the result.
     pub program: &'static str,
     /// The version of the program that made the result.
     pub version: &'static str,
@@ -41,7 +41,7 @@ pub struct SwarmResult<'a, T> {
 pub struct RobotResult<'a> {
     /// The net it drives.
     pub net: &'a str,
-    /// The gate it plays.
+    /// The function of its cell.
     pub function: &'static str,
     /// Its name in the library.
     pub robot: &'a str,

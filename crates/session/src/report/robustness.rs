@@ -11,7 +11,7 @@ use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_swarm::{Proportion, RobotMargin, Robustness};
 
 /// The most robots that are listed as failing first.
-const MOST_CULPRITS: usize = 5;
+const MOST_FAILING: usize = 5;
 
 /// The yield of a test, the robots that fail first, and the smallest margin.
 pub fn describe_robustness(found: &Robustness) -> String {
@@ -19,8 +19,8 @@ pub fn describe_robustness(found: &Robustness) -> String {
     let title = if found.title.is_empty() { String::new() } else { format!(" \"{}\"", found.title) };
     let mut text = format!("{}{swarm}{title}: {}\n", found.circuit, yield_of(found.passed));
     let _ = writeln!(text, "  worlds          {}", found.variation);
-    for culprit in found.fails_first.iter().take(MOST_CULPRITS) {
-        let (robot, net, worlds) = (&culprit.robot, &culprit.net, counted(culprit.worlds, "world"));
+    for failing in found.fails_first.iter().take(MOST_FAILING) {
+        let (robot, net, worlds) = (&failing.robot, &failing.net, counted(failing.worlds, "world"));
         let _ = writeln!(text, "  fails first     `{robot}` at `{net}`, in {worlds}");
     }
     if let Some(failure) = found.failures.first() {
@@ -75,7 +75,7 @@ fn declaration(world: &PhysicsWorld) -> String {
 /// The yield of a test for several sizes of change.
 #[derive(Clone, Debug)]
 pub struct YieldCurve {
-    /// What the curve is of.
+    /// The legend of the curve.
     pub label: String,
     /// The size of the change and the yield, in order of size.
     pub points: Vec<(f64, Proportion)>,
@@ -120,7 +120,7 @@ fn draw_curve(svg: &mut Svg, panel: &Panel, curve: &YieldCurve, color: Color, as
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_swarm::{Culprit, WorldFailure, WorldMargin};
+    use nbc_swarm::{FailingRobot, WorldFailure, WorldMargin};
 
     fn found() -> Robustness {
         let margin = |margin| RobotMargin { net: "q".to_owned(), robot: "nand_5x5".to_owned(), cycle: 31, margin };
@@ -136,7 +136,7 @@ mod tests {
             variation: "friction=10%".parse().unwrap(),
             scale: 1.0,
             passed: Proportion { successes: 19, attempts: 20 },
-            fails_first: vec![Culprit { net: "q".to_owned(), robot: "nand_5x5".to_owned(), worlds: 1 }],
+            fails_first: vec![FailingRobot { net: "q".to_owned(), robot: "nand_5x5".to_owned(), worlds: 1 }],
             least: Some(WorldMargin { world: 7, margin: margin(0.0123) }),
             failures: vec![WorldFailure { world: 4, physics, row: 2, line: 6, first: Some(margin(-0.02)) }],
         }

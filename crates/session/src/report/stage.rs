@@ -124,7 +124,7 @@ impl Stage {
         recording
     }
 
-    /// Advances to the next moment, the first time to the start; returns false at the end.
+    /// Advances to the next moment; the first call gives the start. Returns false at the end.
     fn turn(&mut self) -> bool {
         let first = !self.started;
         self.started = true;

@@ -28,7 +28,7 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
     let note = "the last cycle under each pattern; below the pattern, voxels walked";
     svg.text((14.0, 46.0), note, Type::new(10.0).colored(Color::GRAY));
     let looks = Looks::of([body], scheme);
-    for (r, Spelled { pattern, walked, moments }) in rows.iter().enumerate() {
+    for (r, WalkedSpell { pattern, walked, moments }) in rows.iter().enumerate() {
         let ground = 54.0 + (r as f64 + 1.0) * height - 18.0;
         svg.text((14.0, ground - 18.0), pattern, Type::new(15.0).bold());
         svg.text((14.0, ground - 4.0), &format!("{walked:+.2}"), Type::new(10.0).colored(Color::GRAY));
@@ -42,14 +42,14 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
 }
 
 /// How high the body ever reaches, in voxels above the ground.
-fn tallest(rows: &[Spelled]) -> f64 {
+fn tallest(rows: &[WalkedSpell]) -> f64 {
     let voxels = rows.iter().flat_map(|row| &row.moments).flat_map(|moment| &moment.poses[0].voxels);
     let heights = voxels.flat_map(|(corners, _)| corners.map(|(_, y)| y - 1.0));
     heights.filter(|height| height.is_finite()).fold(1.0, f64::max)
 }
 
 /// A spell of the schedule as it was walked.
-struct Spelled {
+struct WalkedSpell {
     pattern: String,
     /// Voxels walked in it, up to the last of its moments.
     walked: f64,
@@ -57,18 +57,18 @@ struct Spelled {
     moments: Vec<Moment>,
 }
 
-fn snapshots(setting: &Setting, body: &Body, schedule: &Schedule) -> Vec<Spelled> {
+fn snapshots(setting: &Setting, body: &Body, schedule: &Schedule) -> Vec<WalkedSpell> {
     let mut ends: Vec<u32> = Vec::new();
-    let mut rows: Vec<Spelled> = Vec::new();
+    let mut rows: Vec<WalkedSpell> = Vec::new();
     for spell in schedule.spells.iter().take(MAX_ROWS) {
         ends.push(ends.last().copied().unwrap_or(0) + spell.steps);
-        rows.push(Spelled { pattern: spell.pattern.to_string(), walked: 0.0, moments: Vec::new() });
+        rows.push(WalkedSpell { pattern: spell.pattern.to_string(), walked: 0.0, moments: Vec::new() });
     }
     let mut start = None;
     for moment in Stage::of_trial(setting, body, schedule, STRIDE) {
         let Some(row) = ends.iter().position(|end| moment.step <= *end) else { break };
         let place = moment.centers[0][0];
-        let Spelled { walked, moments, .. } = &mut rows[row];
+        let WalkedSpell { walked, moments, .. } = &mut rows[row];
         let from = *start.get_or_insert(place);
         *walked = place - from;
         if moment.step == ends[row] {

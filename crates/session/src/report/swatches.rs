@@ -66,7 +66,7 @@ impl Swatches {
         self.nearest[key(r, g, b)]
     }
 
-    /// All colors, red, green, blue, and one for [`UNCHANGED`] that is not seen.
+    /// All colors as red, green and blue, and at last an unused one for [`UNCHANGED`].
     pub fn bytes(&self) -> Vec<u8> {
         let unseen = std::iter::repeat_n(Color::BLACK, 256 - self.colors.len());
         self.colors.iter().copied().chain(unseen).flat_map(|color| [color.r, color.g, color.b]).collect()

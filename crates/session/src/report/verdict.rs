@@ -3,7 +3,7 @@
 use crate::report::{Align, TextTable};
 use nbc_base::diag::counted;
 use nbc_base::model::{Column, Value};
-use nbc_swarm::{Lapse, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
+use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict, WrongOutput};
 
 /// The most failing rows of a test that are described.
 const MOST_ROWS: usize = 20;
@@ -95,7 +95,7 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
     let bar = if inputs.is_empty() { "" } else { " | " };
     let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
     let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
-    let blame: String = describe_lapses(row).concat();
+    let blame: String = describe_wrong_outputs(row).concat();
     format!("    {place}: {}{bar}{}\n{blame}", inputs.join(" "), wrong.join("; "))
 }
 
@@ -157,25 +157,25 @@ impl<'a> PortColumns<'a> {
     }
 }
 
-fn describe_lapses(row: &RowVerdict) -> Vec<String> {
-    let wrong = row.lapses.iter().map(|lapse| describe_lapse(lapse, "output"));
-    let late = row.late.iter().map(|lapse| describe_lapse(lapse, "had not settled yet and output"));
+fn describe_wrong_outputs(row: &RowVerdict) -> Vec<String> {
+    let wrong = row.wrong_outputs.iter().map(|wrong| describe_wrong_output(wrong, "output"));
+    let late = row.late.iter().map(|wrong| describe_wrong_output(wrong, "had not settled yet and output"));
     wrong.chain(late).chain(nearest_fix(row)).collect()
 }
 
-fn describe_lapse(lapse: &Lapse, did: &str) -> String {
-    let Lapse { net, robot, cycle, .. } = lapse;
-    let [first, second] = lapse.sensed.map(u8::from);
-    let (cycle, output) = (cycle + 1, u8::from(lapse.output));
+fn describe_wrong_output(wrong: &WrongOutput, did: &str) -> String {
+    let WrongOutput { net, robot, cycle, .. } = wrong;
+    let [first, second] = wrong.sensed.map(u8::from);
+    let (cycle, output) = (cycle + 1, u8::from(wrong.output));
     format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {first} {second}\n")
 }
 
 /// The most likely fix for a row: replace robots that were wrong although they had enough time; otherwise a longer
 /// hold; otherwise another circuit.
 fn nearest_fix(row: &RowVerdict) -> Option<String> {
-    let fix = match row.lapses.first() {
+    let fix = match row.wrong_outputs.first() {
         _ if row.passed => return None,
-        Some(Lapse { net, robot, .. }) => format!("a robot other than {robot} on net {net}, or a longer hold"),
+        Some(WrongOutput { net, robot, .. }) => format!("a robot other than {robot} on net {net}, or a longer hold"),
         None if row.cycles < row.needed => {
             format!("hold the row for {}, as `hold: auto` does", counted(row.needed.unwrap_or_default(), "cycle"))
         }
@@ -200,8 +200,13 @@ mod tests {
     }
 
     fn verdict(passed: bool) -> TestVerdict {
-        let lapse =
-            Lapse { net: "q".to_owned(), robot: "nand_1".to_owned(), cycle: 4, sensed: [true, false], output: false };
+        let wrong = WrongOutput {
+            net: "q".to_owned(),
+            robot: "nand_1".to_owned(),
+            cycle: 4,
+            sensed: [true, false],
+            output: false,
+        };
         TestVerdict {
             file: "latch.nb".to_owned(),
             line: 1,
@@ -214,6 +219,7 @@ mod tests {
             weak_robots: Vec::new(),
             rows: vec![RowVerdict {
                 row: 2,
+                thread: None,
                 line: 7,
                 cycles: Some(12),
                 needed: Some(14),
@@ -222,7 +228,7 @@ mod tests {
                 observed: bits(&[Some(passed), Some(false)]),
                 steady: vec![true, true],
                 passed,
-                lapses: if passed { vec![] } else { vec![lapse] },
+                wrong_outputs: if passed { vec![] } else { vec![wrong] },
                 late: vec![],
             }],
             passed,
@@ -256,7 +262,7 @@ mod tests {
     #[test]
     fn a_failure_without_a_wrong_robot_blames_the_hold_or_the_circuit() {
         let mut verdict = verdict(false);
-        verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].lapses);
+        verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].wrong_outputs);
         let text = describe_test(&verdict);
         assert!(text.contains("robot nand_1 on net q had not settled yet and output 0 on stimuli 1 0\n"), "{text}");
         assert!(text.ends_with("    nearest fix: hold the row for 14 cycles, as `hold: auto` does\n"), "{text}");
@@ -274,7 +280,7 @@ mod tests {
         let mut verdict = verdict(false);
         verdict.outputs = vec![port("sum", 4)];
         let row = &mut verdict.rows[0];
-        (row.expected, row.observed, row.steady, row.lapses) =
+        (row.expected, row.observed, row.steady, row.wrong_outputs) =
             (vec![decimal(9)], vec![decimal(11)], vec![true], Vec::new());
         let text = describe_test(&verdict);
         assert!(text.contains("1 0     4'd9      4'd11         12  FAIL"), "{text}");

@@ -46,7 +46,7 @@ fn translated(name: String, text: String) -> Result<String, Diagnostics> {
 /// A design as the bytes of a file; a program of the language is written as the formatter writes it.
 ///
 /// # Errors
-/// Why the format cannot hold the design.
+/// The reason why the format cannot express the design.
 pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>, Diagnostic> {
     let bytes = format.encode(design)?;
     if format != CircuitFormat::Nb {

@@ -15,12 +15,12 @@ pub struct Declared {
     pub objective: SearchObjective,
     /// The meaning of the codes in its bodies.
     pub palette: Arc<Palette>,
-    pub(super) whole: Whole,
+    pub(super) whole: FullDeclaration,
 }
 
-/// A declaration in full.
+/// All that a declaration says.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Whole {
+pub(super) enum FullDeclaration {
     /// As data.
     Data(Box<Evolution>),
     /// As the text by which checkpoints of format 1 are compared.
@@ -34,7 +34,7 @@ impl Declared {
             axes: evolution.descriptors.clone(),
             objective: evolution.objective,
             palette: Arc::clone(&evolution.palette),
-            whole: Whole::Data(Box::new(evolution)),
+            whole: FullDeclaration::Data(Box::new(evolution)),
         }
     }
 
@@ -42,11 +42,11 @@ impl Declared {
     /// others.
     pub(super) fn fits(&self, evolution: &Evolution) -> bool {
         match &self.whole {
-            Whole::Data(own) => {
+            FullDeclaration::Data(own) => {
                 let Evolution { name, generations, seeds, .. } = evolution.clone();
                 Evolution { name, generations, seeds, ..Evolution::clone(own) } == *evolution
             }
-            Whole::Text(own) => *own == declaration_text(evolution),
+            FullDeclaration::Text(own) => *own == declaration_text(evolution),
         }
     }
 }

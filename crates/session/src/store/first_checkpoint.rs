@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::store::declared::{Declared, Whole};
+use crate::store::declared::{Declared, FullDeclaration};
 use crate::store::search_state::SearchRecord as StateRecord;
 use nbc_base::model::{Axis, Drive, Material, MaterialKind, Palette, Response, SearchObjective};
 
@@ -32,7 +32,7 @@ impl FirstRecord {
             axes: self.descriptors.clone(),
             objective: self.objective,
             palette: Arc::new(palette(&self.declaration)?),
-            whole: Whole::Text(self.declaration.clone()),
+            whole: FullDeclaration::Text(self.declaration.clone()),
         })
     }
 }

@@ -60,7 +60,7 @@ impl FolderWorld {
         Ok(self.existing(&folder)?.join(name))
     }
 
-    /// A path that climbs out is refused before the disk is asked, so that answers do not tell what is there.
+    /// Refuses a path that leads out of the folder without reading the disk, so that answers reveal nothing about it.
     fn check(&self, path: &str) -> Result<(), FileError> {
         let path = Path::new(path);
         let inside = if path.is_absolute() { path.strip_prefix(&self.root).map_err(|_| outside())? } else { path };

@@ -7,7 +7,7 @@ use crate::store::verilog::{Verilog, VerilogFiles};
 use nbc_base::source::{FileError, SourceWorld, VerilogError, VerilogModules};
 use nbc_circuit::CancelFlag;
 
-/// Asked before each translation: what ends it, or why there is none.
+/// Called before each translation. Returns the flag that ends it, or the reason why it is not permitted.
 type Permit = Arc<dyn Fn() -> Result<CancelFlag, VerilogError> + Send + Sync>;
 
 /// Files of another world, whose Verilog is translated as far as a door permits.

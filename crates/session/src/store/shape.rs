@@ -10,10 +10,10 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Body, BodyError, Palette};
 use nbc_base::source::{SourceFile, Span};
 
-/// Anything with a body.
+/// A mapping with a body.
 #[derive(Deserialize)]
 #[serde(expecting = "a mapping with a `body`")]
-struct Embodied {
+struct BodyFile {
     body: Rows,
     /// In order of their codes; empty for the paper's materials.
     #[serde(default)]
@@ -63,7 +63,7 @@ impl Row {
 /// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials, or
 /// not in one piece.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
-    let Embodied { body, materials } = yaml::read(file).map_err(with_body_example)?;
+    let BodyFile { body, materials } = yaml::read(file).map_err(with_body_example)?;
     self::body(file, &body.into_text(), &materials.unwrap_or_else(Palette::paper))
 }
 

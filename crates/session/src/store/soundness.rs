@@ -1,4 +1,4 @@
-//! Checks whether the values of a robot file are possible.
+//! Checks that the values of a robot file are possible.
 
 use crate::store::wording::{Flaw, RobotFileError};
 use crate::store::yaml;

@@ -49,7 +49,7 @@ pub struct Champion {
     pub niches: usize,
 }
 
-/// An archive at one glance.
+/// Statistics of an archive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ArchiveStats {
     /// Niches filled.

@@ -53,12 +53,12 @@ fn has_room(niche: Niche, rivals: &[[f64; 2]], bound: &[f64; 2]) -> bool {
     }
 }
 
-/// Greater in both.
+/// Whether `a` is greater than `b` in both fitnesses.
 pub(super) fn exceeds(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] > b[0] && a[1] > b[1]
 }
 
-/// No less in either.
+/// Whether `a` is at least `b` in both fitnesses.
 pub(super) fn reaches(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] >= b[0] && a[1] >= b[1]
 }

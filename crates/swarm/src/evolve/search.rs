@@ -290,7 +290,7 @@ pub fn stream(seed: u64, generation: u32, index: u32) -> ChaCha8Rng {
     rng
 }
 
-/// The next action after a mutation.
+/// What follows a mutation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Attempt {
     /// The body is tried.

@@ -1,4 +1,4 @@
-//! What can be wrong with developed bodies, as data, and how it is worded.
+//! The reasons for which bodies are invalid, and their messages.
 
 use std::error::Error;
 use std::fmt;

@@ -1,26 +1,22 @@
 //! The fitness of a run by group of behaviors.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
 pub(super) struct ComparisonPicture;
 
 impl PictureKind for ComparisonPicture {
-    fn word(&self) -> &'static str {
-        "comparison"
+    fn description(&self) -> KindDescription {
+        KindDescription::new(
+            "comparison",
+            "The fitness of a run by group of behaviors, with statistics",
+            SubjectKind::Run,
+        )
     }
 
-    fn about(&self) -> &'static str {
-        "The fitness of a run by group of behaviors, with statistics"
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Run
-    }
-
-    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
         Ok(Drawing::Picture(comparison(results)))
     }
 }

@@ -1,26 +1,22 @@
 //! How soon a run found each behavior.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
 pub(super) struct DiscoveryPicture;
 
 impl PictureKind for DiscoveryPicture {
-    fn word(&self) -> &'static str {
-        "discovery"
+    fn description(&self) -> KindDescription {
+        KindDescription::new(
+            "discovery",
+            "The generation in which each seed of a run first found each behavior",
+            SubjectKind::Run,
+        )
     }
 
-    fn about(&self) -> &'static str {
-        "The generation in which each seed of a run first found each behavior"
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Run
-    }
-
-    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
         Ok(Drawing::Picture(discovery(results)))
     }
 }

@@ -1,30 +1,22 @@
 //! A netlist for Graphviz.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_circuit::formats::dot;
 
 pub(super) struct DotPicture;
 
 impl PictureKind for DotPicture {
-    fn word(&self) -> &'static str {
-        "dot"
+    fn description(&self) -> KindDescription {
+        let extensions = &["dot", "gv"];
+        KindDescription {
+            extensions,
+            ..KindDescription::new("dot", "The cells of a circuit, for Graphviz", SubjectKind::Program)
+        }
     }
 
-    fn about(&self) -> &'static str {
-        "The cells of a circuit, for Graphviz"
-    }
-
-    fn extensions(&self) -> &'static [&'static str] {
-        &["dot", "gv"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Program
-    }
-
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(dot::write(&order.compiled()?.mapping.netlist)))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(dot::write(&request.compiled()?.mapping.netlist)))
     }
 }

@@ -1,76 +1,56 @@
 //! Films of robots that move.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind, SubjectKind};
-use crate::cli::draw::robot::TitledBody;
-use crate::cli::draw::several::Several;
+use crate::cli::draw::picture::{Drawing, FilmFormat, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
+use crate::cli::draw::titled_robots::TitledRobots;
 use nbc_base::model::{Body, Setting};
 use nbc_session::SwarmRun;
 use nbc_session::report::{Film, Stage};
 
-/// A film in a format.
+/// A film, as GIF or APNG.
 pub(super) struct FilmPicture(pub(super) FilmFormat);
 
 impl PictureKind for FilmPicture {
-    fn word(&self) -> &'static str {
-        match self.0 {
-            FilmFormat::Apng => "apng",
-            FilmFormat::Gif => "gif",
-        }
+    fn description(&self) -> KindDescription {
+        let (word, about, extensions): (_, _, &[&str]) = match self.0 {
+            FilmFormat::Apng => ("apng", "A film as animated PNG", &["png", "apng"]),
+            FilmFormat::Gif => ("gif", "A film as GIF", &["gif"]),
+        };
+        let options = &["--frames", "--safe-colors", "--schedule"];
+        KindDescription { extensions, options, ..KindDescription::new(word, about, SubjectKind::Library) }
     }
 
-    fn about(&self) -> &'static str {
-        match self.0 {
-            FilmFormat::Apng => "A film as animated PNG",
-            FilmFormat::Gif => "A film as GIF",
-        }
-    }
-
-    fn extensions(&self) -> &'static [&'static str] {
-        match self.0 {
-            FilmFormat::Apng => &["png", "apng"],
-            FilmFormat::Gif => &["gif"],
-        }
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--frames", "--safe-colors", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Library
-    }
-
-    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
         let TitledBody { title, body } = robot;
         let lanes = vec![format!("{} x {}", body.width(), body.height())];
-        let stage = Stage::of_trial(&Setting::default(), body, &order.schedule()?, order.stride());
-        Ok(self.film(title, lanes, std::slice::from_ref(body), order, stage))
+        let stage = Stage::of_trial(&Setting::default(), body, &request.schedule()?, request.stride());
+        Ok(self.film(title, lanes, std::slice::from_ref(body), request, stage))
     }
 
-    fn of_library(&self, robots: &Several, order: &Order) -> Result<Drawing, Failure> {
+    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
         let bodies: Vec<Body> = robots.robots.iter().map(|one| one.body.clone()).collect();
         let lanes = robots.robots.iter().map(|one| one.name.clone()).collect();
-        let stage = Stage::of_trials(&Setting::default(), &bodies, &order.schedule()?, order.stride());
-        Ok(self.film(&robots.title, lanes, &bodies, order, stage))
+        let stage = Stage::of_trials(&Setting::default(), &bodies, &request.schedule()?, request.stride());
+        Ok(self.film(&robots.title, lanes, &bodies, request, stage))
     }
 
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        let ran = order.ran(None)?;
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let ran = request.ran(None)?;
         let SwarmRun { compiled, trace } = ran.swarm();
         let assembly = &compiled.assembly;
         let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
         let lanes = assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
-        let stage = Stage::of_swarm(assembly, trace, order.stride());
-        Ok(self.film(&assembly.circuit, lanes.collect(), &bodies, order, stage))
+        let stage = Stage::of_swarm(assembly, trace, request.stride());
+        Ok(self.film(&assembly.circuit, lanes.collect(), &bodies, request, stage))
     }
 }
 
 impl FilmPicture {
-    fn film(&self, title: &str, lanes: Vec<String>, bodies: &[Body], order: &Order, stage: Stage) -> Drawing {
+    fn film(&self, title: &str, lanes: Vec<String>, bodies: &[Body], request: &DrawRequest, stage: Stage) -> Drawing {
         let largest = bodies.iter().map(|body| body.width().max(body.height())).max().unwrap_or(1);
-        let film = Film { title: title.to_owned(), lanes, scheme: order.scheme(), largest };
+        let film = Film { title: title.to_owned(), lanes, scheme: request.scheme(), largest };
         Drawing::Film { format: self.0, film, stage }
     }
 }

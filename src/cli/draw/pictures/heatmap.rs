@@ -1,38 +1,27 @@
 //! An archive as a map of its niches.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::wording::DrawError;
-use nbc_session::report::{self, EvolutionResults, Terrain, axis_word};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::wording::DrawError;
+use nbc_session::report::{self, ArchiveMap, EvolutionResults, axis_word};
 use nbc_swarm::evolve::NicheKey;
 
 pub(super) struct HeatmapPicture;
 
 impl PictureKind for HeatmapPicture {
-    fn word(&self) -> &'static str {
-        "heatmap"
+    fn description(&self) -> KindDescription {
+        let options = &["--axes"];
+        KindDescription { options, ..KindDescription::new("heatmap", "The archive of a run", SubjectKind::Run) }
     }
 
-    fn about(&self) -> &'static str {
-        "The archive of a run"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--axes"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Run
-    }
-
-    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
-        let [x, y] = axes(results, &order.axes)?;
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let [x, y] = axes(results, &request.axes)?;
         let best = results.best();
         let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
-        let terrain = Terrain { unit: results.unit(), axes: &results.axes, niches: &niches };
+        let archive_map = ArchiveMap { unit: results.unit(), axes: &results.axes, niches: &niches };
         let title = format!("{}: the best of each niche", results.name);
-        Ok(Drawing::Picture(report::draw_heatmap(&title, &terrain, x, y)))
+        Ok(Drawing::Picture(report::draw_heatmap(&title, &archive_map, x, y)))
     }
 }
 

@@ -1,33 +1,25 @@
 //! A deformed body at one moment.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::TitledBody;
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
 
 pub(super) struct PosePicture;
 
 impl PictureKind for PosePicture {
-    fn word(&self) -> &'static str {
-        "pose"
+    fn description(&self) -> KindDescription {
+        let options = &["--at", "--safe-colors", "--schedule"];
+        KindDescription {
+            options,
+            ..KindDescription::new("pose", "The deformed body of a robot at one moment", SubjectKind::Robot)
+        }
     }
 
-    fn about(&self) -> &'static str {
-        "The deformed body of a robot at one moment"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--at", "--safe-colors", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Robot
-    }
-
-    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        let schedule = order.schedule()?;
-        let step = order.step(&schedule)?;
-        Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, order.scheme())))
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let schedule = request.schedule()?;
+        let step = request.step(&schedule)?;
+        Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, request.scheme())))
     }
 }

@@ -1,26 +1,18 @@
 //! The curves of a run.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
 pub(super) struct ProgressPicture;
 
 impl PictureKind for ProgressPicture {
-    fn word(&self) -> &'static str {
-        "progress"
+    fn description(&self) -> KindDescription {
+        KindDescription::new("progress", "The coverage and QD-score of a run over its generations", SubjectKind::Run)
     }
 
-    fn about(&self) -> &'static str {
-        "The coverage and QD-score of a run over its generations"
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Run
-    }
-
-    fn of_run(&self, results: &EvolutionResults, _order: &Order) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
         Ok(Drawing::Picture(progress(results)))
     }
 }

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::TitledBody;
-use crate::cli::draw::run::each_champion;
-use crate::cli::draw::several::{One, Several};
-use crate::cli::wording::DrawError;
+use crate::cli::draw::evolution_run::each_champion;
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
+use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
+use crate::cli::draw::wording::DrawError;
 use nbc_base::model::{CYCLE_STEPS, Schedule, Setting, Trial};
 use nbc_session::SwarmRun;
 use nbc_session::report::{self, Champions, EvolutionResults, Svg};
@@ -18,43 +18,32 @@ use nbc_swarm::SwarmTrace;
 pub(super) struct SpacetimePicture;
 
 impl PictureKind for SpacetimePicture {
-    fn word(&self) -> &'static str {
-        "spacetime"
+    fn description(&self) -> KindDescription {
+        let options = &["--robots", "--schedule"];
+        KindDescription { options, ..KindDescription::new("spacetime", "Paths over time", SubjectKind::Library) }
     }
 
-    fn about(&self) -> &'static str {
-        "Paths over time"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--robots", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Library
-    }
-
-    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        let trial = Trial { body: robot.body.clone(), schedule: order.schedule()? };
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let trial = Trial { body: robot.body.clone(), schedule: request.schedule()? };
         let trajectory = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
         Ok(Drawing::Picture(report::draw_robot(&robot.title, &trial.schedule, &trajectory)))
     }
 
-    fn of_library(&self, robots: &Several, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(champions(robots, &order.schedule()?)))
+    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Picture(champions(robots, &request.schedule()?)))
     }
 
-    fn of_run(&self, results: &EvolutionResults, order: &Order) -> Result<Drawing, Failure> {
-        self.of_library(&each_champion(results), order)
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+        self.of_library(&each_champion(results), request)
     }
 
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        let ran = order.ran(None)?;
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let ran = request.ran(None)?;
         let SwarmRun { trace, .. } = ran.swarm();
-        if order.robots.is_empty() {
+        if request.robots.is_empty() {
             return Ok(Drawing::Picture(report::draw_swarm(trace)));
         }
-        let chosen = order.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
+        let chosen = request.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
         Ok(Drawing::Picture(report::draw_chosen(trace, &chosen.concat())))
     }
 }
@@ -75,8 +64,8 @@ fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
 }
 
 /// Every robot's path under one schedule, by behavior.
-pub(super) fn champions(several: &Several, schedule: &Schedule) -> Svg {
-    let trial = |one: &One| Trial { body: one.body.clone(), schedule: schedule.clone() };
+pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> Svg {
+    let trial = |one: &NamedBody| Trial { body: one.body.clone(), schedule: schedule.clone() };
     let trials: Vec<Trial> = several.robots.iter().map(trial).collect();
     let trajectories = Simulator::default().run_trials(&Setting::default(), &trials);
     let mut paths: BTreeMap<u8, Champions> = BTreeMap::new();

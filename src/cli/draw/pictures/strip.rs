@@ -1,32 +1,24 @@
 //! Snapshots of a gait.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
-use crate::cli::draw::robot::TitledBody;
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
+use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
 
 pub(super) struct StripPicture;
 
 impl PictureKind for StripPicture {
-    fn word(&self) -> &'static str {
-        "strip"
+    fn description(&self) -> KindDescription {
+        let options = &["--safe-colors", "--schedule"];
+        KindDescription {
+            options,
+            ..KindDescription::new("strip", "Snapshots of a robot's gait under each pattern", SubjectKind::Robot)
+        }
     }
 
-    fn about(&self) -> &'static str {
-        "Snapshots of a robot's gait under each pattern"
-    }
-
-    fn options(&self) -> &'static [&'static str] {
-        &["--safe-colors", "--schedule"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Robot
-    }
-
-    fn of_robot(&self, robot: &TitledBody, order: &Order) -> Result<Drawing, Failure> {
-        let schedule = order.schedule()?;
-        Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, order.scheme())))
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+        let schedule = request.schedule()?;
+        Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, request.scheme())))
     }
 }

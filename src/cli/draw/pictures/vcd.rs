@@ -1,30 +1,19 @@
 //! Waveforms.
 
 use crate::cli::Failure;
-use crate::cli::draw::order::Order;
-use crate::cli::draw::picture::{Drawing, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::request::DrawRequest;
 use nbc_session::report;
 
 pub(super) struct VcdPicture;
 
 impl PictureKind for VcdPicture {
-    fn word(&self) -> &'static str {
-        "vcd"
+    fn description(&self) -> KindDescription {
+        let extensions = &["vcd"];
+        KindDescription { extensions, ..KindDescription::new("vcd", "The waveforms of a swarm", SubjectKind::Program) }
     }
 
-    fn about(&self) -> &'static str {
-        "The waveforms of a swarm"
-    }
-
-    fn extensions(&self) -> &'static [&'static str] {
-        &["vcd"]
-    }
-
-    fn subject(&self) -> SubjectKind {
-        SubjectKind::Program
-    }
-
-    fn of_program(&self, order: &Order) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(report::vcd(&order.ran(None)?.swarm().trace)))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+        Ok(Drawing::Text(report::vcd(&request.ran(None)?.swarm().trace)))
     }
 }

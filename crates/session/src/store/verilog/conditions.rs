@@ -6,14 +6,14 @@ pub(super) struct Conditions(Vec<Condition>);
 
 #[derive(Debug)]
 struct Condition {
-    /// Whether the part that is being read counts.
+    /// Whether the part that is being read is kept.
     holds: bool,
-    /// Whether a part of it did, or none may.
+    /// Whether no later part can be kept: an earlier one was, or none may be.
     is_decided: bool,
 }
 
 impl Conditions {
-    /// Whether what is being read counts.
+    /// Whether the text that is being read is kept.
     pub(super) fn hold(&self) -> bool {
         self.0.last().is_none_or(|inner| inner.holds)
     }

@@ -1,6 +1,6 @@
 //! The text that Yosys reads, and where its lines come from.
 
-use crate::store::verilog::judge::{Judge, Offense};
+use crate::store::verilog::checker::{TokenChecker, TokenFault};
 use crate::store::verilog::source::{Reader, Source};
 use crate::store::verilog::token::{TokenPlace, VerilogToken, VerilogTokenKind};
 use nbc_base::source::{VerilogError, VerilogPlace};
@@ -19,11 +19,11 @@ impl VerilogListing {
     /// When it could lead to other files or programs, or is not Verilog for circuits.
     pub(super) fn of(path: &str, text: &str, read: Reader<'_>) -> Result<Self, VerilogError> {
         let mut source = Source::new(path, text, read);
-        let mut judge = Judge::default();
+        let mut checker = TokenChecker::default();
         let mut listing = Self { text: String::new(), lines: Vec::new() };
         let mut last = None;
         while let Some(token) = source.next()? {
-            judge.see(&token).map_err(|offense| offended(offense, source.place(token.place)))?;
+            checker.see(&token).map_err(|fault| refused(fault, source.place(token.place)))?;
             listing.write(&token, &mut last, &source);
         }
         listing.text.push('\n');
@@ -53,12 +53,12 @@ impl VerilogListing {
     }
 }
 
-fn offended(offense: Offense, place: VerilogPlace) -> VerilogError {
+fn refused(fault: TokenFault, place: VerilogPlace) -> VerilogError {
     use nbc_base::source::VerilogFault;
-    match offense {
-        Offense::Outside(word) => VerilogError::Outside { place, word },
-        Offense::HighImpedance(construct) => VerilogError::HighImpedance { place, construct },
-        Offense::NoDigits(base) => VerilogError::Unclear { place, fault: VerilogFault::NoDigits { base } },
+    match fault {
+        TokenFault::Outside(word) => VerilogError::Outside { place, word },
+        TokenFault::HighImpedance(construct) => VerilogError::HighImpedance { place, construct },
+        TokenFault::NoDigits(base) => VerilogError::Unclear { place, fault: VerilogFault::NoDigits { base } },
     }
 }
 

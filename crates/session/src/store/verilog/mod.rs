@@ -1,11 +1,11 @@
 //! Verilog, through Yosys.
 //!
-//! Yosys reads the files that a text names, calls functions of C for it, and evaluates its loops. So it is given one
-//! text that was preprocessed and judged here, in a folder of its own, with little time and memory, and ends with its
-//! asker.
+//! Yosys reads the files that a text names, calls functions of C for it, and evaluates its loops. So it gets one text
+//! that was preprocessed and checked here, in a folder of its own, with limits of time and memory. It ends when the
+//! caller ends.
 
+mod checker;
 mod conditions;
-mod judge;
 mod listing;
 mod macros;
 mod process;

@@ -1,8 +1,8 @@
-//! Yosys as a process that can do little and never outlives its asker.
+//! Yosys as a process with few rights, which always ends when its caller ends.
 //!
 //! A shell starts it, sets its limits, and waits for it. The shell also reads from a pipe whose other end only the
-//! asker has. When that closes, because nobody waits any more or the asker was killed, the shell ends Yosys and removes
-//! its folder.
+//! caller has. When the pipe closes, because the call was cancelled or the caller was killed, the shell ends Yosys and
+//! removes its folder.
 
 use std::ffi::OsString;
 use std::fs;
@@ -133,7 +133,7 @@ fn run_found(
 }
 
 fn outcome(status: ExitStatus, said: String, limits: Limits) -> Result<Result<(), String>, VerilogError> {
-    /// What a shell gives for a program that is not there, and for signal 24, which a processor's time limit sends.
+    /// The exit codes of a shell for a missing program, and for signal 24, which the limit of processor time sends.
     const MISSING: i32 = 127;
     const LATE: i32 = 128 + 24;
     match status.code() {
@@ -163,7 +163,7 @@ fn command(script: &str, _limits: Limits) -> Command {
     command
 }
 
-/// Waits for the end, or ends it.
+/// Waits until the process ends; ends it after a cancellation or when its time is over.
 fn wait(child: &mut Child, limits: Limits, cancel: &CancelFlag) -> Result<ExitStatus, VerilogError> {
     // A process can wait for a processor, but not forever.
     let end = Instant::now() + Duration::from_secs(4 * limits.seconds);
@@ -180,7 +180,7 @@ fn wait(child: &mut Child, limits: Limits, cancel: &CancelFlag) -> Result<ExitSt
     }
 }
 
-/// Closes the pipe, and waits until all are gone.
+/// Closes the pipe, and waits until the processes have ended.
 fn stopped(child: &mut Child, error: VerilogError) -> VerilogError {
     drop(child.stdin.take());
     if cfg!(not(unix)) {

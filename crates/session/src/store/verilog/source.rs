@@ -1,7 +1,7 @@
 //! The preprocessor: one text without directives, from a Verilog file and those that it includes.
 //!
-//! Yosys has one too, which reads any file, and pastes words together out of pieces. So it is given no directives, and
-//! what is judged is what Yosys sees.
+//! The preprocessor of Yosys reads any file and joins pieces to words. So Yosys gets no directives, and the checked
+//! text is the text that Yosys sees.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use nbc_base::source::{FileError, VerilogError, VerilogFault, VerilogPlace};
 
 /// The most macros and included files inside each other.
 const DEPTH: usize = 64;
-/// What Yosys defines.
+/// The macros that Yosys defines.
 const DEFINED: [&str; 2] = ["SYNTHESIS", "YOSYS"];
 
 /// Reads an included file: its path and its text.
@@ -27,11 +27,11 @@ pub(super) struct Source<'a> {
     macros: BTreeMap<String, Macro>,
     conditions: Conditions,
     budget: Budget,
-    /// Whether a hint leaves out what comes.
+    /// Whether a hint for synthesizers excludes the tokens that follow.
     is_off: bool,
 }
 
-/// What tokens come from.
+/// A source of tokens.
 enum Input {
     File(Lexer),
     /// The body of a macro, last token first.

@@ -21,7 +21,7 @@ pub(super) enum VerilogTokenKind {
     System,
     /// A backquote and a name: a directive or a macro.
     Directive,
-    /// A comment that tells a synthesizer something, such as `synopsys full_case`.
+    /// A comment with an instruction for synthesizers, such as `synopsys full_case`.
     Hint,
     /// Any other character.
     Sign,
@@ -226,7 +226,7 @@ fn escaped(rest: &str) -> Result<usize, VerilogFault> {
     }
 }
 
-/// What a comment tells a synthesizer, in one form; `None` for other comments.
+/// The instruction for synthesizers in a comment, in one form; `None` for other comments.
 fn hint(comment: &str) -> Option<String> {
     let mut words = comment[2..].trim_end_matches("*/").split_ascii_whitespace();
     let is_hint = matches!(words.next(), Some("synopsys" | "synthesis"));

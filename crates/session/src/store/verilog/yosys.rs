@@ -1,4 +1,4 @@
-//! The script that Yosys runs, and what it makes: gates, latches and flip-flops.
+//! The script that Yosys runs. It translates Verilog to gates, latches and flip-flops.
 //!
 //! The script is fixed, and so are the names of its files. No name chosen by a user becomes part of the script or of a
 //! shell command.
@@ -20,7 +20,7 @@ const WRITTEN: &str = "written.il";
 const PROCESSED: &str = "processed.il";
 const FLAT: &str = "flat.blif";
 
-/// What a script does to the modules of the source before they become gates, for the top module that Yosys finds.
+/// The commands before the modules become gates, for the top module that Yosys finds.
 const TOP: &str = "hierarchy -check -auto-top";
 /// The same for all modules.
 const ALL: &str = "write_rtlil written.il; hierarchy -check";

@@ -1,4 +1,4 @@
-//! What can be wrong with files, as data, and how it is worded: a file for each kind of file.
+//! Errors of files and their messages: a module for each kind of file.
 
 #[cfg(feature = "disk")]
 mod checkpoints;

@@ -1,7 +1,7 @@
 //! Robots that are advanced step by step. They keep their lanes from advance to advance.
 
-use crate::backend::lanes::formation::{Formation, LaneRequest};
-use crate::backend::lanes::squad::Squad;
+use crate::backend::lanes::group::LaneGroup;
+use crate::backend::lanes::grouping::{LaneGrouping, LaneRequest};
 use crate::backend::lanes::threads;
 use crate::backend::lanes::world::World;
 use crate::backend::run::{Run, runs};
@@ -13,10 +13,10 @@ use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting};
 #[derive(Debug)]
 pub struct LaneFlock {
     world: World,
-    squads: Vec<Squad>,
-    /// The squad of each robot, and its index there.
+    groups: Vec<LaneGroup>,
+    /// The group of each robot, and its index there.
     places: Vec<(usize, usize)>,
-    /// The cost of a substep of all squads, in the unit of [`Formation::cost`].
+    /// The cost of a substep of all groups, in the unit of [`LaneGrouping::cost`].
     cost: u64,
 }
 
@@ -24,49 +24,49 @@ impl LaneFlock {
     /// A robot for each body, at its start.
     pub fn new(world: World, setting: &Setting, bodies: &[Body]) -> Self {
         let runs = runs(&world.constants, setting, bodies);
-        let mut flock = Self { world, squads: Vec::new(), places: Vec::new(), cost: 0 };
-        let formation = flock.formation(runs.iter());
-        flock.form(runs, formation);
+        let mut flock = Self { world, groups: Vec::new(), places: Vec::new(), cost: 0 };
+        let grouping = flock.grouping(runs.iter());
+        flock.form(runs, grouping);
         flock
     }
 
-    /// The best formation of these runs.
-    fn formation<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> Formation {
+    /// The best grouping of these runs.
+    fn grouping<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> LaneGrouping {
         let candidates: Vec<LaneRequest> =
             runs.map(|run| LaneRequest { size: run.lattice.size(), body: run.body }).collect();
         let kernel = self.world.kernel;
-        Formation::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
+        LaneGrouping::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
     }
 
-    /// Forms squads of these runs.
-    fn form(&mut self, runs: Vec<Run>, formation: Formation) {
+    /// Forms groups of these runs.
+    fn form(&mut self, runs: Vec<Run>, grouping: LaneGrouping) {
         self.places = vec![(0, 0); runs.len()];
-        for (squad, robots) in formation.squads.iter().enumerate() {
+        for (group, robots) in grouping.groups.iter().enumerate() {
             for (place, &robot) in robots.iter().enumerate() {
-                self.places[robot] = (squad, place);
+                self.places[robot] = (group, place);
             }
         }
-        let squad = |robots: &Vec<usize>| Squad::new(robots.iter().map(|&robot| runs[robot].clone()).collect());
-        self.squads = formation.squads.iter().map(squad).collect();
-        self.cost = formation.cost;
+        let group = |robots: &Vec<usize>| LaneGroup::new(robots.iter().map(|&robot| runs[robot].clone()).collect());
+        self.groups = grouping.groups.iter().map(group).collect();
+        self.cost = grouping.cost;
     }
 
     fn run(&self, i: usize) -> &Run {
-        let (squad, place) = self.places[i];
-        &self.squads[squad].runs()[place]
+        let (group, place) = self.places[i];
+        &self.groups[group].runs()[place]
     }
 
     fn run_mut(&mut self, i: usize) -> &mut Run {
-        let (squad, place) = self.places[i];
-        &mut self.squads[squad].runs_mut()[place]
+        let (group, place) = self.places[i];
+        &mut self.groups[group].runs_mut()[place]
     }
 
-    /// Takes the runs out of their squads, in order of the robots.
+    /// Takes the runs out of their groups, in order of the robots.
     fn dissolve(&mut self) -> Vec<Run> {
         let mut runs: Vec<Vec<Option<Run>>> =
-            self.squads.iter_mut().map(|squad| squad.take().into_iter().map(Some).collect()).collect();
+            self.groups.iter_mut().map(|group| group.take().into_iter().map(Some).collect()).collect();
         let take =
-            |&(squad, place): &(usize, usize)| runs[squad][place].take().expect("a robot has a place of its own");
+            |&(group, place): &(usize, usize)| runs[group][place].take().expect("a robot has a place of its own");
         self.places.iter().map(take).collect()
     }
 }
@@ -82,18 +82,18 @@ impl Flock for LaneFlock {
             self.run_mut(i).assign(&Schedule::constant(pattern, env_steps));
         }
         let world = &self.world;
-        threads::for_each(&mut self.squads, |squad| squad.finish(world));
+        threads::for_each(&mut self.groups, |group| group.finish(world));
     }
 
     fn retain(&mut self, keep: &[bool]) {
         assert_eq!(keep.len(), self.len(), "each robot is kept or not");
         let kept = (0..self.len()).filter(|&i| keep[i]).map(|i| self.run(i));
-        let formation = self.formation(kept);
+        let grouping = self.grouping(kept);
         let mut keep = keep.iter();
-        if formation.cost < self.cost {
+        if grouping.cost < self.cost {
             let mut runs = self.dissolve();
             runs.retain(|_| keep.next().is_some_and(|&keep| keep));
-            self.form(runs, formation);
+            self.form(runs, grouping);
         } else {
             self.places.retain(|_| keep.next().is_some_and(|&keep| keep));
         }
@@ -116,20 +116,20 @@ impl Flock for LaneFlock {
     }
 
     fn points(&self, i: usize) -> Vec<[f64; 2]> {
-        let (squad, place) = self.places[i];
+        let (group, place) = self.places[i];
         let cell = self.world.constants.cell;
-        self.squads[squad].state(place).position.into_iter().map(|at| at.map(|axis| axis / cell)).collect()
+        self.groups[group].state(place).position.into_iter().map(|at| at.map(|axis| axis / cell)).collect()
     }
 
     fn snapshot(&self, i: usize) -> Snapshot {
-        let (squad, place) = self.places[i];
+        let (group, place) = self.places[i];
         let run = self.run(i);
-        Snapshot { state: self.squads[squad].state(place), center: run.center, clock: run.clock, fault: run.fault }
+        Snapshot { state: self.groups[group].state(place), center: run.center, clock: run.clock, fault: run.fault }
     }
 
     fn restore(&mut self, i: usize, snapshot: &Snapshot) {
-        let (squad, place) = self.places[i];
-        self.squads[squad].unload();
-        self.squads[squad].runs_mut()[place].restore(snapshot);
+        let (group, place) = self.places[i];
+        self.groups[group].unload();
+        self.groups[group].runs_mut()[place].restore(snapshot);
     }
 }

@@ -4,7 +4,8 @@
 mod batch;
 mod contact;
 mod flock;
-mod formation;
+mod group;
+mod grouping;
 mod kernel;
 mod lane_batch;
 mod limits;
@@ -12,7 +13,6 @@ mod mass;
 mod proximity;
 mod real;
 mod response;
-mod squad;
 mod step;
 mod stiffness;
 mod threads;

@@ -67,6 +67,57 @@ pub trait Real:
     }
 }
 
+/// The operators of a type of vectors, from the sum, the difference and the product of two vectors.
+macro_rules! operators {
+    ([$($generics:tt)*] $vector:ty, |$one:ident, $other:ident| $add:expr, $sub:expr, $mul:expr) => {
+        impl<$($generics)*> Add for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn add(self, $other: Self) -> Self {
+                let $one = self;
+                $add
+            }
+        }
+
+        impl<$($generics)*> Sub for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn sub(self, $other: Self) -> Self {
+                let $one = self;
+                $sub
+            }
+        }
+
+        impl<$($generics)*> Mul for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn mul(self, $other: Self) -> Self {
+                let $one = self;
+                $mul
+            }
+        }
+
+        impl<$($generics)*> AddAssign for $vector {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl<$($generics)*> SubAssign for $vector {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+}
+
+pub(super) use operators;
+
 /// Yes or no in each lane.
 pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Lane i as bit i.

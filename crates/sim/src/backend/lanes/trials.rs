@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use crate::backend::lanes::squad::Squad;
+use crate::backend::lanes::group::LaneGroup;
 use crate::backend::lanes::threads;
 use crate::backend::lanes::world::World;
 use crate::backend::run::{Run, runs};
@@ -55,9 +55,9 @@ fn run_box(waiting: Vec<Waiting<'_>>, world: &World) {
             if runs.is_empty() {
                 break;
             }
-            let mut squad = Squad::new(runs);
-            squad.advance(world, |run, at| trajectories[run].push(at.center));
-            (runs, trajectories) = keep_going(squad.take(), trajectories);
+            let mut group = LaneGroup::new(runs);
+            group.advance(world, |run, at| trajectories[run].push(at.center));
+            (runs, trajectories) = keep_going(group.take(), trajectories);
         }
     });
 }

@@ -1,7 +1,8 @@
 //! An OpenCL device: its memory, and the launch of the kernel.
 //!
-//! This is the one file that calls the driver. The driver trusts its callers, so these calls are `unsafe`; what makes
-//! them sound is that buffers are made, filled and read here only, with the sizes of the slices given.
+//! Only this file and `listing.rs` call the driver. The driver does not check its arguments, so the calls for memory
+//! and kernels are `unsafe`. They are sound because buffers are created, filled and read here only, with the sizes of
+//! the given slices.
 #![allow(unsafe_code, reason = "calls of the driver's functions")]
 
 use std::collections::BTreeMap;
@@ -34,13 +35,13 @@ pub struct Card {
     /// The device.
     pub device: OpenClDevice,
     group: Option<usize>,
-    /// What the driver has given; `None` once the device is lost.
+    /// The handles from the driver; `None` once the device is lost.
     handles: Mutex<Option<Handles>>,
-    /// Whether the device is lost. Then nothing is given back, because the driver may refuse to take it.
+    /// Whether the device is lost. Then no handle is released, because the driver may refuse this.
     lost: Arc<AtomicBool>,
 }
 
-/// What the driver has given.
+/// The handles from the driver.
 struct Handles {
     context: Context,
     queue: CommandQueue,
@@ -48,7 +49,7 @@ struct Handles {
     kernels: BTreeMap<Capacity, (Kernel, Program)>,
 }
 
-/// Numbers that the kernel reads and writes as they are.
+/// Types that the kernel reads and writes without conversion.
 pub trait Plain: Copy + Default {}
 
 impl Plain for u16 {}
@@ -194,7 +195,8 @@ impl Card {
             let kernel = &handles.kernels[&capacity].0;
             let (items, of_group) = ([groups * group], [group]);
             // SAFETY: the arguments are those of the kernel, in its order, and both sizes have one dimension. The
-            // kernel stays within the buffers, because `Fleet` makes the lists and the buffers from the same plans.
+            // kernel stays within the buffers, because `DeviceRuns` makes the lists and the buffers from the same
+            // plans.
             let event = unsafe {
                 kernel.set_arg(0, robots.buffer())?;
                 kernel.set_arg(1, bodies.buffer())?;

@@ -1,4 +1,4 @@
-//! What can be wrong with a device, as data.
+//! Errors of devices, as data.
 
 /// The reason why a device cannot simulate. Names are those that the driver tells.
 #[derive(Clone, Debug, PartialEq, Eq)]

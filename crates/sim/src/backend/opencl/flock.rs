@@ -1,7 +1,7 @@
 //! Robots that are advanced step by step on a device. Their states are read after each advance, so that nothing is lost
 //! if the device is.
 
-use crate::backend::opencl::station::Station;
+use crate::backend::opencl::fallback_device::FallbackDevice;
 use crate::backend::run::{Run, runs};
 use crate::backend::{Backend, Flock, Snapshot};
 use crate::lattice::Lattice;
@@ -10,7 +10,7 @@ use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting};
 /// Robots on a device.
 #[derive(Debug)]
 pub struct DeviceFlock {
-    station: Station,
+    device: FallbackDevice,
     setting: Setting,
     bodies: Vec<Body>,
     runs: Vec<Run>,
@@ -18,15 +18,15 @@ pub struct DeviceFlock {
 
 impl DeviceFlock {
     /// A robot for each body, at its start.
-    pub fn new(station: &Station, setting: &Setting, bodies: &[Body]) -> Self {
-        let runs = runs(&station.processor.constants.in_world(&setting.factors), setting, bodies);
-        Self { station: station.clone(), setting: *setting, bodies: bodies.to_vec(), runs }
+    pub fn new(device: &FallbackDevice, setting: &Setting, bodies: &[Body]) -> Self {
+        let runs = runs(&device.processor.constants.in_world(&setting.factors), setting, bodies);
+        Self { device: device.clone(), setting: *setting, bodies: bodies.to_vec(), runs }
     }
 
     /// Advances some robots on this processor.
     fn advance_here(&mut self, robots: &[usize], patterns: &[Pattern], env_steps: u32) {
         let bodies: Vec<Body> = robots.iter().map(|&robot| self.bodies[robot].clone()).collect();
-        let mut flock = self.station.processor.flock(&self.setting, &bodies);
+        let mut flock = self.device.processor.flock(&self.setting, &bodies);
         for (place, &robot) in robots.iter().enumerate() {
             flock.restore(place, &self.snapshot(robot));
         }
@@ -48,7 +48,7 @@ impl Flock for DeviceFlock {
         for (run, &pattern) in ahead.iter_mut().zip(patterns) {
             run.assign(&Schedule::constant(pattern, env_steps));
         }
-        match self.station.finish(&self.setting, &mut ahead, &mut |_, _| {}) {
+        match self.device.finish(&self.setting, &mut ahead, &mut |_, _| {}) {
             Some(too_large) => {
                 self.runs = ahead;
                 self.advance_here(&too_large, patterns, env_steps);
@@ -82,7 +82,7 @@ impl Flock for DeviceFlock {
     }
 
     fn points(&self, i: usize) -> Vec<[f64; 2]> {
-        let cell = self.station.processor.constants.cell;
+        let cell = self.device.processor.constants.cell;
         self.runs[i].state.position.iter().map(|at| at.map(|axis| axis / cell)).collect()
     }
 

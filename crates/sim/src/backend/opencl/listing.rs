@@ -9,7 +9,7 @@ use opencl3::types::cl_device_id;
 
 use crate::backend::opencl::error::DeviceError;
 
-/// What a device is.
+/// The kind of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DeviceKind {
     /// A graphics card.
@@ -44,11 +44,11 @@ pub struct OpenClDevice {
     pub driver: String,
     /// What it is.
     pub kind: DeviceKind,
-    /// Its memory in bytes, ...
+    /// The size of its memory in bytes.
     pub global_bytes: u64,
-    /// ... the most of a buffer, ...
+    /// The size of the largest buffer in bytes.
     pub buffer_bytes: u64,
-    /// ... and that of a work-group.
+    /// The size of the memory of a work-group in bytes.
     pub local_bytes: usize,
     /// The most work-items of a group.
     pub group_size: usize,

@@ -7,13 +7,13 @@
 
 mod capacity;
 mod card;
+mod device_runs;
 mod error;
-mod fleet;
+mod fallback_device;
 mod flock;
 mod listing;
 mod plan;
 mod self_test;
-mod station;
 
 use crate::backend::lanes::LaneBackend;
 use crate::backend::run::runs;
@@ -24,13 +24,13 @@ pub use error::DeviceError;
 pub use listing::{DeviceKind, OpenClDevice};
 pub use self_test::{BoxComparison, SelfTest};
 
+use fallback_device::FallbackDevice;
 use flock::DeviceFlock;
-use station::Station;
 
 /// An OpenCL device, and this processor for what the device cannot do.
 #[derive(Clone, Debug)]
 pub struct OpenClBackend {
-    station: Station,
+    device: FallbackDevice,
 }
 
 impl OpenClBackend {
@@ -49,27 +49,27 @@ impl OpenClBackend {
     /// # Errors
     /// When it cannot simulate.
     pub fn unchecked(device: &OpenClDevice, processor: LaneBackend, group: Option<usize>) -> Result<Self, DeviceError> {
-        Ok(Self { station: Station::open(device, processor, group)? })
+        Ok(Self { device: FallbackDevice::open(device, processor, group)? })
     }
 
     /// The device.
     pub fn device(&self) -> &OpenClDevice {
-        self.station.device()
+        self.device.device()
     }
 
     /// The back end of what the device cannot do.
     pub fn processor(&self) -> &LaneBackend {
-        &self.station.processor
+        &self.device.processor
     }
 
     /// Why the device failed, if it did. All that it was to do was then done by this processor.
     pub fn failure(&self) -> Option<DeviceError> {
-        self.station.failure()
+        self.device.failure()
     }
 
     /// Counts the device as failed: from now on this processor does its work.
     pub fn give_up(&self, error: DeviceError) {
-        self.station.give_up(error);
+        self.device.give_up(error);
     }
 
     /// Compares the device with this processor, and says whether a result differs.
@@ -89,7 +89,7 @@ impl OpenClBackend {
 
 impl Backend for OpenClBackend {
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
-        Box::new(DeviceFlock::new(&self.station, setting, bodies))
+        Box::new(DeviceFlock::new(&self.device, setting, bodies))
     }
 
     fn run_trials(&self, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
@@ -102,7 +102,7 @@ impl Backend for OpenClBackend {
             trajectory.push(run.center);
         }
         let mut record = |run: usize, center| trajectories[run].push(center);
-        let Some(too_large) = self.station.finish(setting, &mut runs, &mut record) else {
+        let Some(too_large) = self.device.finish(setting, &mut runs, &mut record) else {
             return processor.run_trials(setting, trials);
         };
         for (trajectory, run) in trajectories.iter_mut().zip(&runs) {

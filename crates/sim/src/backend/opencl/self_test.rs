@@ -26,7 +26,7 @@ pub struct BoxComparison {
 }
 
 impl SelfTest {
-    /// What every device is asked when it is opened.
+    /// The test of every device when it is opened.
     pub const QUICK: Self = Self { sides: &[3], bodies: 9, steps: 6 };
 
     /// Every box of the paper.

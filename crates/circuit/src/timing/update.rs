@@ -1,0 +1,97 @@
+//! The order in which changes pass the nets of a netlist: loops are passed more than once.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use petgraph::Direction::Incoming;
+use petgraph::visit::EdgeRef;
+
+use crate::NetId;
+use crate::components::Components;
+use crate::netlist::NetGraph;
+
+/// The recomputation of a net's times. A net on a loop is updated several times.
+#[derive(Clone, Debug)]
+pub(super) struct NetUpdate {
+    /// The node of the graph.
+    pub node: NetId,
+    /// The pins that an earlier update drives, with the number of that update.
+    pub pins: Vec<(u8, usize)>,
+}
+
+/// The updates of a graph in an order with pins first, and the loops that are not one of `elements`.
+///
+/// The cells of an element, given with the number of cells that a change passes in it, are all updated at once, that
+/// many times. Those of another loop are updated one after the other, twice: once for the change and once for the
+/// response to it.
+pub(super) fn unroll(
+    graph: &NetGraph,
+    elements: &BTreeMap<NetId, (&[NetId], usize)>,
+) -> (Vec<NetUpdate>, Vec<Vec<NetId>>) {
+    let mut updates = UpdateOrder { graph, list: Vec::new(), last: BTreeMap::new() };
+    let mut components = Components::new(graph).from(graph.node_indices(), |_| true);
+    components.reverse();
+    let mut others = Vec::new();
+    for mut core in components {
+        core.sort_unstable();
+        match elements.get(&core[0]) {
+            Some((cells, rounds)) if *cells == core => (0..*rounds).for_each(|_| updates.update_together(&core)),
+            _ if core.len() > 1 || graph.contains_edge(core[0], core[0]) => {
+                let order = along(graph, &core);
+                order.iter().chain(&order).for_each(|&member| updates.update_together(&[member]));
+                others.push(core);
+            }
+            _ => updates.update_together(&core),
+        }
+    }
+    (updates.list, others)
+}
+
+struct UpdateOrder<'g> {
+    graph: &'g NetGraph,
+    list: Vec<NetUpdate>,
+    /// The last update of each node.
+    last: BTreeMap<NetId, usize>,
+}
+
+impl UpdateOrder<'_> {
+    /// An update for each of these nodes; they read the updates before.
+    fn update_together(&mut self, nodes: &[NetId]) {
+        let first = self.list.len();
+        for &node in nodes {
+            let pins = pins(self.graph, node).into_iter();
+            let pins = pins.filter_map(|(pin, driver)| Some((pin, *self.last.get(&driver)?))).collect();
+            self.list.push(NetUpdate { node, pins });
+        }
+        self.last.extend(nodes.iter().copied().zip(first..));
+    }
+}
+
+/// The pins of a node with their drivers, pin 0 first.
+pub(super) fn pins(graph: &NetGraph, node: NetId) -> Vec<(u8, NetId)> {
+    let mut pins: Vec<_> = graph.edges_directed(node, Incoming).map(|edge| (*edge.weight(), edge.source())).collect();
+    pins.sort_unstable();
+    pins
+}
+
+/// A loop core in depth-first order from the cells that listen to something outside.
+fn along(graph: &NetGraph, core: &[NetId]) -> Vec<NetId> {
+    let is_inside = |node: &NetId| core.binary_search(node).is_ok();
+    let entered = |&&node: &&NetId| pins(graph, node).iter().any(|(_, pin)| !is_inside(pin));
+    let mut seen = BTreeSet::new();
+    let mut finished = Vec::with_capacity(core.len());
+    for &root in core.iter().filter(entered).chain(core) {
+        let mut stack = vec![(root, false)];
+        while let Some((node, leaving)) = stack.pop() {
+            if leaving {
+                finished.push(node);
+            } else if seen.insert(node) {
+                stack.push((node, true));
+                let mut listeners: Vec<_> = graph.edges(node).map(|edge| (edge.target(), *edge.weight())).collect();
+                listeners.sort_unstable();
+                stack.extend(listeners.into_iter().filter(|(id, _)| is_inside(id)).map(|(id, _)| (id, false)));
+            }
+        }
+    }
+    finished.reverse();
+    finished
+}

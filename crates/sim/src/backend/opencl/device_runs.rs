@@ -1,0 +1,322 @@
+//! Many runs on a device. They are copied to the device once; then each launch of the kernel simulates all of them for
+//! some env steps.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::backend::opencl::capacity::Capacity;
+use crate::backend::opencl::card::{Arguments, Card, CardMemory};
+use crate::backend::opencl::error::DeviceError;
+use crate::backend::opencl::plan::BodyPlan;
+use crate::backend::run::Run;
+use crate::constants::Constants;
+use crate::monitor::Monitor;
+use crate::signal::Signals;
+use nbc_base::model::Pattern;
+
+/// The most env steps of a launch.
+const WINDOW: u32 = 840;
+/// The env steps of the first launch.
+const FIRST_WINDOW: u32 = 4;
+/// The time that a launch should take, in nanoseconds. Drivers of cards that also show a screen stop programs after
+/// some seconds, and a simulation can be stopped only between launches.
+const PATIENCE: u64 = 200_000_000;
+
+/// The kernel's code for a robot that became unstable.
+const UNSTABLE: u32 = 1;
+/// The kernel's code for a robot without a fault.
+const SOUND: u32 = 0;
+
+/// The data shared by simulations on a device with the same setting.
+#[derive(Clone, Debug)]
+pub struct DeviceWorld {
+    /// The device.
+    pub card: Arc<Card>,
+    /// The numbers of the physics.
+    pub constants: Constants,
+    /// Ground voxels in a row.
+    pub width: usize,
+    /// Follows simulations, if requested.
+    pub monitor: Option<Arc<Monitor>>,
+}
+
+/// Runs with plans of one capacity, in the memory of the device.
+struct DeviceRuns<'a> {
+    world: &'a DeviceWorld,
+    capacity: Capacity,
+    /// The body and the first mass of each run.
+    places: Vec<[u32; 2]>,
+    /// The mass of each point of each run's body.
+    masses: Vec<Arc<BodyPlan>>,
+    bodies: CardMemory<u32>,
+    plan: CardMemory<u16>,
+    stiffness: CardMemory<f64>,
+    state: [CardMemory<[f64; 2]>; 3],
+    centers: CardMemory<[f64; 2]>,
+    outcomes: CardMemory<[u32; 2]>,
+    /// The most env steps for which there is room.
+    window: u32,
+}
+
+impl DeviceWorld {
+    /// The plan of each run. Runs with equal bodies share a plan.
+    fn plans(&self, runs: &[Run]) -> Vec<Arc<BodyPlan>> {
+        let mut plans: BTreeMap<usize, Arc<BodyPlan>> = BTreeMap::new();
+        let plan = |run: &Run| {
+            let plan = plans.entry(run.body);
+            Arc::clone(plan.or_insert_with(|| Arc::new(BodyPlan::new(&run.lattice, &self.constants))))
+        };
+        runs.iter().map(plan).collect()
+    }
+
+    /// Simulates each run until it is done, calling `record` with its center of mass after each of its env steps.
+    /// Returns the runs that have no room in the memory of a group; nothing is done with them.
+    ///
+    /// # Errors
+    /// When the device fails. The clocks and the states of the runs may then be of different env steps.
+    pub fn finish(&self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<Vec<usize>, DeviceError> {
+        let plans = self.plans(runs);
+        let mut groups: BTreeMap<Capacity, Vec<usize>> = BTreeMap::new();
+        let mut too_large = Vec::new();
+        for (run, plan) in plans.iter().enumerate().filter(|(run, _)| !runs[*run].is_done()) {
+            let capacity = Capacity::of(plan);
+            if self.card.fits(capacity) {
+                groups.entry(capacity).or_default().push(run);
+            } else {
+                too_large.push(run);
+            }
+        }
+        for (capacity, mut members) in groups {
+            members.sort_by_key(|&run| (std::cmp::Reverse(runs[run].remaining()), run));
+            for members in members.chunks(self.most_robots(capacity)) {
+                self.finish_some(capacity, members, &plans, runs, record)?;
+            }
+        }
+        Ok(too_large)
+    }
+
+    /// The most robots for which the device has room. Half of its memory is left for other programs.
+    fn most_robots(&self, capacity: Capacity) -> usize {
+        let device = &self.card.device;
+        let state = (device.global_bytes / 2) as usize / capacity.global_bytes(WINDOW as usize);
+        let buffer = device.buffer_bytes as usize / (16 * capacity.masses.max(WINDOW as usize));
+        state.min(buffer).max(1)
+    }
+
+    /// Simulates some runs; in two halves if the device has not enough memory for all.
+    fn finish_some(
+        &self,
+        capacity: Capacity,
+        members: &[usize],
+        plans: &[Arc<BodyPlan>],
+        runs: &mut [Run],
+        record: &mut dyn FnMut(usize, [f64; 2]),
+    ) -> Result<(), DeviceError> {
+        match DeviceRuns::new(self, capacity, members, plans, runs) {
+            Ok(device_runs) => device_runs.finish(members, runs, record),
+            Err(DeviceError::OutOfMemory { .. }) if members.len() > 1 => {
+                let (first, second) = members.split_at(members.len() / 2);
+                self.finish_some(capacity, first, plans, runs, record)?;
+                self.finish_some(capacity, second, plans, runs, record)
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl<'a> DeviceRuns<'a> {
+    /// Copies some runs to the device.
+    fn new(
+        world: &'a DeviceWorld,
+        capacity: Capacity,
+        members: &[usize],
+        plans: &[Arc<BodyPlan>],
+        runs: &[Run],
+    ) -> Result<Self, DeviceError> {
+        let (mut headers, mut words, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
+        let mut bodies: BTreeMap<usize, u32> = BTreeMap::new();
+        let (mut places, mut state) = (Vec::new(), [(); 3].map(|()| Vec::new()));
+        for &member in members {
+            let (run, plan) = (&runs[member], &plans[member]);
+            let next = bodies.len() as u32;
+            let body = *bodies.entry(run.body).or_insert_with(|| {
+                headers.extend(plan.header(words.len(), stiffness.len()));
+                words.extend_from_slice(&plan.words);
+                stiffness.extend_from_slice(&plan.stiffness);
+                next
+            });
+            places.push([body, state[0].len() as u32]);
+            let vectors = [&run.state.position, &run.state.previous, &run.state.velocity];
+            for (all, own) in state.iter_mut().zip(vectors) {
+                all.extend(by_mass(plan, own));
+            }
+        }
+        let longest = members.iter().map(|&member| runs[member].remaining()).max().unwrap_or(0);
+        let window = longest.clamp(1, WINDOW);
+        let card = &world.card;
+        let [position, previous, velocity] = state;
+        Ok(Self {
+            world,
+            capacity,
+            places,
+            masses: members.iter().map(|&member| Arc::clone(&plans[member])).collect(),
+            bodies: card.upload(&headers)?,
+            plan: card.upload(&words)?,
+            stiffness: card.upload(&stiffness)?,
+            state: [card.upload(&position)?, card.upload(&previous)?, card.upload(&velocity)?],
+            centers: card.room(members.len() * window as usize)?,
+            outcomes: card.room(members.len())?,
+            window,
+        })
+    }
+
+    /// Simulates the runs until they are done, and reads their states.
+    fn finish(
+        self,
+        members: &[usize],
+        runs: &mut [Run],
+        record: &mut dyn FnMut(usize, [f64; 2]),
+    ) -> Result<(), DeviceError> {
+        let mut live: Vec<usize> = (0..members.len()).collect();
+        let mut window = FIRST_WINDOW;
+        while !live.is_empty() {
+            if self.world.monitor.as_ref().is_some_and(|monitor| monitor.is_stopped()) {
+                live.iter().for_each(|&place| runs[members[place]].stop());
+                break;
+            }
+            let longest = live.iter().map(|&place| runs[members[place]].remaining()).max().unwrap_or(0);
+            let steps = window.min(self.window).min(longest);
+            let spent = self.advance(steps, &live, members, runs, record)?;
+            window = next_window(steps, spent);
+            live.retain(|&place| !runs[members[place]].is_done());
+        }
+        self.read_states(members, runs)
+    }
+
+    /// One launch: simulates `steps` env steps of each run, or fewer if less is left of it. Returns the time in
+    /// nanoseconds.
+    fn advance(
+        &self,
+        steps: u32,
+        live: &[usize],
+        members: &[usize],
+        runs: &mut [Run],
+        record: &mut dyn FnMut(usize, [f64; 2]),
+    ) -> Result<u64, DeviceError> {
+        let card = &self.world.card;
+        let mut signals = SignalTable::new(live.iter().map(|&place| &runs[members[place]]));
+        let mut robots = Vec::with_capacity(4 * live.len());
+        for &place in live {
+            let [body, state] = self.places[place];
+            let run = &runs[members[place]];
+            robots.extend([body, state, signals.add(run, steps), run.remaining().min(steps)]);
+        }
+        let arguments = Arguments {
+            robots: &card.upload(&robots)?,
+            bodies: &self.bodies,
+            plan: &self.plan,
+            stiffness: &self.stiffness,
+            targets: &card.upload(&signals.targets)?,
+            codes: signals.codes as u32,
+            world_width: self.world.width as u32,
+            window: steps,
+            state: self.state.each_ref(),
+            centers: &self.centers,
+            outcomes: &self.outcomes,
+        };
+        let spent = card.launch(self.capacity, &self.world.constants, live.len(), &arguments)?;
+        let centers = card.read(&self.centers, live.len() * steps as usize)?;
+        let outcomes = card.read(&self.outcomes, live.len())?;
+        for ((&place, centers), [done, fault]) in live.iter().zip(centers.chunks(steps as usize)).zip(outcomes) {
+            let run = &mut runs[members[place]];
+            for &center in &centers[..done as usize] {
+                run.finish_env_step(center, false);
+                record(members[place], center);
+            }
+            if fault != SOUND {
+                run.finish_env_step([f64::NAN; 2], fault == UNSTABLE);
+            }
+            if let Some(monitor) = &self.world.monitor {
+                monitor.count(done as usize);
+            }
+        }
+        Ok(spent)
+    }
+
+    /// Reads the runs' states after their last complete env steps.
+    fn read_states(&self, members: &[usize], runs: &mut [Run]) -> Result<(), DeviceError> {
+        let [position, previous, velocity] = self.state.each_ref();
+        let read = |memory: &CardMemory<[f64; 2]>| self.world.card.read(memory, memory.count());
+        let (position, previous, velocity) = (read(position)?, read(previous)?, read(velocity)?);
+        for ((&member, plan), [_, first]) in members.iter().zip(&self.masses).zip(&self.places) {
+            let state = &mut runs[member].state;
+            for (point, &mass) in plan.masses.iter().enumerate() {
+                let place = *first as usize + mass;
+                state.position[point] = position[place];
+                state.previous[point] = previous[place];
+                state.velocity[point] = velocity[place];
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The vectors of points in order of the masses.
+fn by_mass(plan: &BodyPlan, of_points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut of_masses = vec![[0.0; 2]; of_points.len()];
+    for (&mass, &vector) in plan.masses.iter().zip(of_points) {
+        of_masses[mass] = vector;
+    }
+    of_masses
+}
+
+/// The env steps of the next launch, after one that took so long.
+fn next_window(steps: u32, spent: u64) -> u32 {
+    let fitting = u64::from(steps) * PATIENCE / spent.max(1);
+    (fitting as u32).clamp(1, steps.saturating_mul(4))
+}
+
+/// What the targets of a run depend on: its palette, clock and spells.
+type SignalKey = (usize, u32, Vec<(Pattern, u32)>);
+
+/// The targets of the materials in the env steps of a launch. Runs with the same materials, clock and stimuli share
+/// them.
+struct SignalTable<'a> {
+    /// Rows of `codes` numbers, one for each env step.
+    targets: Vec<f64>,
+    codes: usize,
+    palettes: Vec<&'a Arc<Signals>>,
+    /// The place of the targets of each kind of run.
+    rows: BTreeMap<SignalKey, u32>,
+}
+
+impl<'a> SignalTable<'a> {
+    fn new(runs: impl Iterator<Item = &'a Run>) -> Self {
+        let mut palettes: Vec<&Arc<Signals>> = Vec::new();
+        for run in runs {
+            if !palettes.iter().any(|known| Arc::ptr_eq(known, &run.signals)) {
+                palettes.push(&run.signals);
+            }
+        }
+        let codes = palettes.iter().map(|signals| signals.codes()).max().unwrap_or(0);
+        Self { targets: Vec::new(), codes, palettes, rows: BTreeMap::new() }
+    }
+
+    /// The place of the targets of a run in its next env steps.
+    fn add(&mut self, run: &Run, steps: u32) -> u32 {
+        let palette = self.palettes.iter().position(|known| Arc::ptr_eq(known, &run.signals));
+        let palette = palette.expect("the palettes of all runs are listed");
+        let spells = run.spells_ahead(steps);
+        let (targets, codes) = (&mut self.targets, self.codes);
+        *self.rows.entry((palette, run.clock, spells)).or_insert_with_key(|(_, clock, spells)| {
+            let first = targets.len() as u32;
+            let patterns = spells.iter().flat_map(|&(pattern, steps)| std::iter::repeat_n(pattern, steps as usize));
+            for (env_step, pattern) in (*clock..).zip(patterns) {
+                let row = targets.len();
+                targets.extend(run.signals.targets(env_step, pattern));
+                targets.resize(row + codes, 1.0);
+            }
+            first
+        })
+    }
+}

@@ -1,0 +1,84 @@
+//! The results of an evolution run: of one seed's folder, or of all seeds of a declaration.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::cli::draw::titled_body::TitledBody;
+use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
+use crate::cli::draw::wording::DrawError;
+use crate::cli::evolution_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
+use crate::cli::evolve::wording::ProgressGaps;
+use crate::cli::{Context, Failure};
+use nbc_base::model::Behavior;
+use nbc_base::source::Sources;
+use nbc_session::report::{EvolutionResults, History, SeedRun};
+use nbc_session::store::Declared;
+
+/// Whether a folder contains an evolution run: of one seed, or of several.
+pub(in crate::cli) fn is_run(folder: &Path) -> bool {
+    !checkpoints(folder).is_empty()
+}
+
+/// The results of the runs in a folder.
+pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<EvolutionResults, Failure> {
+    let mut results: Option<EvolutionResults> = None;
+    for path in checkpoints(folder) {
+        let Some(checkpoint) = read_checkpoint(&path)? else { continue };
+        let (seed, progress) = (checkpoint.state.seed, path.with_file_name(PROGRESS));
+        let bytes = read_progress(&progress)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let history = History::read(&text, checkpoint.state.generation);
+        let damage = history.damage().map(|damage| {
+            let path = progress.display().to_string();
+            ProgressGaps::InCurves { path, damage }.into()
+        });
+        context.tell(&Vec::from_iter(damage), &Sources::default());
+        let run = SeedRun { niches: checkpoint.state.niches, progress: history.lines().collect() };
+        let place = path.display().to_string();
+        if checkpoint.declared.axes.is_empty() {
+            return Err(DrawError::NoAxes { path: place }.into());
+        }
+        let Declared { name, axes, objective, .. } = checkpoint.declared;
+        let results =
+            results.get_or_insert(EvolutionResults { name, axes: axes.clone(), objective, runs: BTreeMap::new() });
+        if results.axes != axes || results.objective != objective {
+            return Err(DrawError::OtherDeclaration { path: place }.into());
+        }
+        if results.runs.insert(seed, run).is_some() {
+            return Err(DrawError::SameSeed { path: place, seed }.into());
+        }
+    }
+    results.ok_or_else(|| DrawError::NoRunInFolder { folder: folder.display().to_string() }.into())
+}
+
+/// The best robot of a behavior.
+pub(super) fn champion(results: &EvolutionResults, behavior: Behavior) -> Option<TitledBody> {
+    let elite = results.champion(behavior)?;
+    let title = format!("{}: {}, {behavior}", results.name, behavior.function());
+    Some(TitledBody { title, body: elite.body.clone() })
+}
+
+/// The champions of every seed, by behavior.
+pub(super) fn each_champion(results: &EvolutionResults) -> TitledRobots {
+    let one = |behavior: Behavior| {
+        results.runs.iter().filter_map(move |(seed, run)| {
+            let body = run.champion(behavior)?.body.clone();
+            Some(NamedBody { behavior, name: format!("seed {seed}"), body })
+        })
+    };
+    let title = match results.runs.len() {
+        1 => format!("{}: the champion of each behavior", results.name),
+        seeds => format!("{}: the champions of {seeds} seeds by behavior", results.name),
+    };
+    TitledRobots { title, robots: Behavior::all().flat_map(one).collect() }
+}
+
+/// The best of each behavior over all seeds.
+pub(super) fn best_champions(results: &EvolutionResults) -> TitledRobots {
+    let one = |behavior: Behavior| {
+        let body = results.champion(behavior)?.body.clone();
+        Some(NamedBody { behavior, name: behavior.function().to_string(), body })
+    };
+    let robots = Behavior::all().filter_map(one).collect();
+    TitledRobots { title: format!("{}: the champion of each behavior", results.name), robots }
+}

@@ -1,0 +1,40 @@
+//! Several robots to be drawn: those of a library or a swarm, or the champions of a run.
+
+use nbc_base::model::{Behavior, Body, Library};
+use nbc_swarm::Assembly;
+
+/// Robots with a title.
+pub(super) struct TitledRobots {
+    pub(super) title: String,
+    pub(super) robots: Vec<NamedBody>,
+}
+
+/// One of the robots.
+pub(super) struct NamedBody {
+    pub(super) behavior: Behavior,
+    pub(super) name: String,
+    pub(super) body: Body,
+}
+
+/// The robots of a library, in its order.
+pub(super) fn of_library(name: &str, library: &Library) -> TitledRobots {
+    let robots = library.robots.iter().map(|robot| NamedBody {
+        behavior: robot.behavior,
+        name: robot.name.clone(),
+        body: robot.body.clone(),
+    });
+    let title = if name == "shipped" { "the robots that come with nbc".to_owned() } else { name.to_owned() };
+    TitledRobots { title, robots: robots.collect() }
+}
+
+/// The robots of a swarm, each once.
+pub(super) fn of_swarm(assembly: &Assembly) -> TitledRobots {
+    let mut robots: Vec<NamedBody> = Vec::new();
+    for member in &assembly.members {
+        let robot = &member.robot;
+        if robots.iter().all(|one| one.name != robot.name) {
+            robots.push(NamedBody { behavior: robot.behavior, name: robot.name.clone(), body: robot.body.clone() });
+        }
+    }
+    TitledRobots { title: format!("the robots of {}", assembly.circuit), robots }
+}

@@ -1,0 +1,7 @@
+//! Options that several commands share.
+
+pub(super) mod circuit;
+pub(super) mod device;
+pub(super) mod mapping;
+pub(super) mod queue;
+pub(super) mod timings;

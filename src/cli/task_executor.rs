@@ -1,0 +1,107 @@
+//! Does the tasks of a command on this machine's processor or device, or by workers at a NATS server.
+
+use std::sync::Arc;
+
+use crate::cli::cluster::{QueueExecutor, open_queue};
+use crate::cli::gpu::OpenDevice;
+use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::queue::QueueArguments;
+use crate::cli::{Context, Failure, Interrupt, Progress};
+use nbc_sim::{LaneBackend, Simulator};
+use nbc_swarm::Executor;
+
+/// The most calls for workers at once: each has a thread here that waits, and a run also keeps a file open.
+const MOST_WAITING: usize = 500;
+
+/// Does the tasks of a command. If workers are chosen, they do all tasks; otherwise the device does.
+pub struct TaskExecutor {
+    device: OpenDevice,
+    simulator: Simulator,
+    queue: Option<QueueExecutor>,
+    interrupt: Interrupt,
+}
+
+impl TaskExecutor {
+    /// Connects to the workers, if `queue` names a server. A signal stops their work; `note` receives notes on its
+    /// progress.
+    ///
+    /// # Errors
+    /// When the server cannot be used.
+    pub fn open(
+        device: OpenDevice,
+        queue: &QueueArguments,
+        interrupt: &Interrupt,
+        note: impl Fn(String) + Send + 'static,
+    ) -> Result<Self, Failure> {
+        let queue = open_queue(queue, interrupt, note)?;
+        Ok(Self { simulator: device.simulator(), device, queue, interrupt: interrupt.clone() })
+    }
+
+    /// The same for a command that a signal ends at once if it works here. Notes are shown by `bar`.
+    ///
+    /// # Errors
+    /// When the device or the server cannot be used.
+    pub fn choose(
+        device: DeviceArguments,
+        queue: &QueueArguments,
+        bar: &Arc<Progress>,
+        context: &Context,
+    ) -> Result<Self, Failure> {
+        let device = OpenDevice::open(device.choice(), LaneBackend::default(), context)?;
+        let interrupt = if queue.nats.is_some() { Interrupt::watch()? } else { Interrupt::default() };
+        let bar = Arc::clone(bar);
+        Self::open(device, queue, &interrupt, move |note| bar.note(note))
+    }
+
+    /// The executor to hand the tasks to.
+    pub fn executor(&self) -> &dyn Executor {
+        match &self.queue {
+            Some(queue) => queue,
+            None => &self.simulator,
+        }
+    }
+
+    /// Whether workers do the tasks.
+    pub fn is_elsewhere(&self) -> bool {
+        self.queue.is_some()
+    }
+
+    /// The number of threads that can have work done at once.
+    pub fn threads(&self) -> usize {
+        threads(self.queue.as_ref())
+    }
+
+    /// The same for the runs of searches. Here they are made one after the other, each on all cores.
+    pub fn threads_for_runs(&self) -> usize {
+        if self.is_elsewhere() { MOST_WAITING } else { 1 }
+    }
+
+    /// Whether a signal has stopped the work.
+    pub fn is_stopped(&self) -> bool {
+        self.interrupt.is_raised()
+    }
+
+    /// Checks that the device has not failed.
+    ///
+    /// # Errors
+    /// When it has, and the user asked for no other.
+    pub fn check(&self) -> Result<(), Failure> {
+        self.device.check()
+    }
+
+    /// Waits until the workers have stopped, and reports a failure of the device.
+    ///
+    /// # Errors
+    /// When the queue or the device has failed.
+    pub fn end(self, context: &Context) -> Result<(), Failure> {
+        if let Some(queue) = self.queue {
+            queue.end()?;
+        }
+        self.device.end(context)
+    }
+}
+
+/// The number of threads that can have work done at once: here, or by workers.
+pub fn threads(queue: Option<&QueueExecutor>) -> usize {
+    if queue.is_some() { MOST_WAITING } else { rayon::current_num_threads() }
+}

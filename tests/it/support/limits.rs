@@ -1,0 +1,71 @@
+//! Limits of time: a test that waits for a program ends, whatever the program does.
+
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::support::tools::signal;
+
+/// The most time that a program may take. A busy machine needs a small part of it.
+pub const PATIENCE: Duration = Duration::from_secs(300);
+
+/// Ends a program that takes too long. What a test reads from the program ends then, too.
+pub struct Limit {
+    /// The thread that waits ends when this is dropped.
+    _running: Sender<()>,
+}
+
+impl Limit {
+    pub fn of(program: &Child) -> Self {
+        let (running, ended) = mpsc::channel();
+        let process = program.id();
+        let test = thread::current().name().unwrap_or("a test").to_owned();
+        thread::spawn(move || {
+            if ended.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                eprintln!("{test}: a program is killed after {} s", PATIENCE.as_secs());
+                signal("KILL", process);
+            }
+        });
+        Self { _running: running }
+    }
+}
+
+/// Waits until a program ends; what it wrote.
+pub fn end(program: Child) -> Output {
+    let _limit = Limit::of(&program);
+    program.wait_with_output().unwrap()
+}
+
+pub trait InTime {
+    /// As [`Command::output`], with a limit.
+    fn output_in_time(&mut self) -> Output;
+}
+
+impl InTime for Command {
+    fn output_in_time(&mut self) -> Output {
+        end(self.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap())
+    }
+}
+
+/// Waits until something holds.
+#[track_caller]
+pub fn until(fault: &str, holds: impl Fn() -> bool) {
+    let end = Instant::now() + PATIENCE;
+    while !holds() {
+        assert!(Instant::now() < end, "{fault}");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn every_wait_for_a_program_has_a_limit() {
+    let files = crate::support::tools::files();
+    for (path, text) in files.iter().filter(|(path, _)| !path.ends_with("limits.rs")) {
+        for word in [".output()", ".wait_with_output()"] {
+            assert!(!text.contains(word), "{}: use those of limits.rs, not `{word}`", path.display());
+        }
+        let has_limit = ["limits::", "PATIENCE", "recv_timeout"].iter().any(|word| text.contains(word));
+        assert!(has_limit || !text.contains(".spawn()"), "{}: its programs have no limit", path.display());
+    }
+}
