@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::compile::{Compiled, Mapping};
+use crate::compile::Compiled;
+use crate::mapping::Mapping;
 use crate::report::{self, PageSwarm, PhaseTiming, Scheme, Svg, SwarmOutcome, SwarmTiming};
 use crate::run_report::RunReport;
 use crate::swarm_run::SwarmRun;

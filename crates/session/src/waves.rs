@@ -1,10 +1,10 @@
 //! Circuits as wave machines: which machine is made of a circuit, and the steps that the rows of a test are.
 
-use crate::compile::Mapping;
+use crate::mapping::Mapping;
 use crate::wording::{ChoiceError, WaveRowError};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, Library, TestRow, WaveTimes};
-use nbc_circuit::waves::{Step, WaveMachine, WaveOptions, balance, certify};
+use nbc_circuit::waves::{ClockStep, WaveMachine, WaveOptions, balance, certify};
 use nbc_circuit::{MapOptions, Netlist, Proof};
 
 /// The beats that are tried if the swarm names none, in cycles.
@@ -35,7 +35,7 @@ pub(super) fn map_waves(
     let best = made.into_iter().filter_map(Result::ok).min_by_key(|(_, machine)| weight(machine));
     let error = || errors.into_iter().filter_map(Result::err).next_back().expect("a beat is tried");
     let (cells, machine) = best.ok_or_else(|| Diagnostic::from(ChoiceError::NoWaves(error())))?;
-    let step = Step::of(&source).expect("a machine was made of its step");
+    let step = ClockStep::of(&source).expect("a machine was made of its step");
     let certificate = certify(&step, &machine)
         .unwrap_or_else(|error| panic!("the wave machine of `{}` differs from its source: {error}", source.name));
     let cuts = step.state.into_iter().map(|bit| bit.name).collect();

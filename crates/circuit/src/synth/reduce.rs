@@ -69,13 +69,15 @@ pub fn reduce(
 
 /// Another network of the same function, at the end of a short walk; it may have some cells more.
 pub fn alternative(network: &Network, prices: &Prices, visits: u64, random: &mut ChaCha8Rng) -> Network {
-    let calm = WalkPlan::calm(visits);
+    let plan = WalkPlan::downhill(visits);
     match (network.inputs <= WHOLE_INPUTS, below(random, 8)) {
-        (true, 0) => walk::improve_all(network, prices, &[], WalkPlan { pace: Pace::Hurry, ..calm }, random),
-        (true, _) => {
-            walk::wander(network, prices, &every_pattern(network.inputs), WalkPlan { climb: 3, ..calm }, random)
+        (true, 0) => {
+            walk::improve_all(network, prices, &[], WalkPlan { delay: DelayGoal::SlowestPath, ..plan }, random)
         }
-        (false, _) => roam(network, prices, &[], None, calm, random),
+        (true, _) => {
+            walk::wander(network, prices, &every_pattern(network.inputs), WalkPlan { climb: 3, ..plan }, random)
+        }
+        (false, _) => improve_on_samples(network, prices, &[], None, plan, random),
     }
 }
 

@@ -100,7 +100,7 @@ pub fn wander(
     plan: WalkPlan<'_>,
     random: &mut ChaCha8Rng,
 ) -> Network {
-    let mut walk = Walk::new(Graph::new(network, prices, &[], patterns), plan.pace, random);
+    let mut walk = Walk::new(Graph::new(network, prices, &[], patterns), plan.delay, random);
     for _ in 0..plan.visits {
         if walk.graph.order().is_empty() || plan.is_cancelled() {
             break;

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 
 use crate::network::{Network, Signal};
 use crate::proof::{self, Method};
+use crate::waves::clock_step::ClockStep;
 use crate::waves::machine::{WaveMachine, WaveState};
-use crate::waves::step::Step;
 use crate::waves::wording::CertifyError;
 use crate::{NetId, Node};
 use nbc_base::model::Function;
@@ -31,7 +31,7 @@ type Place = (Result<NetId, bool>, i64);
 ///
 /// # Errors
 /// The first thing that does not hold.
-pub fn certify(step: &Step, machine: &WaveMachine) -> Result<Certificate, CertifyError> {
+pub fn certify(step: &ClockStep, machine: &WaveMachine) -> Result<Certificate, CertifyError> {
     let checker = Checker::new(step, machine)?;
     checker.check_starts()?;
     let needed = checker.needed_bits();
@@ -45,7 +45,7 @@ pub fn certify(step: &Step, machine: &WaveMachine) -> Result<Certificate, Certif
 }
 
 struct Checker<'a> {
-    step: &'a Step,
+    step: &'a ClockStep,
     machine: &'a WaveMachine,
     /// By how many steps each pin of a cell reads later than its driver shows.
     later: BTreeMap<(NetId, u8), i64>,
@@ -54,7 +54,7 @@ struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(step: &'a Step, machine: &'a WaveMachine) -> Result<Self, CertifyError> {
+    fn new(step: &'a ClockStep, machine: &'a WaveMachine) -> Result<Self, CertifyError> {
         let mut checker = Self { step, machine, later: BTreeMap::new(), bits: BTreeMap::new() };
         for (id, _) in machine.netlist.cells() {
             for (pin, net) in (0..).zip(machine.netlist.pins(id)) {

@@ -1,7 +1,7 @@
 //! The gates of a step and the nets between them, each with the number of steps by which its listener is later.
 
 use crate::network::{Gate, Network, Signal};
-use crate::waves::step::Step;
+use crate::waves::clock_step::ClockStep;
 use nbc_base::model::Function;
 
 /// What drives a net.
@@ -63,7 +63,7 @@ pub struct WaveLogic {
 
 impl WaveLogic {
     /// The logic of a step.
-    pub fn of(step: &Step) -> Self {
+    pub fn of(step: &ClockStep) -> Self {
         let counts = [step.inputs.len(), step.state.len(), step.outputs.len()];
         let starts = step.state.iter().map(|bit| bit.start).collect();
         let (network, late) = match step.state.is_empty() {

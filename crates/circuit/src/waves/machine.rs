@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::map::name_outputs;
+use crate::waves::clock_step::{ClockStep, StateBit};
 use crate::waves::graph::{Driver, Tap, WaveGraph};
 use crate::waves::phases::Phases;
-use crate::waves::step::{StateBit, Step};
 use crate::{Cell, CellLibrary, NetId, Netlist};
 use nbc_base::model::Function;
 
@@ -75,7 +75,7 @@ pub enum Reading {
 impl WaveMachine {
     /// The machine of a graph with these phases; `None` if no cell of the library delays a net.
     pub(super) fn new(
-        step: &Step,
+        step: &ClockStep,
         graph: &WaveGraph,
         phases: &Phases,
         library: &CellLibrary,
@@ -164,7 +164,7 @@ impl WaveMachine {
 
 /// The making of a machine.
 struct Builder<'a> {
-    step: &'a Step,
+    step: &'a ClockStep,
     graph: &'a WaveGraph,
     phases: &'a Phases,
     buffer: (Function, usize),
@@ -174,7 +174,13 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(step: &'a Step, graph: &'a WaveGraph, phases: &'a Phases, buffer: (Function, usize), beat: u32) -> Self {
+    fn new(
+        step: &'a ClockStep,
+        graph: &'a WaveGraph,
+        phases: &'a Phases,
+        buffer: (Function, usize),
+        beat: u32,
+    ) -> Self {
         let mut netlist = Netlist::new(&step.name);
         let mut chains = BTreeMap::new();
         for (at, name) in step.inputs.iter().enumerate() {

@@ -5,17 +5,17 @@
 //! one machine there is room for those of others.
 
 mod certify;
+mod clock_step;
 mod graph;
 mod machine;
 mod phases;
 mod run;
 mod search;
-mod step;
 mod wording;
 
 pub use certify::{Certificate, certify};
+pub use clock_step::{ClockStep, StateBit};
 pub use machine::{Reading, WaveMachine, WaveOutput, WaveState};
-pub use step::{StateBit, Step};
 pub use wording::{CertifyError, WaveError};
 
 use crate::cells::CellLibrary;
@@ -48,7 +48,7 @@ pub fn usable(library: &CellLibrary, beat: u32) -> CellLibrary {
 /// # Errors
 /// When the circuit has other memory than registers of one clock, or the library cannot make it.
 pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -> Result<WaveMachine, WaveError> {
-    let step = Step::of(source)?;
+    let step = ClockStep::of(source)?;
     let beat = options.beat.max(1);
     let cells = usable(library, beat);
     let logic = WaveLogic::of(&step);

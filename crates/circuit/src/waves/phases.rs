@@ -1,4 +1,4 @@
-//! The phases of a wave machine: when in a step each gate reads its nets, so that as few buffers as possible delay them.
+//! The phases of a wave machine: when each gate reads its nets, so that as few buffers as possible delay them.
 //!
 //! A gate at phase p shows its output to a gate at phase p + 1, or through buffers to a later one. A net that crosses
 //! a register gains the length of a step. So each net bounds the difference of two phases, and the buffers of a driver

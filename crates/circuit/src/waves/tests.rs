@@ -43,7 +43,7 @@ fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
 }
 
 /// What the source shows of each row: the first before an edge, each later one after one.
-fn expected(step: &Step, rows: &[Vec<bool>]) -> Vec<Vec<bool>> {
+fn expected(step: &ClockStep, rows: &[Vec<bool>]) -> Vec<Vec<bool>> {
     let mut state: Vec<bool> = step.state.iter().map(|bit| bit.start).collect();
     let mut shown = Vec::new();
     for (at, row) in rows.iter().enumerate() {
@@ -61,7 +61,7 @@ fn check(source: &Netlist, options: &WaveOptions, random: &mut ChaCha8Rng) -> Op
         Err(WaveError::Latch { .. } | WaveError::Loop { .. }) => return None,
         Err(error) => panic!("{error}\n{source}"),
     };
-    let step = Step::of(source).unwrap();
+    let step = ClockStep::of(source).unwrap();
     certify(&step, &machine).unwrap_or_else(|error| panic!("{error}\n{source}\n{}", machine.netlist));
     let rows: Vec<Vec<bool>> =
         (0..12).map(|_| step.inputs.iter().map(|_| random.next_u32() & 1 == 1).collect()).collect();
@@ -90,7 +90,7 @@ fn a_machine_with_a_wrong_phase_or_a_wrong_cell_is_not_proved() {
     for _ in 0..100 {
         let source = random_machine(&mut random);
         let Some(machine) = check(&source, &WaveOptions::default(), &mut random) else { continue };
-        let step = Step::of(&source).unwrap();
+        let step = ClockStep::of(&source).unwrap();
         let Some((&id, _)) = machine.phase.iter().next() else { continue };
         if machine.period > 1 {
             let mut wrong = machine.clone();

@@ -21,7 +21,7 @@ pub struct StateBit {
 
 /// A circuit as the step that its clock makes.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub struct ClockStep {
     /// The circuit's name.
     pub name: String,
     /// The input ports, the clock included.
@@ -50,7 +50,7 @@ struct Register {
     clock: (NetId, bool),
 }
 
-impl Step {
+impl ClockStep {
     /// The step of a circuit of which every register has the same clock.
     ///
     /// # Errors

@@ -1,0 +1,38 @@
+//! A circuit as cells of a library.
+
+use nbc_circuit::timing::{Delays, Pulsed, PulsedRegisters};
+use nbc_circuit::waves::WaveMachine;
+use nbc_circuit::{CellLibrary, Netlist, Proof, Timing};
+
+/// A circuit made of cells, and proved.
+#[derive(Clone, Debug)]
+pub struct Mapping {
+    /// The netlist as written.
+    pub source: Netlist,
+    /// The netlist of cells.
+    pub netlist: Netlist,
+    /// The available cells.
+    pub cells: CellLibrary,
+    /// How the two netlists were proved equal, before registers became pulsed latches; or the steps of a wave machine.
+    pub proof: Proof,
+    /// The registers, if they were to be pulsed latches.
+    pub registers: Option<PulsedRegisters>,
+    /// The wave machine, if the circuit was to be one.
+    pub waves: Option<WaveMachine>,
+}
+
+impl Mapping {
+    /// The same circuit with pulsed latches as registers.
+    pub(super) fn pulsed(self) -> Self {
+        let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
+        Self { netlist, registers: Some(registers), ..self }
+    }
+
+    /// When each net has settled; the hold of a wave machine is the length of a step.
+    pub fn timing(&self) -> Timing {
+        match &self.waves {
+            None => Timing::of(&self.netlist, &self.cells, Delays::Clock),
+            Some(machine) => Timing::of_steps(machine.cycles_per_step() as u32),
+        }
+    }
+}
