@@ -60,6 +60,7 @@ mod testing;
 mod tidy;
 mod ui;
 mod using;
+mod wave_machines;
 mod waves;
 mod worlds;
 mod written;

@@ -40,12 +40,12 @@ pub struct ClockStep {
 
 /// A register as the latches of a flip-flop.
 struct Register {
-    /// The cells of the second latch, each with whether it shows the opposite of the data.
+    /// The cells of the second latch, each with whether it shows the opposite of the first of them.
     shows: Vec<(NetId, bool)>,
     /// The cells of the first latch, which nothing else may read.
     first: Vec<NetId>,
-    /// The net of the data.
-    data: NetId,
+    /// The net of the data, and whether the first cell shows the opposite of it.
+    data: (NetId, bool),
     /// The net that clocks it, and whether it takes the data when that rises.
     clock: (NetId, bool),
 }
@@ -77,7 +77,8 @@ impl ClockStep {
         let ports = netlist.inputs().len();
         let mut logic = view.network.clone();
         let wanted = netlist.outputs().iter().map(|&id| netlist.pins(id)[0]);
-        logic.outputs = wanted.chain(registers.iter().map(|register| register.data)).map(|n| view.signal[&n]).collect();
+        let data = registers.iter().map(|register| register.data.0);
+        logic.outputs = wanted.chain(data).map(|net| view.signal[&net]).collect();
         let logic = logic.swept();
         // What each input of the cut logic is: a port, or a bit of the state, maybe inverted.
         let mut place: BTreeMap<NetId, (usize, bool)> = BTreeMap::new();
@@ -105,6 +106,9 @@ impl ClockStep {
             made.push(step.add(gate.function, gate.pins.map(|pin| made[pin as usize])));
         }
         step.outputs = logic.outputs.iter().map(|&output| made[output as usize]).collect();
+        for (at, _) in (netlist.outputs().len()..).zip(registers).filter(|(_, register)| register.data.1) {
+            step.outputs[at] = step.add(Function::NOT, [step.outputs[at]; 2]);
+        }
         let names = |ids: &[NetId]| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<_>>();
         Ok(Self {
             name: netlist.name.clone(),
@@ -153,10 +157,14 @@ fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, Wave
         let follow = |latch: &Latch| Follower::of(netlist, &inverters, latch).ok_or_else(|| latch_error(latch));
         let (taken, shown) = (follow(first)?, follow(second)?);
         let (_, inverted) = *taken.cells.iter().find(|(id, _)| *id == shown.data).ok_or_else(|| latch_error(second))?;
+        // The cell that the source names, and not its opposite inside the register, is the bit of the state.
+        let mut cells = shown.cells;
+        cells.sort_by_key(|(id, _)| netlist.net_name(*id).len());
+        let named = cells[0].1;
         Ok(Register {
-            shows: shown.cells.iter().map(|&(id, opposite)| (id, opposite != inverted)).collect(),
+            shows: cells.iter().map(|&(id, opposite)| (id, opposite != named)).collect(),
             first: first.cells.clone(),
-            data: taken.data,
+            data: (taken.data, named != inverted),
             clock: (second.root, pair.rising),
         })
     };
@@ -186,7 +194,7 @@ fn clock(netlist: &Netlist, registers: &[Register]) -> Result<Option<(NetId, boo
 }
 
 fn state_bit(netlist: &Netlist, register: &Register) -> StateBit {
-    let (id, inverted) = *register.shows.iter().find(|(_, inverted)| !inverted).unwrap_or(&register.shows[0]);
+    let (id, _) = register.shows[0];
     let start = netlist.cell(id).and_then(|cell| cell.start).unwrap_or(false);
-    StateBit { name: netlist.net_name(id), start: start != inverted }
+    StateBit { name: netlist.net_name(id), start }
 }

@@ -1,9 +1,11 @@
 //! Random machines against their sources, at the level of logic.
 
-use rand::{Rng, SeedableRng};
+use proptest::prelude::*;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
+use crate::options::Effort;
 use crate::registers::flip_flop;
 use crate::{NetId, Node};
 use nbc_base::model::Function;
@@ -55,12 +57,8 @@ fn expected(step: &ClockStep, rows: &[Vec<bool>]) -> Vec<Vec<bool>> {
     shown
 }
 
-fn check(source: &Netlist, options: &WaveOptions, random: &mut ChaCha8Rng) -> Option<WaveMachine> {
-    let machine = match balance(source, &thin_cells(), options) {
-        Ok(machine) => machine,
-        Err(WaveError::Latch { .. } | WaveError::Loop { .. }) => return None,
-        Err(error) => panic!("{error}\n{source}"),
-    };
+fn check(source: &Netlist, options: &WaveOptions, random: &mut ChaCha8Rng) -> WaveMachine {
+    let machine = balance(source, &thin_cells(), options).unwrap_or_else(|error| panic!("{error}\n{source}"));
     let step = ClockStep::of(source).unwrap();
     certify(&step, &machine).unwrap_or_else(|error| panic!("{error}\n{source}\n{}", machine.netlist));
     let rows: Vec<Vec<bool>> =
@@ -69,18 +67,24 @@ fn check(source: &Netlist, options: &WaveOptions, random: &mut ChaCha8Rng) -> Op
     for (thread, shown) in machine.run(&rows).into_iter().enumerate() {
         assert_eq!(shown, expected, "machine {thread} of\n{source}\n{}", machine.netlist);
     }
-    Some(machine)
+    machine
 }
 
-#[test]
-fn random_machines_agree_with_their_sources_in_every_thread() {
-    let mut random = ChaCha8Rng::seed_from_u64(1);
-    let mut made = 0;
-    for _ in 0..400 {
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(), ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_machines_agree_with_their_sources_in_every_thread(seed in any::<u64>(), beat in 1u32..3) {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
         let source = random_machine(&mut random);
-        made += usize::from(check(&source, &WaveOptions::default(), &mut random).is_some());
+        let mapping = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
+        check(&source, &WaveOptions { beat, mapping, ..WaveOptions::default() }, &mut random);
     }
-    assert!(made > 350, "{made} machines");
+}
+
+/// The number of machines; `PROPTEST_CASES` sets another.
+fn cases() -> u32 {
+    std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(100)
 }
 
 #[test]
@@ -89,7 +93,7 @@ fn a_machine_with_a_wrong_phase_or_a_wrong_cell_is_not_proved() {
     let (mut mixed, mut different) = (0, 0);
     for _ in 0..100 {
         let source = random_machine(&mut random);
-        let Some(machine) = check(&source, &WaveOptions::default(), &mut random) else { continue };
+        let machine = check(&source, &WaveOptions::default(), &mut random);
         let step = ClockStep::of(&source).unwrap();
         let Some((&id, _)) = machine.phase.iter().next() else { continue };
         if machine.period > 1 {

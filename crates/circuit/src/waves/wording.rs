@@ -4,6 +4,7 @@ use std::error::Error;
 use std::fmt;
 
 use crate::{MapError, NetlistError};
+use nbc_base::diag::counted;
 
 /// Why a circuit cannot be a wave machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,7 +83,7 @@ impl fmt::Display for WaveError {
             }
             Self::ClockIsRead { clock } => write!(f, "the clock `{clock}` is also read as data"),
             Self::ShortStep { wanted, least } => {
-                write!(f, "a step of {wanted} cycles is too short, expected at least {least}")
+                write!(f, "a step of {} is too short, expected at least {least}", counted(*wanted as usize, "cycle"))
             }
         }
     }
@@ -106,7 +107,7 @@ impl WaveError {
             Self::TwoClocks { .. } => "give all registers one clock".to_owned(),
             Self::BothEdges { .. } => "let all registers change at the same edge".to_owned(),
             Self::ClockIsRead { .. } => "in a wave machine the clock is no stimulus: read another input".to_owned(),
-            Self::ShortStep { .. } => "leave out `cycles` for the shortest step".to_owned(),
+            Self::ShortStep { .. } => "leave out `step` for the shortest one".to_owned(),
         })
     }
 }

@@ -73,12 +73,14 @@ const EVOLUTION: [(&str, Holds); 19] = [
 const LIBRARY: [(&str, Holds); 2] =
     [("from", Holds::Name(NameKind::Evolution, &["shipped"])), ("behaviors", Holds::Function)];
 
-const SWARM: [(&str, Holds); 6] = [
+const SWARM: [(&str, Holds); 8] = [
     ("circuit", Holds::Name(NameKind::Circuit, &[])),
     ("library", Holds::Name(NameKind::Library, &[])),
     ("hold", Holds::Words(&["auto"])),
     ("window", Holds::Words(&[])),
-    ("registers", Holds::Words(&["master_slave", "pulsed"])),
+    ("registers", Holds::Words(&["master_slave", "pulsed", "waves"])),
+    ("beat", Holds::Words(&[])),
+    ("step", Holds::Words(&[])),
     ("world", Holds::Name(NameKind::World, &[])),
 ];
 
