@@ -42,7 +42,7 @@ fn program(random: &mut ChaCha8Rng) -> String {
     let mut inputs = nets.clone();
     inputs.push("clk".to_owned());
     nets.extend((0..bits).map(|at| format!("q{at}")));
-    let mut text = String::new();
+    let mut text: String = (0..bits).map(|at| format!("    net q{at}\n")).collect();
     for at in 0..2 + draw(8) {
         let operator = ["and", "or", "nand", "nor", "xor", "xnor"][draw(6)];
         let [one, two] = [0, 1].map(|_| nets[draw(nets.len())].clone());

@@ -59,6 +59,8 @@ pub struct WaveMachine {
     pub state: Vec<WaveState>,
     /// The number of cells that only delay.
     pub buffers: usize,
+    /// Whether no phases of these gates need fewer such cells.
+    pub has_fewest_buffers: bool,
     /// Each driver with the buffers after it, in order.
     chains: Vec<Vec<NetId>>,
 }
@@ -201,6 +203,7 @@ impl<'a> Builder<'a> {
             held: BTreeMap::new(),
             state: Vec::new(),
             buffers: 0,
+            has_fewest_buffers: phases.is_optimal,
             chains: Vec::new(),
         };
         Self { step, graph, phases, buffer, machine, chains }

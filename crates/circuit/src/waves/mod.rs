@@ -20,7 +20,7 @@ pub use wording::{CertifyError, WaveError};
 
 use crate::cells::CellLibrary;
 use crate::network::Network;
-use crate::options::{MapOptions, MappingObjective};
+use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::reduce;
 use crate::waves::graph::WaveLogic;
 use crate::waves::search::search;
@@ -59,17 +59,24 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
     WaveMachine::new(&step, &balanced.graph, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
 }
 
-/// The logic in cells of the library, in several ways: with few cells, and with short paths.
+/// The most gates of logic that is mapped in more than one way.
+const MANY_GATES: usize = 4_000;
+
+/// The logic in cells of the library: with few cells, and with short paths. Wide logic is mapped with few cells only,
+/// and with little effort, because its buffers take most of the time and of the robots.
 fn mappings(logic: &Network, cells: &CellLibrary, options: &MapOptions) -> Result<Vec<Network>, WaveError> {
     let stages = vec![0; logic.inputs];
-    let map = |objective| {
-        let options = MapOptions { objective, ..options.clone() };
+    let map = |objective, effort| {
+        let options = MapOptions { objective, effort, ..options.clone() };
         reduce(logic, &stages, cells, &options).map_err(|missing| {
             let known = cells.functions().collect();
             WaveError::Unmapped(MapError::Incomplete { missing, known, completions: cells.completions() })
         })
     };
-    [MappingObjective::Area, MappingObjective::Delay].into_iter().map(map).collect()
+    if logic.gates.len() > MANY_GATES {
+        return Ok(vec![map(MappingObjective::Area, Effort::Fast)?]);
+    }
+    [MappingObjective::Area, MappingObjective::Delay].into_iter().map(|goal| map(goal, options.effort)).collect()
 }
 
 #[cfg(test)]

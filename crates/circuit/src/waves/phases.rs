@@ -16,6 +16,9 @@ use crate::waves::graph::{Driver, Tap, WaveGraph};
 /// Rounds of relaxation between two looks for a loop that is too slow.
 const ROUNDS: usize = 8;
 
+/// The most moves of phases, times the nets that they look at.
+const MOST_WORK: usize = 3_000_000;
+
 /// A capacity that no cut passes.
 const UNCUT: u32 = u32::MAX / 4;
 
@@ -30,6 +33,8 @@ pub struct Phases {
     pub gates: Vec<i64>,
     /// For each output, the beat after the one at whose end it is read.
     pub outputs: Vec<i64>,
+    /// Whether no phases need fewer buffers; the search for them ends early in very large graphs.
+    pub is_optimal: bool,
 }
 
 /// A driver with its listeners, each with the steps by which it is later.
@@ -115,10 +120,17 @@ impl<'g> Balancing<'g> {
         enough
     }
 
-    /// The phases with the fewest buffers for a step of that many beats, and that number; `None` if it is too short.
+    /// The phases with the fewest buffers that the work suffices for, for a step of that many beats, and their number;
+    /// `None` if the step is too short.
     pub fn fewest_buffers(&self, period: u32) -> Option<(Phases, usize)> {
         let mut phase = self.earliest(period)?;
-        while let Some(moved) = self.best_move(&phase, period) {
+        let most = (MOST_WORK / self.bounds.len().max(1)).max(10);
+        let mut is_optimal = false;
+        for _ in 0..most {
+            let Some(moved) = self.best_move(&phase, period) else {
+                is_optimal = true;
+                break;
+            };
             let by = self.longest_move(&phase, &moved, period);
             phase.iter_mut().zip(&moved).filter(|(_, moved)| **moved).for_each(|(phase, _)| *phase += by);
         }
@@ -130,6 +142,7 @@ impl<'g> Balancing<'g> {
             inputs: phase[..inputs].to_vec(),
             gates: phase[inputs..drivers].to_vec(),
             outputs: phase[drivers..drivers + self.graph.outputs.len()].to_vec(),
+            is_optimal,
         };
         Some((phases, usize::try_from(buffers).expect("no net has fewer than no buffers")))
     }

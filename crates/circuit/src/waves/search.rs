@@ -12,6 +12,9 @@ use crate::synth::{alternative, below};
 use crate::waves::graph::{WaveGraph, WaveLogic};
 use crate::waves::phases::{Balancing, Phases};
 
+/// The most gates of logic that is searched.
+const MOST_GATES: usize = 2_000;
+
 /// What is to be small, the most important first: the cycles of a step, then the robots.
 pub type Weight = (u32, usize);
 
@@ -72,8 +75,9 @@ pub fn search(
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6377_6176_6573);
     let gates = best.network.gates.len();
     let rounds = match options.effort {
+        _ if gates > MOST_GATES => 0,
         Effort::Fast => 0,
-        Effort::Normal => 120_000 / (gates + 40),
+        Effort::Normal => 240_000 / (gates + 40),
         Effort::High => 2_400_000 / (gates + 40),
     };
     let (mut best, mut now) = (best.clone(), best);

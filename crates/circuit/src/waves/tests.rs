@@ -5,7 +5,6 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
-use crate::options::Effort;
 use crate::registers::flip_flop;
 use crate::{NetId, Node};
 use nbc_base::model::Function;

@@ -20,6 +20,8 @@ pub struct WaveTiming {
     pub robots: usize,
     /// The number of robots that only delay a net.
     pub buffers: usize,
+    /// Whether no phases of its other robots need fewer of these.
+    pub has_fewest_buffers: bool,
     /// The steps that each thread makes in a second of the robots' time.
     pub steps_per_second: f64,
     /// The input ports that are read, each with the beat of a step in which it is applied.
@@ -64,6 +66,7 @@ impl WaveTiming {
             threads: machine.period,
             robots: machine.cells(),
             buffers: machine.buffers,
+            has_fewest_buffers: machine.has_fewest_buffers,
             steps_per_second: 1.0 / (machine.cycles_per_step() as f64 * CYCLE_SECONDS),
             inputs: applied.filter_map(|(&id, phase)| Some(net(id, (*phase)?))).collect(),
             phases: netlist.cells().map(|(id, _)| net(id, machine.phase[&id])).collect(),
@@ -88,19 +91,26 @@ impl WaveTiming {
         if self.beat > 1 {
             text += &format!("beat     {}: robots sense the same for so long\n", counted(self.beat as usize, "cycle"));
         }
-        text += &format!("robots   {}, of which {} only delay\n", self.robots, self.buffers);
-        let list = |nets: &[NetPhase]| {
-            nets.iter().map(|net| format!("{} {}", net.net, net.phase)).collect::<Vec<_>>().join(", ")
-        };
+        let fewest = if self.has_fewest_buffers { "as few as these gates allow" } else { "maybe more than needed" };
+        text += &format!("robots   {}, of which {} only delay, {fewest}\n", self.robots, self.buffers);
+        let list = |nets: &[NetPhase]| first_of(nets.iter().map(|net| format!("{} {}", net.net, net.phase)));
         for (word, nets) in [("inputs ", &self.inputs), ("phases ", &self.phases), ("outputs", &self.outputs)] {
             if !nets.is_empty() {
                 text += &format!("{word}  {}\n", list(nets));
             }
         }
-        let chains: Vec<String> = self.chains.iter().map(|chain| format!("{} {}", chain.net, chain.robots)).collect();
-        if !chains.is_empty() {
-            text += &format!("chains   {}\n", chains.join(", "));
+        if !self.chains.is_empty() {
+            let chains = self.chains.iter().map(|chain| format!("{} {}", chain.net, chain.robots));
+            text += &format!("chains   {}\n", first_of(chains));
         }
         text
     }
+}
+
+/// The first of many words in a line.
+fn first_of(words: impl ExactSizeIterator<Item = String>) -> String {
+    const MOST: usize = 24;
+    let more = words.len().saturating_sub(MOST);
+    let shown = words.take(MOST).collect::<Vec<_>>().join(", ");
+    if more > 0 { format!("{shown} and {more} more, which `--format json` lists") } else { shown }
 }
