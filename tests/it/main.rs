@@ -1,5 +1,6 @@
 //! Integration tests, in one binary.
 
+mod abc;
 mod adding;
 mod benchmarks;
 mod broken_circuits;
@@ -8,6 +9,7 @@ mod cli;
 #[cfg(feature = "cluster")]
 mod cluster;
 mod declared;
+mod designs;
 mod determinism;
 mod drawing;
 mod editor;
@@ -21,7 +23,6 @@ mod first_steps;
 mod flows;
 mod formatting;
 mod gallery;
-mod generated;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod hostile;
@@ -29,10 +30,10 @@ mod language;
 mod library;
 mod limits;
 mod live;
+mod long_program;
 mod lsp;
 mod manual;
 mod memory;
-mod mixed;
 mod modules;
 mod notices;
 mod optima;
@@ -54,7 +55,6 @@ mod schemas;
 mod settling;
 #[cfg(target_os = "linux")]
 mod slow_yosys;
-mod speed;
 mod swarms;
 mod synth;
 mod terminal;

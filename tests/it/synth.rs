@@ -1,12 +1,10 @@
 //! `nbc synth` and `nbc build` in the real program: what they read, write, prove and reject.
 
-use std::path::Path;
-use std::process::Command;
-
+use crate::abc::abc;
 use crate::cli::Bench;
 use crate::language::root;
 use crate::limits::InTime;
-use crate::tools::{ABC, YOSYS};
+use crate::tools::YOSYS;
 
 const FULL_ADDER: &str = "\
 .model fa
@@ -306,10 +304,4 @@ fn equivalent(bench: &Bench, one: &str, two: &str) {
 pub fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
     let Some(said) = abc(bench.path(), &format!("{command} {one} {two}")) else { return };
     assert!(said.contains("Networks are equivalent"), "{said}");
-}
-
-/// The output of a script of ABC in a folder; `None` without ABC, whose proof is then skipped.
-pub fn abc(folder: &Path, script: &str) -> Option<String> {
-    let output = Command::new(ABC.find()?).args(["-c", script]).current_dir(folder).output_in_time();
-    Some(String::from_utf8_lossy(&output.stdout).into_owned())
 }

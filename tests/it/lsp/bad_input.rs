@@ -73,7 +73,7 @@ fn commands_refuse_what_is_not_utf_8() {
 #[test]
 fn edits_that_come_at_once_are_checked_once() {
     let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", &crate::speed::long_program());
+    let (uri, text) = file(&bench, "a.nb", &crate::long_program::long_program());
     let mut client = Client::start();
     client.open(&uri, &text);
     client.diagnostics(&uri);
