@@ -40,6 +40,8 @@ mod robustness;
 mod run_page;
 mod schematic;
 mod scheme;
+#[cfg(feature = "pictures")]
+mod shades;
 mod spacetime;
 mod sprite;
 mod stage;
