@@ -65,15 +65,15 @@ impl<R: Real, K: Stiffness<R>> LaneBatch for Stepped<R, K> {
     }
 
     fn save(&mut self) {
-        self.batch.save();
+        self.batch.masses.save();
     }
 
     fn unload(&self, lane: usize, state: &mut State) {
-        self.batch.unload(lane, state);
+        self.batch.masses.unload(lane, &self.batch.occupants[lane].masses, state);
     }
 
     fn unload_saved(&self, lane: usize, state: &mut State) {
-        self.batch.unload_saved(lane, state);
+        self.batch.masses.unload_saved(lane, &self.batch.occupants[lane].masses, state);
     }
 
     fn resume(&mut self) {

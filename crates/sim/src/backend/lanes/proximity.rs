@@ -40,6 +40,8 @@ pub struct Proximity<R: Real> {
     near_points: Vec<NearPoint>,
     /// Pairs of tiles near each other but not neighbors.
     near_tiles: Vec<NearTiles>,
+    /// The number of surface voxels of each lane, or zero if it cannot be unstable.
+    countable: Vec<u32>,
     /// Lanes with so many close pairs that they might be unstable, as bits.
     suspects: u32,
 }
@@ -76,20 +78,15 @@ pub struct Inside {
     pub lanes: u32,
 }
 
-impl<R: Real> Default for Proximity<R> {
-    fn default() -> Self {
-        Self::new(Vec::new())
-    }
-}
-
 impl<R: Real> Proximity<R> {
-    /// The broad phase over these surface voxels.
-    pub fn new(tiles: Vec<Tile>) -> Self {
+    /// The broad phase over these surface voxels. `countable` has the number of each lane's, or zero if it cannot be
+    /// unstable.
+    pub fn new(tiles: Vec<Tile>, countable: Vec<u32>) -> Self {
         let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
         points.sort_unstable();
         points.dedup();
         let reference = vec![[R::splat(f64::INFINITY); 2]; points.len()];
-        Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
+        Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), countable, suspects: 0 }
     }
 
     /// Lists the points at or below `height`. Returns whether a point has moved so far that the other lists have to be
@@ -110,10 +107,9 @@ impl<R: Real> Proximity<R> {
         R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any()
     }
 
-    /// Builds the lists from current positions. `surface[lane]` is the number of a lane's surface voxels, or zero if it
-    /// cannot be unstable.
+    /// Builds the lists from current positions.
     #[inline(always)]
-    pub fn renew(&mut self, masses: &[Mass<R>], surface: &[u32]) {
+    pub fn renew(&mut self, masses: &[Mass<R>]) {
         self.reference.clear();
         self.reference.extend(self.points.iter().map(|&point| masses[point].at));
         self.near_points.clear();
@@ -145,7 +141,7 @@ impl<R: Real> Proximity<R> {
         for near in &self.near_tiles {
             pairs.add(near.lanes);
         }
-        self.suspects = pairs.overfull(surface);
+        self.suspects = pairs.overfull(&self.countable);
     }
 
     /// Points inside tiles that are not theirs, by tile and then by point.
@@ -174,12 +170,12 @@ impl<R: Real> Proximity<R> {
     /// The instability test of docs/physics.md 9 on current positions: lanes in which the ordered pairs of non-adjacent
     /// surface voxels with overlapping boxes outnumber the surface voxels.
     #[inline(always)]
-    pub fn unstable(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
-        if self.suspects == 0 { 0 } else { self.count_overlaps(masses, surface) }
+    pub fn unstable(&self, masses: &[Mass<R>]) -> u32 {
+        if self.suspects == 0 { 0 } else { self.count_overlaps(masses) }
     }
 
     #[inline(always)]
-    fn count_overlaps(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
+    fn count_overlaps(&self, masses: &[Mass<R>]) -> u32 {
         let mut pairs = Tally::default();
         let mut last = usize::MAX;
         let mut first = [[R::splat(0.0); 2]; 2];
@@ -191,7 +187,7 @@ impl<R: Real> Proximity<R> {
             }
             pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
         }
-        pairs.overfull(surface)
+        pairs.overfull(&self.countable)
     }
 }
 

@@ -1,5 +1,5 @@
 //! A body laid out for the kernel: its springs in frames and rims, and for each mass the order in which forces act on
-//! it. The order is that of `lanes/batch.rs`.
+//! it. The order is that of `lanes/springs.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
