@@ -10,6 +10,7 @@ pub mod elaborate;
 mod example;
 pub mod formats;
 pub mod guarded;
+mod index;
 pub mod known;
 pub mod levels;
 pub mod logic;

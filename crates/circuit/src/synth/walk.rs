@@ -113,7 +113,7 @@ struct Walk<'p, 'r> {
     /// The time at which the outputs must be correct.
     deadline: u32,
     /// The latest arrival of a replacement of the visited gate.
-    limit: u32,
+    limit: Option<u32>,
     /// The required time of each gate.
     required: Vec<u32>,
     random: &'r mut ChaCha8Rng,
@@ -140,7 +140,7 @@ impl<'p, 'r> Walk<'p, 'r> {
             deadline: graph.depth(),
             graph,
             pace,
-            limit: u32::MAX,
+            limit: None,
             required: Vec::new(),
             random,
             flipped: Vec::new(),
@@ -162,9 +162,9 @@ impl<'p, 'r> Walk<'p, 'r> {
         match self.pace {
             Pace::Keep => {
                 self.require();
-                self.limit = self.required[gate as usize];
+                self.limit = Some(self.required[gate as usize]);
             }
-            Pace::Shorten => self.limit = self.graph.node(gate).arrival - 1,
+            Pace::Shorten => self.limit = Some(self.graph.node(gate).arrival - 1),
             Pace::Any | Pace::Hurry => {}
         }
         self.change(gate, slack)
@@ -179,7 +179,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         let critical: Vec<Signal> = graph.order().iter().filter(late).copied().collect();
         if !critical.is_empty() {
             let gate = critical[self.below(critical.len())];
-            self.limit = self.graph.node(gate).arrival - 1;
+            self.limit = Some(self.graph.node(gate).arrival - 1);
             self.change(gate, HURRY_PRICE);
         }
     }
@@ -338,7 +338,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         let root = self.build(candidate)?;
         let change = i64::from(self.graph.cost()) - before - i64::from(self.hold_and_release(root, gate));
         let same = self.graph.node(root).alive && self.graph.same(root, gate);
-        let late = self.graph.node(root).arrival > self.limit;
+        let late = self.limit.is_some_and(|limit| self.graph.node(root).arrival > limit);
         self.graph.release(root);
         (!same && !late).then_some(change)
     }

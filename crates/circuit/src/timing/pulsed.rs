@@ -241,7 +241,7 @@ impl Plan<'_> {
         made.add_cell(cell, &[net, net][..function.arity()])
     }
 
-    /// For each register, by how many cycles its data may change too early.
+    /// For each register, by how many cycles its data may change too early; one without a pulse is beyond padding.
     fn missing(&self, made: &Netlist, registers: &[(Register, usize)], pulses: &[Pulse]) -> Vec<u32> {
         let kind = self.library.kinds_of(made);
         let storage = Storage::of(made, &kind);
@@ -249,7 +249,7 @@ impl Plan<'_> {
         let all = phases(made, &roots);
         let early = |register: &Register| {
             let pulse = pulses.iter().find(|pulse| (pulse.clock, pulse.rises) == (register.clock, register.rises));
-            let Some(pulse) = pulse else { return u32::MAX };
+            let Some(pulse) = pulse else { return MOST_PADDING as u32 + 1 };
             let is_after =
                 |values: &&BTreeMap<NetId, bool>| values.get(&pulse.clock).is_none_or(|&now| now == pulse.rises);
             let of_phase = |values: &BTreeMap<NetId, bool>| {

@@ -148,13 +148,13 @@ impl<R: Real> Proximity<R> {
     #[inline(always)]
     pub fn insides(&self, masses: &[Mass<R>], found: &mut Vec<Inside>) {
         let slack = R::splat(SLACK);
-        let mut last = usize::MAX;
+        let mut last = None;
         let mut reach = [[R::splat(0.0); 2]; 2];
         for near in &self.near_points {
             let tile = &self.tiles[near.tile];
-            if near.tile != last {
+            if last != Some(near.tile) {
                 reach = bounds(masses, tile);
-                last = near.tile;
+                last = Some(near.tile);
             }
             let at = masses[near.point].at;
             if gap(&reach, &[at, at]).at_most(slack).bits() & near.lanes == 0 {
@@ -177,13 +177,13 @@ impl<R: Real> Proximity<R> {
     #[inline(always)]
     fn count_overlaps(&self, masses: &[Mass<R>]) -> u32 {
         let mut pairs = Tally::default();
-        let mut last = usize::MAX;
+        let mut last = None;
         let mut first = [[R::splat(0.0); 2]; 2];
         for near in self.near_tiles.iter().filter(|near| near.lanes & self.suspects != 0) {
             let [a, b] = near.tiles;
-            if a != last {
+            if last != Some(a) {
                 first = bounds(masses, &self.tiles[a]);
-                last = a;
+                last = Some(a);
             }
             pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
         }
