@@ -31,7 +31,7 @@ impl CellKind {
     ///
     /// The longest settle time of all transitions to this output, including those that start from it, because the
     /// output may change in between.
-    pub fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
+    pub(crate) fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
         let bit = |pattern: usize| (if pin == 0 { pattern >> 1 } else { pattern }) & 1 == 1;
         let ends = |to: usize| bit(to) == value && function.output(to >> 1 == 1, to & 1 == 1) == output;
         let transitions = (0..4).flat_map(|from| (0..4).map(move |to| (from, to)));
@@ -88,7 +88,7 @@ impl CellLibrary {
     }
 
     /// The cells whose margin is at least `margin`.
-    pub fn with_margin(&self, margin: f64) -> Self {
+    pub(crate) fn with_margin(&self, margin: f64) -> Self {
         self.kinds().filter(|(_, kind)| kind.margin >= margin).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
@@ -134,7 +134,7 @@ fn compositions(function: Function, set: u16) -> u16 {
 }
 
 /// The bits of `function(a, b)`, for the bits `a` and `b` of two functions of the same inputs.
-pub fn compose(function: Function, a: u8, b: u8) -> u8 {
+pub(crate) fn compose(function: Function, a: u8, b: u8) -> u8 {
     (0..4).fold(0, |bits, i| bits | u8::from(function.output(a >> i & 1 == 1, b >> i & 1 == 1)) << i)
 }
 

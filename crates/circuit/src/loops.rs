@@ -57,7 +57,7 @@ impl Loops {
     }
 
     /// The core of a node.
-    pub fn core_of(&self, id: NetId) -> Option<usize> {
+    pub(crate) fn core_of(&self, id: NetId) -> Option<usize> {
         self.core_of.get(&id).copied()
     }
 

@@ -51,7 +51,7 @@ pub enum Node {
 }
 
 /// The graph of a netlist: the weight of an edge is the listener's pin.
-pub type NetGraph = StableDiGraph<Node, u8, u32>;
+pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;
 
 /// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.
 #[derive(Clone, Debug, Default)]
@@ -154,7 +154,7 @@ impl Netlist {
     }
 
     /// The node, to be changed.
-    pub fn node_mut(&mut self, id: NetId) -> &mut Node {
+    pub(crate) fn node_mut(&mut self, id: NetId) -> &mut Node {
         &mut self.graph[id]
     }
 
@@ -167,7 +167,7 @@ impl Netlist {
     }
 
     /// The cell at a node, if it is one, to be changed.
-    pub fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
+    pub(crate) fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
         match self.node_mut(id) {
             Node::Cell(cell) => Some(cell),
             _ => None,

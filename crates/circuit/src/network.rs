@@ -111,7 +111,7 @@ pub fn word(function: Function, a: u64, b: u64) -> u64 {
 }
 
 /// The values of input `i` over all patterns, counted up, in the 64 patterns from `64 * block` on.
-pub fn counting_word(i: usize, block: usize) -> u64 {
+pub(crate) fn counting_word(i: usize, block: usize) -> u64 {
     const LOW: [u64; 6] = [
         0xaaaa_aaaa_aaaa_aaaa,
         0xcccc_cccc_cccc_cccc,

@@ -122,16 +122,6 @@ impl Lattice {
         self.active
     }
 
-    /// The surface as directed edges between points, with the body to the right of each, voxel by voxel in reading
-    /// order.
-    pub fn surface_edges(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.voxels.iter().flat_map(|voxel| {
-            (0..CORNERS)
-                .filter(|&side| voxel.surface[side])
-                .map(|side| (voxel.corners[side], voxel.corners[(side + 1) % CORNERS]))
-        })
-    }
-
     /// The start position of point `point`, in meters, for a body whose left side is `start` voxels from the start of
     /// the ground, rounded as in docs/physics.md 2.
     pub fn start(&self, point: usize, start: f64, constants: &Constants) -> [f64; 2] {
@@ -284,7 +274,8 @@ mod tests {
 
     fn check(rows: &[&str], points: usize, edges: usize, surface: usize) {
         let lattice = lattice(rows);
-        let found = (lattice.points().len(), lattice.edges().len(), lattice.surface_edges().count());
+        let sides = lattice.voxels().iter().flat_map(|voxel| voxel.surface).filter(|&is_surface| is_surface).count();
+        let found = (lattice.points().len(), lattice.edges().len(), sides);
         assert_eq!(found, (points, edges, surface), "{rows:?}");
     }
 

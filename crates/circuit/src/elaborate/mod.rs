@@ -22,7 +22,8 @@ mod width;
 mod wording;
 
 pub use inspection::{Inspection, NetWidths};
-pub use limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, MAX_STATEMENTS, MAX_WIDTH};
+pub(crate) use limits::MAX_CELLS;
+pub use limits::MAX_WIDTH;
 
 use crate::Netlist;
 use nbc_base::diag::Diagnostic;

@@ -11,10 +11,10 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
 
 /// The most variables that a file may have.
-pub const MOST_VARIABLES: usize = 4_000_000;
+pub(crate) const MOST_VARIABLES: usize = 4_000_000;
 
 /// The most inputs and latches. A binary file only states their number.
-pub const MOST_PORTS: usize = 1_000_000;
+pub(crate) const MOST_PORTS: usize = 1_000_000;
 
 /// Reads a file; `clock` names the clock of its latches.
 ///

@@ -22,7 +22,7 @@ pub fn truth(word: &str) -> Option<bool> {
 }
 
 /// Whether a word stands for an unknown bit in other languages.
-pub fn is_unknown(word: &str) -> bool {
+pub(crate) fn is_unknown(word: &str) -> bool {
     matches!(word, "x" | "X" | "z" | "Z")
 }
 

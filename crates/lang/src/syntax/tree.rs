@@ -619,7 +619,7 @@ impl Infix {
     }
 
     /// Whether `a op b op c` is unambiguous if it follows `before`, which has the same precedence.
-    pub fn chains_after(self, before: Self) -> bool {
+    pub(crate) fn chains_after(self, before: Self) -> bool {
         use nbc_base::model::Operator;
         match self {
             Self::Add | Self::Subtract => true,
