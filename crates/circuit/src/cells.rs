@@ -46,11 +46,6 @@ pub struct CellLibrary {
 }
 
 impl CellLibrary {
-    /// An empty library.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// A library of these functions, every cell costing one robot and one cycle.
     pub fn uniform(functions: impl IntoIterator<Item = Function>) -> Self {
         functions.into_iter().map(|function| (function, CellKind::uniform(1, 1.0))).collect()
@@ -64,11 +59,6 @@ impl CellLibrary {
     /// The cell of a function.
     pub fn get(&self, function: Function) -> Option<&CellKind> {
         self.kinds.get(&function)
-    }
-
-    /// Whether there is a cell of that function.
-    pub fn contains(&self, function: Function) -> bool {
-        self.kinds.contains_key(&function)
     }
 
     /// The kind of each cell of a netlist; a cell of no kind takes one cycle.

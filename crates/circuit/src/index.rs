@@ -2,11 +2,11 @@
 
 use std::num::NonZeroU32;
 
-/// An index below `u32::MAX`: `Option<Index>` takes four bytes, where `Option<u32>` takes eight.
+/// An index below `u32::MAX`: `Option<ListIndex>` takes four bytes, where `Option<u32>` takes eight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Index(NonZeroU32);
+pub(crate) struct ListIndex(NonZeroU32);
 
-impl Index {
+impl ListIndex {
     /// This index.
     ///
     /// # Panics

@@ -53,11 +53,6 @@ impl Network {
         2 + self.inputs + self.gates.len()
     }
 
-    /// The gate that drives a signal, if it is one.
-    pub fn gate(&self, signal: Signal) -> Option<&Gate> {
-        (signal as usize).checked_sub(2 + self.inputs).map(|i| &self.gates[i])
-    }
-
     /// The values of all signals in 64 patterns at a time, `inputs[i]` being those of input `i`.
     pub fn simulate(&self, inputs: &[u64]) -> Vec<u64> {
         let mut values = Vec::with_capacity(self.signals());

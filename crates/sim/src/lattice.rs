@@ -83,12 +83,7 @@ pub struct DrivenEdge {
 
 impl Lattice {
     /// The lattice of a body.
-    pub fn new(body: &Body) -> Self {
-        Self::with_constants(body, &Constants::default())
-    }
-
-    /// The lattice under other constants.
-    pub(crate) fn with_constants(body: &Body, constants: &Constants) -> Self {
+    pub fn new(body: &Body, constants: &Constants) -> Self {
         Builder { body, constants }.build()
     }
 
@@ -269,7 +264,7 @@ mod tests {
     use nbc_base::model::Palette;
 
     fn lattice(rows: &[&str]) -> Lattice {
-        Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap())
+        Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap(), &Constants::default())
     }
 
     fn check(rows: &[&str], points: usize, edges: usize, surface: usize) {

@@ -68,12 +68,7 @@ pub struct TestRow {
 }
 
 impl CircuitTest {
-    /// The names of the input bits in order: `e` for a port of one bit, `a[3]`, `a[2]`, … for a wider one.
-    pub fn input_bits(&self) -> Vec<String> {
-        self.inputs.iter().flat_map(Column::bits).collect()
-    }
-
-    /// The names of the output bits in order.
+    /// The names of the output bits in order: `q` for a port of one bit, `s[3]`, `s[2]`, … for a wider one.
     pub fn output_bits(&self) -> Vec<String> {
         self.outputs.iter().flat_map(Column::bits).collect()
     }

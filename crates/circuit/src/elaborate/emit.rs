@@ -4,7 +4,7 @@ use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
 use crate::elaborate::table::TableValues;
 use crate::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
-use crate::index::Index;
+use crate::index::ListIndex;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
 use nbc_base::source::Span;
 
@@ -76,7 +76,7 @@ impl ModuleBuilder<'_, '_> {
             unreachable!("inputs are no targets")
         };
         if driver.is_none() {
-            (*driver, *by) = (Some(Index::new(value)), item);
+            (*driver, *by) = (Some(ListIndex::new(value)), item);
             return;
         }
         let (first, net) = (*by, *net);

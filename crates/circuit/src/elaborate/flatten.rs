@@ -3,7 +3,7 @@
 use crate::elaborate::build::Builder;
 use crate::elaborate::module::{ModuleId, ModuleSignal};
 use crate::elaborate::wording::ElaborateError;
-use crate::index::Index;
+use crate::index::ListIndex;
 use crate::{Cell, NetId, Netlist};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Span;
@@ -50,7 +50,7 @@ fn places(builder: &Builder<'_>, top: ModuleId) -> Vec<Place> {
 }
 
 /// For each signal, the one it is an alias of, if any.
-fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<Index>> {
+fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<ListIndex>> {
     let mut same = Vec::new();
     // The instances inside an instance are adjacent, after those inside earlier instances.
     let mut inside = 1;
@@ -58,15 +58,15 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<Index>> {
         let module = builder.module(place.module);
         same.extend(module.signals.iter().map(|signal| match *signal {
             ModuleSignal::Input(_) if at == 0 => None,
-            ModuleSignal::Input(bit) => Some(Index::new(place.inputs[bit as usize])),
+            ModuleSignal::Input(bit) => Some(ListIndex::new(place.inputs[bit as usize])),
             ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => None,
             ModuleSignal::Net { driver, .. } => {
                 let driver = driver.expect("every net is driven");
-                Some(Index::new(place.base + driver.get()))
+                Some(ListIndex::new(place.base + driver.get()))
             }
             ModuleSignal::Output { site, bit } => {
                 let inner = &places[inside + site as usize];
-                Some(Index::new(inner.base + builder.module(inner.module).output_bits[bit as usize]))
+                Some(ListIndex::new(inner.base + builder.module(inner.module).output_bits[bit as usize]))
             }
         }));
         inside += module.sites.len();
@@ -75,7 +75,7 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<Index>> {
 }
 
 /// The final driver of each signal, or a signal that drives itself.
-fn resolve(mut same: Vec<Option<Index>>) -> Result<Vec<u32>, usize> {
+fn resolve(mut same: Vec<Option<ListIndex>>) -> Result<Vec<u32>, usize> {
     for start in 0..same.len() {
         let mut end = start;
         let mut steps = 0;
@@ -88,11 +88,11 @@ fn resolve(mut same: Vec<Option<Index>>) -> Result<Vec<u32>, usize> {
         }
         let mut at = start;
         while let Some(next) = same[at] {
-            same[at] = Some(Index::new(end as u32));
+            same[at] = Some(ListIndex::new(end as u32));
             at = next.get() as usize;
         }
     }
-    Ok(same.into_iter().zip(0..).map(|(end, at)| end.map_or(at, Index::get)).collect())
+    Ok(same.into_iter().zip(0..).map(|(end, at)| end.map_or(at, ListIndex::get)).collect())
 }
 
 /// The nets of the signals of a place that are named.

@@ -1,6 +1,6 @@
 //! A circuit with values for its parameters, built: bits with their drivers, and the circuits inside it.
 
-use crate::index::Index;
+use crate::index::ListIndex;
 use nbc_base::model::{CircuitId, Function};
 use nbc_base::source::Span;
 
@@ -28,7 +28,7 @@ pub(super) enum ModuleSignal {
     /// A gate; of one input, both pins are the same.
     Gate { function: Function, pins: [Bit; 2], span: Span },
     /// A bit of a net, and the bit that drives it, once the statement `by` does.
-    Net { net: u32, bit: u32, driver: Option<Index>, by: u32 },
+    Net { net: u32, bit: u32, driver: Option<ListIndex>, by: u32 },
     /// An output bit of a circuit inside.
     Output { site: u32, bit: u32 },
 }

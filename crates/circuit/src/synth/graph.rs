@@ -1,6 +1,6 @@
 //! The graph that the search changes: gates of a library with their values in every pattern and their fan-out.
 
-use crate::index::Index;
+use crate::index::ListIndex;
 use crate::network::{Network, Signal, counting_word, word};
 use crate::recipes::Operand;
 use crate::synth::prices::Prices;
@@ -46,7 +46,7 @@ pub struct Graph<'p> {
     outputs: Vec<Signal>,
     order: Vec<Signal>,
     /// The place of each gate in `order`.
-    position: Vec<Option<Index>>,
+    position: Vec<Option<ListIndex>>,
     free: Vec<Signal>,
     cost: u32,
     /// The gate that is about to be removed, which no new gate may read.
@@ -379,7 +379,7 @@ impl<'p> Graph<'p> {
                 match node.pins.into_iter().find(waits) {
                     Some(pin) => stack.push(pin),
                     None => {
-                        self.position[signal as usize] = Some(Index::new(self.order.len() as u32));
+                        self.position[signal as usize] = Some(ListIndex::new(self.order.len() as u32));
                         self.order.push(signal);
                         stack.pop();
                     }

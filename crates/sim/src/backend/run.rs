@@ -134,7 +134,7 @@ pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoItera
         let build = builds.entry(body).or_insert_with(|| {
             let signals =
                 palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
-            let lattice = Arc::new(Lattice::with_constants(body, constants));
+            let lattice = Arc::new(Lattice::new(body, constants));
             Build { body: number, lattice, signals: Arc::clone(signals) }
         });
         Run::new(build, setting.start_column(body.width()) as f64 + setting.shift, constants)

@@ -225,7 +225,9 @@ mod tests {
     use nbc_base::model::{Body, Palette};
 
     fn plan(rows: &[&str]) -> BodyPlan {
-        BodyPlan::new(&Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap()), &Constants::default())
+        let constants = Constants::default();
+        let body = Body::parse(rows, &Palette::paper()).unwrap();
+        BodyPlan::new(&Lattice::new(&body, &constants), &constants)
     }
 
     #[test]
@@ -250,7 +252,7 @@ mod tests {
     #[test]
     fn rigid_voxels_of_a_level_have_no_mass_in_common() {
         let body = Body::parse(&["111", "131", "110"], &Palette::paper()).unwrap();
-        let lattice = Lattice::new(&body);
+        let lattice = Lattice::new(&body, &Constants::default());
         let levels = rigid_levels(&lattice, &masses(&lattice));
         assert_eq!(levels.iter().map(Vec::len).sum::<usize>(), 7);
         for level in &levels {
