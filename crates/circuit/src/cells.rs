@@ -39,7 +39,7 @@ impl CellKind {
     }
 }
 
-/// The available functions.
+/// The cells to build from: for each available function, the properties of the robot that computes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellLibrary {
     kinds: BTreeMap<Function, CellKind>,

@@ -15,7 +15,7 @@ pub struct Loops {
 }
 
 impl Loops {
-    /// Finds the loops.
+    /// The loops of a netlist.
     pub fn of(netlist: &Netlist) -> Self {
         let mut components = Components::new(netlist.graph()).from(netlist.ids(), |_| true);
         components.reverse();

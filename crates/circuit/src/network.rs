@@ -24,7 +24,7 @@ pub struct Network {
     pub inputs: usize,
     /// The gates; each listens to earlier signals only.
     pub gates: Vec<Gate>,
-    /// The signals shown.
+    /// The signals that are outputs, in order; a signal may be several.
     pub outputs: Vec<Signal>,
 }
 
@@ -34,13 +34,19 @@ impl Network {
         Self { inputs, gates: Vec::new(), outputs: Vec::new() }
     }
 
-    /// The signal of input `i`.
+    /// The signal of input `i`, counted from 0.
+    ///
+    /// # Panics
+    /// When there is no such input.
     pub fn input(&self, i: usize) -> Signal {
         assert!(i < self.inputs, "the input exists");
         i as Signal + 2
     }
 
     /// Adds a gate and returns its signal.
+    ///
+    /// # Panics
+    /// When a pin is not an earlier signal.
     pub fn add(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let signal = self.signals() as Signal;
         assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
@@ -53,7 +59,8 @@ impl Network {
         2 + self.inputs + self.gates.len()
     }
 
-    /// The values of all signals in 64 patterns at a time, `inputs[i]` being those of input `i`.
+    /// The values of all signals in 64 patterns at a time: bit `k` of `inputs[i]` is input `i` in pattern `k`, and bit
+    /// `k` of result `s` is signal `s`.
     pub fn simulate(&self, inputs: &[u64]) -> Vec<u64> {
         let mut values = Vec::with_capacity(self.signals());
         values.extend([0, !0]);

@@ -38,11 +38,11 @@ pub struct LatticePoint {
 pub struct Edge {
     /// One end: a point, by its number.
     pub a: usize,
-    /// The other end.
+    /// The other end, likewise.
     pub b: usize,
     /// Built length in meters.
     pub rest: f64,
-    /// Stiffness in newtons per meter.
+    /// Stiffness in newtons per meter (docs/physics.md 3).
     pub stiffness: f64,
 }
 
@@ -53,11 +53,11 @@ pub struct Voxel {
     pub row: usize,
     /// Column, 0 on the left.
     pub column: usize,
-    /// Material code.
+    /// The code of its material in the palette of the body.
     pub code: u8,
     /// Whether its material is rigid.
     pub rigid: bool,
-    /// Its points: top left, top right, bottom right, bottom left.
+    /// Its points by number: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
     /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],

@@ -12,7 +12,7 @@ pub enum Part {
     Springs,
     /// Contact with the ground and with the robot itself, and the instability test.
     Contact,
-    /// Length limits.
+    /// The length limits of springs and of rigid voxels.
     Limits,
     /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
     Bookkeeping,

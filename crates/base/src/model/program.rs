@@ -14,7 +14,7 @@ pub struct Program {
     pub worlds: Vec<NamedWorld>,
     /// The schedules of stimuli.
     pub schedules: Vec<NamedSchedule>,
-    /// The evolution runs.
+    /// The evolution runs that are declared, those of the prelude included.
     pub evolutions: Vec<Evolution>,
     /// The names of the evolution runs of the file itself, not of files it uses.
     pub own_evolutions: Vec<String>,
@@ -66,7 +66,7 @@ pub struct LibrarySource {
 /// The source of a library's robots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The built-in library.
+    /// The library that is built into the program.
     Shipped,
     /// The archive of the evolution run of that name.
     Evolution(String),
@@ -111,7 +111,7 @@ pub enum Hold {
     /// Until every robot has settled, row by row.
     #[default]
     Auto,
-    /// That many cycles.
+    /// That many cycles for every row.
     Cycles(u32),
 }
 

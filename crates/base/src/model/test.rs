@@ -6,7 +6,7 @@ use crate::source::Span;
 /// A declared test, as bits. The source is needed for messages only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitTest {
-    /// The tested circuit.
+    /// The circuit to test, with numbers for its parameters.
     pub circuit: Instance,
     /// The title; empty if there is none.
     pub title: String,

@@ -113,7 +113,7 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// Looks at the reference of a test.
+    /// Checks the reference of a test.
     pub fn inspect_body(&mut self, circuit: &'a Circuit) {
         if let Some(module) = self.0.reference(circuit) {
             self.0.look_for_loops(module);
@@ -136,7 +136,7 @@ impl<'a> Inspector<'a> {
         self.0.with_arguments(circuit, arguments, place).is_some_and(|module| self.0.has_memory(module))
     }
 
-    /// Everything found.
+    /// The errors found, and the widths and instances that were needed to find them.
     pub fn finish(self) -> Inspection {
         Inspection::of(self.0)
     }

@@ -365,7 +365,10 @@ impl Literals {
     }
 }
 
-/// Writes a design, in binary or as text.
+/// A design as AIGER, binary or as text.
+///
+/// # Panics
+/// When the logic of the design has loops; a design that was read has none.
 pub fn write(design: &Design, binary: bool) -> Vec<u8> {
     let view = View::of(&design.logic, &[]).expect("the logic of a design has no loops");
     let mut graph = Ands::new(view.network.inputs);

@@ -479,7 +479,7 @@ impl<'m, 't> Flat<'m, 't> {
     }
 }
 
-/// Writes a design.
+/// A design as BLIF text, with a `.latch` for each register.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);

@@ -27,7 +27,7 @@ pub(crate) const EXHAUSTIVE_INPUTS: usize = 16;
 /// A netlist proved equal to its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// How.
+    /// The method that proved it.
     pub method: Method,
     /// The nets at which loops were cut open.
     pub cuts: Vec<String>,

@@ -126,7 +126,7 @@ impl<'p> Graph<'p> {
         self.position[signal as usize].expect("a gate in use has a place in the order").get() as usize
     }
 
-    /// The node.
+    /// The gate, constant or input that drives a signal.
     pub fn node(&self, signal: Signal) -> &GraphNode {
         &self.nodes[signal as usize]
     }
@@ -141,7 +141,7 @@ impl<'p> Graph<'p> {
         2 + self.inputs as Signal
     }
 
-    /// The signals shown.
+    /// The signals that are outputs, in order.
     pub fn outputs(&self) -> &[Signal] {
         &self.outputs
     }
@@ -276,7 +276,7 @@ impl<'p> Graph<'p> {
         self.nodes[signal as usize].refs += 1;
     }
 
-    /// Ends [`Graph::hold`].
+    /// Ends [`Graph::hold`] of a signal, without removing it.
     pub fn let_go(&mut self, signal: Signal) {
         self.nodes[signal as usize].refs -= 1;
     }
@@ -421,7 +421,7 @@ impl<'p> Graph<'p> {
         self.network()
     }
 
-    /// The current network.
+    /// The gates in use as a network.
     pub fn network(&self) -> Network {
         let mut network = Network::new(self.inputs);
         let mut signal: Vec<Signal> = (0..self.nodes.len() as Signal).collect();

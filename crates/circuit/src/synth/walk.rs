@@ -16,7 +16,7 @@ use nbc_base::model::Function;
 /// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkPlan<'a> {
-    /// Gates to visit.
+    /// The number of gates to visit.
     pub visits: u64,
     /// One of this number of visits may make the network slightly more expensive; 0 for never.
     pub climb: u32,

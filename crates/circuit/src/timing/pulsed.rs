@@ -21,7 +21,7 @@ const MOST_PADDING: usize = 2;
 /// A netlist with pulsed latches.
 #[derive(Clone, Debug)]
 pub struct Pulsed {
-    /// The netlist.
+    /// The netlist with pulsed latches in place of some flip-flops.
     pub netlist: Netlist,
     /// What became of its registers.
     pub registers: PulsedRegisters,
@@ -41,13 +41,13 @@ pub struct PulsedRegisters {
 pub struct Pulse {
     /// The net that it is on.
     pub net: NetId,
-    /// The clock.
+    /// The clock whose edges it follows.
     pub clock: NetId,
     /// Whether it follows the rises of the clock.
     pub rises: bool,
     /// Its least length in cycles.
     pub width: u32,
-    /// The length that its latches need.
+    /// The length that its latches need, in cycles.
     pub needed: u32,
     /// Cycles after the edge at which it has ended for certain; the inputs of its latches must be stable until then.
     pub ends: u32,

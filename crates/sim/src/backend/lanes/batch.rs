@@ -30,7 +30,7 @@ pub struct Round<R: Real> {
     pub voxels: Vec<([usize; CORNERS], R::Mask)>,
 }
 
-/// One lane's robot.
+/// One lane's robot, with its points and voxels as masses of the batch.
 #[derive(Clone, Debug)]
 pub struct Occupant {
     /// The mass of each of its points.
@@ -41,7 +41,7 @@ pub struct Occupant {
     pub at_mass: Vec<Vec<(usize, usize)>>,
     /// Whether it can be unstable.
     pub active: bool,
-    /// Its driven springs.
+    /// The springs that its active voxels drive.
     pub driven: Vec<Driven>,
 }
 
@@ -57,23 +57,23 @@ pub struct SurfaceVoxel {
 /// Robots in lanes, one robot each.
 #[derive(Debug)]
 pub struct Batch<R: Real, K: Stiffness<R>> {
-    /// The physics' numbers.
+    /// The numbers of the physics.
     pub constants: Constants,
-    /// Ground voxels.
+    /// The number of ground voxels in a row.
     pub world_width: usize,
     /// Measures the time of each part, if requested.
     pub stopwatch: Option<Stopwatch>,
-    /// The masses.
+    /// The union of the points of all lanes.
     pub masses: Masses<R>,
-    /// Their loads.
+    /// Gravity and contact forces on the masses.
     pub loads: Loads<R>,
-    /// The springs between them.
+    /// The union of the springs of all lanes.
     pub springs: Springs<R, K>,
     /// The rows of the lattice, upper first.
     pub rows: Vec<Row>,
     /// The rigid voxels of all lanes.
     pub rigid: Vec<Round<R>>,
-    /// The robots.
+    /// The robot of each lane.
     pub occupants: Vec<Occupant>,
     /// The pairs that are close to each other.
     pub proximity: Proximity<R>,
@@ -88,7 +88,7 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
 pub struct Touching {
     /// Surface masses at or below the surface of the ground.
     pub low: Vec<LowPoint>,
-    /// Masses inside voxels.
+    /// Masses inside voxels that are not theirs.
     pub inside: Vec<Inside>,
     /// Voxels of one lane at a low mass.
     pub voxels: Vec<usize>,
@@ -97,7 +97,7 @@ pub struct Touching {
 /// One row of the lattice.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Its masses.
+    /// The masses in it, as places in [`Masses::now`].
     pub masses: Range<usize>,
     /// The frames whose upper masses are in it.
     pub frames: Range<usize>,

@@ -41,7 +41,7 @@ pub trait LaneBatch: Debug + Send {
 /// A batch with the step of its kernel.
 #[derive(Debug)]
 pub struct Stepped<R: Real, K: Stiffness<R>> {
-    /// The robots.
+    /// The robots in lanes.
     pub batch: Batch<R, K>,
     /// One env step, compiled for the numbers of the batch.
     pub step: fn(&mut Batch<R, K>),

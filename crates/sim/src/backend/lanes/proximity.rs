@@ -19,7 +19,7 @@ pub const SLACK: f64 = 1e-9;
 /// A voxel of any lane.
 #[derive(Clone, Debug)]
 pub struct Tile {
-    /// Row and column.
+    /// Row and column in the box.
     pub cell: [usize; 2],
     /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
@@ -70,9 +70,9 @@ pub struct LowPoint {
 /// A point found inside a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct Inside {
-    /// The tile's masses.
+    /// The masses of the tile: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
-    /// The point's mass.
+    /// The mass that is the point.
     pub point: usize,
     /// In which lanes, as bits.
     pub lanes: u32,

@@ -32,11 +32,11 @@ impl Frame {
 /// A bottom or right side without a voxel beyond it, which would have it as its top or left side.
 #[derive(Clone, Copy, Debug)]
 pub struct Rim {
-    /// The earlier mass.
+    /// The end with the lower number: a mass.
     pub from: u32,
-    /// The later mass.
+    /// The end with the higher number: a mass.
     pub to: u32,
-    /// Its place in [`Springs::aims`].
+    /// The place of its goal length in [`Springs::aims`].
     pub aim: u32,
 }
 
@@ -46,7 +46,7 @@ pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 /// A driven spring of one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Driven {
-    /// Its place in [`Springs::aims`].
+    /// The place of its goal length in [`Springs::aims`].
     pub aim: usize,
     /// Built length in meters.
     pub rest: f64,
@@ -67,7 +67,7 @@ pub struct Springs<R: Real, K: Stiffness<R>> {
     pub frame_frozen: Vec<[R; 4]>,
     /// The rims, in order of their masses.
     pub rims: Vec<Rim>,
-    /// Their stiffness.
+    /// The stiffness of the rims.
     pub rim_stiffness: Vec<K>,
     /// Their stiffness times frozen rest length.
     pub rim_frozen: Vec<R>,

@@ -21,7 +21,7 @@ pub struct Squad {
 }
 
 impl Squad {
-    /// These runs.
+    /// A squad of these runs, none of them in a lane yet.
     pub fn new(runs: Vec<Run>) -> Self {
         Self { runs, ..Self::default() }
     }

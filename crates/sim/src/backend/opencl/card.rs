@@ -29,9 +29,9 @@ use crate::constants::Constants;
 const TEXT: &str = include_str!("step.cl");
 const KERNEL: &str = "advance";
 
-/// An open device.
+/// An open device with the compiled kernel.
 pub struct Card {
-    /// The device.
+    /// The device that is open.
     pub device: OpenClDevice,
     group: Option<usize>,
     /// What the driver has given; `None` once the device is lost.

@@ -20,7 +20,7 @@ const DRIVEN: u16 = 2;
 /// The corner by which the voxels above left, above right, below left and below right of a mass touch it.
 const TOUCHING: [usize; CORNERS] = [2, 3, 1, 0];
 
-/// A body's plan.
+/// A body laid out for the kernel, as lists of numbers.
 #[derive(Clone, Debug)]
 pub struct BodyPlan {
     /// The mass of each of its points.
