@@ -137,10 +137,7 @@ impl FromIterator<(Function, CellKind)> for CellLibrary {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn library(names: &str) -> CellLibrary {
-        CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
-    }
+    use crate::example::library;
 
     #[test]
     fn completeness_counts_constants_as_free() {

@@ -1,7 +1,7 @@
 //! Netlists and networks that the tests of this folder share.
 
-use crate::Netlist;
 use crate::network::{Network, Signal};
+use crate::{CellLibrary, Netlist};
 use nbc_base::model::Function;
 
 /// The paper's D latch as elaboration writes it: two wires for the feedback.
@@ -37,10 +37,15 @@ pub fn full_adder() -> Netlist {
     netlist
 }
 
-/// A network of six inputs whose gates have the functions of these bits and listen to any earlier signals; the outputs
-/// show its last six signals.
-pub fn network(gates: &[(u8, u16, u16)]) -> Network {
-    let mut network = Network::new(6);
+/// A library of the functions with these names, every cell costing one robot and one cycle.
+pub fn library(names: &str) -> CellLibrary {
+    CellLibrary::uniform(names.split_whitespace().map(|name| Function::parse(name).unwrap()))
+}
+
+/// A network whose gates have the functions of these bits and listen to any earlier signals; the outputs show its last
+/// six signals.
+pub fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
+    let mut network = Network::new(inputs);
     for &(bits, a, b) in gates {
         let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
         network.add(Function::new(bits % 16), pins);

@@ -206,14 +206,8 @@ pub(crate) fn name_outputs(netlist: &mut Netlist) {
 mod tests {
     use super::*;
     use crate::CellKind;
-    use crate::example::{full_adder, latch};
+    use crate::example::{full_adder, latch, library};
     use crate::proof::{Method, prove};
-
-    fn library(names: &str) -> CellLibrary {
-        CellLibrary::uniform(
-            names.split(' ').filter(|name| !name.is_empty()).map(|name| Function::parse(name).unwrap()),
-        )
-    }
 
     fn count(netlist: &Netlist, function: Function) -> usize {
         netlist.cells().filter(|(_, cell)| cell.function == function).count()

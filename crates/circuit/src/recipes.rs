@@ -139,6 +139,7 @@ fn recipe(cost: u32, steps: &[(Step, u8)], bits: u8) -> Recipe {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::example::library;
 
     fn value(recipe: &Recipe, a: bool, b: bool) -> bool {
         let mut values = Vec::new();
@@ -156,8 +157,7 @@ mod tests {
     }
 
     fn costs(cells: &str) -> Vec<u32> {
-        let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
-        let recipes = Recipes::of(&library);
+        let recipes = Recipes::of(&library(cells));
         Function::all()
             .map(|function| {
                 let recipe = recipes.get(function).unwrap();

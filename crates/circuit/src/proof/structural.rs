@@ -89,7 +89,7 @@ impl Forms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cells::CellLibrary;
+    use crate::example::library;
     use crate::synth::prices::Prices;
     use crate::synth::reduce::cover;
     use nbc_base::model::Function;
@@ -110,8 +110,7 @@ mod tests {
     #[test]
     fn covered_gates_become_the_same_gates_again() {
         for cells in ["nand", "nor not", "xor and", "a_or_notb", "nand and or xor not"] {
-            let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
-            let covered = cover(&chain(), &Prices::of(&library), &[]).unwrap();
+            let covered = cover(&chain(), &Prices::of(&library(cells)), &[]).unwrap();
             assert!(equal(&chain(), &covered), "{cells}");
         }
     }

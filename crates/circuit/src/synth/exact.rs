@@ -335,10 +335,11 @@ mod tests {
 
     use super::*;
     use crate::cells::CellLibrary;
+    use crate::example::library;
 
     /// The fewest cells for a function of three inputs, checked to compute it.
     fn fewest(cells: &str, targets: &[u8]) -> usize {
-        let library = CellLibrary::uniform(cells.split(' ').map(|name| Function::parse(name).unwrap()));
+        let library = library(cells);
         let prices = Prices::of(&library);
         let network = wanted(targets);
         let ExactResult::Made(made) = fewer(&network, &prices, MOST_CELLS as u32, u64::MAX, &CancelFlag::default())

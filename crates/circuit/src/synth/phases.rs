@@ -339,14 +339,9 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
-    use crate::cells::CellLibrary;
-    use crate::example::network;
+    use crate::example::{library, network};
     use crate::proof::equal;
     use crate::synth::reduce::{cost, cover};
-
-    fn library(names: &str) -> Prices {
-        Prices::of(&CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap())))
-    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(100))]
@@ -356,8 +351,8 @@ mod tests {
             gates in prop::collection::vec(any::<(u8, u16, u16)>(), 1..60),
             names in prop::sample::select(vec!["nand", "nand and not", "nor or not", "and not xor"]),
         ) {
-            let network = network(&gates);
-            let prices = library(names);
+            let network = network(6, &gates);
+            let prices = Prices::of(&library(names));
             let made = assign_phases(&network, &prices, &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
             prop_assert!(equal(&network, &made).is_ok());
             let covered = cover(&made, &prices, &[]).unwrap();
@@ -371,7 +366,7 @@ mod tests {
         let products = [network.add(Function::AND, [2, 3]), network.add(Function::AND, [4, 5])];
         let sum = network.add(Function::OR, products);
         network.outputs = vec![sum];
-        let prices = library("nand and not");
+        let prices = Prices::of(&library("nand and not"));
         let made = assign_phases(&network, &prices, &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
         assert_eq!((made.gates.len(), cost(&made, &prices)), (3, 3));
     }

@@ -353,11 +353,8 @@ fn depth(network: &Network, prices: &Prices) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::example::library;
     use crate::proof::equal;
-
-    fn library(names: &str) -> CellLibrary {
-        CellLibrary::uniform(names.split(' ').map(|name| Function::parse(name).unwrap()))
-    }
 
     fn reduced(network: &Network, cells: &str) -> Network {
         reduce(network, &[], &library(cells), &MapOptions::default()).unwrap()

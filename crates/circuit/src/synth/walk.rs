@@ -369,19 +369,8 @@ mod tests {
 
     use super::*;
     use crate::cells::CellLibrary;
+    use crate::example::network;
     use crate::proof::equal;
-
-    /// A network of these gates; each reads two of the signals before it.
-    fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
-        let mut network = Network::new(inputs);
-        for &(bits, a, b) in gates {
-            let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
-            network.add(Function::new(bits % 16), pins);
-        }
-        let signals = network.signals() as Signal;
-        network.outputs = (signals.saturating_sub(8)..signals).step_by(3).collect();
-        network
-    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]

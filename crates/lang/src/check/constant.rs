@@ -21,6 +21,17 @@ pub fn truth(word: &str) -> Option<bool> {
     }
 }
 
+/// The bits of a word of `0`, `1` and `-` (both), where underscores separate; `None` if it has other characters.
+pub(crate) fn pattern(word: &str) -> Option<Vec<Option<bool>>> {
+    let bit = |c| match c {
+        '0' => Some(Some(false)),
+        '1' => Some(Some(true)),
+        '-' => Some(None),
+        _ => None,
+    };
+    word.chars().filter(|&c| c != '_').map(bit).collect()
+}
+
 /// Whether a word stands for an unknown bit in other languages.
 pub(crate) fn is_unknown(word: &str) -> bool {
     matches!(word, "x" | "X" | "z" | "Z")
