@@ -184,12 +184,11 @@ fn layout<R: Real, K: Stiffness<R>>(
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::arch::x86_64::*;
-    use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
     use super::{Ground, layout};
     use crate::backend::lanes::batch::Batch;
     use crate::backend::lanes::lane_batch::LaneBatch;
-    use crate::backend::lanes::real::{Mask, Real};
+    use crate::backend::lanes::real::{Mask, Real, operators};
     use crate::backend::lanes::step::env_step;
     use crate::backend::lanes::stiffness::Stiffness;
     use crate::lattice::Lattice;
@@ -243,54 +242,25 @@ mod x86 {
         layout::<Pair<Avx2>, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
-    macro_rules! arithmetic {
-        ($vector:ident, $add:ident, $sub:ident, $mul:ident) => {
-            impl Add for $vector {
-                type Output = Self;
-
-                #[inline(always)]
-                fn add(self, other: Self) -> Self {
-                    // SAFETY: a vector of this type exists only where the processor has its instructions; so below.
-                    Self(unsafe { $add(self.0, other.0) })
-                }
-            }
-
-            impl Sub for $vector {
-                type Output = Self;
-
-                #[inline(always)]
-                fn sub(self, other: Self) -> Self {
-                    Self(unsafe { $sub(self.0, other.0) })
-                }
-            }
-
-            impl Mul for $vector {
-                type Output = Self;
-
-                #[inline(always)]
-                fn mul(self, other: Self) -> Self {
-                    Self(unsafe { $mul(self.0, other.0) })
-                }
-            }
-
-            impl AddAssign for $vector {
-                #[inline(always)]
-                fn add_assign(&mut self, other: Self) {
-                    *self = *self + other;
-                }
-            }
-
-            impl SubAssign for $vector {
-                #[inline(always)]
-                fn sub_assign(&mut self, other: Self) {
-                    *self = *self - other;
-                }
-            }
-        };
-    }
-
-    arithmetic!(Avx512, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd);
-    arithmetic!(Avx2, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd);
+    // SAFETY: a vector of these types exists only where the processor has its instructions; so below.
+    operators!(
+        [] Avx512,
+        |a, b| Avx512(unsafe { _mm512_add_pd(a.0, b.0) }),
+        |a, b| Avx512(unsafe { _mm512_sub_pd(a.0, b.0) }),
+        |a, b| Avx512(unsafe { _mm512_mul_pd(a.0, b.0) }),
+    );
+    operators!(
+        [] Avx2,
+        |a, b| Avx2(unsafe { _mm256_add_pd(a.0, b.0) }),
+        |a, b| Avx2(unsafe { _mm256_sub_pd(a.0, b.0) }),
+        |a, b| Avx2(unsafe { _mm256_mul_pd(a.0, b.0) }),
+    );
+    operators!(
+        [T: Real] Pair<T>,
+        |a, b| Pair(a.0 + b.0, a.1 + b.1),
+        |a, b| Pair(a.0 - b.0, a.1 - b.1),
+        |a, b| Pair(a.0 * b.0, a.1 * b.1),
+    );
 
     /// One lane of a vector, accessed in place.
     macro_rules! lane_access {
@@ -455,47 +425,6 @@ mod x86 {
                 let root = _mm_sqrt_ps(_mm256_cvtpd_ps(self.0));
                 _mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0), root))
             })
-        }
-    }
-
-    impl<T: Real> Add for Pair<T> {
-        type Output = Self;
-
-        #[inline(always)]
-        fn add(self, other: Self) -> Self {
-            Self(self.0 + other.0, self.1 + other.1)
-        }
-    }
-
-    impl<T: Real> Sub for Pair<T> {
-        type Output = Self;
-
-        #[inline(always)]
-        fn sub(self, other: Self) -> Self {
-            Self(self.0 - other.0, self.1 - other.1)
-        }
-    }
-
-    impl<T: Real> Mul for Pair<T> {
-        type Output = Self;
-
-        #[inline(always)]
-        fn mul(self, other: Self) -> Self {
-            Self(self.0 * other.0, self.1 * other.1)
-        }
-    }
-
-    impl<T: Real> AddAssign for Pair<T> {
-        #[inline(always)]
-        fn add_assign(&mut self, other: Self) {
-            *self = *self + other;
-        }
-    }
-
-    impl<T: Real> SubAssign for Pair<T> {
-        #[inline(always)]
-        fn sub_assign(&mut self, other: Self) {
-            *self = *self - other;
         }
     }
 

@@ -33,6 +33,8 @@ use nbc_base::model::{Body, Setting, Trajectory, Trial};
 pub use kernel::{InstructionSet, Kernel};
 #[cfg(feature = "gpu")]
 pub(super) use proximity::{MARGIN, SLACK};
+#[cfg(feature = "gpu")]
+pub(super) use springs::FRAME;
 
 use flock::LaneFlock;
 use world::World;

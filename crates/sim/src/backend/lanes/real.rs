@@ -67,6 +67,43 @@ pub trait Real:
     }
 }
 
+/// The operators of a vector: from how two are added, subtracted and multiplied. The expressions are pasted, because a
+/// closure would be compiled without the vector instructions of the kernel.
+macro_rules! operators {
+    (
+        [$($generics:tt)*] $vector:ty,
+        |$a:ident, $b:ident| $sum:expr,
+        |$c:ident, $d:ident| $difference:expr,
+        |$e:ident, $f:ident| $product:expr $(,)?
+    ) => {
+        operators!(@one [$($generics)*] $vector, Add, add, |$a, $b| $sum);
+        operators!(@one [$($generics)*] $vector, Sub, sub, |$c, $d| $difference);
+        operators!(@one [$($generics)*] $vector, Mul, mul, |$e, $f| $product);
+        operators!(@assign [$($generics)*] $vector, AddAssign, add_assign, +);
+        operators!(@assign [$($generics)*] $vector, SubAssign, sub_assign, -);
+    };
+    (@one [$($generics:tt)*] $vector:ty, $operator:ident, $name:ident, |$a:ident, $b:ident| $result:expr) => {
+        impl<$($generics)*> std::ops::$operator for $vector {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                let ($a, $b) = (self, other);
+                $result
+            }
+        }
+    };
+    (@assign [$($generics:tt)*] $vector:ty, $operator:ident, $name:ident, $sign:tt) => {
+        impl<$($generics)*> std::ops::$operator for $vector {
+            #[inline(always)]
+            fn $name(&mut self, other: Self) {
+                *self = *self $sign other;
+            }
+        }
+    };
+}
+pub(super) use operators;
+
 /// Yes or no in each lane.
 pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Lane i as bit i.

@@ -40,7 +40,8 @@ pub struct Rim {
     pub aim: u32,
 }
 
-/// The springs' places in a frame: between which corners each runs, the earlier mass first.
+/// The springs' places in a frame: between which corners each runs, the earlier mass first. The kernel of devices names
+/// them by these places.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 /// A driven spring of one lane.

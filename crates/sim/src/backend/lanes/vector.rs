@@ -1,9 +1,8 @@
 //! Lanes as plain arrays: the portable form, which compilers translate to the vectors of the target.
 
 use std::array::from_fn;
-use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
-use crate::backend::lanes::real::{Mask, Real};
+use crate::backend::lanes::real::{Mask, Real, operators};
 
 /// An array of `N` numbers.
 #[derive(Clone, Copy, Debug)]
@@ -26,46 +25,12 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
-impl<const N: usize> Add for Lanes<N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
-    }
-}
-
-impl<const N: usize> Sub for Lanes<N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
-    }
-}
-
-impl<const N: usize> Mul for Lanes<N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
-    }
-}
-
-impl<const N: usize> AddAssign for Lanes<N> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<const N: usize> SubAssign for Lanes<N> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+operators!(
+    [const N: usize] Lanes<N>,
+    |a, b| a.zip(b, |a, b| a + b),
+    |a, b| a.zip(b, |a, b| a - b),
+    |a, b| a.zip(b, |a, b| a * b),
+);
 
 impl<const N: usize> Mask for LaneMask<N> {
     #[inline(always)]

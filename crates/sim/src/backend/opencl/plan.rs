@@ -3,14 +3,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::backend::lanes::FRAME;
 use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, Voxel};
 
 /// No mass, spring or tile.
 const NONE: u16 = 0xffff;
-
-/// The springs of a voxel: between which of its corners each runs. The kernel names them by these places.
-const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 /// The goals of springs that are not driven: of main edges, of diagonals. Driven springs follow.
 const MAIN: u16 = 0;
