@@ -84,7 +84,7 @@ impl Netlist {
         id
     }
 
-    /// Adds a constant net.
+    /// Adds a net that is always 0 or always 1.
     pub fn add_constant(&mut self, value: bool) -> NetId {
         self.graph.add_node(Node::Constant(value))
     }
@@ -117,7 +117,7 @@ impl Netlist {
         self.graph.add_edge(net, listener, pin);
     }
 
-    /// Adds an unnamed gate.
+    /// Adds a gate without a name, with one net for each pin, and returns its output.
     pub fn add_gate(&mut self, function: Function, pins: &[NetId]) -> NetId {
         self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
     }

@@ -17,10 +17,10 @@ pub struct Gate {
     pub pins: [Signal; 2],
 }
 
-/// Gates in topological order.
+/// Gates of at most two inputs, in topological order, between numbered inputs and outputs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Network {
-    /// The number of inputs.
+    /// The number of inputs; their signals are 2, 3, and so on.
     pub inputs: usize,
     /// The gates; each listens to earlier signals only.
     pub gates: Vec<Gate>,

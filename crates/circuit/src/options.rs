@@ -33,6 +33,6 @@ pub struct MapOptions {
     pub objective: MappingObjective,
     /// How long it searches.
     pub effort: Effort,
-    /// Ends the search early.
+    /// Ends the search early, with the best result so far.
     pub cancel: CancelFlag,
 }

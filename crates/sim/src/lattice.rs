@@ -38,7 +38,7 @@ pub struct LatticePoint {
 pub struct Edge {
     /// One end: a point, by its number.
     pub a: usize,
-    /// The other end, likewise.
+    /// The other end: a point, by its number.
     pub b: usize,
     /// Built length in meters.
     pub rest: f64,
@@ -49,9 +49,9 @@ pub struct Edge {
 /// A voxel that is not empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Voxel {
-    /// Row, 0 on top.
+    /// The row in the box of the body, 0 on top.
     pub row: usize,
-    /// Column, 0 on the left.
+    /// The column in the box of the body, 0 on the left.
     pub column: usize,
     /// The code of its material in the palette of the body.
     pub code: u8,

@@ -138,7 +138,7 @@ pub struct Size {
     pub span: Span,
 }
 
-/// The kinds of integers.
+/// What an integer is: a number, a variable, or an operation on others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SizeKind {
     /// A number as written.
@@ -193,7 +193,7 @@ impl Expression {
     }
 }
 
-/// The kinds of expressions.
+/// What an expression is: a constant, a net, or what is made of other expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
     /// A bit pattern, most significant bit first.

@@ -54,7 +54,7 @@ pub struct Evolution {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampledWorlds {
-    /// The number of worlds.
+    /// The number of worlds, at least 1.
     pub worlds: u32,
     /// The largest change of each of their quantities.
     pub vary: Variation,
@@ -153,7 +153,7 @@ pub enum SearchObjective {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
-    /// The body's own niche.
+    /// Only the niche of the body itself.
     #[default]
     None,
     /// The niches of all bodies that follow by exchanging and inverting inputs and by mirroring.

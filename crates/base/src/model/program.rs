@@ -37,7 +37,7 @@ pub struct NamedSchedule {
     pub name: String,
     /// Its stimuli, as indices of [`Program::stimuli`].
     pub stimuli: Vec<usize>,
-    /// The spells.
+    /// The stimuli over time.
     pub schedule: Schedule,
 }
 
@@ -141,7 +141,7 @@ pub struct InputSpell {
     pub inputs: Vec<bool>,
     /// The notation of the values of the ports; empty if they come from a schedule of stimuli.
     pub bases: Vec<Base>,
-    /// The duration in cycles.
+    /// The duration in actuation cycles.
     pub cycles: u32,
     /// The line in the source.
     pub line: usize,

@@ -26,7 +26,7 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// The gate it is.
+    /// The gate that it is: its behavior with right as 1 and left as 0.
     pub fn function(&self) -> Function {
         self.behavior.function()
     }
@@ -101,7 +101,7 @@ pub struct Provenance {
     pub program: String,
     /// The version of that program.
     pub version: String,
-    /// The evolution declaration's name.
+    /// The name of the declaration of the run.
     pub evolution: String,
     /// The seed of the run.
     pub seed: u64,

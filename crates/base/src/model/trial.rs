@@ -92,7 +92,7 @@ impl Trajectory {
     }
 }
 
-/// A simulation that failed.
+/// Why and when a simulation ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// The env step that was abandoned, from 1.

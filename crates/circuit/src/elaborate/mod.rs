@@ -101,7 +101,7 @@ fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Res
 pub struct Inspector<'a>(Builder<'a>);
 
 impl<'a> Inspector<'a> {
-    /// No circuit checked yet.
+    /// An inspector of the circuits of a program, which has not built any.
     pub fn new(program: &'a Program) -> Self {
         Self(Builder::new(program))
     }

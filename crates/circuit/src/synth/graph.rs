@@ -101,7 +101,7 @@ impl<'p> Graph<'p> {
         self.fanout.push(Vec::new());
     }
 
-    /// The words of patterns.
+    /// The number of 64-bit words of values of each signal.
     pub fn width(&self) -> usize {
         self.width
     }
@@ -111,7 +111,7 @@ impl<'p> Graph<'p> {
         self.cost
     }
 
-    /// The prices of cells.
+    /// The prices of the cells, by function.
     pub fn prices(&self) -> &'p Prices {
         self.prices
     }

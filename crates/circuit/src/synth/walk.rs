@@ -31,7 +31,7 @@ pub struct WalkPlan<'a> {
 /// The role of delay in the walk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pace {
-    /// Delay does not matter.
+    /// Outputs may become later.
     #[default]
     Any,
     /// No output may become later.

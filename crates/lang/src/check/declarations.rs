@@ -11,7 +11,7 @@ pub(crate) struct Declarations<'a> {
     trees: &'a [(Home, Tree)],
     /// The declarations that have lost a part: where they begin and end.
     broken: BTreeMap<(FileId, u32), u32>,
-    /// The texts.
+    /// The texts of the files.
     pub(crate) sources: &'a Sources,
 }
 

@@ -32,7 +32,7 @@ pub struct Declaration {
     pub kind: DeclarationKind,
 }
 
-/// The kinds of declarations.
+/// A declaration, by its keyword.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclarationKind {
     /// `use "file.nb"`
@@ -142,7 +142,7 @@ pub struct ValueSyntax {
     pub span: Span,
 }
 
-/// The kinds of values.
+/// The forms of the value of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueKind {
     /// `{ name: value, … }`
@@ -230,7 +230,7 @@ pub struct Simulate {
     pub swarm: NameSyntax,
     /// The world after `in`, if it is given: `in slippery`.
     pub world: Option<NameSyntax>,
-    /// Its inputs over time.
+    /// The inputs of the swarm over time.
     pub with: With,
 }
 
@@ -264,7 +264,7 @@ pub struct Test {
 /// What a tested circuit must do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TestKind {
-    /// A table of rows.
+    /// The rows of a table: inputs and expected outputs.
     Table(TestTable),
     /// `for all inputs against other`
     Against(InstanceSyntax),
@@ -361,7 +361,7 @@ pub struct StatementSyntax {
     pub span: Span,
 }
 
-/// The kinds of statements.
+/// A statement of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
     /// `q init 0 = nand(s, nq)`
@@ -421,7 +421,7 @@ pub struct SizeSyntax {
     pub span: Span,
 }
 
-/// The kinds of integers.
+/// An integer: a number, a name, or an operation on others.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SizeSyntaxKind {
     /// A number, as its digits.
@@ -456,7 +456,7 @@ pub struct ExpressionSyntax {
     pub span: Span,
 }
 
-/// The kinds of expressions.
+/// An expression: a constant, a net, or what is made of other expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionSyntaxKind {
     /// Digits without a width.

@@ -69,11 +69,11 @@ pub struct CardMemory<T: Plain> {
 pub struct Arguments<'a> {
     /// Four words for each robot.
     pub robots: &'a CardMemory<u32>,
-    /// The bodies.
+    /// The header of each body: where its lists are.
     pub bodies: &'a CardMemory<u32>,
-    /// Their plans.
+    /// The lists of all bodies, one after another, as a `BodyPlan` has them.
     pub plan: &'a CardMemory<u16>,
-    /// Their springs' stiffness.
+    /// The stiffness of the springs of all bodies, in kilograms per substep squared.
     pub stiffness: &'a CardMemory<f64>,
     /// The targets of each material in each env step.
     pub targets: &'a CardMemory<f64>,
@@ -85,7 +85,7 @@ pub struct Arguments<'a> {
     pub window: u32,
     /// The positions of masses, those one substep ago, and velocities.
     pub state: [&'a CardMemory<[f64; 2]>; 3],
-    /// The centers of mass.
+    /// The centers of mass after each env step, in voxels.
     pub centers: &'a CardMemory<[f64; 2]>,
     /// Env steps done, and the fault.
     pub outcomes: &'a CardMemory<[u32; 2]>,

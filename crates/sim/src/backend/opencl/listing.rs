@@ -9,7 +9,7 @@ use opencl3::types::cl_device_id;
 
 use crate::backend::opencl::error::DeviceError;
 
-/// What a device is.
+/// Whether a device is a graphics card, a processor or another accelerator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DeviceKind {
     /// A graphics card (GPU).
