@@ -1,7 +1,7 @@
 //! Substeps per second for bodies of the paper's three boxes: one simulation alone, and eight in parallel with each
 //! instruction set of the processor, with one body or eight different ones.
 //!
-//! `cargo bench` prints, for each, elements (lane-substeps) per second of one core.
+//! `cargo bench --bench substeps` prints, for each, elements (lane-substeps) per second of one core.
 
 use std::hint::black_box;
 use std::time::Duration;

@@ -12,6 +12,20 @@ use crate::support::schema::{schema, validate};
 
 const FLIP: &str = "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n";
 
+/// A wave machine whose step is short.
+const WAVES: &str = "\
+circuit bit(clk) -> (y) {
+    y = register(not y, clk)
+}
+swarm wave { circuit: bit, registers: waves }
+test bit {
+    clk | y
+    0   | 0
+    ^   | 1
+    ^   | 0
+}
+";
+
 /// Runs a command with `--format json` and validates its output.
 #[track_caller]
 fn check(bench: &Bench, word: &str, status: i32, arguments: &[&str]) -> Value {
@@ -24,6 +38,7 @@ fn bench() -> Bench {
     let bench = Bench::new();
     bench.file("flip.nb", FLIP);
     bench.file("wrong.nb", FLIP.replace("not a", "not b"));
+    bench.file("waves.nb", WAVES);
     bench.file("walker.yaml", "body: [\"00345\", \"33333\"]\n");
     bench
 }
@@ -62,6 +77,11 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     let found = check(&bench, "robustness", 0, &["test", "flip.nb", "--vary", "all=5%", "--worlds", "3"]);
     assert_eq!(found["tests"][0]["yield"]["worlds"], 3);
     check(&bench, "build", 0, &["build", latch.to_str().unwrap()]);
+    let waves = check(&bench, "build", 0, &["build", "waves.nb", "--swarm", "wave"])["waves"].clone();
+    assert!(waves["threads"].as_u64() > Some(0), "{waves}");
+    let rows = check(&bench, "test", 0, &["test", "waves.nb", "--physics"])["tests"][0]["rows"].clone();
+    assert_eq!(rows[0]["thread"], 0);
+    check(&bench, "run", 0, &["run", "waves.nb", "--no-report"]);
     let counter = root().join("circuits/counter.nb");
     let ports = &check(&bench, "build", 0, &["build", counter.to_str().unwrap()])["ports"];
     let port = |name: &str, width: usize| serde_json::json!([{ "name": name, "width": width }]);

@@ -9,7 +9,7 @@ import { LearnPanel } from "./learn/panel";
 import { SwarmPanel } from "./live/panel";
 import { LiveSwarm } from "./live/swarm";
 import { Program, type Origin } from "./program";
-import type { Hello } from "./protocol";
+import type { Greeting } from "./protocol";
 import { RobotsPanel } from "./robots/panel";
 import { TakeAway } from "./take";
 import { TestsPanel } from "./tests/panel";
@@ -90,7 +90,7 @@ export class App {
   }
 
   /** The program of the address, else that of the command line, else the latch. */
-  async #openFirst(hello: Hello): Promise<void> {
+  async #openFirst(hello: Greeting): Promise<void> {
     const named = decodeURI(location.hash.slice(1));
     const drafted = named !== "" ? this.#program.draftAlone(named) : null;
     const origins: Origin[] = [
@@ -130,7 +130,7 @@ export class App {
 }
 
 /** The example with this in its name, else the first. */
-function exampleNamed(hello: Hello, word: string): string {
+function exampleNamed(hello: Greeting, word: string): string {
   const found = hello.examples.find(example => example.name.replace(/\.nb$/, "").endsWith(word)) ?? hello.examples[0];
   return found?.name ?? word;
 }

@@ -1,7 +1,8 @@
 // The socket for everything but the language server: requests with their answers, events and frames.
 
 import { Observable } from "./observable";
-import { RequestError, type LiveEvent, type Verb, type Verbs } from "./protocol";
+import type { PlayEvent, Refusal, ServerMessage } from "./protocol";
+import { RequestError, type Fields, type Result, type Verb } from "./request";
 
 export type ConnectionState = "connecting" | "open" | "lost";
 
@@ -26,7 +27,7 @@ const LONGEST_WAIT = 4000;
 
 export class Connection {
   readonly state = new Observable<ConnectionState>("connecting");
-  readonly events = new Observable<LiveEvent | null>(null);
+  readonly events = new Observable<PlayEvent | null>(null);
   /** Receives each frame. */
   onframe: (buffer: ArrayBuffer) => void = () => {};
   #socket: WebSocket | null = null;
@@ -50,7 +51,7 @@ export class Connection {
     this.#socket = socket;
   }
 
-  request<V extends Verb>(verb: V, fields: Verbs[V][0], options: RequestOptions = {}): Promise<Verbs[V][1]> {
+  request<V extends Verb>(verb: V, fields: Fields<V>, options: RequestOptions = {}): Promise<Result<V>> {
     const id = this.#next++;
     return new Promise((resolve, reject) => {
       if (this.#socket?.readyState !== WebSocket.OPEN) {
@@ -65,7 +66,7 @@ export class Connection {
   }
 
   /** Sends what has no answer worth waiting for; after a loss the state is restored anyway. */
-  tell<V extends Verb>(verb: V, fields: Verbs[V][0]): void {
+  tell<V extends Verb>(verb: V, fields: Fields<V>): void {
     this.request(verb, fields).catch(() => {});
   }
 
@@ -84,25 +85,20 @@ export class Connection {
       this.onframe(data);
       return;
     }
-    const message = JSON.parse(data);
-    if (message.event !== undefined) {
-      this.events.set(message as LiveEvent);
-    } else if (message.progress !== undefined) {
-      this.#pending.get(message.id)?.progress?.(message.progress[0], message.progress[1]);
+    const message = JSON.parse(data) as ServerMessage;
+    if ("event" in message) {
+      this.events.set(message);
+    } else if ("progress" in message) {
+      this.#pending.get(message.id)?.progress?.(...message.progress);
     } else {
-      this.#answer(message);
+      const pending = this.#pending.get(message.id);
+      this.#pending.delete(message.id);
+      if ("error" in message) {
+        pending?.reject(refused(message.error));
+      } else {
+        pending?.resolve(message.ok as never);
+      }
     }
-  }
-
-  #answer(message: { id: number; ok?: never; error?: Partial<RequestError> }): void {
-    const pending = this.#pending.get(message.id);
-    this.#pending.delete(message.id);
-    if (message.error === undefined) {
-      pending?.resolve(message.ok as never);
-      return;
-    }
-    const { message: text = "", code = null, help = null, diagnostics = [] } = message.error;
-    pending?.reject(new RequestError(text, code, help, diagnostics));
   }
 
   #lose(): void {
@@ -115,6 +111,10 @@ export class Connection {
     this.#timer = window.setTimeout(() => this.open(), this.#wait);
     this.#wait = Math.min(LONGEST_WAIT, this.#wait * 2);
   }
+}
+
+function refused({ message, code, help, diagnostics }: Refusal): RequestError {
+  return new RequestError(message, code, help, diagnostics);
 }
 
 /** An address beside the page, as a socket's. */

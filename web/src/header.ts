@@ -2,7 +2,7 @@
 
 import type { ConnectionState } from "./connection";
 import { element, iconButton } from "./element";
-import type { Hello } from "./protocol";
+import type { Greeting } from "./protocol";
 import { switchProjector, switchTheme, theme } from "./theme";
 
 /** After this long without a server, its address may have changed. */
@@ -45,7 +45,7 @@ export class Header {
     );
   }
 
-  showFolder(hello: Hello): void {
+  showFolder(hello: Greeting): void {
     this.#folder.textContent = hello.folder;
     this.#folder.title = `nbc ${hello.version}, in the folder ${hello.folder}`;
   }

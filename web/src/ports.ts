@@ -1,10 +1,10 @@
 // Ports as bits and as numbers. Bits are in order of the ports, the most significant bit of a port first.
 
-import type { Port } from "./protocol";
+import type { PortEntry } from "./protocol";
 
 /** One bit of a port. */
 export interface PortBit {
-  port: Port;
+  port: PortEntry;
   /** Within the port, 0 the least significant. */
   place: number;
   /** Among the bits of all ports. */
@@ -13,16 +13,16 @@ export interface PortBit {
   name: string;
 }
 
-export function totalWidth(ports: Port[]): number {
+export function totalWidth(ports: PortEntry[]): number {
   return ports.reduce((sum, port) => sum + port.width, 0);
 }
 
 /** The index of a port's first bit among the bits of all ports. */
-export function offsetOf(ports: Port[], port: Port): number {
+export function offsetOf(ports: PortEntry[], port: PortEntry): number {
   return totalWidth(ports.slice(0, ports.indexOf(port)));
 }
 
-export function bitsOf(ports: Port[]): PortBit[] {
+export function bitsOf(ports: PortEntry[]): PortBit[] {
   let index = 0;
   return ports.flatMap(port =>
     Array.from({ length: port.width }, (_, i) => {
@@ -62,7 +62,7 @@ export function withBit(text: string, index: number, bit: number): string {
 }
 
 /** The bits of inputs `after`, where ports that were among `before` keep their values. */
-export function keepBits(text: string, before: Port[], after: Port[]): string {
+export function keepBits(text: string, before: PortEntry[], after: PortEntry[]): string {
   const kept = after.map(port => {
     const same = before.find(other => other.name === port.name && other.width === port.width);
     const start = same === undefined ? 0 : offsetOf(before, same);

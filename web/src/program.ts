@@ -4,7 +4,8 @@ import { CANCELLED, LOST, type Connection } from "./connection";
 import { draftOf, keepDraft } from "./editor/draft";
 import type { LiveSwarm } from "./live/swarm";
 import { Observable } from "./observable";
-import { RequestError, type Checked, type CircuitEntry, type FileText, type Hello } from "./protocol";
+import type { CircuitEntry, FileText, Greeting, ProgramReport } from "./protocol";
+import { RequestError } from "./request";
 import { sameProgram } from "./sameness";
 
 export interface Choice {
@@ -25,13 +26,13 @@ const PAUSE = 350;
 
 export class Program {
   readonly path = new Observable("");
-  readonly checked = new Observable<Checked | null>(null);
+  readonly checked = new Observable<ProgramReport | null>(null);
   readonly choice = new Observable<Choice | null>(null);
   readonly stage = new Observable<Stage>({ state: "idle" });
   readonly unsaved = new Observable(false);
   /** The stamp of the file, null while there is none. */
   stamp: string | null = null;
-  hello: Hello | null = null;
+  hello: Greeting | null = null;
   /** Whether the swarm runs as soon as it is compiled. */
   plays = true;
   #text = "";
@@ -189,7 +190,7 @@ export class Program {
     }
   }
 
-  #proceed(checked: Checked): void {
+  #proceed(checked: ProgramReport): void {
     if (checked.errors > 0) {
       this.stage.set({ state: "errors", count: checked.errors });
       return;

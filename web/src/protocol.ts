@@ -1,288 +1,432 @@
-// The messages between this page and its server, as docs/play-protocol.md describes them.
+// Generated from the messages of crates/play: NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol
+// docs/play-protocol.md describes them.
 
-export interface Hello {
-  version: string;
-  folder: string;
-  root: string;
-  file: string | null;
-  files: FileEntry[];
-  examples: Example[];
-  limits: { robots: number; cycles: number; message: number };
-  cycle_seconds: number;
-}
+/** The niches of an archive that have changed in a generation. */
+export type ArchiveChange = {
+  /** The request. */
+  id: number,
+  generation: number,
+  axes: Array<AxisEntry>,
+  niches: Array<NicheEntry>,
+  evaluations: number,
+};
 
-export interface FileEntry {
-  path: string;
-  size: number;
-}
-export interface Example {
-  name: string;
-  about: string;
-}
-export interface FileText {
-  path: string;
-  text: string;
-  stamp: string | null;
-}
-
-export interface Port {
-  name: string;
-  width: number;
-}
-
-export interface CircuitEntry {
-  name: string;
-  circuit: string;
-  swarms: string[];
-  line: number;
-}
-
-export interface TestRow {
-  row: number;
-  line: number;
-  inputs: string[];
-  outputs: string[];
-}
-
-export interface TestEntry {
-  index: number;
-  circuit: string;
-  title: string;
-  line: number;
-  rows: TestRow[];
-  inputs: Port[];
-  outputs: Port[];
-}
-
-export interface Place {
-  byte: number;
-  line: number;
-  column: number;
-}
-export interface Label {
-  file: string;
-  start: Place;
-  end: Place;
-  text: string;
-}
-
-export interface Diagnostic {
-  code: string;
-  severity: "error" | "warning" | "note";
-  message: string;
-  help: string | null;
-  labels: Label[];
-}
-
-export interface Checked {
-  errors: number;
-  diagnostics: Diagnostic[];
-  circuits: CircuitEntry[];
-  tests: TestEntry[];
-}
+/** The name of an axis and its number of bins. */
+export type AxisEntry = [string, number];
 
 /** Where a bit comes from. */
-export type Source = { input: number } | { robot: number } | { constant: boolean | number };
+export type BitSource = { "input": number }
+  | { "robot": number }
+  | { "constant": boolean };
 
-/** The numbers of the corner points around a voxel, and its index in the looks. */
-export type Voxel = [number, number, number, number, number];
+/** The character of a body over a few switches. */
+export type CharacterSketch = {
+  clock: number,
+  margin: number,
+  errors: number,
+  switches: number,
+  glitches: number,
+  topples: boolean,
+};
 
-export interface Robot {
-  net: string;
-  function: string;
-  robot: string;
-  about: [string, string][] | string;
-  senses: Source[];
-  body: string[];
-  size: [number, number];
-  voxels: Voxel[];
-  points: number;
-  clock: number;
-  margin: number;
-  errors: number;
-}
+/** A circuit whose parameters are known. */
+export type CircuitEntry = {
+  name: string,
+  /** What `compile` takes, such as `adder[8]`. */
+  circuit: string,
+  swarms: Array<string>,
+  line: number,
+};
 
-export interface Look {
-  name: string;
-  color: string;
-  ink?: string | null;
-  mark?: [number, number][][] | null;
-}
+/** Poses as text. */
+export type EncodedGait = {
+  /** Poses in a cycle. */
+  frames: number,
+  cycles: number,
+  /** Base64 of numbers as in a frame. */
+  poses: string,
+};
 
-export interface Swarm {
-  /** Counts the swarms of a connection. */
-  number: number;
-  circuit: string;
-  swarm: string | null;
-  inputs: Port[];
-  outputs: Port[];
-  robots: Robot[];
-  shown: Source[];
-  looks: Look[];
-  schematic: string;
-  timing: string;
+/** The answer to `evolve`. */
+export type EvolutionEnd = {
+  generations: number,
+  evaluations: number,
+};
+
+/** A search for bodies. */
+export type EvolveRequest = {
+  /** The body to start from, if it is not a random one. */
+  body: Array<string> | null,
+  /** Columns and rows. */
+  box: [number, number],
+  generations: number,
+  seed: number,
+};
+
+/** An example that comes with the program. */
+export type ExampleEntry = {
+  name: string,
+  about: string,
+};
+
+/** A file that was read or saved and has another stamp, or none because it is gone. */
+export type FileChange = {
+  path: string,
+  stamp: string | null,
+};
+
+/** A file of the served folder. */
+export type FileEntry = {
+  path: string,
+  size: number,
+};
+
+/** A file that was saved. */
+export type FileStamp = {
+  stamp: string | null,
+};
+
+/** A file or an example. */
+export type FileText = {
+  path: string,
+  text: string,
+  /** A text that changes with the file; none for an example. */
+  stamp: string | null,
+};
+
+/** A diagnostic. */
+export type Finding = {
+  /** `nbc explain CODE` tells more. */
+  code: string,
+  severity: "error" | "warning",
+  message: string,
+  help: string | null,
+  /** The places, the main one first. */
+  labels: Array<FindingLabel>,
+  /** Notes at other places. */
+  related: Array<FindingLabel>,
+};
+
+/** A place of a text, and what is there. */
+export type FindingLabel = {
+  file: string,
+  start: TextPlace,
+  end: TextPlace,
+  text: string,
+};
+
+/** The answer to `hello`. */
+export type Greeting = {
+  version: string,
+  /** The name of the folder. */
+  folder: string,
+  /** Its `file:` URI, for the language server. */
+  root: string,
+  /** The file to open first, if the command line names one. */
+  file: string | null,
+  files: Array<FileEntry>,
+  examples: Array<ExampleEntry>,
+  limits: PlayLimits,
+  cycle_seconds: number,
+};
+
+/** A body to keep as a robot. */
+export type KeepRequest = {
+  /** The program that is to use it. Its robots are beside it. */
+  path: string | null,
+  name: string,
+  body: Array<string>,
+  /** Whether a robot of that name is replaced. */
+  replace?: boolean,
+};
+
+/** A robot file that was written. */
+export type KeptRobot = {
+  path: string,
+  /** A declaration of a library with it. */
+  use: string,
+};
+
+/** The best body of a niche. */
+export type NicheEntry = {
+  /** The bin on each axis. */
+  place: Array<number>,
+  fitness: [number, number],
+  body: Array<string>,
+  letters: string,
+  function: string,
+};
+
+/** An object without fields. */
+export type Nothing = Record<symbol, never>;
+
+/** A material that can be painted. */
+export type PaletteEntry = {
+  /** Its character in the rows of bodies. */
+  code: string,
+  name: string,
+  about: string,
+  /** Its index in the looks. */
+  look: number,
+};
+
+/** What a page is told without a request. */
+export type PlayEvent = { "event": "archive" } & ArchiveChange
+  | { "event": "changed" } & FileChange
+  | { "event": "stopped", reason: string, };
+
+/** What a page may ask for at most. */
+export type PlayLimits = {
+  /** Robots of a swarm. */
+  robots: number,
+  /** Cycles that can be gone back. */
+  cycles: number,
+  /** Bytes of a message. */
+  message: number,
+};
+
+/** A port. */
+export type PortEntry = {
+  name: string,
+  width: number,
+};
+
+/** How a body walks, and which gate it is. */
+export type ProbeReport = {
+  /** Under 00, 01, 10 and 11. */
+  gaits: Array<EncodedGait>,
+  letters: string,
+  function: string,
+  displacement: [number, number, number, number],
+  /** None if it was not asked for. */
+  character: CharacterSketch | null,
+  points: number,
+  voxels: Array<[number, number, number, number, number]>,
+  looks: Array<VoxelLook>,
+};
+
+/** A checked program. */
+export type ProgramReport = {
+  /** The number of errors among the diagnostics. */
+  errors: number,
+  diagnostics: Array<Finding>,
+  circuits: Array<CircuitEntry>,
+  tests: Array<TestEntry>,
+};
+
+/** The answer to a refused request. */
+export type Refusal = {
+  message: string,
+  help: string | null,
+  /** A word for what a page reacts to. */
+  code: string | null,
+  diagnostics: Array<Finding>,
+};
+
+/** A request with its number. */
+export type Request = { id: number, } & ({ "do": "hello" }
+  | { "do": "files" }
+  | { "do": "read", path?: string, example?: string, }
+  | { "do": "save", path: string, text: string, stamp: string | null, }
+  | { "do": "program", path: string, text: string, }
+  | { "do": "compile", path: string, circuit: string, swarm: string | null, }
+  | { "do": "test", path: string, test: number, level: TestLevel, }
+  | { "do": "replay", path: string, test: number, swarm: string | null, row: number, }
+  | { "do": "inputs", bits: string, }
+  | { "do": "clock", bit: number, half: number | null, }
+  | { "do": "run", speed: number | null, }
+  | { "do": "pause" }
+  | { "do": "step", cycles: number, }
+  | { "do": "reset" }
+  | { "do": "seek", cycle: number, }
+  | { "do": "view", robots: Array<number>, }
+  | { "do": "robots", path: string | null, }
+  | { "do": "probe", body: Array<string>, cycles: number, character?: boolean, }
+  | { "do": "keep" } & KeepRequest
+  | { "do": "evolve" } & EvolveRequest
+  | { "do": "take", what: TakeKind, cycles: number, }
+  | { "do": "cancel", of: number, });
+
+/** A robot of a library. */
+export type RobotCard = {
+  name: string,
+  function: string,
+  letters: string,
+  about: string,
+  /** The rows from the top, a material's code a character. */
+  body: Array<string>,
+  width: number,
+  height: number,
+  /** The numbers of the corner points around each voxel, and its index in the looks. */
+  voxels: Array<[number, number, number, number, number]>,
+  points: number,
+  clock: number,
+  margin: number,
+  errors: number,
+  /** Whether it comes with the program. */
+  shipped: boolean,
+};
+
+/** The answer to `robots`. */
+export type RobotCards = {
+  robots: Array<RobotCard>,
+  looks: Array<VoxelLook>,
+  palette: Array<PaletteEntry>,
+};
+
+/** The verdict of a row. */
+export type RowResult = {
+  /** Its number, from 1; both halves of a pulse have the same. */
+  row: number,
+  line: number,
+  inputs: Array<RowValue>,
+  expected: Array<RowValue>,
+  observed: Array<RowValue>,
+  passed: boolean,
+  /** Cycles for which the row was held; none at the level of logic. */
+  cycles: number | null,
+};
+
+/** The value of a port. */
+export type RowValue = {
+  /** The digits `0`, `1` and `-`. */
+  bits: string,
+  /** As the user writes it. */
+  text: string,
+};
+
+/** A message of the server. */
+export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
+  | { "to": "files", "ok": Array<FileEntry> }
+  | { "to": "read", "ok": FileText }
+  | { "to": "save", "ok": FileStamp }
+  | { "to": "program", "ok": ProgramReport }
+  | { "to": "compile", "ok": SwarmAnswer }
+  | { "to": "replay", "ok": SwarmAnswer }
+  | { "to": "test", "ok": TestAnswer }
+  | { "to": "robots", "ok": RobotCards }
+  | { "to": "probe", "ok": ProbeReport }
+  | { "to": "keep", "ok": KeptRobot }
+  | { "to": "evolve", "ok": EvolutionEnd }
+  | { "to": "take", "ok": TakenFile })
+  | { id: number, ok: Nothing, }
+  | { id: number, error: Refusal, }
+  | { id: number, progress: [number, number], } | PlayEvent;
+
+/** The swarm of a page. */
+export type ShownSwarm = {
+  /** Counts the swarms of a connection; frames have its lowest byte. */
+  number: number,
+  circuit: string,
+  swarm: string | null,
+  inputs: Array<PortEntry>,
+  outputs: Array<PortEntry>,
+  /** The source of each bit of the outputs. */
+  shown: Array<BitSource>,
+  robots: Array<SwarmRobot>,
+  looks: Array<VoxelLook>,
+  /** An SVG. */
+  schematic: string,
+  timing: string,
   /** Cycles after which every change has settled. */
-  hold: number | null;
+  hold: number,
   /** Cycles at the start in which the robots take their shape. */
-  start: number;
-  frames: number;
-}
+  start: number,
+  /** Poses in a cycle. */
+  frames: number,
+};
 
-export interface VerdictPort {
-  name: string;
-  width: number;
-}
-export interface VerdictValue {
-  bits: string;
-  text: string;
-}
+/** The answer to `compile` and to `replay`. */
+export type SwarmAnswer = {
+  swarm: ShownSwarm,
+};
 
-export interface VerdictRow {
-  row: number;
-  line: number;
-  inputs: VerdictValue[];
-  expected: (VerdictValue | null)[];
-  observed: VerdictValue[];
-  passed: boolean;
-  cycles: number;
-}
+/** A robot of the swarm. */
+export type SwarmRobot = {
+  net: string,
+  function: string,
+  robot: string,
+  /** Words with their texts. */
+  about: Array<[string, string]>,
+  /** The sources of its two stimuli. */
+  senses: [BitSource, BitSource],
+  /** The rows from the top. */
+  body: Array<string>,
+  /** Columns and rows. */
+  size: [number, number],
+  /** The numbers of the corner points around each voxel, and its index in the looks. */
+  voxels: Array<[number, number, number, number, number]>,
+  /** The number of points. */
+  points: number,
+  clock: number,
+  margin: number,
+  errors: number,
+};
 
-export interface Verdict {
-  circuit: string;
-  title: string;
-  swarm: string | null;
-  level: Level;
-  passed: boolean;
-  line: number;
-  inputs: VerdictPort[];
-  outputs: VerdictPort[];
-  rows: VerdictRow[];
-}
+/** Files that a page can take away. */
+export type TakeKind = "page" | "gif" | "png" | "svg" | "vcd" | "csv";
 
-export type Level = "logic" | "physics";
+/** A file to take away. */
+export type TakenFile = {
+  /** Its address, relative to the page. It works once. */
+  url: string,
+  name: string,
+};
 
-export interface Card {
-  name: string;
-  function: string | null;
-  about: [string, string][] | string;
-  body: string[];
-  voxels: Voxel[];
-  points: number;
-  clock: number;
-  margin: number;
-  errors: number;
-  width: number;
-  height: number;
-  shipped: boolean;
-}
+/** The answer to `test`: a result for each swarm of its circuit. */
+export type TestAnswer = {
+  results: Array<TestResult>,
+};
 
-export interface Paint {
-  code: string | number;
-  name: string;
-  about: string;
-  look: number;
-}
-export interface Robots {
-  robots: Card[];
-  looks: Look[];
-  palette: Paint[];
-}
+/** A test. */
+export type TestEntry = {
+  index: number,
+  circuit: string,
+  title: string,
+  line: number,
+  inputs: Array<PortEntry>,
+  outputs: Array<PortEntry>,
+  /** None for a test over all inputs until it has run. */
+  rows: Array<TestRowEntry>,
+};
 
-export interface EncodedGait {
-  frames: number;
-  cycles: number;
-  poses: string;
-}
-export interface Character {
-  clock: number;
-  switches?: number;
-  margin: number;
-  errors: number;
-  glitches: number;
-  topples: boolean;
-}
+/** A level of a test. */
+export type TestLevel = "logic" | "physics";
 
-export interface Probe {
-  gaits: EncodedGait[];
-  letters: string;
-  function: string | null;
-  displacement: number[];
-  /** Null if it is no gate, or was not asked for. */
-  character: Character | null;
-  voxels: Voxel[];
-  looks: Look[];
-}
+/** The verdict of a test. */
+export type TestResult = {
+  circuit: string,
+  title: string,
+  swarm: string | null,
+  level: TestLevel,
+  passed: boolean,
+  line: number,
+  inputs: Array<PortEntry>,
+  outputs: Array<PortEntry>,
+  rows: Array<RowResult>,
+};
 
-export interface Niche {
-  place: number[];
-  fitness: number[];
-  body: string[];
-  letters: string;
-  function: string | null;
-}
-/** A name and a number of bins. */
-export type Axis = [string, number];
+/** A row of a test. */
+export type TestRowEntry = {
+  row: number,
+  line: number,
+  inputs: Array<string>,
+  outputs: Array<string>,
+};
 
-export interface ArchiveEvent {
-  event: "archive";
-  id: number;
-  generation: number;
-  axes: Axis[];
-  niches: Niche[];
-  evaluations: number;
-}
+/** A place in a text: its byte from 0, its line and column from 1. */
+export type TextPlace = {
+  byte: number,
+  line: number,
+  column: number,
+};
 
-export interface ChangedEvent {
-  event: "changed";
-  path: string;
-  stamp: string | null;
-}
-export interface StoppedEvent {
-  event: "stopped";
-  reason: string;
-}
-export type LiveEvent = ArchiveEvent | ChangedEvent | StoppedEvent;
-
-export type Picture = "page" | "gif" | "png" | "svg" | "vcd" | "csv";
-
-/** The fields and the result of each request. */
-export interface Verbs {
-  hello: [object, Hello];
-  files: [object, FileEntry[]];
-  read: [{ path: string } | { example: string }, FileText];
-  save: [{ path: string; text: string; stamp: string | null }, { stamp: string }];
-  program: [{ path: string; text: string }, Checked];
-  compile: [{ path: string; circuit: string; swarm: string | null }, { swarm: Swarm }];
-  test: [{ path: string; test: number; level: Level }, { results: Verdict[] }];
-  replay: [{ path: string; test: number; swarm: string | null; row: number }, { swarm: Swarm }];
-  inputs: [{ bits: string }, object];
-  clock: [{ bit: number; half: number | null }, object];
-  run: [{ speed: number | null }, object];
-  pause: [object, object];
-  step: [{ cycles: number }, object];
-  reset: [object, object];
-  seek: [{ cycle: number }, object];
-  view: [{ robots: number[] }, object];
-  robots: [{ path: string | null }, Robots];
-  probe: [{ body: string[]; cycles: number; character: boolean }, Probe];
-  keep: [{ path: string | null; name: string; body: string[]; replace: boolean }, { path: string; use: string }];
-  evolve: [
-    { body: string[] | null; box: [number, number]; generations: number; seed: number },
-    { generations: number; evaluations: number },
-  ];
-  take: [{ what: Picture; cycles: number }, { url: string; name: string }];
-}
-
-export type Verb = keyof Verbs;
-
-/** An error that the server answered with. */
-export class RequestError extends Error {
-  constructor(
-    message: string,
-    readonly code: string | null,
-    readonly help: string | null,
-    readonly diagnostics: Diagnostic[],
-  ) {
-    super(message);
-  }
-}
+/** How the voxels of a material look. */
+export type VoxelLook = {
+  name: string,
+  color: string,
+  /** The color of its mark. */
+  ink: string | null,
+  /** Polygons within the unit square. */
+  mark: Array<Array<[number, number]>> | null,
+};

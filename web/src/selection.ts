@@ -1,15 +1,15 @@
 // What is pointed at and what is followed, the same in all views of a swarm.
 
 import { Observable } from "./observable";
-import type { Source } from "./protocol";
+import type { BitSource } from "./protocol";
 
 export class Selection {
   /** The source of the net that is pointed at. */
-  readonly pointed = new Observable<Source | null>(null);
+  readonly pointed = new Observable<BitSource | null>(null);
   /** The robot that is followed alone. */
   readonly followed = new Observable<number | null>(null);
 
-  point(source: Source | null): void {
+  point(source: BitSource | null): void {
     if (!sameSource(source, this.pointed.value)) {
       this.pointed.set(source);
     }
@@ -26,7 +26,7 @@ export class Selection {
   }
 }
 
-export function sameSource(a: Source | null, b: Source | null): boolean {
+export function sameSource(a: BitSource | null, b: BitSource | null): boolean {
   if (a === null || b === null) {
     return a === b;
   }

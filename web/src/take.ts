@@ -5,9 +5,10 @@ import { button, element, fill } from "./element";
 import type { LiveSwarm } from "./live/swarm";
 import { closeOutside } from "./menu";
 import type { Program } from "./program";
-import { RequestError, type Picture } from "./protocol";
+import type { TakeKind } from "./protocol";
+import { RequestError } from "./request";
 
-const PICTURES: [Picture, string][] = [
+const PICTURES: [TakeKind, string][] = [
   ["page", "Report page (HTML)"],
   ["gif", "Film (GIF)"],
   ["png", "Spacetime diagram (PNG)"],
@@ -61,7 +62,7 @@ export class TakeAway {
     }
   }
 
-  async #take(what: Picture, label: string): Promise<void> {
+  async #take(what: TakeKind, label: string): Promise<void> {
     this.#work?.abort();
     const work = new AbortController();
     this.#work = work;

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { Paint } from "../src/protocol";
+import type { PaletteEntry } from "../src/protocol";
 import {
   countVoxels,
   emptyBody,
@@ -15,7 +15,7 @@ import {
 import { History } from "../src/robots/history";
 
 const names = ["bone", "flesh", "muscle", "antimuscle", "s1_shrink", "s2_shrink", "s1_grow", "s2_grow"];
-const palette: Paint[] = names.map((name, i) => ({ code: i + 1, name, about: name, look: i }));
+const palette: PaletteEntry[] = names.map((name, i) => ({ code: String(i + 1), name, about: name, look: i }));
 
 test("painting changes one voxel and nothing outside", () => {
   const body = paint(emptyBody(3, 2), 1, 0, "3");
@@ -38,8 +38,8 @@ test("mirroring twice changes nothing", () => {
 
 test("swapping inputs exchanges the materials of the two stimuli", () => {
   assert.deepEqual(swappedInputs(["1234", "5678"], palette), ["1234", "6587"]);
-  const own: Paint[] = [
-    { code: 9, name: "my_s1_slow", about: "", look: 0 },
+  const own: PaletteEntry[] = [
+    { code: "9", name: "my_s1_slow", about: "", look: 0 },
     { code: "a", name: "my_s2_slow", about: "", look: 1 },
   ];
   assert.deepEqual(swappedInputs(["9a1"], own), ["a91"]);

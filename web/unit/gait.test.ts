@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import type { NicheEntry } from "../src/protocol";
 import { GATES, gateName, gateOf, truthTable } from "../src/gate";
 import { decodeGait, outlineAt } from "../src/robots/gait";
 import { Archive } from "../src/robots/archive";
@@ -30,7 +31,7 @@ test("the sixteen gates have distinct behaviors and names", () => {
 
 test("niches of an archive open and improve", () => {
   const archive = new Archive();
-  const niche = { place: [1, 0, 14], fitness: [1, 0.5], body: ["3"], letters: "RRRL", function: "nand" };
+  const niche: NicheEntry = { place: [1, 0, 14], fitness: [1, 0.5], body: ["3"], letters: "RRRL", function: "nand" };
   const event = { event: "archive" as const, id: 1, generation: 1, evaluations: 8, niches: [niche] };
   const axes: [string, number][] = [
     ["voxels", 3],

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import type { NicheEntry } from "../src/protocol";
 import { hasShown, keeps, shows, type Values } from "../src/learn/checks";
 import { LESSONS, outputNames } from "../src/learn/lessons";
 import { Progress } from "../src/learn/progress";
@@ -66,7 +67,7 @@ test("the lesson on evolution follows the search at once, and not one of before"
   const lesson = LESSONS.find(({ name }) => name === "evolution");
   assert.ok(lesson !== undefined);
   const body = ["343"];
-  const niche = { place: [0], fitness: [1, 1], body, letters: "RRRL", function: "nand" };
+  const niche: NicheEntry = { place: [0], fitness: [1, 1], body, letters: "RRRL", function: "nand" };
   const [begin, wait, click] = lesson.steps.map(step => step.check);
   const old = { running: false, niches: [niche, niche, niche, niche, niche], chosen: null };
   assert.equal(begin?.(situation([], { search: old })), false);

@@ -5,7 +5,7 @@ import type { Connection } from "../src/connection";
 import { situationOf } from "../src/learn/situation";
 import { LiveSwarm } from "../src/live/swarm";
 import { Observable } from "../src/observable";
-import type { Swarm } from "../src/protocol";
+import type { ShownSwarm } from "../src/protocol";
 import { encodeFrame } from "./encode";
 
 const SWARM = {
@@ -25,7 +25,7 @@ const SWARM = {
   hold: 2,
   start: 1,
   frames: 12,
-} satisfies Swarm;
+} satisfies ShownSwarm;
 
 /** A server that notes what it is asked, and answers when the test says so. */
 class Server {

@@ -31,7 +31,7 @@ impl CellKind {
     ///
     /// The longest settle time of all transitions to this output, including those that start from it, because the
     /// output may change in between.
-    pub fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
+    pub(crate) fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
         let bit = |pattern: usize| (if pin == 0 { pattern >> 1 } else { pattern }) & 1 == 1;
         let ends = |to: usize| bit(to) == value && function.output(to >> 1 == 1, to & 1 == 1) == output;
         let transitions = (0..4).flat_map(|from| (0..4).map(move |to| (from, to)));
@@ -39,18 +39,13 @@ impl CellKind {
     }
 }
 
-/// The available functions.
+/// The cells to build from: for each available function, the properties of the robot that computes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellLibrary {
     kinds: BTreeMap<Function, CellKind>,
 }
 
 impl CellLibrary {
-    /// An empty library.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// A library of these functions, every cell costing one robot and one cycle.
     pub fn uniform(functions: impl IntoIterator<Item = Function>) -> Self {
         functions.into_iter().map(|function| (function, CellKind::uniform(1, 1.0))).collect()
@@ -64,11 +59,6 @@ impl CellLibrary {
     /// The cell of a function.
     pub fn get(&self, function: Function) -> Option<&CellKind> {
         self.kinds.get(&function)
-    }
-
-    /// Whether there is a cell of that function.
-    pub fn contains(&self, function: Function) -> bool {
-        self.kinds.contains_key(&function)
     }
 
     /// The kind of each cell of a netlist; a cell of no kind takes one cycle.
@@ -88,7 +78,7 @@ impl CellLibrary {
     }
 
     /// The cells whose margin is at least `margin`.
-    pub fn with_margin(&self, margin: f64) -> Self {
+    pub(crate) fn with_margin(&self, margin: f64) -> Self {
         self.kinds().filter(|(_, kind)| kind.margin >= margin).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
@@ -134,7 +124,7 @@ fn compositions(function: Function, set: u16) -> u16 {
 }
 
 /// The bits of `function(a, b)`, for the bits `a` and `b` of two functions of the same inputs.
-pub fn compose(function: Function, a: u8, b: u8) -> u8 {
+pub(crate) fn compose(function: Function, a: u8, b: u8) -> u8 {
     (0..4).fold(0, |bits, i| bits | u8::from(function.output(a >> i & 1 == 1, b >> i & 1 == 1)) << i)
 }
 

@@ -12,14 +12,14 @@ use crate::netlist::NetGraph;
 
 /// A node that has not been visited.
 const NEW: u32 = 0;
-/// A node whose component is known.
-const DONE: u32 = u32::MAX;
 
 /// The state of the search; it visits each node once.
 pub struct Components<'g> {
     graph: &'g NetGraph,
-    /// When each node was visited, or [`NEW`] or [`DONE`].
+    /// When each node was visited, or [`NEW`].
     numbers: Vec<u32>,
+    /// Whether the component of each node is known.
+    done: Vec<bool>,
     /// For each visited node, the earliest node that it leads back to.
     low: Vec<u32>,
     clock: u32,
@@ -31,7 +31,14 @@ impl<'g> Components<'g> {
     /// A new search of a netlist's graph.
     pub fn new(graph: &'g NetGraph) -> Self {
         let nodes = graph.node_bound();
-        Self { graph, numbers: vec![NEW; nodes], low: vec![NEW; nodes], clock: NEW, open: Vec::new() }
+        Self {
+            graph,
+            numbers: vec![NEW; nodes],
+            done: vec![false; nodes],
+            low: vec![NEW; nodes],
+            clock: NEW,
+            open: Vec::new(),
+        }
     }
 
     /// The components that `roots` lead to by way of nodes that are `inside`, listeners before their drivers.
@@ -54,7 +61,7 @@ impl<'g> Components<'g> {
         while let Some((node, ahead)) = way.last_mut() {
             let node = *node;
             match ahead.next_node(graph) {
-                Some(next) if !inside(next) => {}
+                Some(next) if !inside(next) || self.done[next.index()] => {}
                 Some(next) if self.numbers[next.index()] == NEW => {
                     self.discover(next);
                     way.push((next, listeners(next)));
@@ -85,7 +92,7 @@ impl<'g> Components<'g> {
         }
         let first = self.open.iter().rposition(|&open| open == node).expect("a node is open until it is closed");
         let component = self.open.split_off(first);
-        component.iter().for_each(|member| self.numbers[member.index()] = DONE);
+        component.iter().for_each(|member| self.done[member.index()] = true);
         Some(component)
     }
 }

@@ -37,10 +37,15 @@ pub fn full_adder() -> Netlist {
     netlist
 }
 
-/// A network of six inputs whose gates have the functions of these bits and listen to any earlier signals; the outputs
-/// show its last six signals.
-pub fn network(gates: &[(u8, u16, u16)]) -> Network {
-    let mut network = Network::new(6);
+/// A library of the functions with these names, every cell costing one robot and one cycle.
+pub fn library(names: &str) -> CellLibrary {
+    CellLibrary::uniform(names.split_whitespace().map(|name| Function::parse(name).unwrap()))
+}
+
+/// A network whose gates have the functions of these bits and listen to any earlier signals; the outputs show its last
+/// six signals.
+pub fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
+    let mut network = Network::new(inputs);
     for &(bits, a, b) in gates {
         let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
         network.add(Function::new(bits % 16), pins);
@@ -48,9 +53,4 @@ pub fn network(gates: &[(u8, u16, u16)]) -> Network {
     let signals = network.signals() as Signal;
     network.outputs = (signals - 6..signals).collect();
     network
-}
-
-/// A library of equal cells with the functions of these names, which have a blank between them.
-pub fn library(names: &str) -> CellLibrary {
-    CellLibrary::uniform(names.split(' ').filter(|name| !name.is_empty()).map(|name| Function::parse(name).unwrap()))
 }

@@ -26,7 +26,7 @@ pub struct Guarded {
 }
 
 impl Guarded {
-    /// Finds them.
+    /// The cells of a netlist that stay as written. The netlist has no wires.
     pub fn of(netlist: &Netlist) -> Self {
         let loops = Loops::memory(netlist);
         let is_cell = |id: &NetId| netlist.cell(*id).is_some();
@@ -56,7 +56,7 @@ impl Guarded {
         }
     }
 
-    /// The memory elements.
+    /// The loops of the netlist that are memory.
     pub fn memory(&self) -> &Loops {
         &self.loops
     }

@@ -6,7 +6,7 @@ use crate::loops::Loops;
 use crate::{NetId, Netlist, Node};
 
 /// The level of every net: 0 for inputs and constants, else one more than its latest pin.
-pub fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
+pub(crate) fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
     let loops = Loops::of(netlist);
     let mut levels = BTreeMap::new();
     for &id in loops.order() {

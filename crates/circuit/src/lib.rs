@@ -1,32 +1,33 @@
 //! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
 mod cancel;
-pub mod cells;
+mod cells;
 mod components;
 pub mod correspondence;
-pub mod delayed;
+mod delayed;
 pub mod elaborate;
 #[cfg(test)]
 mod example;
 pub mod formats;
-pub mod guarded;
+mod guarded;
+mod index;
 pub mod known;
 pub mod levels;
-pub mod logic;
-pub mod loops;
-pub mod map;
-pub mod memory;
+mod logic;
+mod loops;
+mod map;
+mod memory;
 mod netlist;
 pub mod network;
-pub mod options;
+mod options;
 pub mod passes;
-pub mod proof;
-pub mod races;
+mod proof;
+mod races;
 pub mod reachable;
-pub mod recipes;
+mod recipes;
 pub mod registers;
 mod rings;
-pub mod storage;
+mod storage;
 pub mod synth;
 pub mod timing;
 pub mod waves;

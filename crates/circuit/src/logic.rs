@@ -5,7 +5,7 @@ use crate::Oscillation;
 use crate::netlist::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// A netlist being evaluated.
+/// The values of the nets of a netlist, which change with its inputs.
 pub struct Logic {
     inputs: Vec<u32>,
     outputs: Vec<u32>,

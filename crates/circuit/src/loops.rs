@@ -15,7 +15,7 @@ pub struct Loops {
 }
 
 impl Loops {
-    /// Finds the loops.
+    /// The loops of a netlist.
     pub fn of(netlist: &Netlist) -> Self {
         let mut components = Components::new(netlist.graph()).from(netlist.ids(), |_| true);
         components.reverse();
@@ -57,7 +57,7 @@ impl Loops {
     }
 
     /// The core of a node.
-    pub fn core_of(&self, id: NetId) -> Option<usize> {
+    pub(crate) fn core_of(&self, id: NetId) -> Option<usize> {
         self.core_of.get(&id).copied()
     }
 

@@ -14,7 +14,7 @@ use nbc_base::source::Span;
 /// A net, named by its driver.
 pub type NetId = NodeIndex;
 
-/// A gate instance.
+/// An instance of a gate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
     /// Its function of pins 0 and 1; a function of one input reads pin 0 only, and has no pin 1.
@@ -30,7 +30,7 @@ pub struct Cell {
 /// A node of the graph.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// An input port.
+    /// An input port, by its name.
     Input(String),
     /// An output port; its one pin is the net it shows.
     Output(String),
@@ -46,17 +46,17 @@ pub enum Node {
         /// The place of the declaration.
         span: Option<Span>,
     },
-    /// A gate.
+    /// An instance of a gate, which drives the net.
     Cell(Cell),
 }
 
 /// The graph of a netlist: the weight of an edge is the listener's pin.
-pub type NetGraph = StableDiGraph<Node, u8, u32>;
+pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;
 
 /// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.
 #[derive(Clone, Debug, Default)]
 pub struct Netlist {
-    /// The circuit's name.
+    /// The name of the circuit.
     pub name: String,
     graph: NetGraph,
     inputs: Vec<NetId>,
@@ -64,7 +64,7 @@ pub struct Netlist {
 }
 
 impl Netlist {
-    /// An empty netlist.
+    /// A netlist without nodes.
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: name.into(), ..Self::default() }
     }
@@ -84,7 +84,7 @@ impl Netlist {
         id
     }
 
-    /// Adds a constant net.
+    /// Adds a net that is always 0 or always 1.
     pub fn add_constant(&mut self, value: bool) -> NetId {
         self.graph.add_node(Node::Constant(value))
     }
@@ -117,7 +117,7 @@ impl Netlist {
         self.graph.add_edge(net, listener, pin);
     }
 
-    /// Adds an unnamed gate.
+    /// Adds a gate without a name, with one net for each pin, and returns its output.
     pub fn add_gate(&mut self, function: Function, pins: &[NetId]) -> NetId {
         self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
     }
@@ -139,7 +139,7 @@ impl Netlist {
         self.outputs.retain(|&output| output != id);
     }
 
-    /// The node.
+    /// What drives a net.
     pub fn node(&self, id: NetId) -> &Node {
         &self.graph[id]
     }
@@ -154,7 +154,7 @@ impl Netlist {
     }
 
     /// The node, to be changed.
-    pub fn node_mut(&mut self, id: NetId) -> &mut Node {
+    pub(crate) fn node_mut(&mut self, id: NetId) -> &mut Node {
         &mut self.graph[id]
     }
 
@@ -167,7 +167,7 @@ impl Netlist {
     }
 
     /// The cell at a node, if it is one, to be changed.
-    pub fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
+    pub(crate) fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
         match self.node_mut(id) {
             Node::Cell(cell) => Some(cell),
             _ => None,

@@ -17,14 +17,14 @@ pub struct Gate {
     pub pins: [Signal; 2],
 }
 
-/// Gates in topological order.
+/// Gates of at most two inputs, in topological order, between numbered inputs and outputs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Network {
-    /// The number of inputs.
+    /// The number of inputs; their signals are 2, 3, and so on.
     pub inputs: usize,
     /// The gates; each listens to earlier signals only.
     pub gates: Vec<Gate>,
-    /// The signals shown.
+    /// The signals that are outputs, in order; a signal may be several.
     pub outputs: Vec<Signal>,
 }
 
@@ -34,13 +34,19 @@ impl Network {
         Self { inputs, gates: Vec::new(), outputs: Vec::new() }
     }
 
-    /// The signal of input `i`.
+    /// The signal of input `i`, counted from 0.
+    ///
+    /// # Panics
+    /// When there is no such input.
     pub fn input(&self, i: usize) -> Signal {
         assert!(i < self.inputs, "the input exists");
         i as Signal + 2
     }
 
     /// Adds a gate and returns its signal.
+    ///
+    /// # Panics
+    /// When a pin is not an earlier signal.
     pub fn add(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let signal = self.signals() as Signal;
         assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
@@ -53,12 +59,13 @@ impl Network {
         2 + self.inputs + self.gates.len()
     }
 
-    /// The gate that drives a signal, if it is one.
-    pub fn gate(&self, signal: Signal) -> Option<&Gate> {
+    /// The gate that drives a signal; `None` for a constant and an input.
+    pub(crate) fn gate(&self, signal: Signal) -> Option<&Gate> {
         (signal as usize).checked_sub(2 + self.inputs).map(|i| &self.gates[i])
     }
 
-    /// The values of all signals in 64 patterns at a time, `inputs[i]` being those of input `i`.
+    /// The values of all signals in 64 patterns at a time: bit `k` of `inputs[i]` is input `i` in pattern `k`, and bit
+    /// `k` of result `s` is signal `s`.
     pub fn simulate(&self, inputs: &[u64]) -> Vec<u64> {
         let mut values = Vec::with_capacity(self.signals());
         values.extend([0, !0]);
@@ -111,7 +118,7 @@ pub fn word(function: Function, a: u64, b: u64) -> u64 {
 }
 
 /// The values of input `i` over all patterns, counted up, in the 64 patterns from `64 * block` on.
-pub fn counting_word(i: usize, block: usize) -> u64 {
+pub(crate) fn counting_word(i: usize, block: usize) -> u64 {
     const LOW: [u64; 6] = [
         0xaaaa_aaaa_aaaa_aaaa,
         0xcccc_cccc_cccc_cccc,

@@ -2,10 +2,10 @@
 
 use crate::cancel::CancelFlag;
 
-/// What to minimize.
+/// What technology mapping minimizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MappingObjective {
-    /// Robots.
+    /// The number of robots.
     #[default]
     Area,
     /// Cycles along the slowest path, then robots.
@@ -14,7 +14,7 @@ pub enum MappingObjective {
     Margin,
 }
 
-/// The amount of search.
+/// How long a search takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
     /// Little: for quick looks.
@@ -26,13 +26,13 @@ pub enum Effort {
     High,
 }
 
-/// How to map.
+/// How technology mapping searches.
 #[derive(Clone, Debug, Default)]
 pub struct MapOptions {
-    /// What to minimize.
+    /// What the search minimizes.
     pub objective: MappingObjective,
-    /// The amount of search.
+    /// How long it searches.
     pub effort: Effort,
-    /// Ends the search early.
+    /// Ends the search early, with the best result so far.
     pub cancel: CancelFlag,
 }

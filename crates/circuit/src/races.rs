@@ -17,7 +17,7 @@ const MOST_BITS: usize = 16;
 /// A memory element that is not proved free of races.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Race {
-    /// The memory element.
+    /// The net of the memory element.
     pub net: NetId,
     /// The input whose switch may leave the element in either state.
     pub input: NetId,

@@ -10,7 +10,7 @@ use nbc_base::model::Function;
 pub enum Operand {
     /// Input `a` (0) or `b` (1).
     Input(u8),
-    /// A constant.
+    /// The constant 0 or 1.
     Constant(bool),
     /// The result of an earlier step.
     Step(u8),
@@ -19,7 +19,7 @@ pub enum Operand {
 /// One cell of a recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// The cell's function.
+    /// The function of the cell.
     pub function: Function,
     /// The operands of its pins.
     pub pins: [Operand; 2],
@@ -157,8 +157,7 @@ mod tests {
     }
 
     fn costs(cells: &str) -> Vec<u32> {
-        let library = library(cells);
-        let recipes = Recipes::of(&library);
+        let recipes = Recipes::of(&library(cells));
         Function::all()
             .map(|function| {
                 let recipe = recipes.get(function).unwrap();

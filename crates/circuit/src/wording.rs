@@ -102,7 +102,7 @@ pub enum ProofError {
     MissingCut(String),
     /// The mapped netlist has a loop that the source does not have.
     NewLoop(String),
-    /// The two differ.
+    /// An output or a next state differs in a pattern of the inputs.
     Different {
         /// The output port, or the net on a loop whose next state differs.
         output: String,

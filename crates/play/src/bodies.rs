@@ -1,15 +1,17 @@
 //! Robots and bodies for a page: the list of the library, measurements of a body, and robot files.
 
-use serde_json::{Value, json};
-
 use crate::files::PageFiles;
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
+use crate::message::{
+    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RequestResult, RobotCard, RobotCards, looks,
+};
 use crate::refusal::Refused;
 use crate::request::KeepRequest;
 use crate::served::SCHEME;
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Palette, Pattern, Provenance, Robot, Schedule, Setting,
+    Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Material, Palette, Pattern, Provenance, Robot, Schedule,
+    Setting,
 };
 use nbc_circuit::formats::is_word;
 use nbc_session::report::{self, Looks, Stage, describe_material};
@@ -29,7 +31,7 @@ const FOLDER: &str = "robots";
 ///
 /// # Errors
 /// When robots cannot be read.
-pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Value, Refused> {
+pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<RobotCards, Refused> {
     let mut all = session.shipped().robots.clone();
     let shipped = all.len();
     if let Some(checked) = checked {
@@ -39,41 +41,39 @@ pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<Val
             all.extend(new);
         }
     }
-    let looks = Looks::of(all.iter().map(|robot| &robot.body), SCHEME);
-    let cards: Vec<Value> = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &looks)).collect();
-    Ok(json!({ "robots": cards, "looks": report::look_data(&looks), "palette": palette(&looks) }))
+    let shown = Looks::of(all.iter().map(|robot| &robot.body), SCHEME);
+    let robots = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &shown)).collect();
+    Ok(RobotCards { robots, looks: looks(&shown), palette: palette(&shown) })
 }
 
-fn card(robot: &Robot, shipped: bool, looks: &Looks) -> Value {
+fn card(robot: &Robot, shipped: bool, looks: &Looks) -> RobotCard {
     let recorded = stage(&robot.body, Pattern::PAIRS[0], 0).record(1).robots.swap_remove(0);
-    json!({
-        "name": robot.name,
-        "function": robot.function().name(),
-        "letters": robot.behavior.to_string(),
-        "about": report::describe_robot(robot),
-        "body": robot.body.rows(),
-        "width": robot.body.width(),
-        "height": robot.body.height(),
-        "voxels": report::voxel_data(&recorded, &robot.body, looks),
-        "points": recorded.points,
-        "clock": robot.character.clock,
-        "margin": robot.character.margin,
-        "errors": robot.character.error_rate,
-        "shipped": shipped,
-    })
+    RobotCard {
+        name: robot.name.clone(),
+        function: robot.function().name(),
+        letters: robot.behavior.to_string(),
+        about: report::describe_robot(robot),
+        body: robot.body.rows(),
+        width: robot.body.width(),
+        height: robot.body.height(),
+        voxels: report::voxel_data(&recorded, &robot.body, looks),
+        points: recorded.points,
+        clock: robot.character.clock,
+        margin: robot.character.margin,
+        errors: robot.character.error_rate,
+        shipped,
+    }
 }
 
 /// The paper's materials, which a page can paint with.
-fn palette(looks: &Looks) -> Vec<Value> {
+fn palette(looks: &Looks) -> Vec<PaletteEntry> {
     let palette = Palette::paper();
     let materials = (1..).zip(palette.materials());
-    let one = |(code, material)| {
-        json!({
-            "code": code,
-            "name": palette.material(code).map(|known| known.name.clone()),
-            "about": describe_material(material),
-            "look": looks.index(&palette, code),
-        })
+    let one = |(code, material): (u8, &Material)| PaletteEntry {
+        code: char::from_digit(code.into(), 36).expect("the paper has eight materials"),
+        name: material.name.clone(),
+        about: describe_material(material),
+        look: looks.index(&palette, code),
     };
     materials.map(one).collect()
 }
@@ -107,17 +107,17 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
     job.check()?;
     let (displacement, behavior, sketched) = measured(&body, is_whole, job)?;
-    let looks = Looks::of([&body], SCHEME);
-    let gait = |gait: &Recorded| json!({ "frames": FRAMES, "cycles": cycles, "poses": report::base64(&gait.frames) });
-    Ok(Some(json!({
-        "gaits": gaits.iter().map(gait).collect::<Vec<_>>(),
-        "letters": behavior.to_string(),
-        "function": behavior.function().name(),
-        "displacement": displacement,
-        "character": sketched.as_ref().map(character),
-        "points": gaits[0].points,
-        "voxels": report::voxel_data(&gaits[0], &body, &looks),
-        "looks": report::look_data(&looks),
+    let shown = Looks::of([&body], SCHEME);
+    let gait = |gait: &Recorded| EncodedGait { frames: FRAMES, cycles, poses: report::base64(&gait.frames) };
+    Ok(Some(RequestResult::Probe(ProbeReport {
+        gaits: gaits.iter().map(gait).collect(),
+        letters: behavior.to_string(),
+        function: behavior.function().name(),
+        displacement,
+        character: sketched.as_ref().map(character),
+        points: gaits[0].points,
+        voxels: report::voxel_data(&gaits[0], &body, &shown),
+        looks: looks(&shown),
     })))
 }
 
@@ -131,15 +131,15 @@ fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavio
     Ok((displacement, behavior, character))
 }
 
-fn character(character: &Character) -> Value {
-    json!({
-        "clock": character.clock,
-        "margin": character.margin,
-        "errors": character.error_rate,
-        "switches": character.switches,
-        "glitches": character.glitch_rate,
-        "topples": character.topples,
-    })
+fn character(character: &Character) -> CharacterSketch {
+    CharacterSketch {
+        clock: character.clock,
+        margin: character.margin,
+        errors: character.error_rate,
+        switches: character.switches,
+        glitches: character.glitch_rate,
+        topples: character.topples,
+    }
 }
 
 /// Measures a body and writes its robot file, into a folder beside the program that is to use it.
@@ -164,7 +164,7 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, job: &Job) -> JobEn
     let text = robot_file(&request.name, body, job)?;
     files.make_folder(&path)?;
     files.write(&path, &text)?;
-    Ok(Some(json!({ "path": path, "use": format!("library own {{ from: \"{FOLDER}\" }}") })))
+    Ok(Some(RequestResult::Keep(KeptRobot { path, declaration: format!("library own {{ from: \"{FOLDER}\" }}") })))
 }
 
 /// The text of a robot file.

@@ -2,10 +2,10 @@
 
 use rand::RngExt;
 use rayon::ThreadPool;
-use serde_json::{Value, json};
 
 use crate::bodies;
 use crate::jobs::{Job, JobEnd};
+use crate::message::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry, PlayEvent, RequestResult};
 use crate::refusal::Refused;
 use crate::request::EvolveRequest;
 use nbc_base::model::{Axis, Behavior, Body, Evolution, Fault, Genotype};
@@ -44,11 +44,11 @@ pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut
         }
         let simulator = job.simulator();
         let changed = background.install(|| tending.advance(&simulator, generation, start.as_ref()));
-        job.outbox.tell(&tending.event(job.id, generation + 1, &changed));
+        job.outbox.event(PlayEvent::Archive(tending.change(job.id, generation + 1, &changed)));
         job.progress(u64::from(generation) + 1, u64::from(generations));
     }
     job.check()?;
-    Ok(Some(json!({ "generations": generations, "evaluations": tending.evaluations })))
+    Ok(Some(RequestResult::Evolve(EvolutionEnd { generations, evaluations: tending.evaluations })))
 }
 
 /// The declaration of the search.
@@ -134,30 +134,25 @@ impl Tending {
         self.archive.niches().filter_map(move |(key, elites)| Some((key, &elites[best(elites)?])))
     }
 
-    fn event(&self, id: u64, generation: u32, changed: &[NicheKey]) -> Value {
-        let axis = |axis: &Axis| match axis {
-            Axis::Count { bins, .. } => json!([axis_word(*axis), bins]),
-            Axis::Behavior => json!([axis_word(*axis), 16]),
+    fn change(&self, id: u64, generation: u32, changed: &[NicheKey]) -> ArchiveChange {
+        let axis = |&axis: &Axis| match axis {
+            Axis::Count { bins, .. } => AxisEntry(axis_word(axis), bins),
+            Axis::Behavior => AxisEntry(axis_word(axis), 16),
         };
-        let niche = |(key, elite): (&NicheKey, &Elite)| {
-            json!({
-                "place": key.0,
-                "fitness": elite.fitness,
-                "body": elite.body.rows(),
-                "letters": elite.behavior.to_string(),
-                "function": elite.behavior.function().name(),
-            })
+        let niche = |(key, elite): (&NicheKey, &Elite)| NicheEntry {
+            place: key.0.clone(),
+            fitness: elite.fitness,
+            body: elite.body.rows(),
+            letters: elite.behavior.to_string(),
+            function: elite.behavior.function().name(),
         };
-        let niches: Vec<Value> = self.best().filter(|(key, _)| changed.contains(key)).map(niche).collect();
-        let axes: Vec<Value> = self.evolution.descriptors.iter().map(axis).collect();
-        json!({
-            "event": "archive",
-            "id": id,
-            "generation": generation,
-            "axes": axes,
-            "niches": niches,
-            "evaluations": self.evaluations,
-        })
+        ArchiveChange {
+            id,
+            generation,
+            axes: self.evolution.descriptors.iter().map(axis).collect(),
+            niches: self.best().filter(|(key, _)| changed.contains(key)).map(niche).collect(),
+            evaluations: self.evaluations,
+        }
     }
 }
 

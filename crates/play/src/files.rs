@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use include_dir::{Dir, File, include_dir};
-use serde_json::{Value, json};
 
+use crate::message::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, PlayEvent};
 use crate::refusal::Refused;
 use nbc_base::source::SourceWorld;
 use nbc_session::store::{self, FolderWorld};
@@ -26,12 +26,12 @@ impl PageFiles {
     }
 
     /// The programs below the folder.
-    pub(super) fn list(&self) -> Vec<Value> {
+    pub(super) fn list(&self) -> Vec<FileEntry> {
         let root = self.world.root();
         let one = |path: String| {
             let size = fs::metadata(&path).map_or(0, |about| about.len());
             let path = Path::new(&path).strip_prefix(root).ok()?.to_string_lossy().into_owned();
-            Some(json!({ "path": path, "size": size }))
+            Some(FileEntry { path, size })
         };
         store::source_files([root.to_owned()]).into_iter().filter_map(one).collect()
     }
@@ -40,18 +40,18 @@ impl PageFiles {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub(super) fn read(&mut self, path: String) -> Result<Value, Refused> {
+    pub(super) fn read(&mut self, path: String) -> Result<FileText, Refused> {
         let stamp = self.stamp(&path);
         let text = self.world.read(&path).map_err(|error| Refused::Unreadable { path: path.clone(), error })?;
         self.known.insert(path.clone(), stamp.clone());
-        Ok(json!({ "path": path, "text": text, "stamp": stamp }))
+        Ok(FileText { path, text, stamp })
     }
 
     /// Saves a program, if nobody else has changed it since the page last knew it.
     ///
     /// # Errors
     /// When it was changed, or cannot be written there.
-    pub(super) fn save(&mut self, path: String, text: &str, known: Option<&str>) -> Result<Value, Refused> {
+    pub(super) fn save(&mut self, path: String, text: &str, known: Option<&str>) -> Result<FileStamp, Refused> {
         if !path.ends_with(".nb") {
             return Err(Refused::Ending { path, expected: ".nb" });
         }
@@ -61,7 +61,7 @@ impl PageFiles {
         self.write(&path, text)?;
         let stamp = self.stamp(&path);
         self.known.insert(path, stamp.clone());
-        Ok(json!({ "stamp": stamp }))
+        Ok(FileStamp { stamp })
     }
 
     /// Whether there is a file of that path.
@@ -97,12 +97,12 @@ impl PageFiles {
     }
 
     /// The files that have changed since the page read them, as events.
-    pub(super) fn changes(&mut self) -> Vec<(String, Value)> {
+    pub(super) fn changes(&mut self) -> Vec<(String, PlayEvent)> {
         let stamps: Vec<_> = self.known.keys().map(|path| (path.clone(), self.stamp(path))).collect();
         let mut changed = Vec::new();
         for (path, stamp) in stamps {
             if self.known.get(&path) != Some(&stamp) {
-                let event = json!({ "event": "changed", "path": path, "stamp": stamp });
+                let event = PlayEvent::Changed(FileChange { path: path.clone(), stamp: stamp.clone() });
                 self.known.insert(path.clone(), stamp);
                 changed.push((path, event));
             }
@@ -119,7 +119,7 @@ impl PageFiles {
 }
 
 /// The examples: their names and descriptions.
-pub(super) fn examples() -> Vec<Value> {
+pub(super) fn examples() -> Vec<ExampleEntry> {
     let mut files: Vec<_> =
         EXAMPLES.files().filter(|file| file.path().extension().is_some_and(|e| e == "nb")).collect();
     files.sort_by_key(|file| file.path());
@@ -129,7 +129,7 @@ pub(super) fn examples() -> Vec<Value> {
     };
     let one = |file: &File<'_>| {
         let text = file.contents_utf8().unwrap_or_default();
-        json!({ "name": file.path().to_string_lossy(), "about": about(text) })
+        ExampleEntry { name: file.path().to_string_lossy().into_owned(), about: about(text) }
     };
     files.into_iter().map(one).collect()
 }
@@ -138,8 +138,8 @@ pub(super) fn examples() -> Vec<Value> {
 ///
 /// # Errors
 /// When there is none of that name.
-pub(super) fn example(name: &str) -> Result<Value, Refused> {
+pub(super) fn example(name: &str) -> Result<FileText, Refused> {
     let text = EXAMPLES.get_file(name).and_then(File::contents_utf8);
     let text = text.ok_or_else(|| Refused::NoExample(name.to_owned()))?;
-    Ok(json!({ "path": name, "text": text, "stamp": null }))
+    Ok(FileText { path: name.to_owned(), text: text.to_owned(), stamp: None })
 }

@@ -6,8 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
-
+use crate::message::RequestResult;
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use nbc_circuit::CancelFlag;
@@ -51,7 +50,7 @@ pub(super) struct Job {
 }
 
 /// The answer of a request; `None` if another thread will answer.
-pub(super) type JobEnd = Result<Option<Value>, Refused>;
+pub(super) type JobEnd = Result<Option<RequestResult>, Refused>;
 
 impl Jobs {
     pub(super) fn new(outbox: Outbox) -> Self {
@@ -65,10 +64,10 @@ impl Jobs {
             let mut running = lock(&self.running);
             // Otherwise it could not be cancelled, and the end of one would count as that of the other.
             if running.contains_key(&id) {
-                return self.outbox.answer(id, Err(Refused::NumberInUse { id }.into()));
+                return self.outbox.answer(id, Err(Refused::NumberInUse { id }));
             }
             if running.len() >= MOST {
-                return self.outbox.answer(id, Err(Refused::Busy { most: MOST }.into()));
+                return self.outbox.answer(id, Err(Refused::Busy { most: MOST }));
             }
             running.insert(id, Running { stop: stop.clone(), monitor: monitor.clone(), end });
         }
@@ -79,8 +78,8 @@ impl Jobs {
             lock(&running).remove(&id);
             match ended.unwrap_or(Err(Refused::Internal)) {
                 Ok(None) => {}
-                Ok(Some(value)) => job.outbox.answer(id, Ok(value)),
-                Err(refused) => job.outbox.answer(id, Err(job.reason(refused).into())),
+                Ok(Some(answer)) => job.outbox.answer(id, Ok(answer)),
+                Err(refused) => job.outbox.answer(id, Err(job.reason(refused))),
             }
         });
     }
@@ -141,7 +140,7 @@ impl Observer for Job {
         let percentage = done * 100 / all.max(1);
         if percentage > self.told {
             self.told = percentage;
-            self.outbox.tell(&json!({ "id": self.id, "progress": [done, all] }));
+            self.outbox.progress(self.id, [done, all]);
         }
     }
 

@@ -35,7 +35,7 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
             let sent = match read(&text, &folder) {
                 Ok(message) => message.map_or(Ok(()), |message| sender.send(message)),
                 Err(refusal) => {
-                    inbox.tell(&refusal);
+                    inbox.send(refusal.to_string());
                     Ok(())
                 }
             };

@@ -9,6 +9,7 @@ mod history;
 mod jobs;
 mod language;
 mod live;
+mod message;
 mod outbox;
 mod page;
 mod programs;
@@ -20,6 +21,8 @@ mod server;
 mod socket;
 mod takes;
 mod taking;
+#[cfg(test)]
+mod typescript;
 mod visit;
 mod wording;
 

@@ -4,10 +4,10 @@
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use axum::extract::ws::{Message, Utf8Bytes};
-use serde_json::{Value, json};
 use tokio::sync::{Notify, mpsc};
 
-use crate::refusal::Refusal;
+use crate::message::{Nothing, PlayEvent, RequestResult, ServerMessage};
+use crate::refusal::Refused;
 
 /// The most texts that wait, and their bytes; one text alone may be longer. A thread that adds more waits until the
 /// page has received some.
@@ -73,9 +73,19 @@ pub(super) fn outbox() -> (Outbox, Outgoing) {
 }
 
 impl Outbox {
-    /// Sends an event, or the progress of a request.
-    pub(super) fn tell(&self, message: &Value) {
-        self.send(message.to_string());
+    /// Sends a message. Nobody reads it when the page is gone.
+    fn tell(&self, message: &ServerMessage) {
+        self.send(serde_json::to_string(message).expect("messages are data"));
+    }
+
+    /// Sends an event.
+    pub(super) fn event(&self, event: PlayEvent) {
+        self.tell(&ServerMessage::Event(event));
+    }
+
+    /// Reports how much of the request `id` is done, and how much there is to do.
+    pub(super) fn progress(&self, id: u64, progress: [u64; 2]) {
+        self.tell(&ServerMessage::Progress { id, progress });
     }
 
     /// Sends a text as it is.
@@ -85,11 +95,19 @@ impl Outbox {
     }
 
     /// Answers the request `id`.
-    pub(super) fn answer(&self, id: u64, result: Result<Value, Refusal>) {
+    pub(super) fn answer(&self, id: u64, result: Result<RequestResult, Refused>) {
         self.tell(&match result {
-            Ok(value) => json!({ "id": id, "ok": value }),
-            Err(refusal) => json!({ "id": id, "error": refusal }),
+            Ok(result) => ServerMessage::Result { id, result },
+            Err(refused) => ServerMessage::Refused { id, error: refused.into() },
         });
+    }
+
+    /// Answers the request `id`, which has no result.
+    pub(super) fn done(&self, id: u64, done: Result<(), Refused>) {
+        match done {
+            Ok(()) => self.tell(&ServerMessage::Done { id, ok: Nothing {} }),
+            Err(refused) => self.answer(id, Err(refused)),
+        }
     }
 
     /// Whether no frame is waiting.
@@ -150,10 +168,19 @@ mod tests {
         outbox.put(vec![1]);
         assert!(!outbox.has_room());
         outbox.put(vec![2]);
-        outbox.tell(&json!("a"));
-        outbox.answer(7, Ok(json!({})));
-        assert_eq!(take(&mut outgoing), Message::Text("\"a\"".into()));
-        assert_eq!(take(&mut outgoing), Message::Text("{\"id\":7,\"ok\":{}}".into()));
+        outbox.progress(7, [1, 2]);
+        outbox.done(7, Ok(()));
+        outbox.answer(8, Ok(RequestResult::Files(Vec::new())));
+        outbox.event(PlayEvent::Stopped { reason: "a".to_owned() });
+        let texts = [
+            r#"{"id":7,"progress":[1,2]}"#,
+            r#"{"id":7,"ok":{}}"#,
+            r#"{"id":8,"to":"files","ok":[]}"#,
+            r#"{"event":"stopped","reason":"a"}"#,
+        ];
+        for text in texts {
+            assert_eq!(take(&mut outgoing), Message::Text(text.into()));
+        }
         assert_eq!(take(&mut outgoing), Message::Binary(vec![2].into()));
         assert!(outbox.has_room());
     }

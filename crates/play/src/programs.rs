@@ -1,9 +1,12 @@
 //! Programs for a page: their description as JSON, and compiling and testing their circuits.
 
-use serde_json::{Value, json};
-
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
+use crate::message::finding::findings;
+use crate::message::{
+    CircuitEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, SwarmAnswer, SwarmRobot, TestAnswer, TestEntry,
+    TestResult, TestRowEntry, looks,
+};
 use crate::refusal::Refused;
 use crate::runner::LoadedSwarm;
 use crate::served::SCHEME;
@@ -11,56 +14,55 @@ use nbc_base::model::{CircuitTest, Instance, Stimulation, TestRow, Value as Port
 use nbc_circuit::Effort;
 use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
-use nbc_swarm::{Level, LiveSwarm};
+use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, SwarmTrace};
 
 /// The most robots of a live swarm.
 pub(super) const MOST_ROBOTS: usize = 2000;
 
 /// The description of a checked program: its diagnostics, circuits and tests.
-pub(super) fn program(checked: &Checked) -> Value {
+pub(super) fn program(checked: &Checked) -> ProgramReport {
     let own = checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == checked.file);
-    let circuits: Vec<Value> = own
+    let circuits = own
         .filter_map(|circuit| {
             let instance = checked.in_use(circuit)?;
-            let swarms: Vec<&str> = checked.swarms(&instance).iter().map(|swarm| swarm.name.as_str()).collect();
+            let swarms = checked.swarms(&instance).iter().map(|swarm| swarm.name.clone()).collect();
             let line = checked.sources.file(circuit.span.file).lines().line(circuit.span.start as usize) + 1;
-            Some(json!({ "name": circuit.name, "circuit": instance.to_string(), "swarms": swarms, "line": line }))
+            Some(CircuitEntry { name: circuit.name.clone(), circuit: instance.to_string(), swarms, line })
         })
         .collect();
-    let tests: Vec<Value> = checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect();
-    json!({
-        "errors": checked.diagnostics.iter().filter(|found| found.is_error()).count(),
-        "diagnostics": checked.json(),
-        "circuits": circuits,
-        "tests": tests,
-    })
+    ProgramReport {
+        errors: checked.diagnostics.iter().filter(|found| found.is_error()).count(),
+        diagnostics: findings(&checked.diagnostics, &checked.sources),
+        circuits,
+        tests: checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect(),
+    }
 }
 
-fn test(index: usize, test: &CircuitTest) -> Value {
+fn test(index: usize, test: &CircuitTest) -> TestEntry {
     let rows = match &test.stimulation {
         Stimulation::Rows(rows) => rows.iter().map(|one| row(test, one)).collect(),
         Stimulation::All { .. } => Vec::new(),
     };
-    json!({
-        "index": index,
-        "circuit": test.circuit.to_string(),
-        "title": test.title,
-        "line": test.line,
-        "inputs": test.inputs,
-        "outputs": test.outputs,
-        "rows": rows,
-    })
+    TestEntry {
+        index,
+        circuit: test.circuit.to_string(),
+        title: test.title.clone(),
+        line: test.line,
+        inputs: PortEntry::of(&test.inputs),
+        outputs: PortEntry::of(&test.outputs),
+        rows,
+    }
 }
 
-fn row(test: &CircuitTest, row: &TestRow) -> Value {
-    let texts = |values: Vec<PortValue>| values.iter().map(PortValue::to_string).collect::<Vec<_>>();
+fn row(test: &CircuitTest, row: &TestRow) -> TestRowEntry {
+    let texts = |values: Vec<PortValue>| values.iter().map(PortValue::to_string).collect();
     let (inputs, outputs) = row.bases.split_at(test.inputs.len().min(row.bases.len()));
-    json!({
-        "row": row.row,
-        "line": row.line,
-        "inputs": texts(PortValue::of_ports(&test.inputs, row.inputs.iter().copied().map(Some), inputs)),
-        "outputs": texts(PortValue::of_ports(&test.outputs, row.expected.iter().copied(), outputs)),
-    })
+    TestRowEntry {
+        row: row.row,
+        line: row.line,
+        inputs: texts(PortValue::of_ports(&test.inputs, row.inputs.iter().copied().map(Some), inputs)),
+        outputs: texts(PortValue::of_ports(&test.outputs, row.expected.iter().copied(), outputs)),
+    }
 }
 
 /// The circuit of that name, and the options to compile it with.
@@ -83,6 +85,7 @@ pub(super) fn loaded(
     session: &Session,
     compiled: Compiled,
     inputs: Vec<Vec<bool>>,
+    answer: impl FnOnce(SwarmAnswer) -> RequestResult,
     (number, job): (u32, &Job),
 ) -> Result<LoadedSwarm, Refused> {
     job.check()?;
@@ -91,28 +94,47 @@ pub(super) fn loaded(
         return Err(Refused::TooManyRobots { robots, most: MOST_ROBOTS });
     }
     let swarm = session.swarm(&compiled);
-    let answer = json!({ "swarm": describe(number, &compiled, &swarm) });
+    let answer = answer(SwarmAnswer { swarm: describe(number, &compiled, &swarm) });
     Ok(LoadedSwarm { number, compiled, swarm, inputs, request: job.id, answer, stop: job.stop.clone() })
 }
 
-fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> Value {
+fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
     let (assembly, trace) = (&compiled.assembly, swarm.trace());
-    let looks = Looks::of(assembly.members.iter().map(|member| &member.robot.body), SCHEME);
-    json!({
-        "number": number,
-        "circuit": compiled.plan.circuit.to_string(),
-        "swarm": compiled.plan.swarm,
-        "inputs": assembly.inputs,
-        "outputs": assembly.outputs,
-        "shown": assembly.shown,
-        "robots": report::live_robots(trace, assembly, &looks),
-        "looks": report::look_data(&looks),
-        "schematic": report::embedded(&compiled.schematic(SCHEME)),
-        "timing": compiled.swarm_timing().describe(),
-        "hold": compiled.timing.hold,
-        "start": assembly.start_cycles(),
-        "frames": FRAMES,
-    })
+    let all = Looks::of(assembly.members.iter().map(|member| &member.robot.body), SCHEME);
+    ShownSwarm {
+        number,
+        circuit: compiled.plan.circuit.to_string(),
+        swarm: compiled.plan.swarm.clone(),
+        inputs: PortEntry::of(&assembly.inputs),
+        outputs: PortEntry::of(&assembly.outputs),
+        shown: assembly.shown.iter().copied().map(Into::into).collect(),
+        robots: trace.recording.robots.iter().map(|recorded| robot(recorded, trace, assembly, &all)).collect(),
+        looks: looks(&all),
+        schematic: report::embedded(&compiled.schematic(SCHEME)),
+        timing: compiled.swarm_timing().describe(),
+        hold: compiled.timing.hold,
+        start: assembly.start_cycles(),
+        frames: FRAMES,
+    }
+}
+
+fn robot(recorded: &Recorded, trace: &SwarmTrace, assembly: &Assembly, looks: &Looks) -> SwarmRobot {
+    let (robot, member) = (&trace.robots[recorded.robot], &assembly.members[recorded.robot]);
+    let (body, character) = (&member.robot.body, &member.robot.character);
+    SwarmRobot {
+        net: robot.net.clone(),
+        function: robot.function.name(),
+        robot: robot.robot.clone(),
+        about: report::about_robot(robot, member),
+        senses: robot.senses.map(Into::into),
+        body: body.rows(),
+        size: [body.width(), body.height()],
+        voxels: report::voxel_data(recorded, body, looks),
+        points: recorded.points,
+        clock: character.clock,
+        margin: character.margin,
+        errors: character.error_rate,
+    }
 }
 
 /// Runs a test.
@@ -126,7 +148,8 @@ pub(super) fn run_test(session: &Session, checked: &Checked, test: usize, level:
     if job.stop.is_raised() {
         return Err(Refused::Cancelled);
     }
-    Ok(Some(json!({ "results": runs.iter().map(|run| &run.verdict).collect::<Vec<_>>() })))
+    let results = runs.iter().map(|run| TestResult::from(&run.verdict)).collect();
+    Ok(Some(RequestResult::Test(TestAnswer { results })))
 }
 
 /// The circuit of a test, and the inputs of each cycle up to the end of a row.

@@ -1,8 +1,10 @@
 //! The reasons for which requests of a page are refused, and their messages.
 
 use serde::Serialize;
-use serde_json::Value;
+#[cfg(test)]
+use ts_rs::TS;
 
+use crate::message::finding::{Finding, findings};
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_base::model::{Fault, FaultKind};
 use nbc_base::source::FileError;
@@ -54,11 +56,13 @@ pub(super) enum Refused {
 
 /// The answer to a refused request.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
 pub(super) struct Refusal {
     message: String,
     help: Option<String>,
+    /// A word for what a page reacts to.
     code: Option<&'static str>,
-    diagnostics: Vec<Value>,
+    diagnostics: Vec<Finding>,
 }
 
 impl Refused {
@@ -136,7 +140,7 @@ impl Refused {
 impl From<Refused> for Refusal {
     fn from(refused: Refused) -> Self {
         let diagnostics = match &refused {
-            Refused::Source(found) => found.json(),
+            Refused::Source(found) => findings(&found.list, &found.sources),
             _ => Vec::new(),
         };
         Self { message: refused.message(), help: refused.help(), code: refused.code(), diagnostics }

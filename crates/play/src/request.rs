@@ -1,12 +1,15 @@
 //! The requests of a page; docs/play-protocol.md describes them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+#[cfg(test)]
+use ts_rs::TS;
 
 use crate::runner::Change;
 use nbc_swarm::Level;
 
 /// A request with its number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(TS))]
 pub(super) struct Request {
     pub(super) id: u64,
     #[serde(flatten)]
@@ -15,34 +18,86 @@ pub(super) struct Request {
 
 /// What is requested.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(TS))]
 #[serde(tag = "do", rename_all = "lowercase")]
 pub(super) enum Verb {
     Hello,
     Files,
-    Read { path: Option<String>, example: Option<String> },
-    Save { path: String, text: String, stamp: Option<String> },
-    Program { path: String, text: String },
-    Compile { path: String, circuit: String, swarm: Option<String> },
-    Test { path: String, test: usize, level: TestLevel },
-    Replay { path: String, test: usize, swarm: Option<String>, row: usize },
-    Inputs { bits: String },
-    Clock { bit: usize, half: Option<u32> },
-    Run { speed: Option<f64> },
+    Read {
+        #[cfg_attr(test, ts(optional))]
+        path: Option<String>,
+        #[cfg_attr(test, ts(optional))]
+        example: Option<String>,
+    },
+    Save {
+        path: String,
+        text: String,
+        stamp: Option<String>,
+    },
+    Program {
+        path: String,
+        text: String,
+    },
+    Compile {
+        path: String,
+        circuit: String,
+        swarm: Option<String>,
+    },
+    Test {
+        path: String,
+        test: usize,
+        level: TestLevel,
+    },
+    Replay {
+        path: String,
+        test: usize,
+        swarm: Option<String>,
+        row: usize,
+    },
+    Inputs {
+        bits: String,
+    },
+    Clock {
+        bit: usize,
+        half: Option<u32>,
+    },
+    Run {
+        speed: Option<f64>,
+    },
     Pause,
-    Step { cycles: u32 },
+    Step {
+        cycles: u32,
+    },
     Reset,
-    Seek { cycle: u32 },
-    View { robots: Vec<usize> },
-    Robots { path: Option<String> },
-    Probe { body: Vec<String>, cycles: u32, character: Option<bool> },
+    Seek {
+        cycle: u32,
+    },
+    View {
+        robots: Vec<usize>,
+    },
+    Robots {
+        path: Option<String>,
+    },
+    Probe {
+        body: Vec<String>,
+        cycles: u32,
+        #[cfg_attr(test, ts(optional))]
+        character: Option<bool>,
+    },
     Keep(KeepRequest),
     Evolve(EvolveRequest),
-    Take { what: TakeKind, cycles: u32 },
-    Cancel { of: u64 },
+    Take {
+        what: TakeKind,
+        cycles: u32,
+    },
+    Cancel {
+        of: u64,
+    },
 }
 
 /// A level of a test.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum TestLevel {
     Logic,
@@ -51,17 +106,20 @@ pub(super) enum TestLevel {
 
 /// A body to keep as a robot.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(TS))]
 pub(super) struct KeepRequest {
     /// The program that is to use it. Its robots are beside it.
     pub(super) path: Option<String>,
     pub(super) name: String,
     pub(super) body: Vec<String>,
     /// Whether a robot of that name is replaced.
+    #[cfg_attr(test, ts(optional))]
     pub(super) replace: Option<bool>,
 }
 
 /// A search for bodies.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(TS))]
 pub(super) struct EvolveRequest {
     /// The body to start from, if it is not a random one.
     pub(super) body: Option<Vec<String>>,
@@ -74,6 +132,7 @@ pub(super) struct EvolveRequest {
 
 /// Files that a page can take away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum TakeKind {
     Page,
@@ -82,6 +141,15 @@ pub(super) enum TakeKind {
     Svg,
     Vcd,
     Csv,
+}
+
+impl From<Level> for TestLevel {
+    fn from(level: Level) -> Self {
+        match level {
+            Level::Logic => Self::Logic,
+            Level::Physics => Self::Physics,
+        }
+    }
 }
 
 impl From<TestLevel> for Level {

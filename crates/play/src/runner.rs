@@ -5,12 +5,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
-
 use crate::frame::SwarmFrame;
 use crate::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory};
+use crate::message::{PlayEvent, RequestResult};
 use crate::outbox::Outbox;
-use crate::refusal::{Refusal, Refused};
+use crate::refusal::Refused;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Compiled, Excerpt, Session};
 use nbc_swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
@@ -33,7 +32,7 @@ pub(super) struct LoadedSwarm {
     pub(super) inputs: Vec<Vec<bool>>,
     /// The request to answer when that is done, and the answer.
     pub(super) request: u64,
-    pub(super) answer: Value,
+    pub(super) answer: RequestResult,
     pub(super) stop: CancelFlag,
 }
 
@@ -126,7 +125,7 @@ impl Runner {
             if shown.is_due()
                 && let Some(reason) = shown.go_on()
             {
-                self.outbox.tell(&json!({ "event": "stopped", "reason": reason }));
+                self.outbox.event(PlayEvent::Stopped { reason });
             }
             shown.show(&self.outbox);
         }
@@ -141,7 +140,7 @@ impl Runner {
                     shown.take_back();
                 }
                 let done = self.shown.as_mut().ok_or(Refused::NoSwarm).and_then(|shown| shown.change(change));
-                self.outbox.answer(id, done.map(|()| json!({})).map_err(Refusal::from));
+                self.outbox.done(id, done);
             }
             SwarmOrder::Excerpt(cycles, reply) => {
                 let _ = reply.send(self.shown.as_ref().map(|shown| shown.excerpt(cycles)));
@@ -155,12 +154,12 @@ impl Runner {
         let all = inputs.len();
         for (done, bits) in inputs.into_iter().enumerate() {
             if stop.is_raised() {
-                return self.outbox.answer(request, Err(Refused::Cancelled.into()));
+                return self.outbox.answer(request, Err(Refused::Cancelled));
             }
             shown.inputs = bits;
             shown.cycle();
             if done % 8 == 7 {
-                self.outbox.tell(&json!({ "id": request, "progress": [done + 1, all] }));
+                self.outbox.progress(request, [done as u64 + 1, all as u64]);
             }
         }
         // A frame of the swarm before would come after the answer.

@@ -6,14 +6,15 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use axum::extract::ws::Utf8Bytes;
-use serde_json::{Value, json};
+use serde_json::Value;
 use tokio::sync::mpsc;
 
 use crate::files::{PageFiles, example, examples};
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, Jobs};
+use crate::message::{Greeting, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
 use crate::outbox::Outbox;
-use crate::refusal::{Refusal, Refused};
+use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
 use crate::runner::{self, SwarmOrder};
 use crate::served::{MOST_BYTES, Served};
@@ -83,7 +84,7 @@ impl Visit {
             Ok(Request { id, verb }) => self.request(id, verb),
             Err(error) => {
                 let id = serde_json::from_str::<Value>(text).ok().and_then(|value| value.get("id")?.as_u64());
-                self.outbox.answer(id.unwrap_or(0), Err(Refused::Message(error.to_string()).into()));
+                self.outbox.answer(id.unwrap_or(0), Err(Refused::Message(error.to_string())));
             }
         }
     }
@@ -93,7 +94,7 @@ impl Visit {
         self.looked = Instant::now();
         for (path, event) in self.files.changes() {
             self.session.close(&path);
-            self.outbox.tell(&event);
+            self.outbox.event(event);
         }
         self.jobs.end_late();
     }
@@ -104,23 +105,23 @@ impl Visit {
             Err(verb) => verb,
         };
         let answer = match verb {
-            Verb::Hello => Ok(self.hello()),
-            Verb::Files => Ok(json!(self.files.list())),
-            Verb::Read { path: Some(path), .. } => self.files.read(path),
-            Verb::Read { example: name, .. } => example(&name.unwrap_or_default()),
-            Verb::Save { path, text, stamp } => self.files.save(path, &text, stamp.as_deref()),
+            Verb::Hello => Ok(RequestResult::Hello(self.hello())),
+            Verb::Files => Ok(RequestResult::Files(self.files.list())),
+            Verb::Read { path: Some(path), .. } => self.files.read(path).map(RequestResult::Read),
+            Verb::Read { example: name, .. } => example(&name.unwrap_or_default()).map(RequestResult::Read),
+            Verb::Save { path, text, stamp } => self.files.save(path, &text, stamp.as_deref()).map(RequestResult::Save),
             Verb::Program { path, text } => {
                 self.revision += 1;
                 self.session.update(&path, self.revision, text);
-                Ok(programs::program(&self.session.checked(&path)))
+                Ok(RequestResult::Program(programs::program(&self.session.checked(&path))))
             }
             Verb::Cancel { of } => {
                 self.jobs.cancel(of);
-                Ok(json!({}))
+                return self.outbox.done(id, Ok(()));
             }
             long => return self.start(id, long),
         };
-        self.outbox.answer(id, answer.map_err(Refusal::from));
+        self.outbox.answer(id, answer);
     }
 
     /// Starts a long request.
@@ -128,13 +129,13 @@ impl Visit {
         let work = match verb {
             Verb::Compile { path, circuit, swarm } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
-                return self.run_swarm(id, &path, move |session, checked, job| {
+                return self.run_swarm(id, &path, RequestResult::Compile, move |session, checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
                     Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
                 });
             }
             Verb::Replay { path, test, swarm, row } => {
-                return self.run_swarm(id, &path, move |session, checked, job| {
+                return self.run_swarm(id, &path, RequestResult::Replay, move |session, checked, job| {
                     programs::until_row(session, checked, (test, swarm.as_deref(), row), job)
                 });
             }
@@ -144,7 +145,9 @@ impl Visit {
             Verb::Robots { path } => {
                 let checked = path.map(|path| self.session.checked(&path));
                 let session = self.fresh();
-                Ok(boxed(move |_| bodies::robots(&session, checked.as_deref()).map(Some)))
+                Ok(boxed(move |_| {
+                    bodies::robots(&session, checked.as_deref()).map(|cards| Some(RequestResult::Robots(cards)))
+                }))
             }
             Verb::Probe { body, cycles, character } => {
                 let served = self.served.clone();
@@ -165,26 +168,22 @@ impl Visit {
         };
         match work {
             Ok(work) => self.jobs.start(id, work),
-            Err(refused) => self.outbox.answer(id, Err(refused.into())),
+            Err(refused) => self.outbox.answer(id, Err(refused)),
         }
     }
 
-    fn hello(&self) -> Value {
+    fn hello(&self) -> Greeting {
         let name = self.served.world.root().file_name().unwrap_or_default().to_string_lossy();
-        json!({
-            "version": nbc_base::VERSION,
-            "folder": name,
-            "root": self.served.root,
-            "file": self.served.file,
-            "files": self.files.list(),
-            "examples": examples(),
-            "limits": {
-                "robots": programs::MOST_ROBOTS,
-                "cycles": MEMORY,
-                "message": MOST_BYTES,
-            },
-            "cycle_seconds": 0.25,
-        })
+        Greeting {
+            version: nbc_base::VERSION,
+            folder: name.into_owned(),
+            root: self.served.root.clone(),
+            file: self.served.file.clone(),
+            files: self.files.list(),
+            examples: examples(),
+            limits: PlayLimits { robots: programs::MOST_ROBOTS, cycles: MEMORY, message: MOST_BYTES },
+            cycle_seconds: 0.25,
+        }
     }
 
     /// Compiles on another thread, and gives the swarm to the runner, which answers.
@@ -192,19 +191,20 @@ impl Visit {
         &mut self,
         id: u64,
         path: &str,
+        answer: fn(SwarmAnswer) -> RequestResult,
         compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Vec<Vec<bool>>), Refused> + Send + 'static,
     ) {
         self.swarms += 1;
         let (number, runner) = (self.swarms, self.runner.clone());
         let work = self.with_program(path, move |session, checked, job| {
             let (compiled, inputs) = compile(session, checked, job)?;
-            let loaded = programs::loaded(session, compiled, inputs, (number, job))?;
+            let loaded = programs::loaded(session, compiled, inputs, answer, (number, job))?;
             let _ = runner.send(SwarmOrder::Load(Box::new(loaded)));
             Ok(None)
         });
         match work {
             Ok(work) => self.jobs.start(id, work),
-            Err(refused) => self.outbox.answer(id, Err(refused.into())),
+            Err(refused) => self.outbox.answer(id, Err(refused)),
         }
     }
 
@@ -233,7 +233,7 @@ impl Visit {
             let bytes = taking::make(&session, &excerpt, what, job)?;
             let (ending, kind) = what.ending();
             let name = format!("{}.{ending}", excerpt.compiled.plan.circuit.circuit);
-            Ok(Some(json!({ "url": served.takes.keep(&name, kind, bytes), "name": name })))
+            Ok(Some(RequestResult::Take(TakenFile { url: served.takes.keep(&name, kind, bytes), name })))
         })
     }
 
@@ -254,6 +254,8 @@ fn boxed(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Work {
 mod tests {
     use proptest::prelude::*;
     use proptest::sample::select;
+
+    use serde_json::json;
 
     use super::*;
     use crate::outbox::outbox;

@@ -131,7 +131,7 @@ impl Constants {
     }
 
     /// Newtons on a unit mass in meters per substep squared, the kernel's unit of force.
-    pub fn per_substep_squared(&self) -> f64 {
+    pub(crate) fn per_substep_squared(&self) -> f64 {
         self.substep * self.substep
     }
 }

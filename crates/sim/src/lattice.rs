@@ -38,26 +38,26 @@ pub struct LatticePoint {
 pub struct Edge {
     /// One end: a point, by its number.
     pub a: usize,
-    /// The other end.
+    /// The other end: a point, by its number.
     pub b: usize,
     /// Built length in meters.
     pub rest: f64,
-    /// Stiffness in newtons per meter.
+    /// Stiffness in newtons per meter (docs/physics.md 3).
     pub stiffness: f64,
 }
 
 /// A voxel that is not empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Voxel {
-    /// Row, 0 on top.
+    /// The row in the box of the body, 0 on top.
     pub row: usize,
-    /// Column, 0 on the left.
+    /// The column in the box of the body, 0 on the left.
     pub column: usize,
-    /// Material code.
+    /// The code of its material in the palette of the body.
     pub code: u8,
     /// Whether its material is rigid.
     pub rigid: bool,
-    /// Its points: top left, top right, bottom right, bottom left.
+    /// Its points by number: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
     /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
@@ -83,12 +83,7 @@ pub struct DrivenEdge {
 
 impl Lattice {
     /// The lattice of a body.
-    pub fn new(body: &Body) -> Self {
-        Self::with_constants(body, &Constants::default())
-    }
-
-    /// The lattice under other constants.
-    pub(crate) fn with_constants(body: &Body, constants: &Constants) -> Self {
+    pub fn new(body: &Body, constants: &Constants) -> Self {
         Builder { body, constants }.build()
     }
 
@@ -269,7 +264,7 @@ mod tests {
     use nbc_base::model::Palette;
 
     fn lattice(rows: &[&str]) -> Lattice {
-        Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap())
+        Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap(), &Constants::default())
     }
 
     fn check(rows: &[&str], points: usize, edges: usize, surface: usize) {

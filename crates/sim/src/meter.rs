@@ -12,7 +12,7 @@ pub enum Part {
     Springs,
     /// Contact with the ground and with the robot itself, and the instability test.
     Contact,
-    /// Length limits.
+    /// The length limits of springs and of rigid voxels.
     Limits,
     /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
     Bookkeeping,
@@ -61,7 +61,7 @@ impl Meter {
         Self { clock: Box::new(clock), nanoseconds: Default::default(), lane_substeps: AtomicU64::new(0) }
     }
 
-    /// The times so far.
+    /// The times of all simulations so far.
     pub fn times(&self) -> Times {
         let nanoseconds = Part::ALL.map(|part| self.nanoseconds[part as usize].load(Ordering::Relaxed));
         Times { nanoseconds, lane_substeps: self.lane_substeps.load(Ordering::Relaxed) }

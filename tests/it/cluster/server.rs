@@ -18,7 +18,7 @@ pub struct Server {
     port: u16,
     options: Vec<String>,
     store: PathBuf,
-    child: Child,
+    pub child: Child,
     // Removed last.
     folder: TempDir,
 }
@@ -66,10 +66,6 @@ impl Server {
 
     pub fn port(&self) -> u16 {
         self.port
-    }
-
-    pub fn process(&self) -> u32 {
-        self.child.id()
     }
 
     pub fn url(&self) -> String {

@@ -72,7 +72,7 @@ fn commands_refuse_what_is_not_utf_8() {
 
 #[test]
 fn edits_that_come_at_once_are_checked_once() {
-    let (_bench, mut client, uri, _) = opened("a.nb", &crate::speed::long_program());
+    let (_bench, mut client, uri, _) = opened("a.nb", &crate::long_program::long_program());
     client.diagnostics(&uri);
     let start = json!({ "line": 0, "character": 0 });
     let edits = 40;

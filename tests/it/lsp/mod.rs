@@ -4,7 +4,6 @@ mod bad_input;
 mod client;
 mod editors;
 mod hovers;
-mod latency;
 mod protocol;
 mod renaming;
 mod runs;

@@ -1,7 +1,7 @@
 // Choosing a program: the files of the folder, the examples, or a new one.
 
 import { button, element, fill, iconButton } from "../element";
-import type { Example, FileEntry } from "../protocol";
+import type { ExampleEntry, FileEntry } from "../protocol";
 import type { Origin } from "../program";
 
 export const NEW_PROGRAM = `// A circuit of your own: name its inputs and outputs, and say what each output is.
@@ -31,7 +31,7 @@ export class FilePicker {
     });
   }
 
-  show(files: FileEntry[], examples: Example[]): void {
+  show(files: FileEntry[], examples: ExampleEntry[]): void {
     fill(
       this.host,
       element(

@@ -4,7 +4,8 @@ import type { Connection } from "../connection";
 import { button, element } from "../element";
 import { Notices } from "../notices";
 import type { Origin, Program } from "../program";
-import { RequestError, type ChangedEvent, type FileText } from "../protocol";
+import type { FileChange, FileText } from "../protocol";
+import { RequestError } from "../request";
 import { Editor } from "./editor";
 import { FilePicker, NEW_PROGRAM, askPath } from "./files";
 import type { LanguageServer } from "./server";
@@ -135,7 +136,7 @@ export class EditPanel {
     document.title = `${unsaved.value ? "• " : ""}${path.value} – nbc`;
   }
 
-  #changed({ path, stamp }: ChangedEvent): void {
+  #changed({ path, stamp }: FileChange): void {
     if (path !== this.program.path.value || stamp === this.program.stamp) {
       return;
     }

@@ -33,11 +33,7 @@ export function hasShown(patterns: Values[], cycles = 400): Check {
 
 /** The body in the designer is this gate. */
 export function designs(gate: (name: string) => boolean): Check {
-  return ({ design }) =>
-    design.probe !== null &&
-    !("fault" in design.probe) &&
-    design.probe.function !== null &&
-    gate(design.probe.function);
+  return ({ design }) => design.probe !== null && !("fault" in design.probe) && gate(design.probe.function);
 }
 
 function holds(situation: Situation, values: Values, cycle: number): boolean {

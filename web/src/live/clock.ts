@@ -39,7 +39,7 @@ export class ClockPanel {
       type: "number",
       min: 1,
       max: 999,
-      value: Math.max(2, definition.hold ?? 4),
+      value: Math.max(2, definition.hold),
       "aria-label": "Cycles between two changes of the clock",
       onchange: () => this.#apply(which, half, this.swarm.clock.value !== null),
     });

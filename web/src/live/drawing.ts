@@ -1,6 +1,6 @@
 // Robots on a canvas: colored voxels on a ground with a tick for each voxel.
 
-import type { Look, Voxel } from "../protocol";
+import type { SwarmRobot, VoxelLook } from "../protocol";
 import type { Colors } from "../theme";
 import type { Outline } from "./playback";
 
@@ -44,8 +44,8 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
 export function drawRobot(
   pen: Pen,
   outline: Outline,
-  voxels: Voxel[],
-  looks: Look[],
+  voxels: SwarmRobot["voxels"],
+  looks: VoxelLook[],
   lane: Lane,
   colors: Colors,
 ): void {
@@ -63,7 +63,7 @@ export function drawRobot(
 }
 
 /** A voxel whose corners stand around it from the top left. */
-function drawVoxel(pen: Pen, corners: [Point, Point, Point, Point], look: Look | undefined): void {
+function drawVoxel(pen: Pen, corners: [Point, Point, Point, Point], look: VoxelLook | undefined): void {
   tracePolygon(pen, corners);
   pen.fillStyle = look?.color ?? "#888";
   pen.fill();

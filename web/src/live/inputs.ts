@@ -2,7 +2,7 @@
 
 import { element, fill, iconButton } from "../element";
 import { bitsOf, offsetOf, parseNumber, toBits, toNumber, type PortBit } from "../ports";
-import type { Port } from "../protocol";
+import type { PortEntry } from "../protocol";
 import type { View } from "./animation";
 import type { LiveSwarm } from "./swarm";
 
@@ -45,7 +45,7 @@ export class InputPanel implements View {
     this.draw();
   }
 
-  #port(port: Port, bits: PortBit[]): HTMLElement {
+  #port(port: PortEntry, bits: PortBit[]): HTMLElement {
     if (port.width === 1) {
       return this.#switch(bits[0] as PortBit, port.name);
     }
@@ -95,7 +95,7 @@ export class InputPanel implements View {
     return Number(this.swarm.inputs.value[index] ?? 0);
   }
 
-  #number(port: Port): HTMLElement {
+  #number(port: PortEntry): HTMLElement {
     const start = offsetOf(this.swarm.definition.value?.inputs ?? [], port);
     const field = element("input", {
       type: "text",
@@ -130,11 +130,11 @@ export class InputPanel implements View {
     );
   }
 
-  #current(port: Port, start: number): bigint {
+  #current(port: PortEntry, start: number): bigint {
     return toNumber([...this.swarm.inputs.value.slice(start, start + port.width)].map(Number));
   }
 
-  #type(field: HTMLInputElement, port: Port, start: number): void {
+  #type(field: HTMLInputElement, port: PortEntry, start: number): void {
     const value = parseNumber(field.value, port.width);
     field.setAttribute("aria-invalid", String(value === null));
     if (value !== null) {
@@ -144,7 +144,7 @@ export class InputPanel implements View {
   }
 
   /** Past the ends it goes round. */
-  #add(port: Port, start: number, step: bigint): void {
+  #add(port: PortEntry, start: number, step: bigint): void {
     const size = 1n << BigInt(port.width);
     this.#set(port, start, (this.#current(port, start) + step + size) % size);
     const field = this.host.querySelector<HTMLInputElement>(`input[data-input="${port.name}"]`);
@@ -153,7 +153,7 @@ export class InputPanel implements View {
     }
   }
 
-  #set(port: Port, start: number, value: bigint): void {
+  #set(port: PortEntry, start: number, value: bigint): void {
     const bits = this.swarm.inputs.value;
     this.swarm.setInputs(bits.slice(0, start) + toBits(value, port.width).join("") + bits.slice(start + port.width));
   }

@@ -2,7 +2,7 @@
 
 import { button, element, fill } from "../element";
 import { PATTERNS, gateName, truthTable } from "../gate";
-import type { Robot } from "../protocol";
+import type { SwarmRobot } from "../protocol";
 import type { View } from "./animation";
 import type { LiveSwarm } from "./swarm";
 
@@ -53,7 +53,7 @@ export class Inspector implements View {
     if (!("robot" in source)) {
       return `input ${name} is ${value ?? "not known yet"}`;
     }
-    const robot = definition.robots[source.robot] as Robot;
+    const robot = definition.robots[source.robot] as SwarmRobot;
     const senses = robot.senses
       .map(sense => `${this.swarm.nameOf(sense)} = ${this.swarm.value(sense) ?? "?"}`)
       .join(", ");
@@ -61,7 +61,7 @@ export class Inspector implements View {
     return `${name}: ${gateName(robot.function)} (${robot.robot}) senses ${senses} and ${walk}`;
   }
 
-  #showFacts(robot: Robot | null): void {
+  #showFacts(robot: SwarmRobot | null): void {
     const shown = this.#facts.dataset["net"] ?? null;
     if (shown === (robot?.net ?? null)) {
       return;

@@ -1,9 +1,9 @@
 // What colors and directions mean.
 
 import { element } from "../element";
-import type { Look } from "../protocol";
+import type { VoxelLook } from "../protocol";
 
-export function legend(looks: { look: Look; name: string }[]): HTMLElement {
+export function legend(looks: { look: VoxelLook; name: string }[]): HTMLElement {
   const entry = (sign: HTMLElement, text: string): HTMLElement => element("li", {}, sign, element("span", {}, text));
   const lamp = (value: 0 | 1): HTMLElement =>
     element("span", { class: "lamp", "data-value": value, "aria-hidden": "true" }, String(value));
@@ -25,7 +25,7 @@ export function legend(looks: { look: Look; name: string }[]): HTMLElement {
 }
 
 /** A square that looks like a voxel. */
-export function swatch(look: Look | undefined): HTMLElement {
+export function swatch(look: VoxelLook | undefined): HTMLElement {
   const canvas = element("canvas", { class: "swatch", width: 32, height: 32, "aria-hidden": "true" });
   const pen = canvas.getContext("2d");
   if (pen !== null && look !== undefined) {

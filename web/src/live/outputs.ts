@@ -2,7 +2,7 @@
 
 import { element, fill } from "../element";
 import { offsetOf, toNumber } from "../ports";
-import type { Port, Source } from "../protocol";
+import type { BitSource, PortEntry } from "../protocol";
 import type { View } from "./animation";
 import type { LiveSwarm } from "./swarm";
 
@@ -38,7 +38,7 @@ export class OutputPanel implements View {
     this.draw();
   }
 
-  #port(port: Port, sources: Source[]): HTMLElement {
+  #port(port: PortEntry, sources: BitSource[]): HTMLElement {
     const lamps = sources.map((source, i) =>
       this.#lamp(source, port.width === 1 ? port.name : `${port.name}[${port.width - 1 - i}]`),
     );
@@ -62,7 +62,7 @@ export class OutputPanel implements View {
     );
   }
 
-  #lamp(source: Source, name: string): HTMLElement {
+  #lamp(source: BitSource, name: string): HTMLElement {
     const lamp = element("span", {
       class: "lamp",
       role: "img",

@@ -131,7 +131,7 @@ export class SwarmPanel {
     }
     const count = definition.robots.length;
     const { hold } = definition;
-    const settles = hold === null ? "" : `, settles within ${hold} ${hold === 1 ? "cycle" : "cycles"}`;
+    const settles = `, settles within ${hold} ${hold === 1 ? "cycle" : "cycles"}`;
     return `${count} ${count === 1 ? "robot" : "robots"}${settles}`;
   }
 }

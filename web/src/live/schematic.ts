@@ -1,14 +1,14 @@
 // The schematic that the server drew, with nets and robots marked by their values now; it can be zoomed and moved.
 
 import { element, iconButton } from "../element";
-import type { Source } from "../protocol";
+import type { BitSource } from "../protocol";
 import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
 
 interface Marked {
   element: Element;
-  source: Source;
+  source: BitSource;
   shown: number | null | undefined;
 }
 interface Box {
@@ -121,7 +121,7 @@ export class Schematic implements View {
     }
   }
 
-  #sourceOf(target: EventTarget | null): Source | null {
+  #sourceOf(target: EventTarget | null): BitSource | null {
     const found = target instanceof Element ? target.closest("[data-id]") : null;
     return this.#marked.find(marked => marked.element === found)?.source ?? null;
   }

@@ -5,7 +5,7 @@ import { LaneGrid, followWithSlack, middleOf } from "./camera";
 import { drawGround, drawLamp, drawRobot, drawStimulus, type Lane } from "./drawing";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
-import type { Source } from "../protocol";
+import type { BitSource } from "../protocol";
 import type { View } from "./animation";
 import { sameSource } from "../selection";
 import { gateName } from "../gate";
@@ -149,7 +149,7 @@ export class Stage implements View {
     );
   }
 
-  #drawSense(pen: Pen, source: Source, x: number, top: number, width: number): void {
+  #drawSense(pen: Pen, source: BitSource, x: number, top: number, width: number): void {
     const size = enlargement.value;
     drawStimulus(pen, this.swarm.value(source), x, top, 12 * size, colors.value);
     pen.fillStyle = colors.value.dim;

@@ -5,7 +5,8 @@ import { decodeFrame, isFrameOf, type Frame } from "../frame";
 import { RunLog } from "../log";
 import { Observable } from "../observable";
 import { bitsOf, keepBits, totalWidth, withBit } from "../ports";
-import type { Source, Swarm, Verbs } from "../protocol";
+import type { BitSource, ShownSwarm } from "../protocol";
+import type { Fields } from "../request";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
 
@@ -18,7 +19,7 @@ export interface AutomaticClock {
 export const REAL_TIME = 4;
 
 export class LiveSwarm {
-  readonly definition = new Observable<Swarm | null>(null);
+  readonly definition = new Observable<ShownSwarm | null>(null);
   /** The newest frame. */
   readonly frame = new Observable<Frame | null>(null);
   readonly log = new RunLog();
@@ -33,7 +34,7 @@ export class LiveSwarm {
   /** Why the swarm cannot go on. */
   readonly stopped = new Observable<string | null>(null);
   /** The numbers of robots, inputs and outputs of each net by its name. */
-  nets = new Map<string, Source>();
+  nets = new Map<string, BitSource>();
   /** Orders to run or to stop that have no answer yet; until then frames are about the time before them. */
   #orders = 0;
   #early: ArrayBuffer | null = null;
@@ -54,7 +55,7 @@ export class LiveSwarm {
   }
 
   /** Takes a swarm that was just compiled. Inputs of the same name keep their values, unless a replay set them. */
-  begin(swarm: Swarm, replayed = false): void {
+  begin(swarm: ShownSwarm, replayed = false): void {
     const before = this.definition.value;
     const kept = keepBits(this.inputs.value, before?.inputs ?? [], swarm.inputs);
     const clock = this.#keptClock(before, swarm);
@@ -164,7 +165,7 @@ export class LiveSwarm {
   }
 
   /** The value of a source in the cycle that is shown; null before the first. */
-  value(source: Source | undefined, cycle = this.playback.cycle): number | null {
+  value(source: BitSource | undefined, cycle = this.playback.cycle): number | null {
     if (source === undefined) {
       return null;
     }
@@ -179,7 +180,7 @@ export class LiveSwarm {
   }
 
   /** What a source is called. */
-  nameOf(source: Source): string {
+  nameOf(source: BitSource): string {
     const definition = this.definition.value;
     if ("constant" in source) {
       return String(Number(source.constant));
@@ -211,7 +212,7 @@ export class LiveSwarm {
   #drive<V extends "run" | "pause" | "step" | "reset" | "seek">(
     running: boolean,
     verb: V,
-    fields: Verbs[V][0],
+    fields: Fields<V>,
   ): Promise<boolean> {
     this.running.set(running);
     this.#rests &&= running;
@@ -235,7 +236,7 @@ export class LiveSwarm {
     }
   }
 
-  #keptClock(before: Swarm | null, swarm: Swarm): AutomaticClock | null {
+  #keptClock(before: ShownSwarm | null, swarm: ShownSwarm): AutomaticClock | null {
     const clock = this.clock.value;
     const name = clock === null || before === null ? null : bitsOf(before.inputs)[clock.bit]?.name;
     const bit = bitsOf(swarm.inputs).find(other => other.name === name);
@@ -256,10 +257,10 @@ export class LiveSwarm {
 }
 
 /** The source of each net that has a name. */
-export function netsOf(swarm: Swarm): Map<string, Source> {
-  const nets = new Map<string, Source>();
+export function netsOf(swarm: ShownSwarm): Map<string, BitSource> {
+  const nets = new Map<string, BitSource>();
   swarm.robots.forEach((robot, index) => nets.set(robot.net, { robot: index }));
-  bitsOf(swarm.outputs).forEach((bit, i) => nets.set(bit.name, swarm.shown[i] ?? { constant: 0 }));
+  bitsOf(swarm.outputs).forEach((bit, i) => nets.set(bit.name, swarm.shown[i] ?? { constant: false }));
   bitsOf(swarm.inputs).forEach(bit => nets.set(bit.name, { input: bit.index }));
   return nets;
 }

@@ -1,7 +1,7 @@
 // Inputs, robots and outputs over time.
 
 import { offsetOf, toNumber } from "../ports";
-import type { Port, Source } from "../protocol";
+import type { BitSource, PortEntry } from "../protocol";
 import { sameSource } from "../selection";
 import { colors, enlargement } from "../theme";
 import { AXIS, Diagram } from "./diagram";
@@ -13,7 +13,7 @@ interface Row {
   name: string;
   group: "input" | "robot" | "output";
   /** The most significant bit first; more than one is a bus. */
-  sources: Source[];
+  sources: BitSource[];
 }
 
 export class Waveform extends Diagram {
@@ -75,7 +75,7 @@ export class Waveform extends Diagram {
     pen.rect(this.label, top, end - this.label, height);
     pen.clip();
     if (row.sources.length === 1) {
-      this.#drawBit(pen, row.sources[0] as Source, top + 3, top + height - 3);
+      this.#drawBit(pen, row.sources[0] as BitSource, top + 3, top + height - 3);
     } else {
       this.#drawBus(pen, row.sources, top + 3, top + height - 3);
     }
@@ -90,7 +90,7 @@ export class Waveform extends Diagram {
     return [start, Math.max(log.first + 1, Math.floor(start) + 1), Math.min(last, Math.ceil(end))];
   }
 
-  #drawBit(pen: Pen, source: Source, high: number, low: number): void {
+  #drawBit(pen: Pen, source: BitSource, high: number, low: number): void {
     const [start, from, to] = this.#cycles();
     let before: number | null = null;
     for (let cycle = from; cycle <= to; cycle++) {
@@ -127,7 +127,7 @@ export class Waveform extends Diagram {
   }
 
   /** A box for each value, with the value in it where there is room. */
-  #drawBus(pen: Pen, sources: Source[], high: number, low: number): void {
+  #drawBus(pen: Pen, sources: BitSource[], high: number, low: number): void {
     const [start, from, to] = this.#cycles();
     const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));
     pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
@@ -160,7 +160,7 @@ function rowsOf(swarm: LiveSwarm): Row[] {
     return [];
   }
   const { inputs, outputs, robots, shown } = definition;
-  const range = (ports: Port[], port: Port): number[] =>
+  const range = (ports: PortEntry[], port: PortEntry): number[] =>
     Array.from({ length: port.width }, (_, i) => offsetOf(ports, port) + i);
   // A robot that drives an output of the same name is shown there.
   const lamps = new Set(outputs.filter(port => port.width === 1).map(port => port.name));
@@ -175,7 +175,7 @@ function rowsOf(swarm: LiveSwarm): Row[] {
       (port): Row => ({
         name: port.name,
         group: "output",
-        sources: range(outputs, port).map(i => shown[i] ?? { constant: 0 }),
+        sources: range(outputs, port).map(i => shown[i] ?? { constant: false }),
       }),
     ),
   ];

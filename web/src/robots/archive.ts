@@ -2,11 +2,11 @@
 
 import { element, fill } from "../element";
 import { gateName, gateOf } from "../gate";
-import type { ArchiveEvent, Axis, Niche } from "../protocol";
+import type { ArchiveChange, AxisEntry, NicheEntry } from "../protocol";
 
 export class Archive {
-  readonly niches = new Map<string, Niche>();
-  axes: Axis[] = [];
+  readonly niches = new Map<string, NicheEntry>();
+  axes: AxisEntry[] = [];
   evaluations = 0;
   generation = 0;
 
@@ -17,7 +17,7 @@ export class Archive {
     this.generation = 0;
   }
 
-  merge(event: ArchiveEvent): void {
+  merge(event: ArchiveChange): void {
     this.axes = event.axes;
     this.evaluations = event.evaluations;
     this.generation = event.generation;
@@ -49,7 +49,7 @@ export class Archive {
 }
 
 /** What colors show: the last part of the fitness. */
-export function strength(niche: Niche): number {
+export function strength(niche: NicheEntry): number {
   return niche.fitness.at(-1) ?? 0;
 }
 
@@ -61,7 +61,7 @@ export class HeatMap {
 
   constructor(
     private readonly archive: Archive,
-    private readonly choose: (niche: Niche) => void,
+    private readonly choose: (niche: NicheEntry) => void,
   ) {}
 
   draw(): void {
@@ -76,7 +76,7 @@ export class HeatMap {
     }
   }
 
-  #open(place: string, niche: Niche, best: number): void {
+  #open(place: string, niche: NicheEntry, best: number): void {
     const square = this.#squares.get(place);
     if (square === undefined) {
       return;

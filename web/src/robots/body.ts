@@ -1,6 +1,6 @@
 // What can be done to a body: rows from the top, a material's code a character, `0` empty.
 
-import type { Paint } from "../protocol";
+import type { PaletteEntry } from "../protocol";
 
 export type Body = readonly string[];
 
@@ -41,12 +41,12 @@ export function mirrored(body: Body): Body {
 }
 
 /** Exchanges the two stimuli, by exchanging the materials that sense them. */
-export function swappedInputs(body: Body, palette: Paint[]): Body {
+export function swappedInputs(body: Body, palette: PaletteEntry[]): Body {
   const partners = new Map<string, string>();
   for (const { name, code } of palette) {
     const other = palette.find(candidate => candidate.name === partnerName(name));
     if (other !== undefined) {
-      partners.set(String(code), String(other.code));
+      partners.set(code, other.code);
     }
   }
   return body.map(row => [...row].map(code => partners.get(code) ?? code).join(""));
@@ -95,12 +95,15 @@ function neighbors(x: number, y: number): [number, number][] {
 }
 
 /** A connected body of random materials that stands on the ground and can move. */
-export function randomBody(width: number, height: number, palette: Paint[], random: () => number = Math.random): Body {
-  const codes = palette.map(entry => String(entry.code)).filter(code => code !== EMPTY);
+export function randomBody(
+  width: number,
+  height: number,
+  palette: PaletteEntry[],
+  random: () => number = Math.random,
+): Body {
+  const codes = palette.map(entry => entry.code).filter(code => code !== EMPTY);
   const pick = <T>(list: readonly T[]): T => list[Math.floor(random() * list.length)] as T;
-  const actuators = palette
-    .filter(entry => /muscle|actuator/.test(entry.name + entry.about))
-    .map(entry => String(entry.code));
+  const actuators = palette.filter(entry => /muscle|actuator/.test(entry.name + entry.about)).map(entry => entry.code);
   const wanted = Math.max(LEAST_MUSCLES, Math.ceil(width * height * (0.45 + 0.4 * random())));
   let body = paint(
     emptyBody(width, height),

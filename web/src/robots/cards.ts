@@ -3,7 +3,7 @@
 import { button, element, fill } from "../element";
 import { PATTERNS, gateName, outputsOf } from "../gate";
 import { truthTableElement } from "../live/inspector";
-import type { Card, Look, Paint } from "../protocol";
+import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
 import { prefersStillness } from "../theme";
 import { decodeGait, type Gait } from "./gait";
 import { drawBody } from "./portrait";
@@ -32,7 +32,7 @@ export class Cards {
     this.#observer = new IntersectionObserver(entries => entries.forEach(entry => this.#see(entry)));
   }
 
-  show(robots: Card[], looks: Look[], palette: Paint[]): void {
+  show(robots: RobotCard[], looks: VoxelLook[], palette: PaletteEntry[]): void {
     this.#ends.forEach(end => end());
     this.#ends.clear();
     this.#begin.clear();
@@ -49,7 +49,7 @@ export class Cards {
     }
   }
 
-  #card(robot: Card, looks: Look[], palette: Paint[]): HTMLElement {
+  #card(robot: RobotCard, looks: VoxelLook[], palette: PaletteEntry[]): HTMLElement {
     const canvas = element("canvas", { class: "gait", role: "img", "aria-label": `${robot.name} walking` });
     const caption = element("p", { class: "pattern dim" }, "\u00a0");
     const card = element(
@@ -67,7 +67,7 @@ export class Cards {
   }
 
   /** Lets the robot walk until the result is called. */
-  #walk(robot: Card, canvas: HTMLCanvasElement, caption: HTMLElement, portrait: () => void): () => void {
+  #walk(robot: RobotCard, canvas: HTMLCanvasElement, caption: HTMLElement, portrait: () => void): () => void {
     let ended = false;
     let stop = (): void => {};
     portrait();
@@ -108,7 +108,7 @@ function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLEleme
   };
 }
 
-function factsOf(robot: Card): HTMLElement {
+function factsOf(robot: RobotCard): HTMLElement {
   const facts: [string, string][] = [
     ["clock", `${robot.clock} ${robot.clock === 1 ? "cycle" : "cycles"}`],
     ["margin", `${robot.margin.toFixed(3)} voxels`],

@@ -3,7 +3,7 @@
 import { element, fill, iconButton, button } from "../element";
 import { swatch } from "../live/legend";
 import { Observable } from "../observable";
-import type { Look, Paint, Probe, Robots } from "../protocol";
+import type { PaletteEntry, ProbeReport, RobotCards, VoxelLook } from "../protocol";
 import { recall, remember } from "../memory";
 import {
   EMPTY,
@@ -30,7 +30,7 @@ const CYCLES = 8;
 /** A body and how it walks; null while that is not known. */
 export interface Design {
   body: Body;
-  probe: Probe | Fault | null;
+  probe: ProbeReport | Fault | null;
 }
 
 /** Why a body cannot walk. */
@@ -51,8 +51,8 @@ export class Designer {
     "data-do": "redo",
   });
   readonly #sizes = { width: this.#sizeField("width"), height: this.#sizeField("height") };
-  #materials: Paint[] = [];
-  #looks: Look[] = [];
+  #materials: PaletteEntry[] = [];
+  #looks: VoxelLook[] = [];
   #brush = "3";
   #timer = 0;
   #work: AbortController | null = null;
@@ -73,9 +73,9 @@ export class Designer {
     return this.#history.present;
   }
 
-  setMaterials({ palette, looks }: Robots): void {
-    const empty: Paint = { code: EMPTY, name: "empty", about: "no voxel", look: -1 };
-    this.#materials = [empty, ...palette.filter(({ code }) => String(code) !== EMPTY)];
+  setMaterials({ palette, looks }: RobotCards): void {
+    const empty: PaletteEntry = { code: EMPTY, name: "empty", about: "no voxel", look: -1 };
+    this.#materials = [empty, ...palette.filter(({ code }) => code !== EMPTY)];
     this.#looks = looks;
     this.#showPalette();
     this.#show();
@@ -90,7 +90,7 @@ export class Designer {
   }
 
   #paint(x: number, y: number, code: string, merge: boolean): void {
-    const known = this.#materials.some(material => String(material.code) === code);
+    const known = this.#materials.some(material => material.code === code);
     if (known) {
       this.#change(paint(this.body, x, y, code), merge);
     }
@@ -109,7 +109,7 @@ export class Designer {
   }
 
   #show(): void {
-    const names = new Map(this.#materials.map(({ code, name }) => [String(code), name]));
+    const names = new Map(this.#materials.map(({ code, name }) => [code, name]));
     this.#grid.show(this.body, looksByCode(this.#looks, this.#materials), names);
     this.#undo.disabled = !this.#history.canUndo;
     this.#redo.disabled = !this.#history.canRedo;
@@ -135,7 +135,7 @@ export class Designer {
     this.#work?.abort();
     const work = new AbortController();
     this.#work = work;
-    const show = (probe: Probe | Fault): void => {
+    const show = (probe: ProbeReport | Fault): void => {
       if (!work.signal.aborted && body === this.body) {
         this.design.set({ body, probe });
       }
@@ -144,10 +144,10 @@ export class Designer {
   }
 
   /** The gaits come at once, the numbers of a gate after them. */
-  async #ask(body: Body, signal: AbortSignal, show: (probe: Probe) => void): Promise<void> {
+  async #ask(body: Body, signal: AbortSignal, show: (probe: ProbeReport) => void): Promise<void> {
     const quick = await this.probing.now(body, CYCLES, signal);
     show(quick);
-    if (!signal.aborted && quick.function !== null && quick.character === null) {
+    if (!signal.aborted && quick.character === null) {
       show(await this.probing.thoroughly(body, CYCLES, signal));
     }
   }
@@ -166,12 +166,12 @@ export class Designer {
             type: "button",
             role: "radio",
             title: about,
-            "data-code": String(code),
-            "aria-checked": String(String(code) === this.#brush),
-            onclick: () => choose(String(code)),
+            "data-code": code,
+            "aria-checked": String(code === this.#brush),
+            onclick: () => choose(code),
           },
-          element("kbd", {}, String(code)),
-          String(code) === EMPTY ? element("span", { class: "swatch none" }) : swatch(this.#looks[look]),
+          element("kbd", {}, code),
+          code === EMPTY ? element("span", { class: "swatch none" }) : swatch(this.#looks[look]),
           element("span", {}, name),
         ),
       ),

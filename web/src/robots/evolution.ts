@@ -3,7 +3,8 @@
 import { CANCELLED, type Connection } from "../connection";
 import { button, element } from "../element";
 import { Observable } from "../observable";
-import { RequestError, type Niche } from "../protocol";
+import type { NicheEntry } from "../protocol";
+import { RequestError } from "../request";
 import { Archive, HeatMap } from "./archive";
 import { countVoxels, sizeOf, type Body } from "./body";
 
@@ -11,8 +12,8 @@ const GENERATIONS = 60;
 
 export interface Search {
   running: boolean;
-  niches: Niche[];
-  chosen: Niche | null;
+  niches: NicheEntry[];
+  chosen: NicheEntry | null;
 }
 
 export class Evolution {

@@ -1,7 +1,7 @@
 // The grid of the designer: voxels are painted with the mouse, a finger or the keyboard.
 
 import { element, fill } from "../element";
-import type { Look } from "../protocol";
+import type { VoxelLook } from "../protocol";
 import { EMPTY, sizeOf, voxelAt, type Body } from "./body";
 
 export interface GridEvents {
@@ -37,7 +37,7 @@ export class Grid {
     this.host.addEventListener("contextmenu", event => event.preventDefault());
   }
 
-  show(body: Body, looks: Map<string, Look>, names: Map<string, string>): void {
+  show(body: Body, looks: Map<string, VoxelLook>, names: Map<string, string>): void {
     if (sizeOf(body).join() !== sizeOf(this.#body).join()) {
       this.#build(body);
     }

@@ -3,7 +3,7 @@
 import { CANCELLED, type Connection } from "../connection";
 import { button, element, fill } from "../element";
 import type { Program } from "../program";
-import { RequestError } from "../protocol";
+import { RequestError } from "../request";
 import type { Body } from "./body";
 
 export interface KeepDoors {

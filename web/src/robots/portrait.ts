@@ -1,21 +1,21 @@
 // A body at rest.
 
-import type { Look, Paint } from "../protocol";
+import type { PaletteEntry, VoxelLook } from "../protocol";
 import { colors } from "../theme";
 import { EMPTY, sizeOf, type Body } from "./body";
 
 /** The look of each code of a palette. */
-export function looksByCode(looks: Look[], palette: Paint[]): Map<string, Look> {
+export function looksByCode(looks: VoxelLook[], palette: PaletteEntry[]): Map<string, VoxelLook> {
   return new Map(
-    palette.flatMap(({ code, look }): [string, Look][] => {
+    palette.flatMap(({ code, look }): [string, VoxelLook][] => {
       const found = looks[look];
-      return String(code) === EMPTY || found === undefined ? [] : [[String(code), found]];
+      return code === EMPTY || found === undefined ? [] : [[code, found]];
     }),
   );
 }
 
 /** Draws a body in the middle of a canvas, standing on its lower edge. */
-export function drawBody(canvas: HTMLCanvasElement, body: Body, looks: Look[], palette: Paint[]): void {
+export function drawBody(canvas: HTMLCanvasElement, body: Body, looks: VoxelLook[], palette: PaletteEntry[]): void {
   const ratio = devicePixelRatio || 1;
   canvas.width = Math.round(canvas.clientWidth * ratio);
   canvas.height = Math.round(canvas.clientHeight * ratio);

@@ -1,7 +1,7 @@
 // Asks the server how bodies walk. Each body is asked for once, and those that nobody sees any more are not.
 
 import type { Connection } from "../connection";
-import type { Probe } from "../protocol";
+import type { ProbeReport } from "../protocol";
 
 const AT_ONCE = 2;
 const KEPT = 200;
@@ -14,14 +14,14 @@ interface Waiting {
 }
 
 export class Probing {
-  readonly #known = new Map<string, Promise<Probe>>();
+  readonly #known = new Map<string, Promise<ProbeReport>>();
   #waiting: Waiting[] = [];
   #working = 0;
 
   constructor(private readonly connection: Connection) {}
 
   /** The gaits of a body of the gallery, as soon as it is its turn; never if it is no longer wanted then. */
-  later(body: readonly string[], cycles: number, wanted: () => boolean): Promise<Probe> {
+  later(body: readonly string[], cycles: number, wanted: () => boolean): Promise<ProbeReport> {
     return new Promise((resolve, reject) => {
       const begin = (): void => {
         this.#working++;
@@ -37,7 +37,7 @@ export class Probing {
   }
 
   /** The gaits of a body, before all that wait. */
-  now(body: readonly string[], cycles: number, signal?: AbortSignal): Promise<Probe> {
+  now(body: readonly string[], cycles: number, signal?: AbortSignal): Promise<ProbeReport> {
     const key = `${cycles}:${body.join("/")}`;
     const known = this.#known.get(key);
     if (known !== undefined) {
@@ -57,7 +57,7 @@ export class Probing {
   }
 
   /** The gaits with the character of the gate, which takes many more simulations. */
-  thoroughly(body: readonly string[], cycles: number, signal: AbortSignal): Promise<Probe> {
+  thoroughly(body: readonly string[], cycles: number, signal: AbortSignal): Promise<ProbeReport> {
     return this.connection.request("probe", { body: [...body], cycles, character: true }, { signal });
   }
 

@@ -3,7 +3,7 @@
 import { element, fill } from "../element";
 import { PATTERNS, gateName } from "../gate";
 import { truthTableElement } from "../live/inspector";
-import type { Probe } from "../protocol";
+import type { ProbeReport } from "../protocol";
 import { prefersStillness } from "../theme";
 import { sizeOf } from "./body";
 import { percent } from "./cards";
@@ -41,7 +41,7 @@ export class ProbeView {
       return;
     }
     this.host.dataset["letters"] = probe.letters;
-    this.#title.textContent = probe.function === null ? "no gate yet" : gateName(probe.function);
+    this.#title.textContent = gateName(probe.function);
     if (this.#shown !== body.join()) {
       this.#shown = body.join();
       this.#stop();
@@ -50,7 +50,7 @@ export class ProbeView {
     fill(this.#facts, truthTableElement(probe.function, [...probe.letters].map(letterValue)), this.#numbers(probe));
   }
 
-  #showLanes(probe: Probe, height: number): void {
+  #showLanes(probe: ProbeReport, height: number): void {
     const gaits = probe.gaits.map(decodeGait);
     const views = gaits.map((_, i) => {
       const letter = probe.letters[i] ?? "?";
@@ -77,21 +77,18 @@ export class ProbeView {
     });
   }
 
-  #numbers({ character, displacement, letters, function: gate }: Probe): HTMLElement {
+  #numbers({ character, displacement, letters }: ProbeReport): HTMLElement {
     const facts: [string, string][] = [
       ["behavior", `${letters} (under 00, 01, 10, 11)`],
       ["walks", displacement.map(voxels => voxels.toFixed(2)).join(", ") + " voxels"],
     ];
     if (character === null) {
-      facts.push(["as a gate", gate === null ? "no gate yet" : "being measured …"]);
+      facts.push(["as a gate", "being measured …"]);
     } else {
       facts.push(
         ["clock", `${character.clock} ${character.clock === 1 ? "cycle" : "cycles"}`],
         ["margin", `${character.margin.toFixed(3)} voxels a cycle`],
-        [
-          "errors",
-          percent(character.errors) + (character.switches === undefined ? "" : ` in ${character.switches} switches`),
-        ],
+        ["errors", `${percent(character.errors)} in ${character.switches} switches`],
         ...(character.topples ? [["falls over", "sometimes"] satisfies [string, string]] : []),
       );
     }

@@ -2,14 +2,14 @@
 
 import { followWithSlack, middleOf } from "../live/camera";
 import { drawGround, drawRobot } from "../live/drawing";
-import type { Look, Voxel } from "../protocol";
+import type { SwarmRobot, VoxelLook } from "../protocol";
 import { colors } from "../theme";
 import { outlineAt, type Gait } from "./gait";
 
 /** The part of a body that never changes while it walks. */
 export interface Looking {
-  voxels: Voxel[];
-  looks: Look[];
+  voxels: SwarmRobot["voxels"];
+  looks: VoxelLook[];
   height: number;
 }
 

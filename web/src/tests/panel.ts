@@ -5,13 +5,14 @@ import { button, element, fill } from "../element";
 import type { LiveSwarm } from "../live/swarm";
 import { Observable } from "../observable";
 import type { Program } from "../program";
-import { RequestError, type Level, type TestEntry, type Verdict } from "../protocol";
+import type { TestEntry, TestLevel, TestResult } from "../protocol";
+import { RequestError } from "../request";
 import { verdictTable } from "./verdict";
 
 /** What is known of a test. */
 export type TestState =
   | { state: "running"; done: number; all: number; work: AbortController }
-  | { state: "done"; level: Level; results: Verdict[] }
+  | { state: "done"; level: TestLevel; results: TestResult[] }
   | { state: "failed"; message: string };
 
 /** How many rows a test has; one over all inputs has none of its own. */
@@ -70,7 +71,7 @@ export class TestsPanel {
     }
   }
 
-  async #runAll(level: Level): Promise<void> {
+  async #runAll(level: TestLevel): Promise<void> {
     await this.#settle();
     for (const test of this.#tests()) {
       await this.#run(test, level);
@@ -91,7 +92,7 @@ export class TestsPanel {
     return (same.find(test => test.index === index) ?? same[0] ?? tests[index])?.index;
   }
 
-  async #run(test: TestEntry, level: Level): Promise<void> {
+  async #run(test: TestEntry, level: TestLevel): Promise<void> {
     await this.#settle();
     const index = this.#placeOf(test);
     if (index === undefined) {
@@ -118,7 +119,7 @@ export class TestsPanel {
     }
   }
 
-  async #replay(test: TestEntry, verdict: Verdict, row: number): Promise<void> {
+  async #replay(test: TestEntry, verdict: TestResult, row: number): Promise<void> {
     this.#status.textContent = "running the test up to this row …";
     try {
       const { swarm } = await this.connection.request(

@@ -1,7 +1,7 @@
 // The rows of a test with what was expected and observed.
 
 import { button, element } from "../element";
-import type { Verdict, VerdictRow } from "../protocol";
+import type { RowResult, TestResult } from "../protocol";
 
 export interface Leads {
   line: (line: number) => void;
@@ -12,7 +12,7 @@ export interface Leads {
 /** More rows than this are long to read, so passing ones are left out. */
 const MANY = 64;
 
-export function verdictTable(verdict: Verdict, leads: Leads): HTMLElement {
+export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
   const rows = verdict.rows.length > MANY ? verdict.rows.filter(row => !row.passed).slice(0, MANY) : verdict.rows;
   const left = verdict.rows.length - rows.length;
   return element(
@@ -24,7 +24,7 @@ export function verdictTable(verdict: Verdict, leads: Leads): HTMLElement {
   );
 }
 
-function head(verdict: Verdict): HTMLElement {
+function head(verdict: TestResult): HTMLElement {
   const names = (ports: { name: string }[]): HTMLElement[] =>
     ports.map(port => element("th", { scope: "col" }, port.name));
   return element(
@@ -43,9 +43,9 @@ function head(verdict: Verdict): HTMLElement {
   );
 }
 
-function tableRow(row: VerdictRow, leads: Leads): HTMLElement {
-  const cells = (values: ({ text: string } | null)[]): HTMLElement[] =>
-    values.map((value, i) => element("td", { class: i === 0 ? "first" : "" }, value?.text ?? "–"));
+function tableRow(row: RowResult, leads: Leads): HTMLElement {
+  const cells = (values: { text: string }[]): HTMLElement[] =>
+    values.map((value, i) => element("td", { class: i === 0 ? "first" : "" }, value.text));
   return element(
     "tr",
     { "data-passed": row.passed, "data-row": row.row },

@@ -26,7 +26,7 @@ macro_rules! codes {
                 }
             }
 
-            /// Its severity.
+            /// The severity of its diagnostics: whether the input is refused.
             pub fn severity(self) -> Severity {
                 match self {
                     $(Self::$name => Severity::$severity,)*

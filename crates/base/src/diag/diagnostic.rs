@@ -7,7 +7,7 @@ use crate::source::Span;
 /// A place with a word about it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Label {
-    /// The place.
+    /// The labeled place, in a file of the sources.
     pub span: Span,
     /// The text of the label; lower case, without a full stop. It may be empty.
     pub text: String,
@@ -20,15 +20,15 @@ pub type Related = Label;
 /// programs.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Diagnostic {
-    /// The violated rule.
+    /// The violated rule, which `nbc explain` explains.
     pub code: Code,
-    /// The severity.
+    /// Whether the input is refused, or only suspect; mostly that of the code.
     pub severity: Severity,
     /// One line, lower case, without a full stop, with the user's text in backticks.
     pub message: String,
     /// The places, the main one first.
     pub labels: Vec<Label>,
-    /// A suggestion, if there is one.
+    /// A sentence that says what to write instead, if that is known.
     pub help: Option<String>,
     /// Related places, such as the first of two definitions.
     pub related: Vec<Related>,
@@ -57,7 +57,7 @@ impl Diagnostic {
         Self { code, severity, message, labels: Vec::new(), help: None, related: Vec::new(), fix: None }
     }
 
-    /// Adds a suggestion.
+    /// The same with a sentence that says what to write instead.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self

@@ -17,7 +17,7 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 /// What may have been meant by an unknown name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Suggestion {
-    /// Unknown.
+    /// Nothing can be suggested.
     #[default]
     None,
     /// A name that differs in a few letters.

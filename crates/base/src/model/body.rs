@@ -94,17 +94,20 @@ impl Body {
         Ok(Self { width: expected, height: rows.len(), codes, palette: Arc::clone(palette) })
     }
 
-    /// Columns.
+    /// The number of columns of the box.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// The number of rows of the box.
     pub fn height(&self) -> usize {
         self.height
     }
 
     /// The code at row `row` (0 on top) and column `column` (0 on the left).
+    ///
+    /// # Panics
+    /// When the place is outside the body.
     pub fn code(&self, row: usize, column: usize) -> u8 {
         assert!(column < self.width, "column inside the body");
         self.codes[row * self.width + column]

@@ -5,10 +5,10 @@ use std::fmt;
 
 use crate::source::Span;
 
-/// A declared circuit.
+/// A declared circuit: its ports and parameters, and a body of statements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Circuit {
-    /// As written; unique among the circuits of a program.
+    /// The name as written; unique among the circuits of a program.
     pub name: String,
     /// The place of the name in the declaration.
     pub span: Span,
@@ -26,7 +26,7 @@ pub struct Circuit {
     pub expressions: Vec<Expression>,
     /// The truth tables of the body.
     pub tables: Vec<Table>,
-    /// What the braces contain.
+    /// The statements between the braces, with the nets declared there.
     pub body: Block,
     /// The number of integer slots: parameters, then loop variables.
     pub variables: usize,
@@ -63,7 +63,7 @@ pub struct CircuitId(pub u32);
 /// A width parameter: an integer known when the circuit is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// As written; sizes refer to it.
+    /// The name as written; sizes refer to it.
     pub name: String,
     /// The place of the declaration.
     pub span: Span,
@@ -74,7 +74,7 @@ pub struct Parameter {
 /// A net of a circuit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Net {
-    /// As written; unique in its circuit.
+    /// The name as written; unique in its circuit.
     pub name: String,
     /// The place of the declaration or of the first driver.
     pub span: Span,
@@ -123,9 +123,9 @@ pub struct Target {
     pub net: Option<NetSlot>,
     /// The bits driven, highest and lowest; `None` is the whole net.
     pub bits: Option<(SizeId, SizeId)>,
-    /// The value before the first cycle.
+    /// The value before the first cycle (`init`), if it is given.
     pub start: Option<SizeId>,
-    /// The place.
+    /// The place of the target in the source.
     pub span: Span,
 }
 
@@ -134,14 +134,14 @@ pub struct Target {
 pub struct Size {
     /// A literal, a variable or an operation.
     pub kind: SizeKind,
-    /// The place.
+    /// The place of the integer in the source.
     pub span: Span,
 }
 
-/// The kinds of integers.
+/// What an integer is: a number, a variable, or an operation on others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SizeKind {
-    /// A literal.
+    /// A number as written.
     Literal(i64),
     /// A parameter or loop variable, by slot.
     Variable(u32),
@@ -173,7 +173,7 @@ pub enum SizeOperator {
 pub struct Expression {
     /// What is computed, and from which other expressions.
     pub kind: ExpressionKind,
-    /// The place.
+    /// The place of the expression in the source.
     pub span: Span,
 }
 
@@ -193,7 +193,7 @@ impl Expression {
     }
 }
 
-/// The kinds of expressions.
+/// What an expression is: a constant, a net, or what is made of other expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
     /// A bit pattern, most significant bit first.
@@ -269,7 +269,7 @@ pub enum ExpressionKind {
     },
 }
 
-/// A bitwise operation.
+/// An operation on each bit of values of one width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operator {
     /// `not`
@@ -292,7 +292,7 @@ impl Operator {
     /// All, in the order of precedence of the manual.
     pub const ALL: [Self; 7] = [Self::Not, Self::And, Self::Nand, Self::Xor, Self::Xnor, Self::Or, Self::Nor];
 
-    /// The keyword.
+    /// The keyword of the language for it.
     pub fn word(self) -> &'static str {
         match self {
             Self::Not => "not",
@@ -351,7 +351,7 @@ pub struct TableRow {
 pub struct TableOutput {
     /// One bit for each output, or a value that is computed.
     pub value: OutputValue,
-    /// The place.
+    /// The place of the output in the source.
     pub span: Span,
 }
 
@@ -367,7 +367,7 @@ pub enum OutputValue {
 /// A circuit with values for its parameters.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Instance {
-    /// The circuit's name.
+    /// The name of the circuit.
     pub circuit: String,
     /// The parameters in order; missing ones at the end have their defaults.
     pub arguments: Vec<u64>,
@@ -392,7 +392,7 @@ impl fmt::Display for Instance {
 }
 
 impl SizeOperator {
-    /// All, with their symbols.
+    /// All operations, each with its symbol in the language.
     pub const SIGNS: [(Self, &'static str); 6] = [
         (Self::Add, "+"),
         (Self::Subtract, "-"),
@@ -402,12 +402,12 @@ impl SizeOperator {
         (Self::Power, "**"),
     ];
 
-    /// The symbol.
+    /// The symbol of the language for it.
     pub fn sign(self) -> &'static str {
         Self::SIGNS.iter().find(|(operator, _)| *operator == self).expect("every operator has a sign").1
     }
 
-    /// The operation for a symbol.
+    /// The operation with that symbol, if there is one.
     pub fn parse(sign: &str) -> Option<Self> {
         Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(operator, _)| *operator)
     }

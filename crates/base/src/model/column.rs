@@ -5,9 +5,9 @@ use serde::Serialize;
 /// A port with its width: a column of a test, a waveform or a table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Column {
-    /// The port's name.
+    /// The name of the port.
     pub name: String,
-    /// Its width in bits.
+    /// The width in bits, at least 1.
     pub width: usize,
 }
 
@@ -43,7 +43,7 @@ fn whole_port(bits: &[String]) -> Option<usize> {
     (whole && highest > 0).then_some(highest + 1)
 }
 
-/// The name of a bus and the number of its bit, in the name of the bit such as `a[3]`.
+/// The name of a bus and the number of its bit, from the name of the bit: `a` and 3 for `a[3]`. `None` for other names.
 pub fn bit_parts(bit: &str) -> Option<(&str, usize)> {
     let (name, number) = bit.strip_suffix(']')?.rsplit_once('[')?;
     let is_plain = !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit());

@@ -10,33 +10,33 @@ use super::{Palette, PhysicsWorld, Schedule, Variation};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Evolution {
-    /// The declaration's name.
+    /// The name of the declaration.
     pub name: String,
-    /// Columns of the bounding box.
+    /// Columns of the bounding box, in voxels.
     pub width: usize,
-    /// Rows of the bounding box.
+    /// Rows of the bounding box, in voxels.
     pub height: usize,
     /// The materials a body may use.
     pub palette: Arc<Palette>,
     /// The weights of the mutation operators.
     pub mutation: MutationWeights,
-    /// The stimuli of the long simulation.
+    /// The stimuli of the long simulation, in which they change (paper, Methods).
     pub variable: Schedule,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
-    /// The archive's axes.
+    /// The axes of the archive; a niche is one bin of each.
     pub descriptors: Vec<Axis>,
     /// Offspring of archived parents in each generation.
     pub batch: usize,
     /// Fresh random bodies added in each generation.
     pub newcomers: usize,
-    /// Generations.
+    /// The number of generations of a run.
     pub generations: u32,
-    /// One run for each seed.
+    /// The seeds of the runs, one run for each.
     pub seeds: Vec<u64>,
     /// Whether to follow the paper's text or the authors' code where they differ.
     pub rules: Rules,
-    /// The objective.
+    /// What makes a body better than another in its niche.
     pub objective: SearchObjective,
     /// The niches that one evaluation may enter.
     pub symmetry: Symmetry,
@@ -54,14 +54,14 @@ pub struct Evolution {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampledWorlds {
-    /// The number of worlds.
+    /// The number of worlds, at least 1.
     pub worlds: u32,
-    /// How much they vary.
+    /// The largest change of each of their quantities.
     pub vary: Variation,
 }
 
 impl SampledWorlds {
-    /// The most worlds.
+    /// The most worlds that a declaration may ask for.
     pub const MOST: u32 = 1000;
     /// The number of worlds if it is not declared.
     pub const USUAL: u32 = 4;
@@ -71,10 +71,10 @@ impl SampledWorlds {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rules {
-    /// The paper's text.
+    /// As in the paper's text.
     #[default]
     Paper,
-    /// The authors' code.
+    /// As in the authors' code.
     Code,
 }
 
@@ -89,7 +89,7 @@ pub enum Axis {
         /// The number of bins.
         bins: usize,
     },
-    /// The sixteen behaviors.
+    /// The sixteen behaviors, a bin for each.
     Behavior,
 }
 
@@ -97,15 +97,16 @@ pub enum Axis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Count {
-    /// All voxels.
+    /// Voxels of any material.
     Voxels,
-    /// Actuators.
+    /// Voxels of actuators.
     Active,
-    /// Sensors.
+    /// Voxels of sensors.
     Sensory,
 }
 
-/// The weights of the mutation operators (docs/physics.md 11).
+/// The weights of the mutation operators: an operator is drawn with a probability in proportion to its weight
+/// (docs/physics.md 11).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MutationWeights {
@@ -137,7 +138,7 @@ impl Default for MutationWeights {
     }
 }
 
-/// The objective of an evolution run.
+/// What makes a body better than another in its niche.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchObjective {
@@ -152,7 +153,7 @@ pub enum SearchObjective {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
-    /// The body's own niche.
+    /// Only the niche of the body itself.
     #[default]
     None,
     /// The niches of all bodies that follow by exchanging and inverting inputs and by mirroring.

@@ -94,7 +94,7 @@ impl Function {
         Self(self.0 & 0b1001 | (self.0 & 0b0010) << 1 | (self.0 & 0b0100) >> 1)
     }
 
-    /// The inverted function.
+    /// The function with the inverted output.
     pub fn inverted(self) -> Self {
         Self(!self.0 & 0b1111)
     }

@@ -28,7 +28,7 @@ pub enum NodeKind {
     Hidden(Activation),
 }
 
-/// A weighted link.
+/// A link between two nodes: it adds the output of one, times a weight, to the input of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
     /// The node whose output it carries.
@@ -39,7 +39,7 @@ pub struct Link {
     pub weight: f64,
 }
 
-/// A node's activation.
+/// The function from the sum `u` of the weighted inputs of a node to its output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Activation {

@@ -8,18 +8,18 @@ use super::{MaterialError, MaterialNumber, Pattern};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Record", into = "Record")]
 pub struct Material {
-    /// The name in the program.
+    /// The name in the program, unique in its palette.
     pub name: String,
-    /// The response.
+    /// The stiffness, and what changes the width of a voxel.
     pub kind: MaterialKind,
 }
 
 /// The response of a material (docs/physics.md 3 and 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaterialKind {
-    /// Passive and stiff.
+    /// Passive and stiff: keeps its shape.
     Rigid,
-    /// Passive and compliant.
+    /// Passive and compliant: bends with its neighbors.
     Soft,
     /// Swells and shrinks with time.
     Actuator(Drive),
@@ -32,7 +32,7 @@ pub enum MaterialKind {
 pub struct Drive {
     /// Samples of one period, in env steps. Both ends are samples, so the last and the first have the same phase.
     pub period: u32,
-    /// Phase, in degrees.
+    /// The phase at the start of the clock, in degrees.
     pub phase: f64,
     /// Smallest width, as a fraction of the rest width.
     pub low: f64,

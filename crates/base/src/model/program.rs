@@ -14,7 +14,7 @@ pub struct Program {
     pub worlds: Vec<NamedWorld>,
     /// The schedules of stimuli.
     pub schedules: Vec<NamedSchedule>,
-    /// The evolution runs.
+    /// The evolution runs that are declared, those of the prelude included.
     pub evolutions: Vec<Evolution>,
     /// The names of the evolution runs of the file itself, not of files it uses.
     pub own_evolutions: Vec<String>,
@@ -37,7 +37,7 @@ pub struct NamedSchedule {
     pub name: String,
     /// Its stimuli, as indices of [`Program::stimuli`].
     pub stimuli: Vec<usize>,
-    /// The spells.
+    /// The stimuli over time.
     pub schedule: Schedule,
 }
 
@@ -66,7 +66,7 @@ pub struct LibrarySource {
 /// The source of a library's robots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The built-in library.
+    /// The library that is built into the program.
     Shipped,
     /// The archive of the evolution run of that name.
     Evolution(String),
@@ -124,7 +124,7 @@ pub enum Hold {
     /// Until every robot has settled, row by row.
     #[default]
     Auto,
-    /// That many cycles.
+    /// That many cycles for every row.
     Cycles(u32),
 }
 
@@ -154,7 +154,7 @@ pub struct InputSpell {
     pub inputs: Vec<bool>,
     /// The notation of the values of the ports; empty if they come from a schedule of stimuli.
     pub bases: Vec<Base>,
-    /// The duration in cycles.
+    /// The duration in actuation cycles.
     pub cycles: u32,
     /// The line in the source.
     pub line: usize,

@@ -11,22 +11,22 @@ use super::{Behavior, Body, Function, Genotype, Pattern};
 pub struct Robot {
     /// The robot's name, unique in its library.
     pub name: String,
-    /// Which way it walks.
+    /// The directions in which it walks, one for each pattern of two stimuli.
     pub behavior: Behavior,
-    /// Its voxels.
+    /// The voxels, with the palette that says what they are made of.
     pub body: Body,
     /// Displacement in voxels over the paper's fixed simulations, patterns 00, 01, 10, 11 (docs/physics.md 10).
     pub displacement: [f64; 4],
-    /// Its character as a gate.
+    /// How reliable and how quick it is as a gate.
     pub character: Character,
-    /// Its provenance.
+    /// The run of evolution that made it.
     pub provenance: Provenance,
     /// The network it was developed from.
     pub genotype: Option<Genotype>,
 }
 
 impl Robot {
-    /// The gate it is.
+    /// The gate that it is: its behavior with right as 1 and left as 0.
     pub fn function(&self) -> Function {
         self.behavior.function()
     }
@@ -62,9 +62,9 @@ pub struct Character {
 pub struct SafeRadius {
     /// The largest changes of the worlds at radius 1, such as `friction=10%,gravity=5%`.
     pub vary: String,
-    /// The worlds that were tried at each radius.
+    /// The number of worlds that were tried at each radius.
     pub worlds: u32,
-    /// Their seed.
+    /// The seed from which the worlds were drawn.
     pub seed: u64,
     /// The largest factor of the changes up to which no output was wrong.
     pub radius: f64,
@@ -83,13 +83,13 @@ impl Character {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transition {
-    /// The pattern before.
+    /// The pattern of two stimuli before the switch.
     #[serde(with = "pair")]
     pub from: Pattern,
-    /// The pattern after.
+    /// The pattern of two stimuli after the switch.
     #[serde(with = "pair")]
     pub to: Pattern,
-    /// Cycles until the output is correct and stays correct.
+    /// Cycles after the switch until the output is correct and stays correct.
     pub cycles: u32,
 }
 
@@ -101,9 +101,9 @@ pub struct Provenance {
     pub program: String,
     /// The version of that program.
     pub version: String,
-    /// The evolution declaration's name.
+    /// The name of the declaration of the run.
     pub evolution: String,
-    /// The run's seed.
+    /// The seed of the run.
     pub seed: u64,
     /// The generation in which the robot was born.
     pub generation: u32,

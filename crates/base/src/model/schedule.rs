@@ -8,7 +8,7 @@ use super::Pattern;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spell {
-    /// The stimuli present.
+    /// The stimuli that are present.
     pub pattern: Pattern,
     /// The duration in env steps.
     pub steps: u32,
@@ -23,12 +23,12 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// One pattern throughout.
+    /// A schedule of one spell: a pattern for that many env steps.
     pub fn constant(pattern: Pattern, steps: u32) -> Self {
         Self { spells: vec![Spell { pattern, steps }] }
     }
 
-    /// The whole length in env steps.
+    /// The length of all spells together, in env steps.
     pub fn steps(&self) -> u32 {
         self.spells.iter().map(|spell| spell.steps).sum()
     }

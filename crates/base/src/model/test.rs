@@ -6,7 +6,7 @@ use crate::source::Span;
 /// A declared test, as bits. The source is needed for messages only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitTest {
-    /// The tested circuit.
+    /// The circuit to test, with numbers for its parameters.
     pub circuit: Instance,
     /// The title; empty if there is none.
     pub title: String,
@@ -73,7 +73,7 @@ impl CircuitTest {
         self.inputs.iter().flat_map(Column::bits).collect()
     }
 
-    /// The names of the output bits in order.
+    /// The names of the output bits in order: `q` for a port of one bit, `s[3]`, `s[2]`, … for a wider one.
     pub fn output_bits(&self) -> Vec<String> {
         self.outputs.iter().flat_map(Column::bits).collect()
     }

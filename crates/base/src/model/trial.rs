@@ -54,19 +54,19 @@ impl Setting {
 /// One simulation to run: a body, fresh at its start, under a schedule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// The body.
+    /// The body that is simulated.
     pub body: Body,
-    /// The stimuli over time.
+    /// The stimuli over time, from the first env step to the last.
     pub schedule: Schedule,
 }
 
 /// The result of a trial: the center of mass over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
-    /// Horizontal position of the center of mass in voxels: at the start, then after each env step. It ends early at a
-    /// fault.
+    /// Horizontal position of the center of mass in voxels: `com_x[0]` at the start, `com_x[n]` after env step `n`. It
+    /// ends early at a fault.
     pub com_x: Vec<f64>,
-    /// Height of the center of mass in voxels, likewise.
+    /// Height of the center of mass in voxels, at the same times.
     pub com_y: Vec<f64>,
     /// The fault that ended it early, if any.
     pub fault: Option<Fault>,
@@ -92,12 +92,12 @@ impl Trajectory {
     }
 }
 
-/// A simulation that failed.
+/// Why and when a simulation ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// The env step that was abandoned, from 1.
     pub env_step: u32,
-    /// The kind.
+    /// What went wrong.
     pub kind: FaultKind,
 }
 

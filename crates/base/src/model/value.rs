@@ -42,7 +42,7 @@ impl Base {
 pub struct Value {
     /// The bits, most significant first; `None` is unchecked.
     pub bits: Vec<Option<bool>>,
-    /// How it is written.
+    /// The base in which it is written.
     pub base: Base,
 }
 

@@ -2,29 +2,29 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A world. The default is the paper's.
+/// A world to simulate in: its physics, and what goes wrong there. The default is the paper's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhysicsWorld {
-    /// Its physics.
+    /// The numbers of its physics, as factors of the paper's.
     pub factors: WorldFactors,
-    /// What goes wrong.
+    /// What goes wrong for each robot by itself.
     pub noise: WorldNoise,
 }
 
-/// The numbers of the physics as factors of the paper's (docs/physics.md 15).
+/// The numbers of the physics as factors of the paper's, so 1 is the paper's world (docs/physics.md 15).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WorldFactors {
     /// Friction on the ground, on the plane below it and between voxels.
     pub friction: f64,
-    /// Gravity.
+    /// Downward acceleration.
     pub gravity: f64,
     /// Stiffness of all springs.
     pub stiffness: f64,
-    /// Viscous drag.
+    /// Viscous drag on the points of a body.
     pub drag: f64,
-    /// Damping of contacts.
+    /// Damping where voxels touch the ground or each other.
     pub damping: f64,
     /// Speed at which voxels swell and shrink.
     pub swelling: f64,

@@ -32,7 +32,7 @@ pub struct SourceFile {
     pub id: FileId,
     /// The path as given, for messages.
     pub name: String,
-    /// The whole text.
+    /// The whole text of the file.
     pub text: String,
     lines: LineStarts,
 }
@@ -70,6 +70,9 @@ pub struct Sources {
 
 impl Sources {
     /// Adds a file and returns its number.
+    ///
+    /// # Panics
+    /// When there are 2^32 files already.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
         let text = text.into();
@@ -82,7 +85,7 @@ impl Sources {
         &self.files[id.0 as usize]
     }
 
-    /// The text of a span.
+    /// The text of a span, which must be a span of these sources.
     pub fn text(&self, span: Span) -> &str {
         &self.file(span.file).text[span.range()]
     }

@@ -9,20 +9,26 @@ pub struct FileId(pub u32);
 pub struct Span {
     /// The file that has the bytes.
     pub file: FileId,
-    /// The first byte.
+    /// The first byte, counted from 0.
     pub start: u32,
     /// The end: one past the last byte.
     pub end: u32,
 }
 
 impl Span {
-    /// The range `start..end` of `file`.
+    /// The range `start..end` of `file`, in bytes.
+    ///
+    /// # Panics
+    /// When an offset is 4 GiB or more.
     pub fn new(file: FileId, start: usize, end: usize) -> Self {
         let narrow = |offset: usize| u32::try_from(offset).expect("source files are smaller than 4 GiB");
         Self { file, start: narrow(start), end: narrow(end) }
     }
 
-    /// The smallest span that covers `self` and `other`, which must be in the same file.
+    /// The smallest span that covers `self` and `other`.
+    ///
+    /// # Panics
+    /// When they are in different files.
     pub fn to(self, other: Self) -> Self {
         assert_eq!(self.file, other.file, "a span covers one file only");
         Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }

@@ -9,19 +9,31 @@ use super::{FileError, VerilogError, VerilogModules};
 /// The source of everything that the core reads: programs and robot files.
 pub trait SourceWorld {
     /// The text of the file at `path`.
+    ///
+    /// # Errors
+    /// When there is no such file, or it is not valid UTF-8.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
     /// The bytes of the file at `path`.
+    ///
+    /// # Errors
+    /// When there is no such file.
     fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
         self.read(path).map(String::into_bytes)
     }
 
     /// The modules of a Verilog text that was read from `path`.
+    ///
+    /// # Errors
+    /// When the text has faults, or the world cannot translate Verilog.
     fn translate_verilog(&self, _path: &str, _text: &str) -> Result<VerilogModules, VerilogError> {
         Err(VerilogError::NoTranslator)
     }
 
     /// The names of the entries of a folder, in order.
+    ///
+    /// # Errors
+    /// When there is no such folder.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 
     /// The unique name of the file at `path`, however many paths and links lead to it.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::elaborate::frame::{Item, Scope};
 use crate::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
-use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModuleSignal, NONE};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModuleSignal};
 use crate::elaborate::wording::{ElaborateError, shown_at, unknown_circuit};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
@@ -156,7 +156,7 @@ pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) frames: Vec<Scope>,
     pub(super) items: Vec<Item<'a>>,
     /// The constants 0 and 1, if they exist already.
-    pub(super) constants: [Bit; 2],
+    pub(super) constants: [Option<Bit>; 2],
     /// Circuits inside that have no name of their own.
     pub(super) unnamed: usize,
     /// Whether the module has an error and cannot be used.
@@ -179,7 +179,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             size: 0,
         };
         let (frames, items) = (Vec::new(), Vec::new());
-        Self { builder, circuit, module, frames, items, constants: [NONE; 2], unnamed: 0, failed: false }
+        Self { builder, circuit, module, frames, items, constants: [None; 2], unnamed: 0, failed: false }
     }
 
     fn run(mut self, arguments: Vec<i64>) -> Option<Module> {
@@ -240,7 +240,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         }
         self.module.nets[net].width = Some(width);
         self.module.nets[net].first = first;
-        let signal = |bit| ModuleSignal::Net { net: net as u32, bit, driver: NONE, by: 0 };
+        let signal = |bit| ModuleSignal::Net { net: net as u32, bit, driver: None, by: 0 };
         self.module.signals.extend((0..width).map(signal));
     }
 
@@ -267,7 +267,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
     }
 
     fn is_driven(&self, bit: Bit) -> bool {
-        !matches!(self.module.signals[bit as usize], ModuleSignal::Net { driver: NONE, .. })
+        !matches!(self.module.signals[bit as usize], ModuleSignal::Net { driver: None, .. })
     }
 
     fn total(&mut self) {

@@ -1,9 +1,10 @@
 //! From expressions to gates, bit by bit; the lowest bit of a value comes first.
 
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, NONE, Site};
+use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
 use crate::elaborate::table::TableValues;
 use crate::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
+use crate::index::ListIndex;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
 use nbc_base::source::Span;
 
@@ -74,8 +75,8 @@ impl ModuleBuilder<'_, '_> {
         let ModuleSignal::Net { driver, by, net, .. } = &mut self.module.signals[bit as usize] else {
             unreachable!("inputs are no targets")
         };
-        if *driver == NONE {
-            (*driver, *by) = (value, item);
+        if driver.is_none() {
+            (*driver, *by) = (Some(ListIndex::new(value)), item);
             return;
         }
         let (first, net) = (*by, *net);
@@ -153,15 +154,17 @@ impl ModuleBuilder<'_, '_> {
 
     /// The constant 0 or 1.
     pub(super) fn constant(&mut self, value: bool) -> Bit {
-        if self.constants[usize::from(value)] == NONE {
-            self.constants[usize::from(value)] = self.signal(ModuleSignal::Constant(value));
+        if let Some(known) = self.constants[usize::from(value)] {
+            return known;
         }
-        self.constants[usize::from(value)]
+        let made = self.signal(ModuleSignal::Constant(value));
+        self.constants[usize::from(value)] = Some(made);
+        made
     }
 
     /// Whether a net is this constant.
     pub(super) fn is_constant(&self, bit: Bit, value: bool) -> bool {
-        bit != NONE && bit == self.constants[usize::from(value)]
+        self.constants[usize::from(value)] == Some(bit)
     }
 
     fn signal(&mut self, signal: ModuleSignal) -> Bit {
@@ -223,7 +226,7 @@ impl ModuleBuilder<'_, '_> {
     fn operation_bit(&mut self, operator: Operator, mut operands: impl Iterator<Item = Bit>, span: Span) -> Bit {
         let first = operands.next().expect("an operation has operands");
         let (inner, last) = match operator {
-            Operator::Not => return self.gate(Function::NOT, [first, NONE], span),
+            Operator::Not => return self.gate(Function::NOT, [first; 2], span),
             Operator::And => (Function::AND, Function::AND),
             Operator::Or => (Function::OR, Function::OR),
             Operator::Xor => (Function::XOR, Function::XOR),

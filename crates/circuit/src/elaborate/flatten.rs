@@ -1,8 +1,9 @@
 //! Flattens a module: everything inside it becomes cells of one netlist, with names and start values.
 
 use crate::elaborate::build::Builder;
-use crate::elaborate::module::{ModuleId, ModuleSignal, NONE};
+use crate::elaborate::module::{ModuleId, ModuleSignal};
 use crate::elaborate::wording::ElaborateError;
+use crate::index::ListIndex;
 use crate::{Cell, NetId, Netlist};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Span;
@@ -16,14 +17,10 @@ struct Place {
     prefix: String,
 }
 
-/// A signal that is an alias of another.
-const SELF: u32 = u32::MAX;
-
 /// The netlist of a module.
 pub(super) fn flatten(builder: &Builder<'_>, top: ModuleId, name: &str) -> Result<Netlist, Diagnostic> {
     let places = places(builder, top);
-    let mut same = aliases(builder, &places);
-    resolve(&mut same).map_err(|at| self_driven(builder, &places, at))?;
+    let same = resolve(aliases(builder, &places)).map_err(|at| self_driven(builder, &places, at))?;
     let mut netlist = Netlist::new(name);
     let mut nets = vec![None; same.len()];
     add_inputs(builder, top, &mut netlist, &mut nets);
@@ -53,20 +50,23 @@ fn places(builder: &Builder<'_>, top: ModuleId) -> Vec<Place> {
 }
 
 /// For each signal, the one it is an alias of, if any.
-fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<u32> {
+fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<ListIndex>> {
     let mut same = Vec::new();
     // The instances inside an instance are adjacent, after those inside earlier instances.
     let mut inside = 1;
     for (at, place) in places.iter().enumerate() {
         let module = builder.module(place.module);
         same.extend(module.signals.iter().map(|signal| match *signal {
-            ModuleSignal::Input(_) if at == 0 => SELF,
-            ModuleSignal::Input(bit) => place.inputs[bit as usize],
-            ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => SELF,
-            ModuleSignal::Net { driver, .. } => place.base + driver,
+            ModuleSignal::Input(_) if at == 0 => None,
+            ModuleSignal::Input(bit) => Some(ListIndex::new(place.inputs[bit as usize])),
+            ModuleSignal::Constant(_) | ModuleSignal::Gate { .. } => None,
+            ModuleSignal::Net { driver, .. } => {
+                let driver = driver.expect("every net is driven");
+                Some(ListIndex::new(place.base + driver.get()))
+            }
             ModuleSignal::Output { site, bit } => {
                 let inner = &places[inside + site as usize];
-                inner.base + builder.module(inner.module).output_bits[bit as usize]
+                Some(ListIndex::new(inner.base + builder.module(inner.module).output_bits[bit as usize]))
             }
         }));
         inside += module.sites.len();
@@ -74,29 +74,25 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<u32> {
     same
 }
 
-/// Makes each signal point to its final driver, or returns one that drives itself.
-fn resolve(same: &mut [u32]) -> Result<(), usize> {
+/// The final driver of each signal, or a signal that drives itself.
+fn resolve(mut same: Vec<Option<ListIndex>>) -> Result<Vec<u32>, usize> {
     for start in 0..same.len() {
         let mut end = start;
         let mut steps = 0;
-        while same[end] != SELF {
-            end = same[end] as usize;
+        while let Some(next) = same[end] {
+            end = next.get() as usize;
             steps += 1;
             if steps > same.len() {
                 return Err(start);
             }
         }
         let mut at = start;
-        while at != end {
-            at = std::mem::replace(&mut same[at], end as u32) as usize;
+        while let Some(next) = same[at] {
+            same[at] = Some(ListIndex::new(end as u32));
+            at = next.get() as usize;
         }
     }
-    for (at, end) in same.iter_mut().enumerate() {
-        if *end == SELF {
-            *end = at as u32;
-        }
-    }
-    Ok(())
+    Ok(same.into_iter().zip(0..).map(|(end, at)| end.map_or(at, ListIndex::get)).collect())
 }
 
 /// The nets of the signals of a place that are named.
@@ -154,9 +150,9 @@ fn connect(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut 
     let driver = |bit: u32| nets[same[bit as usize] as usize].expect("every signal ends in a net");
     for place in places {
         for (signal, at) in builder.module(place.module).signals.iter().zip(place.base as usize..) {
-            let ModuleSignal::Gate { pins, .. } = *signal else { continue };
+            let ModuleSignal::Gate { function, pins, .. } = *signal else { continue };
             let cell = nets[at].expect("every gate is a cell");
-            for (pin, bit) in pins.into_iter().enumerate().filter(|(_, bit)| *bit != NONE) {
+            for (pin, bit) in pins.into_iter().enumerate().take(function.arity()) {
                 netlist.connect(cell, pin as u8, driver(place.base + bit));
             }
         }

@@ -4,8 +4,8 @@ use nbc_base::model::{ExpressionId, Target};
 
 /// A block in one turn of the loops around it.
 pub(super) struct Scope {
-    /// The frame of the block around.
-    pub(super) parent: u32,
+    /// The frame of the block around, except for that of the circuit.
+    pub(super) parent: Option<u32>,
     /// The first slot of the block's nets, and the net it is in this turn.
     pub(super) first_slot: u32,
     pub(super) first_net: u32,

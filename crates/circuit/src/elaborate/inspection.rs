@@ -5,7 +5,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::Instance;
 use nbc_base::source::Span;
 
-/// What building circuits found.
+/// What an [`Inspector`](super::Inspector) found while it built circuits.
 #[derive(Clone, Debug, Default)]
 pub struct Inspection {
     /// Everything that is wrong, once each.

@@ -2,16 +2,16 @@
 
 /// The most cells of a circuit, written in the language or read from a file; docs/compiler.md has figures for this size
 /// ("Measured").
-pub const MAX_CELLS: u64 = 1_000_000;
+pub(crate) const MAX_CELLS: u64 = 1_000_000;
 
 /// The most bits of nets and gates of a circuit, including the circuits it contains.
-pub const MAX_NETS: u64 = 8 * MAX_CELLS;
+pub(crate) const MAX_NETS: u64 = 8 * MAX_CELLS;
 
 /// The most statements of a circuit, counting each iteration of a `for`.
-pub const MAX_STATEMENTS: usize = 500_000;
+pub(crate) const MAX_STATEMENTS: usize = 500_000;
 
 /// The most bits of a net.
 pub const MAX_WIDTH: i64 = 1 << 20;
 
 /// How deep circuits may be built of circuits.
-pub const MAX_HIERARCHY: usize = 200;
+pub(crate) const MAX_HIERARCHY: usize = 200;

@@ -1,7 +1,7 @@
 //! Loops without a start value: found by looking at a module with all bits cut that have one.
 
 use crate::elaborate::build::Builder;
-use crate::elaborate::module::{Module, ModuleId, ModuleSignal, NONE};
+use crate::elaborate::module::{Module, ModuleId, ModuleSignal};
 use crate::elaborate::wording::ElaborateError;
 use nbc_base::diag::Diagnostic;
 use petgraph::algo::kosaraju_scc;
@@ -50,10 +50,10 @@ impl Builder<'_> {
         let started = started(module);
         for (at, signal) in module.signals.iter().enumerate() {
             match *signal {
-                ModuleSignal::Gate { pins, .. } => {
-                    pins.iter().filter(|&&pin| pin != NONE).for_each(|&pin| edge(pin as usize, at))
+                ModuleSignal::Gate { function, pins, .. } => {
+                    pins[..function.arity()].iter().for_each(|&pin| edge(pin as usize, at))
                 }
-                ModuleSignal::Net { driver, .. } if !started[at] && driver != NONE => edge(driver as usize, at),
+                ModuleSignal::Net { driver: Some(driver), .. } if !started[at] => edge(driver.get() as usize, at),
                 ModuleSignal::Output { site, bit } if exact => {
                     let inputs = &module.sites[site as usize].inputs;
                     passes[site as usize][bit as usize]

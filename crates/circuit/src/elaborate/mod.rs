@@ -22,7 +22,8 @@ mod width;
 mod wording;
 
 pub use inspection::{Inspection, NetWidths};
-pub use limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS, MAX_STATEMENTS, MAX_WIDTH};
+pub(crate) use limits::MAX_CELLS;
+pub use limits::MAX_WIDTH;
 
 use crate::Netlist;
 use nbc_base::diag::Diagnostic;
@@ -100,7 +101,7 @@ fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Res
 pub struct Inspector<'a>(Builder<'a>);
 
 impl<'a> Inspector<'a> {
-    /// No circuit checked yet.
+    /// An inspector of the circuits of a program, which has not built any.
     pub fn new(program: &'a Program) -> Self {
         Self(Builder::new(program))
     }
@@ -112,7 +113,7 @@ impl<'a> Inspector<'a> {
         }
     }
 
-    /// Looks at the reference of a test.
+    /// Checks the reference of a test.
     pub fn inspect_body(&mut self, circuit: &'a Circuit) {
         if let Some(module) = self.0.reference(circuit) {
             self.0.look_for_loops(module);
@@ -135,7 +136,7 @@ impl<'a> Inspector<'a> {
         self.0.with_arguments(circuit, arguments, place).is_some_and(|module| self.0.has_memory(module))
     }
 
-    /// Everything found.
+    /// The errors found, and the widths and instances that were needed to find them.
     pub fn finish(self) -> Inspection {
         Inspection::of(self.0)
     }

@@ -1,5 +1,6 @@
 //! A circuit with values for its parameters, built: bits with their drivers, and the circuits inside it.
 
+use crate::index::ListIndex;
 use nbc_base::model::{CircuitId, Function};
 use nbc_base::source::Span;
 
@@ -17,9 +18,6 @@ impl ModuleId {
 /// One bit inside a module: the place of its signal.
 pub(super) type Bit = u32;
 
-/// No bit.
-pub(super) const NONE: Bit = Bit::MAX;
-
 /// The source of a bit.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ModuleSignal {
@@ -27,10 +25,10 @@ pub(super) enum ModuleSignal {
     Input(u32),
     /// Always the same.
     Constant(bool),
-    /// A gate; of one input, the second pin is [`NONE`].
+    /// A gate; of one input, both pins are the same.
     Gate { function: Function, pins: [Bit; 2], span: Span },
-    /// A bit of a net, driven by another bit: [`NONE`] until the statement `by` drives it.
-    Net { net: u32, bit: u32, driver: Bit, by: u32 },
+    /// A bit of a net, and the bit that drives it, once the statement `by` does.
+    Net { net: u32, bit: u32, driver: Option<ListIndex>, by: u32 },
     /// An output bit of a circuit inside.
     Output { site: u32, bit: u32 },
 }
@@ -51,7 +49,7 @@ pub(super) struct ModuleNet {
     pub(super) span: Span,
     /// Its bits; `None` until its width is known.
     pub(super) width: Option<u32>,
-    /// The signal of its lowest bit.
+    /// The signal of its lowest bit, once its width is known.
     pub(super) first: Bit,
 }
 

@@ -1,7 +1,7 @@
 //! Start values: which modules have memory, and nets whose start value is not that of the memory that drives them.
 
 use crate::elaborate::build::{Builder, ModuleBuilder};
-use crate::elaborate::module::{Bit, Module, ModuleId, ModuleSignal, NONE};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleSignal};
 use crate::elaborate::wording::ElaborateError;
 
 impl Builder<'_> {
@@ -30,8 +30,7 @@ impl Builder<'_> {
             match module.signals[at as usize] {
                 ModuleSignal::Net { driver, .. } => match module.start(at) {
                     Some(start) => return Some(start),
-                    None if driver == NONE => return None,
-                    None => at = driver,
+                    None => at = driver?.get(),
                 },
                 ModuleSignal::Output { site, bit } => {
                     module = self.module(module.sites[site as usize].module);
@@ -49,8 +48,8 @@ impl ModuleBuilder<'_, '_> {
     pub(super) fn contradicting_starts(&mut self) {
         self.module.starts.sort_unstable();
         let contradicts = |&&(bit, start): &&(Bit, bool)| match self.module.signals[bit as usize] {
-            ModuleSignal::Net { driver, .. } if driver != NONE => {
-                self.builder.start_of(&self.module, driver).is_some_and(|own| own != start)
+            ModuleSignal::Net { driver: Some(driver), .. } => {
+                self.builder.start_of(&self.module, driver.get()).is_some_and(|own| own != start)
             }
             _ => false,
         };

@@ -2,7 +2,7 @@
 
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::dense::{Dense, Shape};
-use crate::elaborate::module::{Bit, NONE};
+use crate::elaborate::module::Bit;
 use crate::elaborate::wording::{ElaborateError, OperandText, WidthError};
 use nbc_base::model::{ExpressionId, Function, OutputValue, Table, TableOutput, TableRow};
 use nbc_base::source::Span;
@@ -111,7 +111,7 @@ impl ModuleBuilder<'_, '_> {
     fn no_row(&mut self, table: &Table, inputs: &[Bit]) -> Bit {
         let terms = table.rows.iter().map(|row| self.term(row, inputs, table.span)).collect();
         let any = self.join(Function::OR, terms, false, table.span);
-        self.gate(Function::NOT, [any, NONE], table.span)
+        self.gate(Function::NOT, [any; 2], table.span)
     }
 
     /// Whether the inputs match a row.
@@ -120,7 +120,7 @@ impl ModuleBuilder<'_, '_> {
         for (value, &input) in row.pattern.iter().rev().zip(inputs) {
             match value {
                 Some(true) => literals.push(input),
-                Some(false) => literals.push(self.gate(Function::NOT, [input, NONE], span)),
+                Some(false) => literals.push(self.gate(Function::NOT, [input; 2], span)),
                 None => {}
             }
         }
@@ -146,7 +146,7 @@ impl ModuleBuilder<'_, '_> {
             let bit = match *part {
                 Shape::Constant(value) => self.constant(value),
                 Shape::Input(input) => inputs[input],
-                Shape::Not(part) => self.gate(Function::NOT, [built[part], NONE], span),
+                Shape::Not(part) => self.gate(Function::NOT, [built[part]; 2], span),
                 Shape::Gate(function, a, b) => self.gate(function, [built[a], built[b]], span),
                 Shape::Select(condition, then, otherwise) => {
                     self.select(built[condition], built[then], built[otherwise], span)

@@ -3,7 +3,7 @@
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::frame::{Item, Scope};
 use crate::elaborate::limits::{MAX_STATEMENTS, MAX_WIDTH};
-use crate::elaborate::module::{ModuleNet, NONE};
+use crate::elaborate::module::ModuleNet;
 use crate::elaborate::size;
 use crate::elaborate::wording::{ElaborateError, RangeError};
 use nbc_base::model::{Block, NetSlot, SizeId, SizeKind, Statement};
@@ -13,17 +13,17 @@ impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls loops: fills the list of statements to build.
     pub(super) fn unroll(&mut self, variables: Vec<i64>) {
         let body = &self.circuit.body;
-        let root = self.open_frame(u32::MAX, body, variables);
+        let root = self.open_frame(None, body, variables);
         self.unroll_block(root, body);
     }
 
-    fn open_frame(&mut self, parent: u32, block: &Block, variables: Vec<i64>) -> u32 {
+    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i64>) -> u32 {
         let first_net = self.module.nets.len() as u32;
         let turn = self.turn(&variables);
         for slot in block.nets.clone() {
             let net = &self.circuit.nets[slot as usize];
-            let name = if parent == u32::MAX { net.name.clone() } else { format!("{}{turn}", net.name) };
-            self.module.nets.push(ModuleNet { name, span: net.span, width: None, first: NONE });
+            let name = if parent.is_none() { net.name.clone() } else { format!("{}{turn}", net.name) };
+            self.module.nets.push(ModuleNet { name, span: net.span, width: None, first: 0 });
         }
         self.frames.push(Scope {
             parent,
@@ -71,7 +71,7 @@ impl<'a> ModuleBuilder<'a, '_> {
             variables.truncate(variable as usize);
             variables.resize(variable as usize + 1, 0);
             variables[variable as usize] = value;
-            let inner = self.open_frame(frame, body, variables);
+            let inner = self.open_frame(Some(frame), body, variables);
             self.unroll_block(inner, body);
             if self.failed {
                 return;
@@ -86,8 +86,8 @@ impl<'a> ModuleBuilder<'a, '_> {
             if (frame.first_slot..frame.first_slot + frame.nets).contains(&slot.0) {
                 return (frame.first_net + slot.0 - frame.first_slot) as usize;
             }
-            assert!(frame.parent != u32::MAX, "every net belongs to a block around its use");
-            frame = &self.frames[frame.parent as usize];
+            let parent = frame.parent.expect("every net belongs to a block around its use");
+            frame = &self.frames[parent as usize];
         }
     }
 

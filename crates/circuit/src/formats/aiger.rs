@@ -11,10 +11,10 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
 
 /// The most variables that a file may have.
-pub const MOST_VARIABLES: usize = 4_000_000;
+pub(crate) const MOST_VARIABLES: usize = 4_000_000;
 
 /// The most inputs and latches. A binary file only states their number.
-pub const MOST_PORTS: usize = 1_000_000;
+pub(crate) const MOST_PORTS: usize = 1_000_000;
 
 /// Reads a file; `clock` names the clock of its latches.
 ///
@@ -365,7 +365,10 @@ impl Literals {
     }
 }
 
-/// Writes a design, in binary or as text.
+/// A design as AIGER, binary or as text.
+///
+/// # Panics
+/// When the logic of the design has loops; a design that was read has none.
 pub fn write(design: &Design, binary: bool) -> Vec<u8> {
     let view = View::of(&design.logic, &[]).expect("the logic of a design has no loops");
     let mut graph = Ands::new(view.network.inputs);

@@ -38,7 +38,7 @@ pub fn read_model(
         return Err(models.errors);
     }
     if models.all.is_empty() {
-        return Err(vec![BlifError::NoModel.at(Span::new(file, 0, 0))]);
+        return Err(vec![TextError::from(BlifError::NoModel).at(Span::new(file, 0, 0))]);
     }
     let top = match model {
         None => 0,
@@ -479,7 +479,7 @@ impl<'m, 't> Flat<'m, 't> {
     }
 }
 
-/// Writes a design.
+/// A design as BLIF text, with a `.latch` for each register.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);

@@ -33,7 +33,7 @@ impl Register {
     pub const CLOCK: &str = "clk";
 
     /// The name of its clock.
-    pub fn clock_name(&self) -> &str {
+    pub(crate) fn clock_name(&self) -> &str {
         self.clock.as_deref().unwrap_or(Self::CLOCK)
     }
 

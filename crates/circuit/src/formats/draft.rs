@@ -46,18 +46,18 @@ pub struct DraftRegister {
     pub output: NetName,
     /// The net of its next value.
     pub next: NetName,
-    /// The place.
+    /// The place of the register in the source.
     pub span: Span,
 }
 
 /// Nets by name, with their definitions.
 #[derive(Clone, Debug, Default)]
 pub struct Draft {
-    /// The circuit's name.
+    /// The name of the circuit.
     pub title: String,
-    /// Input ports.
+    /// The input ports in order, each with its place.
     pub inputs: Vec<(NetName, Span)>,
-    /// Output ports.
+    /// The output ports in order, each with its place.
     pub outputs: Vec<(NetName, Span)>,
     pub registers: Vec<DraftRegister>,
     names: Vec<String>,
@@ -80,7 +80,7 @@ pub const MOST_NAME_BYTES: usize = 1_000;
 pub const MOST_ERRORS: usize = 20;
 
 impl Draft {
-    /// An empty draft.
+    /// A draft of that name with nothing in it.
     pub fn titled(title: &str) -> Self {
         Self { title: title.to_owned(), ..Self::default() }
     }

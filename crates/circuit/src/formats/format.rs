@@ -12,9 +12,9 @@ use nbc_base::diag::Diagnostic;
 pub enum CircuitSource {
     /// AIGER, binary or as text.
     Aiger,
-    /// ISCAS .bench.
+    /// The .bench format of the ISCAS benchmarks.
     Bench,
-    /// BLIF.
+    /// Berkeley Logic Interchange Format.
     Blif,
     /// Verilog, which Yosys translates to BLIF.
     Verilog,
@@ -37,15 +37,15 @@ impl CircuitSource {
 /// A format that a design can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CircuitFormat {
-    /// BLIF.
+    /// Berkeley Logic Interchange Format.
     Blif,
-    /// Binary AIGER.
+    /// AIGER in binary (.aig).
     AigerBinary,
-    /// AIGER as text.
+    /// AIGER as text (.aag).
     AigerText,
-    /// Structural Verilog.
+    /// Structural Verilog (.v).
     Verilog,
-    /// A drawing for Graphviz.
+    /// A drawing for Graphviz (.dot).
     Dot,
     /// The project's own language.
     Nb,

@@ -7,40 +7,6 @@ use crate::formats::buses::{Bus, buses};
 use crate::formats::names::{free, stand_ins};
 use crate::{NetId, Netlist, Node};
 
-/// Reserved words of the language.
-const RESERVED: &[&str] = &[
-    "and",
-    "circuit",
-    "else",
-    "evolution",
-    "for",
-    "if",
-    "import",
-    "in",
-    "init",
-    "latch",
-    "library",
-    "log2",
-    "material",
-    "nand",
-    "net",
-    "nor",
-    "not",
-    "or",
-    "register",
-    "schedule",
-    "simulate",
-    "stimulus",
-    "swarm",
-    "table",
-    "test",
-    "then",
-    "use",
-    "world",
-    "xnor",
-    "xor",
-];
-
 /// A bit of a net in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NamedBit {
@@ -189,9 +155,18 @@ pub fn is_word(name: &str) -> bool {
 /// A name made legal in the language.
 pub(super) fn word(name: &str) -> String {
     let mut word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    let nameless = word.chars().all(|c| c == '_');
-    if nameless || word.starts_with(|c: char| c.is_ascii_digit()) || RESERVED.contains(&word.as_str()) {
+    if !is_legal(&word) {
         word.insert_str(0, "n_");
     }
     word
+}
+
+/// Whether letters, digits and underscores are a name in the language, and not a reserved word.
+fn is_legal(word: &str) -> bool {
+    match word {
+        "and" | "circuit" | "else" | "evolution" | "for" | "if" | "import" | "in" | "init" | "latch" | "library"
+        | "log2" | "material" | "nand" | "net" | "nor" | "not" | "or" | "register" | "schedule" | "simulate"
+        | "stimulus" | "swarm" | "table" | "test" | "then" | "use" | "world" | "xnor" | "xor" => false,
+        _ => word.chars().any(|c| c != '_') && !word.starts_with(|c: char| c.is_ascii_digit()),
+    }
 }

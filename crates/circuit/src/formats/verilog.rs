@@ -14,7 +14,7 @@ use crate::guarded::Guarded;
 use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// Writes a design.
+/// A design as structural Verilog.
 pub fn write(design: &Design) -> String {
     let mut writer = Writer::new(design);
     let mut text = writer.head();

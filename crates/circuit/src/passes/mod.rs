@@ -24,7 +24,7 @@ pub trait Pass: Sync {
 }
 
 /// The passes before technology mapping, in order.
-pub const ORDER: &[&dyn Pass] = &[
+pub(crate) const ORDER: &[&dyn Pass] = &[
     // First, so that no other pass has to handle wires.
     &DissolveWires,
     // Before sharing: constants make different cells equal.

@@ -22,12 +22,12 @@ use crate::network::{Network, View};
 use crate::{NetId, Netlist, Node, ProofError, passes};
 
 /// The most inputs, cuts included, for which every pattern is simulated.
-pub const EXHAUSTIVE_INPUTS: usize = 16;
+pub(crate) const EXHAUSTIVE_INPUTS: usize = 16;
 
 /// A netlist proved equal to its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// How.
+    /// The method that proved it.
     pub method: Method,
     /// The nets at which loops were cut open.
     pub cuts: Vec<String>,
@@ -84,7 +84,7 @@ fn same_ports(source: &Netlist, mapped: &Netlist) -> Result<(), ProofError> {
 }
 
 /// A unique name for each cell of a loop core: that of its net, with a number if two cells share one.
-pub fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
+pub(crate) fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
     let mut taken = BTreeSet::new();
     let cells = netlist.ids().filter(|&id| loops.contains(id) && matches!(netlist.node(id), Node::Cell(_)));
     cells

@@ -83,7 +83,7 @@ pub struct SatSweep {
 }
 
 impl SatSweep {
-    /// No gates yet.
+    /// A solver with the inputs alone, without gates.
     pub fn new(inputs: usize) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_726f_6f66);
         let patterns = (0..WORDS).map(|word| (0..inputs).map(|_| random_word(word, &mut random)).collect()).collect();

@@ -110,8 +110,7 @@ mod tests {
     #[test]
     fn covered_gates_become_the_same_gates_again() {
         for cells in ["nand", "nor not", "xor and", "a_or_notb", "nand and or xor not"] {
-            let library = library(cells);
-            let covered = cover(&chain(), &Prices::of(&library), &[]).unwrap();
+            let covered = cover(&chain(), &Prices::of(&library(cells)), &[]).unwrap();
             assert!(equal(&chain(), &covered), "{cells}");
         }
     }

@@ -32,6 +32,9 @@ pub struct Reachable {
 ///
 /// # Errors
 /// Why the reachable states are not used.
+///
+/// # Panics
+/// When SAT does not prove the simpler logic equal, which would be a bug of the search.
 pub fn simplify(
     design: &Design,
     library: &CellLibrary,

@@ -88,9 +88,9 @@ impl Follower {
 /// A memory element or loop that is not timed by phases.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Unphased {
-    /// Its nets.
+    /// The nets of the memory element.
     pub nets: Vec<NetId>,
-    /// The reason.
+    /// The reason why it is not recognized as a latch.
     pub why: WhyUnphased,
 }
 

@@ -28,7 +28,7 @@ pub struct FlipFlop {
 /// The memory of a netlist without wires.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Storage {
-    /// The latches.
+    /// The latches, which flip-flops refer to by number.
     pub latches: Vec<Latch>,
     /// The pairs of latches that are flip-flops.
     pub flip_flops: Vec<FlipFlop>,

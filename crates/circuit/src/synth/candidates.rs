@@ -36,7 +36,7 @@ impl<'a> Rows<'a> {
 /// A replacement of a gate: one function, or a function of a signal and of another function.
 #[derive(Clone, Copy, Debug)]
 pub enum Replacement {
-    /// Another signal.
+    /// Another signal, in place of the gate.
     Signal(Signal),
     /// A function of two signals.
     One(Function, [Signal; 2]),
@@ -60,7 +60,7 @@ pub struct Finder {
     pub divisors: Vec<Signal>,
     /// Whether exclusive ors are candidates.
     pub exclusive: bool,
-    /// The candidates found.
+    /// The candidates of the last search.
     pub found: Vec<Replacement>,
     /// The words in which the gate matters; those that refute most come first.
     hot: Vec<usize>,

@@ -1,5 +1,6 @@
 //! The graph that the search changes: gates of a library with their values in every pattern and their fan-out.
 
+use crate::index::ListIndex;
 use crate::network::{Network, Signal, counting_word, word};
 use crate::recipes::Operand;
 use crate::synth::prices::Prices;
@@ -22,6 +23,17 @@ pub struct GraphNode {
     pub arrival: u32,
 }
 
+/// Workspace of a graph, kept for its memory only.
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    /// Gates on a walk over the removed gates.
+    pending: Vec<Signal>,
+    /// Pins whose count such a walk lowered.
+    touched: Vec<Signal>,
+    /// The gates whose values may have changed.
+    stale: Vec<bool>,
+}
+
 /// Gates with their values; places of dead gates are used again.
 #[derive(Clone, Debug)]
 pub struct Graph<'p> {
@@ -33,16 +45,13 @@ pub struct Graph<'p> {
     fanout: Vec<Vec<Signal>>,
     outputs: Vec<Signal>,
     order: Vec<Signal>,
-    position: Vec<u32>,
+    /// The place of each gate in `order`.
+    position: Vec<Option<ListIndex>>,
     free: Vec<Signal>,
     cost: u32,
     /// The gate that is about to be removed, which no new gate may read.
     leaving: Option<Signal>,
-    /// Workspace for walks over the removed gates.
-    pending: Vec<Signal>,
-    touched: Vec<Signal>,
-    /// Workspace for the gates whose values may have changed.
-    stale: Vec<bool>,
+    scratch: Scratch,
 }
 
 impl<'p> Graph<'p> {
@@ -62,9 +71,7 @@ impl<'p> Graph<'p> {
             free: Vec::new(),
             cost: 0,
             leaving: None,
-            pending: Vec::new(),
-            touched: Vec::new(),
-            stale: Vec::new(),
+            scratch: Scratch::default(),
         };
         let zero = vec![0; width];
         let one = vec![!0; width];
@@ -94,7 +101,7 @@ impl<'p> Graph<'p> {
         self.fanout.push(Vec::new());
     }
 
-    /// The words of patterns.
+    /// The number of 64-bit words of values of each signal.
     pub fn width(&self) -> usize {
         self.width
     }
@@ -104,7 +111,7 @@ impl<'p> Graph<'p> {
         self.cost
     }
 
-    /// The prices of cells.
+    /// The prices of the cells, by function.
     pub fn prices(&self) -> &'p Prices {
         self.prices
     }
@@ -116,10 +123,10 @@ impl<'p> Graph<'p> {
 
     /// The place of a gate in [`Graph::order`].
     pub fn position(&self, signal: Signal) -> usize {
-        self.position[signal as usize] as usize
+        self.position[signal as usize].expect("a gate in use has a place in the order").get() as usize
     }
 
-    /// The node.
+    /// The gate, constant or input that drives a signal.
     pub fn node(&self, signal: Signal) -> &GraphNode {
         &self.nodes[signal as usize]
     }
@@ -134,7 +141,7 @@ impl<'p> Graph<'p> {
         2 + self.inputs as Signal
     }
 
-    /// The signals shown.
+    /// The signals that are outputs, in order.
     pub fn outputs(&self) -> &[Signal] {
         &self.outputs
     }
@@ -269,7 +276,7 @@ impl<'p> Graph<'p> {
         self.nodes[signal as usize].refs += 1;
     }
 
-    /// Ends [`Graph::hold`].
+    /// Ends [`Graph::hold`] of a signal, without removing it.
     pub fn let_go(&mut self, signal: Signal) {
         self.nodes[signal as usize].refs -= 1;
     }
@@ -277,7 +284,7 @@ impl<'p> Graph<'p> {
     /// The cost released if no gate read `signal` any more.
     pub fn released(&mut self, signal: Signal) -> u32 {
         let mut released = 0;
-        let (mut pending, mut touched) = (std::mem::take(&mut self.pending), std::mem::take(&mut self.touched));
+        let Scratch { mut pending, mut touched, stale } = std::mem::take(&mut self.scratch);
         pending.push(signal);
         while let Some(gate) = pending.pop() {
             released += self.prices.cell(self.nodes[gate as usize].function);
@@ -291,7 +298,7 @@ impl<'p> Graph<'p> {
             }
         }
         touched.drain(..).for_each(|pin| self.nodes[pin as usize].refs += 1);
-        (self.pending, self.touched) = (pending, touched);
+        self.scratch = Scratch { pending, touched, stale };
         released
     }
 
@@ -300,7 +307,7 @@ impl<'p> Graph<'p> {
         if !self.nodes[signal as usize].alive || self.nodes[signal as usize].refs > 0 {
             return;
         }
-        let mut pending = std::mem::take(&mut self.pending);
+        let mut pending = std::mem::take(&mut self.scratch.pending);
         pending.push(signal);
         while let Some(gate) = pending.pop() {
             let node = &mut self.nodes[gate as usize];
@@ -322,7 +329,7 @@ impl<'p> Graph<'p> {
             }
             self.free.push(gate);
         }
-        self.pending = pending;
+        self.scratch.pending = pending;
     }
 
     /// Moves the receivers of `old` to `new`, and removes `old` and the gates that only it needed.
@@ -358,24 +365,21 @@ impl<'p> Graph<'p> {
     pub fn sort(&mut self) {
         self.order.clear();
         self.position.clear();
-        self.position.resize(self.nodes.len(), u32::MAX);
+        self.position.resize(self.nodes.len(), None);
         let mut stack: Vec<Signal> = Vec::new();
         for i in 0..self.outputs.len() {
             stack.push(self.outputs[i]);
             while let Some(&signal) = stack.last() {
                 let node = &self.nodes[signal as usize];
-                if !node.alive || self.position[signal as usize] != u32::MAX {
+                if !node.alive || self.position[signal as usize].is_some() {
                     stack.pop();
                     continue;
                 }
-                let waits = node
-                    .pins
-                    .into_iter()
-                    .find(|&pin| self.nodes[pin as usize].alive && self.position[pin as usize] == u32::MAX);
-                match waits {
+                let waits = |&pin: &Signal| self.nodes[pin as usize].alive && self.position[pin as usize].is_none();
+                match node.pins.into_iter().find(waits) {
                     Some(pin) => stack.push(pin),
                     None => {
-                        self.position[signal as usize] = self.order.len() as u32;
+                        self.position[signal as usize] = Some(ListIndex::new(self.order.len() as u32));
                         self.order.push(signal);
                         stack.pop();
                     }
@@ -386,17 +390,17 @@ impl<'p> Graph<'p> {
 
     /// Computes stages and arrivals again, in order, and the values of the gates that read `root` where they change.
     pub fn refresh(&mut self, root: Signal) {
-        self.stale.clear();
-        self.stale.resize(self.nodes.len(), false);
-        self.fanout[root as usize].iter().for_each(|&reader| self.stale[reader as usize] = true);
+        self.scratch.stale.clear();
+        self.scratch.stale.resize(self.nodes.len(), false);
+        self.fanout[root as usize].iter().for_each(|&reader| self.scratch.stale[reader as usize] = true);
         for i in 0..self.order.len() {
             let signal = self.order[i];
             let GraphNode { function, pins, .. } = self.nodes[signal as usize];
             let stage = pins.map(|pin| self.nodes[pin as usize].stage);
             self.nodes[signal as usize].stage = stage[0].max(stage[1]);
             self.nodes[signal as usize].arrival = self.arrival(function, pins);
-            if self.stale[signal as usize] && self.simulate(signal) {
-                self.fanout[signal as usize].iter().for_each(|&reader| self.stale[reader as usize] = true);
+            if self.scratch.stale[signal as usize] && self.simulate(signal) {
+                self.fanout[signal as usize].iter().for_each(|&reader| self.scratch.stale[reader as usize] = true);
             }
         }
     }
@@ -417,7 +421,7 @@ impl<'p> Graph<'p> {
         self.network()
     }
 
-    /// The current network.
+    /// The gates in use as a network.
     pub fn network(&self) -> Network {
         let mut network = Network::new(self.inputs);
         let mut signal: Vec<Signal> = (0..self.nodes.len() as Signal).collect();

@@ -3,15 +3,15 @@
 mod candidates;
 mod care;
 pub mod exact;
-pub mod graph;
+mod graph;
 mod parts;
 mod phases;
 pub mod prices;
-pub mod reduce;
+pub(crate) mod reduce;
 mod samples;
 mod shared_pairs;
 mod surroundings;
-pub mod walk;
+mod walk;
 
 pub(crate) use candidates::below;
 pub use care::CareSet;

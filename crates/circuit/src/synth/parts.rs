@@ -26,7 +26,7 @@ pub fn in_parts(
 /// The network that grows piece by piece.
 struct Parts<'a> {
     source: &'a Network,
-    /// The last gate that reads each signal of the source, counted from 1; outputs are read at the end.
+    /// The last gate that reads each signal of the source, counted from 1; outputs are read after all gates.
     last_read: Vec<usize>,
     result: Network,
     /// The stage of each signal of the result.
@@ -41,7 +41,7 @@ impl<'a> Parts<'a> {
         for (i, gate) in source.gates.iter().enumerate() {
             gate.pins.iter().for_each(|&pin| last_read[pin as usize] = i + 1);
         }
-        source.outputs.iter().for_each(|&output| last_read[output as usize] = usize::MAX);
+        source.outputs.iter().for_each(|&output| last_read[output as usize] = source.gates.len() + 1);
         let known = 2 + source.inputs;
         let mut all = vec![0; known];
         (0..source.inputs).for_each(|i| all[2 + i] = stages.get(i).copied().unwrap_or(0));

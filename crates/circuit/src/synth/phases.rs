@@ -1,5 +1,6 @@
 //! Phases: which gates of a network are made inverted, and of which cells, so that few inverters remain.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use rand_chacha::ChaCha8Rng;
@@ -266,8 +267,8 @@ impl<'p> Phases<'p> {
         let mut makings = both.map(|phase| self.cells(phase));
         makings.iter_mut().for_each(|makings| makings.push(Making::Inverter));
         self.set_readers(both, external, false);
-        let mut best = (u32::MAX, self.makings[both[0]], self.makings[both[1]]);
-        let mut equals = 0;
+        let mut best = (self.makings[both[0]], self.makings[both[1]]);
+        let (mut least, mut equals) = (None, 0);
         for &plain in &makings[0] {
             for &inverted in &makings[1] {
                 if plain == Making::Inverter && inverted == Making::Inverter {
@@ -277,13 +278,17 @@ impl<'p> Phases<'p> {
                 self.set_readers(both, external, true);
                 let cost = self.cost;
                 self.set_readers(both, external, false);
-                equals = if cost < best.0 { 1 } else { equals + usize::from(cost == best.0) };
-                if cost < best.0 || cost == best.0 && below(random, equals) == 0 {
-                    best = (cost, plain, inverted);
+                equals = match least.map(|least| cost.cmp(&least)) {
+                    None | Some(Ordering::Less) => 1,
+                    Some(Ordering::Equal) => equals + 1,
+                    Some(Ordering::Greater) => continue,
+                };
+                if equals == 1 || below(random, equals) == 0 {
+                    (least, best) = (Some(cost), (plain, inverted));
                 }
             }
         }
-        (self.makings[both[0]], self.makings[both[1]]) = (best.1, best.2);
+        (self.makings[both[0]], self.makings[both[1]]) = best;
         self.set_readers(both, external, true);
     }
 
@@ -346,7 +351,7 @@ mod tests {
             gates in prop::collection::vec(any::<(u8, u16, u16)>(), 1..60),
             names in prop::sample::select(vec!["nand", "nand and not", "nor or not", "and not xor"]),
         ) {
-            let network = network(&gates);
+            let network = network(6, &gates);
             let prices = Prices::of(&library(names));
             let made = assign_phases(&network, &prices, &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
             prop_assert!(equal(&network, &made).is_ok());

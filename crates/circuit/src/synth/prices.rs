@@ -25,7 +25,7 @@ impl Prices {
 
     /// All functions at two units, exclusive ors at `exclusive` units, inverters free: the first aim for libraries
     /// without XOR.
-    pub fn abstracted(exclusive: u32) -> Self {
+    pub(crate) fn abstracted(exclusive: u32) -> Self {
         let price = |function: Function| match function {
             Function::XOR | Function::XNOR => exclusive,
             _ if function.arity() == 2 => 2,
@@ -36,7 +36,7 @@ impl Prices {
     }
 
     /// The abstract prices in which an exclusive or is slightly cheaper than its cells.
-    pub fn ideal(&self) -> Self {
+    pub(crate) fn ideal(&self) -> Self {
         let exclusive = self.cost(Function::XOR).unwrap_or(4);
         Self::abstracted(if exclusive > 1 { 2 * exclusive - 1 } else { 2 })
     }
@@ -64,7 +64,7 @@ impl Prices {
     }
 
     /// Whether every cell costs one.
-    pub fn are_even(&self) -> bool {
+    pub(crate) fn are_even(&self) -> bool {
         self.cells.iter().all(|&cost| cost <= 1)
     }
 

@@ -441,7 +441,7 @@ mod tests {
                 options.cancel.raise();
                 let cancelled = reduce(&network, &[], &library, &options).unwrap();
                 assert!(equal(&network, &cancelled).is_ok());
-                assert!(cancelled.gates.iter().all(|gate| library.contains(gate.function)));
+                assert!(cancelled.gates.iter().all(|gate| library.get(gate.function).is_some()));
                 let whole = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
                 assert!(cancelled.gates.len() > reduce(&network, &[], &library, &whole).unwrap().gates.len());
             }

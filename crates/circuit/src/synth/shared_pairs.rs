@@ -304,7 +304,7 @@ mod tests {
 
         #[test]
         fn shared_pairs_keep_the_function(gates in prop::collection::vec(any::<(u8, u16, u16)>(), 1..60)) {
-            let network = network(&gates);
+            let network = network(6, &gates);
             prop_assert!(equal(&network, &share_pairs(&network)).is_ok());
         }
     }

@@ -1,6 +1,8 @@
 //! The surroundings of a gate in a wide network: few inputs, the gates between them and the gate, and the gates after
 //! it through which it is observed. Over every pattern of the inputs they show where the gate matters.
 
+use std::cmp::Reverse;
+
 use crate::network::{Signal, counting_word, word};
 use crate::synth::candidates::Rows;
 use crate::synth::graph::Graph;
@@ -20,7 +22,9 @@ const MOST_SIGNALS: usize = 100;
 pub struct Surroundings {
     /// Whether a signal of the graph depends on the gate.
     depends: Vec<bool>,
-    /// The row of each signal in `words`; `OUTSIDE` for others.
+    /// Whether a signal of the graph is in the surroundings.
+    inside: Vec<bool>,
+    /// The row of each signal in the surroundings in `words`.
     places: Vec<u32>,
     leaves: Vec<Signal>,
     /// Signals that do not depend on the gate: the leaves, then gates.
@@ -32,9 +36,6 @@ pub struct Surroundings {
     words: Vec<u64>,
     flipped: Vec<u64>,
 }
-
-/// The place of a signal that is not in the surroundings.
-const OUTSIDE: u32 = u32::MAX;
 
 impl Surroundings {
     /// Finds the surroundings of a gate and their values.
@@ -114,18 +115,18 @@ impl Surroundings {
 
     /// Moves the leaves away from the gate while there are few, then adds gates that read signals in sight only.
     fn collect_before(&mut self, graph: &Graph<'_>) {
-        self.places.clear();
-        self.places.resize(graph.places(), OUTSIDE);
+        self.inside.clear();
+        self.inside.resize(graph.places(), false);
         let mut inner = Vec::new();
-        self.leaves.iter().for_each(|&leaf| self.places[leaf as usize] = 0);
+        self.leaves.iter().for_each(|&leaf| self.inside[leaf as usize] = true);
         while inner.len() < MOST_BEFORE
             && let Some(at) = self.cheapest_leaf(graph)
         {
             let gate = self.leaves.swap_remove(at);
             inner.push(gate);
             for pin in graph.node(gate).pins {
-                if pin > 1 && self.places[pin as usize] == OUTSIDE {
-                    self.places[pin as usize] = 0;
+                if pin > 1 && !self.inside[pin as usize] {
+                    self.inside[pin as usize] = true;
                     self.leaves.push(pin);
                 }
             }
@@ -141,8 +142,8 @@ impl Surroundings {
     fn cheapest_leaf(&self, graph: &Graph<'_>) -> Option<usize> {
         let rank = |&(_, &leaf): &(usize, &Signal)| {
             let [a, b] = graph.node(leaf).pins;
-            let new = |pin: Signal| usize::from(pin > 1 && self.places[pin as usize] == OUTSIDE);
-            (new(a) + if a == b { 0 } else { new(b) }, usize::MAX - graph.position(leaf))
+            let new = |pin: Signal| usize::from(pin > 1 && !self.inside[pin as usize]);
+            (new(a) + if a == b { 0 } else { new(b) }, Reverse(graph.position(leaf)))
         };
         let gates = self.leaves.iter().enumerate().filter(|&(_, &leaf)| graph.node(leaf).alive);
         let (at, &leaf) = gates.min_by_key(rank)?;
@@ -158,10 +159,10 @@ impl Surroundings {
                 continue;
             }
             for &listener in graph.fanout(from) {
-                let known = |pin: Signal| pin <= 1 || self.places[pin as usize] != OUTSIDE;
-                let new = self.places[listener as usize] == OUTSIDE && !self.depends[listener as usize];
+                let known = |pin: Signal| pin <= 1 || self.inside[pin as usize];
+                let new = !self.inside[listener as usize] && !self.depends[listener as usize];
                 if new && graph.node(listener).pins.into_iter().all(known) {
-                    self.places[listener as usize] = 0;
+                    self.inside[listener as usize] = true;
                     inner.push(listener);
                 }
             }
@@ -174,6 +175,7 @@ impl Surroundings {
         self.words.clear();
         self.words.resize(self.width, 0);
         self.words.resize(2 * self.width, !0);
+        self.places.resize(graph.places(), 0);
         (self.places[0], self.places[1]) = (0, 1);
         for i in 0..self.before.len() {
             let signal = self.before[i];

@@ -16,7 +16,7 @@ use nbc_base::model::Function;
 /// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkPlan<'a> {
-    /// Gates to visit.
+    /// The number of gates to visit.
     pub visits: u64,
     /// One of this number of visits may make the network slightly more expensive; 0 for never.
     pub climb: u32,
@@ -31,7 +31,7 @@ pub struct WalkPlan<'a> {
 /// The role of delay in the walk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DelayGoal {
-    /// Delay does not matter.
+    /// Outputs may become later.
     #[default]
     Any,
     /// No output may become later.
@@ -133,7 +133,7 @@ struct Walk<'p, 'r> {
     /// The time at which the outputs must be correct.
     deadline: u32,
     /// The latest arrival of a replacement of the visited gate.
-    limit: u32,
+    limit: Option<u32>,
     /// The required time of each gate.
     required: Vec<u32>,
     random: &'r mut ChaCha8Rng,
@@ -160,7 +160,7 @@ impl<'p, 'r> Walk<'p, 'r> {
             deadline: graph.depth(),
             graph,
             delay,
-            limit: u32::MAX,
+            limit: None,
             required: Vec::new(),
             random,
             flipped: Vec::new(),
@@ -182,9 +182,9 @@ impl<'p, 'r> Walk<'p, 'r> {
         match self.delay {
             DelayGoal::Keep => {
                 self.require();
-                self.limit = self.required[gate as usize];
+                self.limit = Some(self.required[gate as usize]);
             }
-            DelayGoal::Shorten => self.limit = self.graph.node(gate).arrival - 1,
+            DelayGoal::Shorten => self.limit = Some(self.graph.node(gate).arrival - 1),
             DelayGoal::Any | DelayGoal::SlowestPath => {}
         }
         self.change(gate, slack)
@@ -199,7 +199,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         let critical: Vec<Signal> = graph.order().iter().filter(late).copied().collect();
         if !critical.is_empty() {
             let gate = critical[self.below(critical.len())];
-            self.limit = self.graph.node(gate).arrival - 1;
+            self.limit = Some(self.graph.node(gate).arrival - 1);
             self.change(gate, MOST_DELAY_PRICE);
         }
     }
@@ -358,7 +358,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         let root = self.build(candidate)?;
         let change = i64::from(self.graph.cost()) - before - i64::from(self.hold_and_release(root, gate));
         let same = self.graph.node(root).alive && self.graph.same(root, gate);
-        let late = self.graph.node(root).arrival > self.limit;
+        let late = self.limit.is_some_and(|limit| self.graph.node(root).arrival > limit);
         self.graph.release(root);
         (!same && !late).then_some(change)
     }
@@ -389,19 +389,8 @@ mod tests {
 
     use super::*;
     use crate::cells::CellLibrary;
+    use crate::example::network;
     use crate::proof::equal;
-
-    /// A network of these gates; each reads two of the signals before it.
-    fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
-        let mut network = Network::new(inputs);
-        for &(bits, a, b) in gates {
-            let pins = [a, b].map(|pin| Signal::from(pin) % network.signals() as Signal);
-            network.add(Function::new(bits % 16), pins);
-        }
-        let signals = network.signals() as Signal;
-        network.outputs = (signals.saturating_sub(8)..signals).step_by(3).collect();
-        network
-    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]

@@ -18,13 +18,13 @@ const MOST_PERIODS: usize = 64;
 /// and their clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClockTimes {
-    /// The input.
+    /// The input that is the clock.
     pub clock: NetId,
-    /// The least time for which it must be 1.
+    /// The least time for which it must be 1, in cycles.
     pub high: u32,
-    /// The least time for which it must be 0.
+    /// The least time for which it must be 0, in cycles.
     pub low: u32,
-    /// The least time from one rise to the next.
+    /// The least time from one rise to the next, in cycles.
     pub period: u32,
     /// The longest time between the opening of a latch and the arrival of its data, at this period.
     pub borrowed: u32,
@@ -39,13 +39,13 @@ pub struct ClockTimes {
 /// The time for which an input must be stable around an edge of a clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputTimes {
-    /// The input.
+    /// The input that must be stable.
     pub input: NetId,
     /// Whether it is the edge at which the clock rises.
     pub rises: bool,
-    /// Cycles before the edge.
+    /// Cycles before the edge from which it must be stable.
     pub setup: u32,
-    /// Cycles after the edge.
+    /// Cycles after the edge until which it must be stable.
     pub hold: u32,
 }
 
@@ -60,14 +60,14 @@ pub enum PathEnds {
     RegisterToOutput,
 }
 
-/// A slowest path.
+/// The slowest path of a kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClockPath {
-    /// Its ends.
+    /// Where it begins and where it ends.
     pub ends: PathEnds,
-    /// Its cycles.
+    /// The time that a change takes along it, in cycles.
     pub cycles: u32,
-    /// Its nets, from an input on.
+    /// The nets along it, from an input on.
     pub nets: Vec<NetId>,
 }
 

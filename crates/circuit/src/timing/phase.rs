@@ -45,7 +45,7 @@ pub(super) struct Phase {
     copies: BTreeMap<NetId, NetId>,
     /// The cells of closed latches.
     silent: BTreeSet<NetId>,
-    /// The updates.
+    /// The updates of its nets, drivers first.
     pub updates: Vec<NetUpdate>,
     /// The loops that are not one latch.
     pub loops: Vec<Vec<NetId>>,

@@ -21,7 +21,7 @@ const MOST_PADDING: usize = 2;
 /// A netlist with pulsed latches.
 #[derive(Clone, Debug)]
 pub struct Pulsed {
-    /// The netlist.
+    /// The netlist with pulsed latches in place of some flip-flops.
     pub netlist: Netlist,
     /// What became of its registers.
     pub registers: PulsedRegisters,
@@ -41,13 +41,13 @@ pub struct PulsedRegisters {
 pub struct Pulse {
     /// The net that it is on.
     pub net: NetId,
-    /// The clock.
+    /// The clock whose edges it follows.
     pub clock: NetId,
     /// Whether it follows the rises of the clock.
     pub rises: bool,
     /// Its least length in cycles.
     pub width: u32,
-    /// The length that its latches need.
+    /// The length that its latches need, in cycles.
     pub needed: u32,
     /// Cycles after the edge at which it has ended for certain; the inputs of its latches must be stable until then.
     pub ends: u32,
@@ -241,7 +241,7 @@ impl Plan<'_> {
         made.add_cell(cell, &[net, net][..function.arity()])
     }
 
-    /// For each register, by how many cycles its data may change too early.
+    /// For each register, by how many cycles its data may change too early; one without a pulse is beyond padding.
     fn missing(&self, made: &Netlist, registers: &[(Register, usize)], pulses: &[Pulse]) -> Vec<u32> {
         let kind = self.library.kinds_of(made);
         let storage = Storage::of(made, &kind);
@@ -249,7 +249,7 @@ impl Plan<'_> {
         let all = phases(made, &roots);
         let early = |register: &Register| {
             let pulse = pulses.iter().find(|pulse| (pulse.clock, pulse.rises) == (register.clock, register.rises));
-            let Some(pulse) = pulse else { return u32::MAX };
+            let Some(pulse) = pulse else { return MOST_PADDING as u32 + 1 };
             let is_after =
                 |values: &&BTreeMap<NetId, bool>| values.get(&pulse.clock).is_none_or(|&now| now == pulse.rises);
             let of_phase = |values: &BTreeMap<NetId, bool>| {

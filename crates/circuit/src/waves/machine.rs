@@ -83,7 +83,7 @@ impl WaveMachine {
         library: &CellLibrary,
         beat: u32,
     ) -> Option<Self> {
-        let buffer = BUFFERS.into_iter().find(|(function, _)| library.contains(*function))?;
+        let buffer = BUFFERS.into_iter().find(|(function, _)| library.get(*function).is_some())?;
         Some(Builder::new(step, graph, phases, buffer, beat).build())
     }
 

@@ -24,7 +24,7 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Whether there are errors.
+    /// Whether a diagnostic is an error, so that the program cannot be built.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }

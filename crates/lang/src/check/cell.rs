@@ -30,7 +30,7 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
     }
     let bits = match word.text.split_once('\'') {
         Some((width, constant)) => sized(word, width, constant, column)?,
-        None => plain(word, column)?,
+        None => constant::pattern(&word.text).ok_or_else(|| no_value(word, column))?,
     };
     let letter = word.text.split_once('\'').and_then(|(_, constant)| constant.chars().next());
     if bits.len() == column.width {
@@ -85,16 +85,6 @@ fn meant(word: &str, width: usize) -> Option<String> {
     let value = constant::value(digits, constant::radix(base)?).ok()?;
     let fits = width >= 128 || value >> width == 0;
     fits.then(|| if width == 1 { value.to_string() } else { format!("{width}'{base}{digits}") })
-}
-
-fn plain(word: &NameSyntax, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
-    let bit = |c| match c {
-        '0' => Some(Some(false)),
-        '1' => Some(Some(true)),
-        '-' => Some(None),
-        _ => None,
-    };
-    word.text.chars().filter(|&c| c != '_').map(bit).collect::<Option<_>>().ok_or_else(|| no_value(word, column))
 }
 
 /// A number with the given width in bits.

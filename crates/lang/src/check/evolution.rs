@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::check::derived::{self, CheckState};
 use crate::check::fields::{self, Fields};
-use crate::check::names::{Home, NameTable};
+use crate::check::names::{Home, Names};
 use crate::check::quantity;
 use crate::check::wording::{EvolutionError, Expected, NameError};
 use crate::check::world::{self, Worlds};
@@ -27,9 +27,7 @@ const MAX_SEEDS: u32 = 10_000;
 /// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
     pub(crate) program: &'a Program,
-    pub(crate) materials: &'a NameTable,
-    pub(crate) schedules: &'a NameTable,
-    pub(crate) evolutions: &'a NameTable,
+    pub(crate) names: &'a Names,
     /// The worlds by the position of their names.
     pub(crate) worlds: Worlds<'a>,
     /// The evolutions by the position of their names, as far as they are checked.
@@ -78,8 +76,8 @@ pub(crate) fn evolution(
     faults: &mut Vec<Diagnostic>,
 ) -> CheckState<NamedEvolution> {
     let mut fields = Fields::new("evolution", source);
-    let base =
-        fields.read("from", &known.checked[0], |value| derived::base(value, home, known.evolutions, known.checked));
+    let base = fields
+        .read("from", &known.checked[0], |value| derived::base(value, home, &known.names.evolutions, known.checked));
     let (NamedEvolution { evolution: base, stimuli }, whole) = match base {
         CheckState::Sound(base) => (NamedEvolution::clone(base), true),
         // The first evolution of the prelude has the default values of the others.
@@ -199,7 +197,7 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
     }
     for value in values {
         let name = fields::word(value, Expected::Name("material"))?;
-        let material = known.program.materials.get(known.materials.resolve(name, home)?);
+        let material = known.names.materials.resolve(name, home)?.map(|at| &known.program.materials[at]);
         let twice = materials.iter().any(|known| known.name == name.text);
         if twice {
             return Err(NameError::RepeatedMaterial { name: name.text.clone() }.at(name.span));
@@ -217,7 +215,7 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
 /// A schedule of two stimuli: which ones, and the schedule as one of the first and the second of them.
 fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
     let name = fields::word(value, Expected::Name("schedule"))?;
-    let Some(found) = known.program.schedules.get(known.schedules.resolve(name, home)?) else {
+    let Some(found) = known.names.schedules.resolve(name, home)?.map(|at| &known.program.schedules[at]) else {
         return Ok(Default::default());
     };
     if found.stimuli.len() != 2 {

@@ -6,6 +6,7 @@ mod cell;
 mod circuit;
 mod consequences;
 pub mod constant;
+mod declarations;
 mod derived;
 mod evolution;
 mod expression;

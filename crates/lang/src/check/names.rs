@@ -22,11 +22,11 @@ pub(crate) enum Home {
     Own,
 }
 
-/// The names of one kind of declaration, with their positions in the program.
-pub(crate) struct NameTable {
+/// The names of one kind of declaration, with their meaning: mostly a position in the program.
+pub(crate) struct NameTable<T = usize> {
     kind: NameKind,
-    prelude: BTreeMap<String, Entry>,
-    files: BTreeMap<String, Entry>,
+    prelude: BTreeMap<String, Entry<T>>,
+    files: BTreeMap<String, Entry<T>>,
     /// The number of unknown names looked up so far.
     unknown: Cell<usize>,
     /// The names declared and resolved so far.
@@ -34,12 +34,12 @@ pub(crate) struct NameTable {
 }
 
 #[derive(Clone, Copy)]
-struct Entry {
-    index: usize,
+struct Entry<T> {
+    meaning: T,
     span: Span,
 }
 
-impl NameTable {
+impl<T: Copy> NameTable<T> {
     pub(crate) fn new(kind: NameKind) -> Self {
         Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0), uses: RefCell::default() }
     }
@@ -50,12 +50,12 @@ impl NameTable {
     }
 
     /// Adds a name, unless it is taken.
-    pub(crate) fn declare(&mut self, name: &NameSyntax, index: usize, home: Home) -> Result<(), Diagnostic> {
+    pub(crate) fn declare(&mut self, name: &NameSyntax, meaning: T, home: Home) -> Result<(), Diagnostic> {
         let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };
         match table.get(&name.text) {
             Some(first) => Err(duplicate(self.kind.word(), name, first.span)),
             None => {
-                table.insert(name.text.clone(), Entry { index, span: name.span });
+                table.insert(name.text.clone(), Entry { meaning, span: name.span });
                 self.refer(name.span, name.span);
                 Ok(())
             }
@@ -63,28 +63,28 @@ impl NameTable {
     }
 
     /// The meaning of a name in a file, or in the prelude.
-    pub(crate) fn find(&self, name: &str, home: Home) -> Option<usize> {
-        self.entry(name, home).map(|entry| entry.index)
+    pub(crate) fn find(&self, name: &str, home: Home) -> Option<T> {
+        self.entry(name, home).map(|entry| entry.meaning)
     }
 
-    fn entry(&self, name: &str, home: Home) -> Option<Entry> {
+    fn entry(&self, name: &str, home: Home) -> Option<Entry<T>> {
         let file = self.files.get(name).filter(|_| !matches!(home, Home::Prelude | Home::Foreign));
         file.or_else(|| self.prelude.get(name)).copied()
     }
 
     /// The meaning of a name, or an error if it is unknown.
-    pub(crate) fn resolve(&self, name: &NameSyntax, home: Home) -> Result<usize, Diagnostic> {
+    pub(crate) fn resolve(&self, name: &NameSyntax, home: Home) -> Result<T, Diagnostic> {
         self.resolve_beside(name, home, &[])
     }
 
     /// As [`NameTable::resolve`], where words of the language may have been meant too.
-    pub(crate) fn resolve_beside(&self, name: &NameSyntax, home: Home, words: &[&str]) -> Result<usize, Diagnostic> {
+    pub(crate) fn resolve_beside(&self, name: &NameSyntax, home: Home, words: &[&str]) -> Result<T, Diagnostic> {
         let entry = self.entry(&name.text, home).ok_or_else(|| {
             let meant = self.suggestion(&name.text, words);
             NameError::Unknown { kind: self.kind.word(), name: name.text.clone(), meant }.at(name.span)
         })?;
         self.refer(name.span, entry.span);
-        Ok(entry.index)
+        Ok(entry.meaning)
     }
 
     fn refer(&self, place: Span, declared: Span) {
@@ -116,6 +116,43 @@ impl NameTable {
     /// Whether a file redeclares this name of the prelude.
     pub(crate) fn is_redeclared(&self, name: &str) -> bool {
         self.files.contains_key(name) && self.prelude.contains_key(name)
+    }
+}
+
+/// The names of all declarations. A material, schedule or swarm with errors has a name, but no position in the program.
+pub(crate) struct Names {
+    pub(crate) stimuli: NameTable,
+    pub(crate) materials: NameTable<Option<usize>>,
+    pub(crate) schedules: NameTable<Option<usize>>,
+    /// With positions among the declarations.
+    pub(crate) evolutions: NameTable,
+    /// Nothing refers to a library but by its name.
+    pub(crate) libraries: NameTable<()>,
+    pub(crate) circuits: NameTable,
+    pub(crate) swarms: NameTable<Option<usize>>,
+    /// With positions among the declarations.
+    pub(crate) worlds: NameTable,
+}
+
+impl Names {
+    pub(crate) fn new() -> Self {
+        Self {
+            stimuli: NameTable::new(NameKind::Stimulus),
+            materials: NameTable::new(NameKind::Material),
+            schedules: NameTable::new(NameKind::Schedule),
+            evolutions: NameTable::new(NameKind::Evolution),
+            libraries: NameTable::new(NameKind::Library),
+            circuits: NameTable::new(NameKind::Circuit),
+            swarms: NameTable::new(NameKind::Swarm),
+            worlds: NameTable::new(NameKind::World),
+        }
+    }
+
+    /// The names declared and resolved so far.
+    pub(crate) fn take_uses(&self) -> Vec<NameUse> {
+        let positions = [&self.stimuli, &self.evolutions, &self.circuits, &self.worlds].map(NameTable::take_uses);
+        let optional = [&self.materials, &self.schedules, &self.swarms].map(NameTable::take_uses);
+        [positions.concat(), optional.concat(), self.libraries.take_uses()].concat()
     }
 }
 

@@ -5,27 +5,28 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::analysis::Analysis;
 use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::declarations::Declarations;
 use crate::check::derived::{CheckState, order};
 use crate::check::evolution::{self, evolution};
 use crate::check::instance::instance;
 use crate::check::library::library;
 use crate::check::material::material;
-use crate::check::names::{Home, NameTable};
+use crate::check::names::{Home, Names};
 use crate::check::recursion;
 use crate::check::schedule::schedule;
 use crate::check::simulate::{Schedules, spells};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
-use crate::check::uses::{NameKind, NameUse, NameUses};
+use crate::check::uses::{NameUse, NameUses};
 use crate::check::wording::{CircuitError, EvolutionError};
 use crate::check::world::{Worlds, world};
-use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordDeclaration, RecordKeyword, Tree};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
     CircuitId, CircuitTest, Column, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference, Simulation,
     Stimulation,
 };
-use nbc_base::source::{FileId, Sources, Span};
+use nbc_base::source::{Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
 /// The program of the trees, and what is known of it.
@@ -50,22 +51,20 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
 
 /// A program under construction.
 struct Assembly<'a> {
-    trees: &'a [(Home, Tree)],
-    /// The declarations that have lost a part: where they begin and end.
-    broken: BTreeMap<(FileId, u32), u32>,
-    sources: &'a Sources,
+    declarations: Declarations<'a>,
+    names: Names,
     program: Program,
     faults: Vec<Diagnostic>,
-    stimuli: NameTable,
-    materials: NameTable,
-    schedules: NameTable,
-    evolutions: NameTable,
-    libraries: NameTable,
-    circuits: NameTable,
-    swarms: NameTable,
-    worlds: NameTable,
     /// The worlds by the position of their names.
-    checked_worlds: Vec<CheckState<NamedWorld>>,
+    worlds: Vec<CheckState<NamedWorld>>,
+    circuits: CircuitTable,
+    /// The names inside circuits and tests.
+    inner: Vec<NameUse>,
+}
+
+/// What is known of the circuits beside their bodies.
+#[derive(Default)]
+struct CircuitTable {
     headers: Headers,
     /// The position of each circuit in the program, by name.
     places: BTreeMap<String, CircuitId>,
@@ -73,46 +72,29 @@ struct Assembly<'a> {
     sound: Vec<bool>,
     /// The origin of each circuit.
     homes: Vec<Home>,
-    /// The names inside circuits and tests.
-    inner: Vec<NameUse>,
+}
+
+impl CircuitTable {
+    fn place(&self, name: &str) -> Option<CircuitId> {
+        self.places.get(name).copied()
+    }
+
+    fn is_sound(&self, circuit: CircuitId) -> bool {
+        self.sound[circuit.0 as usize]
+    }
 }
 
 impl<'a> Assembly<'a> {
     fn new(trees: &'a [(Home, Tree)], sources: &'a Sources) -> Self {
-        let broken = trees.iter().flat_map(|(_, tree)| &tree.broken).map(|part| part.declaration);
         Self {
-            trees,
-            broken: broken.map(|declaration| ((declaration.file, declaration.start), declaration.end)).collect(),
-            sources,
+            declarations: Declarations::new(trees, sources),
+            names: Names::new(),
             program: Program::default(),
             faults: Vec::new(),
-            stimuli: NameTable::new(NameKind::Stimulus),
-            materials: NameTable::new(NameKind::Material),
-            schedules: NameTable::new(NameKind::Schedule),
-            evolutions: NameTable::new(NameKind::Evolution),
-            libraries: NameTable::new(NameKind::Library),
-            circuits: NameTable::new(NameKind::Circuit),
-            swarms: NameTable::new(NameKind::Swarm),
-            worlds: NameTable::new(NameKind::World),
-            checked_worlds: Vec::new(),
-            headers: Headers::default(),
-            places: BTreeMap::new(),
-            sound: Vec::new(),
-            homes: Vec::new(),
+            worlds: Vec::new(),
+            circuits: CircuitTable::default(),
             inner: Vec::new(),
         }
-    }
-
-    fn declarations(&self) -> impl Iterator<Item = (Home, &'a tree::Declaration)> + use<'a> {
-        self.trees.iter().flat_map(|(home, tree)| tree.declarations.iter().map(|declaration| (*home, declaration)))
-    }
-
-    fn records(&self, keyword: RecordKeyword) -> Vec<(Home, &'a RecordDeclaration)> {
-        let record = |(home, declaration): (Home, &'a tree::Declaration)| match &declaration.kind {
-            DeclarationKind::Record(record) if record.keyword == keyword => Some((home, record)),
-            _ => None,
-        };
-        self.declarations().filter_map(record).collect()
     }
 
     /// Records a diagnostic, if any; returns whether there was none.
@@ -122,14 +104,8 @@ impl<'a> Assembly<'a> {
         fine
     }
 
-    /// Whether the declaration at a place has lost a part.
-    fn is_broken(&self, place: Span) -> bool {
-        let before = self.broken.range(..=(place.file, place.start)).next_back();
-        before.is_some_and(|(&(file, _), &end)| file == place.file && place.end <= end)
-    }
-
     fn stimuli(&mut self) {
-        for (home, declaration) in self.declarations() {
+        for (home, declaration) in self.declarations.all() {
             let DeclarationKind::Stimulus(names) = &declaration.kind else { continue };
             for name in names {
                 self.stimulus(name, home);
@@ -139,9 +115,9 @@ impl<'a> Assembly<'a> {
 
     fn stimulus(&mut self, name: &NameSyntax, home: Home) {
         // A redeclared stimulus of the prelude is the same signal.
-        let known = self.stimuli.find(&name.text, home);
+        let known = self.names.stimuli.find(&name.text, home);
         let index = known.unwrap_or(self.program.stimuli.len());
-        let declared = self.stimuli.declare(name, index, home);
+        let declared = self.names.stimuli.declare(name, index, home);
         if !self.note(declared) || known.is_some() {
             return;
         }
@@ -152,44 +128,40 @@ impl<'a> Assembly<'a> {
     }
 
     fn materials(&mut self) {
-        for (home, source) in self.records(RecordKeyword::Material) {
-            let checked = material(source, home, &self.stimuli, &mut self.faults);
-            if let Some(checked) = checked {
-                let declared = self.materials.declare(&source.name, self.program.materials.len(), home);
-                self.note(declared);
-                self.program.materials.push(checked);
-            } else {
-                let declared = self.materials.declare(&source.name, usize::MAX, home);
-                self.note(declared);
-            }
+        for (home, source) in self.declarations.records(RecordKeyword::Material) {
+            let checked = material(source, home, &self.names.stimuli, &mut self.faults);
+            let position = checked.as_ref().map(|_| self.program.materials.len());
+            let declared = self.names.materials.declare(&source.name, position, home);
+            self.note(declared);
+            self.program.materials.extend(checked);
         }
     }
 
     fn schedules(&mut self) {
-        for (home, declaration) in self.declarations() {
+        for (home, declaration) in self.declarations.all() {
             let DeclarationKind::Schedule(source) = &declaration.kind else { continue };
-            let checked = schedule(source, home, &self.stimuli, &mut self.faults);
-            let checked = checked.filter(|_| !self.is_broken(source.name.span));
-            let index = if checked.is_some() { self.program.schedules.len() } else { usize::MAX };
-            let declared = self.schedules.declare(&source.name, index, home);
+            let checked = schedule(source, home, &self.names.stimuli, &mut self.faults);
+            let checked = checked.filter(|_| !self.declarations.is_broken(source.name.span));
+            let position = checked.as_ref().map(|_| self.program.schedules.len());
+            let declared = self.names.schedules.declare(&source.name, position, home);
             self.note(declared);
             self.program.schedules.extend(checked);
         }
     }
 
     fn worlds(&mut self) {
-        let sources = self.records(RecordKeyword::World);
+        let sources = self.declarations.records(RecordKeyword::World);
         for (place, (home, source)) in sources.iter().enumerate() {
-            let declared = self.worlds.declare(&source.name, place, *home);
+            let declared = self.names.worlds.declare(&source.name, place, *home);
             self.note(declared);
         }
-        self.checked_worlds = vec![CheckState::Open; sources.len()];
-        for place in order(&sources, &self.worlds) {
+        self.worlds = vec![CheckState::Open; sources.len()];
+        for place in order(&sources, &self.names.worlds) {
             let (home, source) = sources[place];
-            let checked = world(source, home, &self.worlds, &self.checked_worlds, &mut self.faults);
-            self.checked_worlds[place] = checked;
+            let checked = world(source, home, &self.names.worlds, &self.worlds, &mut self.faults);
+            self.worlds[place] = checked;
         }
-        let sound = self.checked_worlds.iter().filter_map(|state| match state {
+        let sound = self.worlds.iter().filter_map(|state| match state {
             CheckState::Sound(world) => Some(NamedWorld::clone(world)),
             _ => None,
         });
@@ -198,26 +170,24 @@ impl<'a> Assembly<'a> {
 
     /// The world that a test or simulation of the file names.
     fn world(&mut self, name: Option<&NameSyntax>) -> Option<PhysicsWorld> {
-        let worlds = Worlds { names: &self.worlds, checked: &self.checked_worlds };
+        let worlds = Worlds { names: &self.names.worlds, checked: &self.worlds };
         let named = worlds.named(name?, Home::Own);
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
     fn evolutions(&mut self) {
-        let sources = self.records(RecordKeyword::Evolution);
+        let sources = self.declarations.records(RecordKeyword::Evolution);
         for (place, (home, source)) in sources.iter().enumerate() {
-            let declared = self.evolutions.declare(&source.name, place, *home);
+            let declared = self.names.evolutions.declare(&source.name, place, *home);
             self.note(declared);
         }
         let mut checked = vec![CheckState::Open; sources.len()];
-        for place in order(&sources, &self.evolutions) {
+        for place in order(&sources, &self.names.evolutions) {
             let (home, source) = sources[place];
             let known = evolution::Known {
                 program: &self.program,
-                materials: &self.materials,
-                schedules: &self.schedules,
-                evolutions: &self.evolutions,
-                worlds: Worlds { names: &self.worlds, checked: &self.checked_worlds },
+                names: &self.names,
+                worlds: Worlds { names: &self.names.worlds, checked: &self.worlds },
                 checked: &checked,
             };
             checked[place] = evolution(source, home, &known, &mut self.faults);
@@ -231,9 +201,9 @@ impl<'a> Assembly<'a> {
     }
 
     fn libraries(&mut self) {
-        for (home, source) in self.records(RecordKeyword::Library) {
-            let checked = library(source, home, &self.evolutions, self.sources, &mut self.faults);
-            let declared = self.libraries.declare(&source.name, self.program.libraries.len(), home);
+        for (home, source) in self.declarations.records(RecordKeyword::Library) {
+            let checked = library(source, home, &self.names.evolutions, self.declarations.sources, &mut self.faults);
+            let declared = self.names.libraries.declare(&source.name, (), home);
             self.note(declared);
             self.program.libraries.extend(checked);
         }
@@ -242,63 +212,53 @@ impl<'a> Assembly<'a> {
     /// Checks all circuits except their widths.
     fn circuits(&mut self) {
         let mut sources = Vec::new();
-        for (home, declaration) in self.declarations() {
+        for (home, declaration) in self.declarations.all() {
             if let DeclarationKind::Circuit(source) = &declaration.kind {
-                let declared = self.circuits.declare(&source.name, sources.len(), home);
+                let declared = self.names.circuits.declare(&source.name, sources.len(), home);
                 self.note(declared);
-                self.headers.circuits.push(Header::of(source));
+                self.circuits.headers.circuits.push(Header::of(source));
                 sources.push((home, source));
             }
         }
         let mut calls = Vec::new();
         for &(home, source) in &sources {
-            let checked = circuit(source, home, &self.circuits, &self.headers);
-            let is_whole = !self.is_broken(source.name.span);
-            self.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
-            self.homes.push(home);
+            let checked = circuit(source, home, &self.names.circuits, &self.circuits.headers);
+            let is_whole = !self.declarations.is_broken(source.name.span);
+            self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
+            self.circuits.homes.push(home);
             self.faults.extend(checked.diagnostics);
             self.inner.extend(checked.uses);
             calls.push(checked.calls);
             self.program.circuits.push(checked.circuit);
         }
-        let (faults, sound) = recursion::look(&calls, &self.sound, &self.headers);
+        let (faults, sound) = recursion::look(&calls, &self.circuits.sound, &self.circuits.headers);
         self.faults.extend(faults);
-        self.sound = sound;
+        self.circuits.sound = sound;
         self.rename_redeclared();
-        for (at, header) in self.headers.circuits.iter().enumerate() {
-            self.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
+        for (at, header) in self.circuits.headers.circuits.iter().enumerate() {
+            self.circuits.places.entry(header.name.clone()).or_insert(CircuitId(at as u32));
         }
     }
 
     /// All names with a meaning.
     fn uses(&mut self) -> NameUses {
-        let tables = [
-            &self.stimuli,
-            &self.materials,
-            &self.schedules,
-            &self.evolutions,
-            &self.libraries,
-            &self.circuits,
-            &self.swarms,
-            &self.worlds,
-        ];
         let mut list = std::mem::take(&mut self.inner);
-        list.extend(tables.into_iter().flat_map(NameTable::take_uses));
+        list.extend(self.names.take_uses());
         NameUses::new(list)
     }
 
     /// Notes the ports that columns of a test or a simulation name.
     fn ports_named(&mut self, circuit: &str, columns: &[NameSyntax]) {
-        let Some(place) = self.places.get(circuit) else { return };
-        let header = &self.headers.circuits[place.0 as usize];
+        let Some(place) = self.circuits.place(circuit) else { return };
+        let header = &self.circuits.headers.circuits[place.0 as usize];
         self.inner.extend(columns.iter().filter_map(|name| header.port(name)));
     }
 
     /// If a file redeclares a circuit of the prelude, other circuits of the prelude still use the original.
     fn rename_redeclared(&mut self) {
-        for (at, home) in self.homes.iter().enumerate() {
-            let name = &mut self.headers.circuits[at].name;
-            if *home == Home::Prelude && self.circuits.is_redeclared(name) {
+        for (at, home) in self.circuits.homes.iter().enumerate() {
+            let name = &mut self.circuits.headers.circuits[at].name;
+            if *home == Home::Prelude && self.names.circuits.is_redeclared(name) {
                 *name = format!("prelude.{name}");
                 self.program.circuits[at].name.clone_from(name);
             }
@@ -321,21 +281,12 @@ impl<'a> Assembly<'a> {
         keep_last(&mut self.program.worlds, |world| &world.name);
     }
 
-    fn own_tests(&self) -> impl Iterator<Item = (Span, &'a tree::Test)> + use<'a> {
-        self.declarations().filter(|(home, _)| *home == Home::Own).filter_map(|(_, declaration)| {
-            match &declaration.kind {
-                DeclarationKind::Test(test) => Some((declaration.span, test)),
-                _ => None,
-            }
-        })
-    }
-
     fn swarms(&mut self) {
-        for (home, source) in self.records(RecordKeyword::Swarm) {
-            let worlds = Worlds { names: &self.worlds, checked: &self.checked_worlds };
-            let checked = swarm(source, home, &self.circuits, &self.headers, &self.libraries, worlds, &mut self.faults);
-            let index = if checked.is_some() { self.program.swarms.len() } else { usize::MAX };
-            let declared = self.swarms.declare(&source.name, index, home);
+        for (home, source) in self.declarations.records(RecordKeyword::Swarm) {
+            let worlds = Worlds { names: &self.names.worlds, checked: &self.worlds };
+            let checked = swarm(source, home, &self.names, &self.circuits.headers, worlds, &mut self.faults);
+            let position = checked.as_ref().map(|_| self.program.swarms.len());
+            let declared = self.names.swarms.declare(&source.name, position, home);
             self.note(declared);
             self.program.swarms.extend(checked);
         }
@@ -347,11 +298,10 @@ impl<'a> Assembly<'a> {
         let runs = |declaration: &tree::Declaration| {
             matches!(declaration.kind, DeclarationKind::Test(_) | DeclarationKind::Simulate(_))
         };
-        let something_runs = self.declarations().any(|(home, declaration)| home == Home::Own && runs(declaration));
-        if !something_runs || self.faults.iter().any(Diagnostic::is_error) {
+        if !self.declarations.own().any(runs) || self.faults.iter().any(Diagnostic::is_error) {
             return;
         }
-        for (home, source) in self.records(RecordKeyword::Library) {
+        for (home, source) in self.declarations.records(RecordKeyword::Library) {
             let name = source.name.text.as_str();
             let used = name == DEFAULT_LIBRARY || self.program.swarms.iter().any(|swarm| swarm.library == name);
             if home == Home::Own && !used {
@@ -365,15 +315,17 @@ impl<'a> Assembly<'a> {
     fn build(&mut self) -> Inspection {
         let mut program = std::mem::take(&mut self.program);
         let mut inspector = Inspector::new(&program);
-        for (at, _) in self.homes.iter().enumerate().filter(|(at, home)| **home != Home::Prelude && self.sound[*at]) {
-            inspector.inspect(CircuitId(at as u32));
+        for (at, home) in self.circuits.homes.iter().enumerate() {
+            if *home != Home::Prelude && self.circuits.sound[at] {
+                inspector.inspect(CircuitId(at as u32));
+            }
         }
         for swarm in &program.swarms {
             self.ports(&swarm.circuit, swarm.span, &mut inspector);
         }
         let simulations = self.simulations(&program, &mut inspector);
         let mut tests = Vec::new();
-        for (span, test) in self.own_tests() {
+        for (span, test) in self.declarations.own_tests() {
             tests.extend(self.test(span, test, &mut inspector));
         }
         for test in &tests {
@@ -396,22 +348,16 @@ impl<'a> Assembly<'a> {
         place: Span,
         inspector: &mut Inspector<'_>,
     ) -> Option<(Vec<Column>, Vec<Column>)> {
-        let circuit = *self.places.get(&instance.circuit)?;
-        if self.sound[circuit.0 as usize] { inspector.ports(circuit, &instance.arguments, place) } else { None }
-    }
-
-    /// The file and the line of a place.
-    fn place(&self, span: Span) -> (String, usize) {
-        let file = self.sources.file(span.file);
-        (file.name.clone(), file.line_column(span.start as usize).line)
+        let circuit = self.circuits.place(&instance.circuit).filter(|&circuit| self.circuits.is_sound(circuit))?;
+        inspector.ports(circuit, &instance.arguments, place)
     }
 
     fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
         let mut simulations = Vec::new();
-        for (home, declaration) in self.declarations().filter(|(home, _)| *home == Home::Own) {
+        for declaration in self.declarations.own() {
             let DeclarationKind::Simulate(source) = &declaration.kind else { continue };
-            let swarm = match self.swarms.resolve(&source.swarm, home) {
-                Ok(swarm) => program.swarms.get(swarm),
+            let swarm = match self.names.swarms.resolve(&source.swarm, Home::Own) {
+                Ok(swarm) => swarm.map(|swarm| &program.swarms[swarm]),
                 Err(fault) => {
                     self.faults.push(fault);
                     None
@@ -422,11 +368,12 @@ impl<'a> Assembly<'a> {
             if let tree::With::Spells { columns, .. } = &source.with {
                 self.ports_named(&swarm.circuit.circuit, columns);
             }
-            let schedules = Schedules { names: &self.schedules, declared: &program.schedules };
+            let schedules = Schedules { names: &self.names.schedules, declared: &program.schedules };
             let at = source.swarm.span;
-            let spells = spells(&source.with, at, &inputs, home, schedules, self.sources, &mut self.faults);
+            let spells =
+                spells(&source.with, at, &inputs, Home::Own, schedules, self.declarations.sources, &mut self.faults);
             let world = self.world(source.world.as_ref());
-            let (file, line) = self.place(declaration.span);
+            let (file, line) = self.declarations.line(declaration.span);
             let (swarm, span) = (swarm.name.clone(), source.swarm.span);
             simulations.push(Simulation { swarm, span, file, line, inputs, spells, world });
         }
@@ -442,7 +389,7 @@ impl<'a> Assembly<'a> {
                 self.ports_named(&tested.circuit, &table.inputs);
                 self.ports_named(&tested.circuit, &table.outputs);
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
-                Stimulation::Rows(test::rows(table, &ports, self.sources, &mut self.faults))
+                Stimulation::Rows(test::rows(table, &ports, self.declarations.sources, &mut self.faults))
             }
             tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, (&inputs, &outputs))?,
             tree::TestKind::Reference(body) => {
@@ -453,26 +400,27 @@ impl<'a> Assembly<'a> {
         if let Stimulation::All { .. } = stimulation {
             let place = source.circuit.name.span;
             self.all_inputs(&inputs, place)?;
-            if self.places.get(&tested.circuit).is_some_and(|&at| inspector.has_memory(at, &tested.arguments, place)) {
+            let circuit = self.circuits.place(&tested.circuit);
+            if circuit.is_some_and(|circuit| inspector.has_memory(circuit, &tested.arguments, place)) {
                 self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
             }
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
-        let (file, line) = self.place(span);
+        let (file, line) = self.declarations.line(span);
         Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world })
     }
 
     /// Warns of tests that only their line tells apart.
     fn same_titles(&mut self) {
         let mut known = BTreeMap::new();
-        for (_, test) in self.own_tests() {
+        for (_, test) in self.declarations.own_tests() {
             let Some(title) = &test.title else { continue };
             let instance = test
                 .circuit
                 .arguments
                 .last()
                 .map_or(test.circuit.name.span, |last| test.circuit.name.span.to(last.span));
-            let circuit = self.sources.text(instance);
+            let circuit = self.declarations.sources.text(instance);
             let world = test.world.as_ref().map(|world| &world.text);
             match known.entry((circuit, &title.text, world)) {
                 Entry::Vacant(entry) => _ = entry.insert(title.span),
@@ -487,7 +435,7 @@ impl<'a> Assembly<'a> {
 
     /// The circuit of a test.
     fn instance(&mut self, source: &tree::InstanceSyntax) -> Option<Instance> {
-        let named = instance(source, Home::Own, &self.circuits, &self.headers);
+        let named = instance(source, Home::Own, &self.names.circuits, &self.circuits.headers);
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
@@ -528,15 +476,15 @@ impl<'a> Assembly<'a> {
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { name, parameters: Vec::new(), inputs, outputs, body };
-        let checked = circuit(&source, Home::Own, &self.circuits, &self.headers);
-        let sound = !self.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
-        let called = checked.calls.iter().all(|(callee, _)| self.sound[callee.0 as usize]);
+        let checked = circuit(&source, Home::Own, &self.names.circuits, &self.circuits.headers);
+        let sound = !self.declarations.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
+        let called = checked.calls.iter().all(|&(callee, _)| self.circuits.is_sound(callee));
         // Its ports are those of the tested circuit.
         let (ports, own): (Vec<_>, Vec<_>) = checked.uses.into_iter().partition(|found| found.declared == tested.span);
         let names: Vec<_> = ports
             .into_iter()
             .filter(|found| found.place != tested.span)
-            .map(|found| NameSyntax { text: self.sources.text(found.place).to_owned(), span: found.place })
+            .map(|found| NameSyntax { text: self.declarations.sources.text(found.place).to_owned(), span: found.place })
             .collect();
         self.ports_named(&instance.circuit, &names);
         self.inner.extend(own);

@@ -13,7 +13,7 @@ use nbc_base::source::{Sources, Span};
 #[derive(Clone, Copy)]
 pub(crate) struct Schedules<'a> {
     /// The position of each name in `declared`.
-    pub(crate) names: &'a NameTable,
+    pub(crate) names: &'a NameTable<Option<usize>>,
     pub(crate) declared: &'a [NamedSchedule],
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn spells(
     match with {
         With::Named(name) => match schedules.names.resolve(name, home) {
             Ok(schedule) => {
-                let schedule = schedules.declared.get(schedule);
+                let schedule = schedule.map(|at| &schedules.declared[at]);
                 schedule.map_or(Vec::new(), |schedule| named(schedule, name.span, inputs, sources, faults))
             }
             Err(fault) => {

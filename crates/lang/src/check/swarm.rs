@@ -3,7 +3,7 @@
 use crate::check::circuit::Headers;
 use crate::check::fields::{self, Fields};
 use crate::check::instance::instance;
-use crate::check::names::{Home, NameTable};
+use crate::check::names::{Home, Names};
 use crate::check::quantity;
 use crate::check::wording::{Expected, FieldError};
 use crate::check::world::Worlds;
@@ -28,20 +28,19 @@ const MAX_STEP: u32 = 100_000;
 pub(crate) fn swarm(
     source: &RecordDeclaration,
     home: Home,
-    circuits: &NameTable,
+    names: &Names,
     headers: &Headers,
-    libraries: &NameTable,
     worlds: Worlds<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Swarm> {
     let mut fields = Fields::new("swarm", source);
     let circuit = fields.need("circuit", "circuit: d_latch", |value| match &value.kind {
-        ValueKind::Instance(source) => instance(source, home, circuits, headers),
+        ValueKind::Instance(source) => instance(source, home, &names.circuits, headers),
         _ => Err(quantity::wrong_kind(Expected::Name("circuit"), value.span)),
     });
     let library = fields.read("library", DEFAULT_LIBRARY.to_owned(), |value| {
         let name = fields::word(value, Expected::Name("library"))?;
-        libraries.resolve(name, home).map(|_| name.text.clone())
+        names.libraries.resolve(name, home).map(|_| name.text.clone())
     });
     let hold = fields.read("hold", Hold::Auto, hold);
     let window = fields.read("window", 1, |value| match &value.kind {

@@ -1,6 +1,7 @@
 //! Truth tables: exactly one row for every pattern.
 
 use crate::check::circuit::CircuitChecker;
+use crate::check::constant;
 use crate::check::wording::TableError;
 use crate::syntax::tree;
 use nbc_base::diag::Diagnostic;
@@ -53,13 +54,7 @@ impl CircuitChecker<'_> {
 
     /// All of `1`, `0` and `-`; underscores separate.
     fn bits(&mut self, word: &tree::NameSyntax) -> Option<Vec<Option<bool>>> {
-        let bit = |c| match c {
-            '0' => Some(Some(false)),
-            '1' => Some(Some(true)),
-            '-' => Some(None),
-            _ => None,
-        };
-        let bits: Option<Vec<_>> = word.text.chars().filter(|&c| c != '_').map(bit).collect();
+        let bits = constant::pattern(&word.text);
         if bits.is_none() {
             self.diagnostics.push(TableError::NotAPattern { word: word.text.clone() }.at(word.span));
         }

@@ -5,21 +5,21 @@ use nbc_base::source::{FileId, Span};
 /// The kind of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NameKind {
-    /// A stimulus.
+    /// A stimulus of robots.
     Stimulus,
-    /// A material.
+    /// A material of voxels.
     Material,
-    /// A schedule.
+    /// A schedule of stimuli.
     Schedule,
-    /// An evolution.
+    /// A run of evolution.
     Evolution,
-    /// A library.
+    /// A library of robots.
     Library,
-    /// A swarm.
+    /// A swarm: a circuit made of the robots of a library.
     Swarm,
-    /// A world.
+    /// A world to simulate in.
     World,
-    /// A circuit.
+    /// A circuit, with or without parameters.
     Circuit,
     /// A port or another net of a circuit.
     Net,

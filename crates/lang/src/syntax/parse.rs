@@ -23,7 +23,7 @@ pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
 pub const MAX_NESTING: usize = 64;
 
 /// The most tokens of a declaration, which bounds the time of parsing.
-pub const MAX_WORDS: usize = 2_000_000;
+pub(crate) const MAX_WORDS: usize = 2_000_000;
 
 /// The tree of a text, and its errors.
 #[derive(Clone, Debug, Default, PartialEq)]

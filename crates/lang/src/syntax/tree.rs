@@ -17,9 +17,9 @@ pub struct Tree {
 /// A part that could not be parsed: a declaration, or a statement, field or row of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BrokenSyntax {
-    /// The part.
+    /// The place of the part that is missing.
     pub span: Span,
-    /// The declaration that it belongs to.
+    /// The place of the declaration that it belongs to.
     pub declaration: Span,
 }
 
@@ -28,11 +28,11 @@ pub struct BrokenSyntax {
 pub struct Declaration {
     /// From its keyword to its last character.
     pub span: Span,
-    /// What is declared.
+    /// The declaration itself.
     pub kind: DeclarationKind,
 }
 
-/// The kinds of declarations.
+/// A declaration, by its keyword.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclarationKind {
     /// `use "file.nb"`
@@ -54,9 +54,9 @@ pub enum DeclarationKind {
 /// A name with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameSyntax {
-    /// The name.
+    /// The name as written.
     pub text: String,
-    /// The place.
+    /// The place of the name in the source.
     pub span: Span,
 }
 
@@ -85,7 +85,7 @@ pub enum RecordKeyword {
 }
 
 impl RecordKeyword {
-    /// The keyword.
+    /// The keyword as written.
     pub fn word(self) -> &'static str {
         match self {
             Self::Material => "material",
@@ -102,13 +102,13 @@ impl RecordKeyword {
 pub struct RecordDeclaration {
     /// The word that begins the declaration.
     pub keyword: RecordKeyword,
-    /// The declared name.
+    /// The name that is declared.
     pub name: NameSyntax,
-    /// The fields.
+    /// The fields in braces after the name.
     pub record: RecordSyntax,
 }
 
-/// Fields in braces.
+/// Fields in braces: `{ name: value, … }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordSyntax {
     /// The fields in order of text.
@@ -124,7 +124,7 @@ impl RecordSyntax {
     }
 }
 
-/// A field of a record.
+/// A field of a record: `name: value`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// The word before the colon.
@@ -138,11 +138,11 @@ pub struct Field {
 pub struct ValueSyntax {
     /// A number, a word, a list or another form.
     pub kind: ValueKind,
-    /// The place.
+    /// The place of the value in the source.
     pub span: Span,
 }
 
-/// The kinds of values.
+/// The forms of the value of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueKind {
     /// `{ name: value, … }`
@@ -170,7 +170,7 @@ pub enum ValueKind {
 pub struct Number {
     /// The digits, with sign and point.
     pub text: String,
-    /// The place.
+    /// The place of the number in the source.
     pub span: Span,
 }
 
@@ -193,9 +193,9 @@ impl Quantity {
 /// A circuit's name with values for its parameters, which are sizes of the surrounding arena.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstanceSyntax {
-    /// The circuit's name.
+    /// The name of the circuit.
     pub name: NameSyntax,
-    /// The parameters given.
+    /// The values in brackets, in order of text.
     pub arguments: Vec<Argument>,
     /// The sizes of the parameters, if the instance is not inside a circuit.
     pub sizes: Vec<SizeSyntax>,
@@ -204,9 +204,9 @@ pub struct InstanceSyntax {
 /// `schedule sweep(s1, s2) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScheduleSyntax {
-    /// The schedule's name.
+    /// The name of the schedule.
     pub name: NameSyntax,
-    /// The stimuli.
+    /// The stimuli, one for each column of the spells.
     pub columns: Vec<NameSyntax>,
     /// The spells in order of time.
     pub spells: Vec<SpellSyntax>,
@@ -217,9 +217,9 @@ pub struct ScheduleSyntax {
 pub struct SpellSyntax {
     /// The values, one for each column.
     pub cells: Vec<NameSyntax>,
-    /// The duration.
+    /// The time for which the values stay, such as `10 cycles`.
     pub length: Quantity,
-    /// The place.
+    /// The place of the spell in the source.
     pub span: Span,
 }
 
@@ -228,9 +228,9 @@ pub struct SpellSyntax {
 pub struct Simulate {
     /// The name of the swarm to simulate.
     pub swarm: NameSyntax,
-    /// `in slippery`
+    /// The world after `in`, if it is given: `in slippery`.
     pub world: Option<NameSyntax>,
-    /// Its inputs over time.
+    /// The inputs of the swarm over time.
     pub with: With,
 }
 
@@ -251,20 +251,20 @@ pub enum With {
 /// `test latch "…" …`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Test {
-    /// The tested circuit.
+    /// The circuit to test, with values for its parameters.
     pub circuit: InstanceSyntax,
     /// The text after the circuit that tells tests apart.
     pub title: Option<Text>,
-    /// `in slippery`
+    /// The world after `in`, if it is given: `in slippery`.
     pub world: Option<NameSyntax>,
-    /// The method.
+    /// What the circuit must do.
     pub kind: TestKind,
 }
 
-/// The methods of a test.
+/// What a tested circuit must do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TestKind {
-    /// A table of rows.
+    /// The rows of a table: inputs and expected outputs.
     Table(TestTable),
     /// `for all inputs against other`
     Against(InstanceSyntax),
@@ -275,9 +275,9 @@ pub enum TestKind {
 /// The rows of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestTable {
-    /// The input columns.
+    /// The names of the columns before the bar.
     pub inputs: Vec<NameSyntax>,
-    /// The output columns.
+    /// The names of the columns after the bar.
     pub outputs: Vec<NameSyntax>,
     /// The rows in order of time.
     pub rows: Vec<TestRowSyntax>,
@@ -294,22 +294,22 @@ pub struct TestRowSyntax {
     pub bars: Vec<Span>,
     /// The values after the bar.
     pub outputs: Vec<NameSyntax>,
-    /// The hold, if the row sets it.
+    /// The hold of this row, if it sets one.
     pub hold: Option<Quantity>,
-    /// The place.
+    /// The place of the row in the source.
     pub span: Span,
 }
 
 /// `circuit half_adder(a, b) -> (s, c) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitSyntax {
-    /// The circuit's name.
+    /// The name of the circuit.
     pub name: NameSyntax,
-    /// The width parameters.
+    /// The width parameters in brackets.
     pub parameters: Vec<ParameterSyntax>,
-    /// The input ports.
+    /// The input ports, before the arrow.
     pub inputs: Vec<Port>,
-    /// The output ports.
+    /// The output ports, after the arrow.
     pub outputs: Vec<Port>,
     /// The body; it also has the sizes of the ports.
     pub body: BodySyntax,
@@ -326,42 +326,42 @@ pub struct BodySyntax {
     pub sizes: Vec<SizeSyntax>,
 }
 
-/// A place in [`BodySyntax::expressions`].
+/// The place of an expression in [`BodySyntax::expressions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExpressionSyntaxId(pub u32);
 
-/// A place in [`BodySyntax::sizes`].
+/// The place of a size in [`BodySyntax::sizes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizeSyntaxId(pub u32);
 
 /// `n` or `start = 0` in a circuit's parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterSyntax {
-    /// The parameter's name.
+    /// The name of the parameter.
     pub name: NameSyntax,
-    /// The default value.
+    /// The value if an instance gives none.
     pub default: Option<SizeSyntaxId>,
 }
 
-/// `a` or `a[8]`
+/// A port or another net with its width: `a` or `a[8]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
-    /// The port's name.
+    /// The name of the net.
     pub name: NameSyntax,
-    /// The width in bits, if there is one.
+    /// The width in bits, if it is given.
     pub width: Option<SizeSyntaxId>,
 }
 
 /// A statement with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatementSyntax {
-    /// A driver, a loop or another statement.
+    /// A driver, nets, or a loop.
     pub kind: StatementKind,
-    /// The place.
+    /// The place of the statement in the source.
     pub span: Span,
 }
 
-/// The kinds of statements.
+/// A statement of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
     /// `q init 0 = nand(s, nq)`
@@ -391,22 +391,22 @@ pub enum StatementKind {
 /// The left side of a drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetSyntax {
-    /// The net.
+    /// The net that is driven, or `_`.
     pub name: NameSyntax,
     /// The bits, if not the whole net is driven.
     pub index: Option<Index>,
-    /// The value before the first cycle.
+    /// The value before the first cycle, if it is given: `init 0`.
     pub start: Option<SizeSyntaxId>,
-    /// The place.
+    /// The place of the target in the source.
     pub span: Span,
 }
 
-/// `[3]` or `[3..0]`
+/// The bits of a net: `[3]` or `[3..0]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Index {
     /// The bit, or the highest of them.
     pub high: SizeSyntaxId,
-    /// The lowest bit of a slice.
+    /// The lowest bit of a slice; `None` for one bit.
     pub low: Option<SizeSyntaxId>,
     /// The place, including the brackets.
     pub span: Span,
@@ -417,14 +417,14 @@ pub struct Index {
 pub struct SizeSyntax {
     /// A number, a name or an operation.
     pub kind: SizeSyntaxKind,
-    /// The place.
+    /// The place of the integer in the source.
     pub span: Span,
 }
 
-/// The kinds of integers.
+/// An integer: a number, a name, or an operation on others.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SizeSyntaxKind {
-    /// Digits.
+    /// A number, as its digits.
     Literal(String),
     /// A parameter or loop variable.
     Name(String),
@@ -439,11 +439,11 @@ pub enum SizeSyntaxKind {
 /// A parameter given to a circuit: `8` or `start = 1`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument {
-    /// The parameter's name, if it is given.
+    /// The name of the parameter, if it is given.
     pub name: Option<NameSyntax>,
-    /// The value that the argument gives to a parameter.
+    /// The value for the parameter.
     pub value: SizeSyntaxId,
-    /// The place.
+    /// The place of the argument in the source.
     pub span: Span,
 }
 
@@ -452,11 +452,11 @@ pub struct Argument {
 pub struct ExpressionSyntax {
     /// A literal, a net, a call or another form.
     pub kind: ExpressionSyntaxKind,
-    /// The place.
+    /// The place of the expression in the source.
     pub span: Span,
 }
 
-/// The kinds of expressions.
+/// An expression: a constant, a net, or what is made of other expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionSyntaxKind {
     /// Digits without a width.
@@ -619,7 +619,7 @@ impl Infix {
     }
 
     /// Whether `a op b op c` is unambiguous if it follows `before`, which has the same precedence.
-    pub fn chains_after(self, before: Self) -> bool {
+    pub(crate) fn chains_after(self, before: Self) -> bool {
         use nbc_base::model::Operator;
         match self {
             Self::Add | Self::Subtract => true,

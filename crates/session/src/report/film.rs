@@ -114,7 +114,7 @@ impl<'a> Painter<'a> {
             let tall = if voxel % 5 == 0 { 7.0 } else { 3.0 };
             fill_rect(&mut self.frame, (to_pixel((voxel as f64, 0.0)).0, ground), 1.0, tall, Color::PALE);
         }
-        paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, to_pixel);
+        paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, !film.is_dense(), to_pixel);
         for (i, color) in [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate() {
             let side = film.lamp();
             let place = (left + side + i as f64 * side * 1.375, ground - side);
@@ -228,8 +228,16 @@ fn fill_rect(frame: &mut Pixmap, (x, y): (f64, f64), width: f64, height: f64, co
     }
 }
 
-/// Paints the voxels of each material as one shape and one outline, one material after another.
-fn paint_pose(frame: &mut Pixmap, pose: &Pose, looks: &Looks, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
+/// Paints the voxels of each material as one shape and one outline, one material after another. Small robots have no
+/// `smooth` edges: they blur, and make a film half as large again.
+fn paint_pose(
+    frame: &mut Pixmap,
+    pose: &Pose,
+    looks: &Looks,
+    smooth: bool,
+    to_pixel: impl Fn((f64, f64)) -> (f64, f64),
+) {
+    let paint = |color| tiny_skia::Paint { anti_alias: smooth, ..solid(color, 1.0) };
     let mut shapes: BTreeMap<u8, PathBuilder> = BTreeMap::new();
     for (corners, code) in &pose.voxels {
         let path = shapes.entry(*code).or_default();
@@ -243,8 +251,8 @@ fn paint_pose(frame: &mut Pixmap, pose: &Pose, looks: &Looks, to_pixel: impl Fn(
         // Voxels whose corners are not finite have no path.
         let Some(path) = shape.finish() else { continue };
         let Look { color, mark } = looks.look(&pose.palette, code);
-        frame.fill_path(&path, &solid(color, 1.0), FillRule::Winding, Transform::identity(), None);
-        let edge = solid(color.mix(Color::BLACK, 0.5), 1.0);
+        frame.fill_path(&path, &paint(color), FillRule::Winding, Transform::identity(), None);
+        let edge = paint(color.mix(Color::BLACK, 0.5));
         frame.stroke_path(&path, &edge, &Stroke { width: 0.8, ..Stroke::default() }, Transform::identity(), None);
         let Some(mark) = mark else { continue };
         for (corners, _) in pose.voxels.iter().filter(|(_, own)| *own == code) {

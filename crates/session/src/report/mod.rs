@@ -40,6 +40,8 @@ mod robustness;
 mod run_page;
 mod schematic;
 mod scheme;
+#[cfg(feature = "pictures")]
+mod shades;
 mod spacetime;
 mod sprite;
 mod stage;
@@ -76,7 +78,7 @@ pub use html::{base64, embedded};
 pub use listing::{Listing, describe_robot};
 pub use logic_page::draw_logic_page;
 pub use looks::{Look, Looks, Mark, describe_material};
-pub use page_bodies::{live_robots, look_data, voxel_data};
+pub use page_bodies::{about_robot, voxel_data};
 pub use phases::PhaseTiming;
 pub use portraits::{Portrait, draw_portraits};
 pub use pose::draw_pose;

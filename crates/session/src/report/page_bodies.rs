@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::report::looks::{Look, Looks, material_words};
 use nbc_base::diag::counted;
 use nbc_base::model::{Body, Material};
-use nbc_swarm::{Assembly, Member, Recorded, RobotTrace, StimulusSource, SwarmTrace};
+use nbc_swarm::{Member, Recorded, RobotTrace, StimulusSource};
 
 /// The appearance of materials, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {
@@ -32,44 +32,22 @@ pub fn materials(body: &Body) -> String {
 }
 
 /// The description of a robot of a swarm for a page: pairs of a word and a text.
-pub fn about_robot(robot: &RobotTrace, member: &Member) -> Value {
+pub fn about_robot(robot: &RobotTrace, member: &Member) -> Vec<[String; 2]> {
     let (body, character) = (&member.robot.body, &member.robot.character);
     let wired = |i: usize| match robot.senses[i] {
         StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(value)),
         StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
     };
     let (clock, switches) = (counted(character.clock as usize, "cycle"), character.switches);
-    json!([
-        ["robot", robot.robot.as_str()],
-        ["behavior", &member.robot.behavior.to_string()],
-        ["stimulus 1", &wired(0)],
-        ["stimulus 2", &wired(1)],
-        ["body", &body.rows().join(" ")],
-        ["materials", &materials(body)],
-        ["clock", &format!("{clock}, margin {:.3} voxels a cycle", character.margin)],
-        ["errors", &format!("{:.2} % of {switches} switches", character.error_rate * 100.0)],
-    ])
-}
-
-/// The robots of a swarm whose poses are recorded, for a page that shows them live.
-pub fn live_robots(trace: &SwarmTrace, assembly: &Assembly, looks: &Looks) -> Vec<Value> {
-    let robot = |recorded: &Recorded| {
-        let (robot, member) = (&trace.robots[recorded.robot], &assembly.members[recorded.robot]);
-        let (body, character) = (&member.robot.body, &member.robot.character);
-        json!({
-            "net": robot.net,
-            "function": robot.function.name(),
-            "robot": robot.robot,
-            "about": about_robot(robot, member),
-            "senses": robot.senses,
-            "body": body.rows(),
-            "size": [body.width(), body.height()],
-            "voxels": voxel_data(recorded, body, looks),
-            "points": recorded.points,
-            "clock": character.clock,
-            "margin": character.margin,
-            "errors": character.error_rate,
-        })
-    };
-    trace.recording.robots.iter().map(robot).collect()
+    let pairs = [
+        ("robot", robot.robot.clone()),
+        ("behavior", member.robot.behavior.to_string()),
+        ("stimulus 1", wired(0)),
+        ("stimulus 2", wired(1)),
+        ("body", body.rows().join(" ")),
+        ("materials", materials(body)),
+        ("clock", format!("{clock}, margin {:.3} voxels a cycle", character.margin)),
+        ("errors", format!("{:.2} % of {switches} switches", character.error_rate * 100.0)),
+    ];
+    pairs.map(|(word, text)| [word.to_owned(), text]).into()
 }

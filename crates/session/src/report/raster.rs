@@ -4,6 +4,7 @@ use tiny_skia::{FillRule, LineJoin, Path, PathBuilder, Pixmap, Rect, Stroke, Str
 
 use crate::report::element::{Anchor, Element, Paint, Point, Type};
 use crate::report::font::Outline;
+use crate::report::shades::Shades;
 use crate::report::{Color, Svg};
 
 /// The most pixels along one side of a picture.
@@ -99,8 +100,32 @@ pub(super) fn solid(color: Color, opacity: f64) -> tiny_skia::Paint<'static> {
 }
 
 /// The drawing as a PNG file of twice its size, for sharp print.
+///
+/// # Panics
+/// Never: pixels in memory can be encoded.
 pub fn png(svg: &Svg) -> Vec<u8> {
-    rasterize(svg, 2.0).encode_png().expect("pixels in memory can be encoded")
+    let pixmap = rasterize(svg, 2.0);
+    let (width, height) = (pixmap.width(), pixmap.height());
+    let pixels = pixmap.take_demultiplied();
+    let (pixels, _) = pixels.as_chunks();
+    encode(&Shades::of(pixels), width, height).expect("pixels in memory can be encoded")
+}
+
+fn encode(shades: &Shades, width: u32, height: u32) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_palette(shades.palette.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect::<Vec<u8>>());
+    if shades.palette.iter().any(|shade| shade[3] < 255) {
+        encoder.set_trns(shades.palette.iter().map(|shade| shade[3]).collect::<Vec<u8>>());
+    }
+    encoder.set_compression(png::Compression::High);
+    // Neighbors in a palette are not similar.
+    encoder.set_filter(png::Filter::NoFilter);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&shades.indexed)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -80,11 +80,11 @@ pub trait Flock: Debug + Send {
 /// A robot's simulation at the end of an env step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// Its points.
+    /// The positions and velocities of its points.
     pub state: State,
     /// Its center of mass, in voxels.
     pub center: [f64; 2],
-    /// Env steps done.
+    /// Env steps done since the start.
     pub clock: u32,
     /// The fault that ended it, if any.
     pub fault: Option<Fault>,

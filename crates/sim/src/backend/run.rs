@@ -10,7 +10,7 @@ use crate::signal::Signals;
 use crate::state::State;
 use nbc_base::model::{Body, Fault, FaultKind, Palette, Pattern, Schedule, Setting};
 
-/// One simulation.
+/// One simulation: a body, its state between env steps, and what is left of its schedule.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The body's points and springs.
@@ -23,7 +23,7 @@ pub struct Run {
     pub state: State,
     /// Its center of mass at the end of the last whole env step, in voxels.
     pub center: [f64; 2],
-    /// Env steps done.
+    /// Env steps done since the start.
     pub clock: u32,
     /// The fault that ended it, if any.
     pub fault: Option<Fault>,
@@ -88,7 +88,7 @@ impl Run {
         }
     }
 
-    /// Env steps ahead.
+    /// Env steps left in the schedule.
     #[cfg(feature = "gpu")]
     pub fn remaining(&self) -> u32 {
         if self.fault.is_some() { 0 } else { self.spells.iter().map(|&(_, steps)| steps).sum() }
@@ -134,7 +134,7 @@ pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoItera
         let build = builds.entry(body).or_insert_with(|| {
             let signals =
                 palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
-            let lattice = Arc::new(Lattice::with_constants(body, constants));
+            let lattice = Arc::new(Lattice::new(body, constants));
             Build { body: number, lattice, signals: Arc::clone(signals) }
         });
         Run::new(build, setting.start_column(body.width()) as f64 + setting.shift, constants)

@@ -1,7 +1,6 @@
 //! .bench files.
 
-use nbc_base::diag::{Code, Diagnostic, counted};
-use nbc_base::source::Span;
+use nbc_base::diag::counted;
 
 /// A line of .bench that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,14 +22,8 @@ pub enum BenchError {
 }
 
 impl BenchError {
-    /// The error at its place.
-    pub fn at(self, span: Span) -> Diagnostic {
-        let (message, label) = self.words();
-        Diagnostic::new(Code::CircuitFile, message, span, label)
-    }
-
     /// The message and the label.
-    fn words(self) -> (String, String) {
+    pub(super) fn words(self) -> (String, String) {
         let fixed = |message: &str, label: &str| (message.to_owned(), label.to_owned());
         match self {
             Self::NoOutput => fixed("no `OUTPUT` in this .bench file", "expected `OUTPUT(net)`"),

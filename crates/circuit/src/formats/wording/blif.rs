@@ -35,14 +35,8 @@ pub enum BlifError {
 }
 
 impl BlifError {
-    /// The error at its place.
-    pub fn at(self, span: Span) -> Diagnostic {
-        let (message, label) = self.words();
-        Diagnostic::new(Code::CircuitFile, message, span, label)
-    }
-
     /// The message and the label.
-    fn words(self) -> (String, String) {
+    pub(super) fn words(self) -> (String, String) {
         let fixed = |message: &str, label: &str| (message.to_owned(), label.to_owned());
         match self {
             Self::NoModel => fixed("no `.model` in this BLIF file", "expected `.model`"),

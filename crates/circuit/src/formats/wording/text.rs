@@ -51,9 +51,9 @@ impl TextError {
     /// The error at its place.
     pub fn at(self, span: Span) -> Diagnostic {
         match self {
-            Self::Blif(error) => error.at(span),
+            Self::Blif(error) => worded(error.words(), span),
             Self::Model(error) => error.at(span),
-            Self::Bench(error) => error.at(span),
+            Self::Bench(error) => worded(error.words(), span),
             Self::TooLarge { most } => {
                 let message = format!("the circuit has more than {most} pins of gates");
                 Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
@@ -81,6 +81,10 @@ impl TextError {
             Self::Undefined { net } => damaged(format!("`{net}` is used but not defined"), span, "used here"),
         }
     }
+}
+
+fn worded((message, label): (String, String), span: Span) -> Diagnostic {
+    damaged(message, span, label)
 }
 
 fn damaged(message: impl Into<String>, span: Span, label: impl Into<String>) -> Diagnostic {

@@ -40,7 +40,7 @@ impl<'a> Printer<'a> {
     /// The whole text, with the comments after the last declaration.
     pub(super) fn finish(mut self) -> String {
         self.separate = false;
-        self.comments_until(u32::MAX);
+        self.comments_until(self.source.len() as u32);
         assert_eq!(self.next, self.comments.len(), "every comment is printed");
         if !self.out.is_empty() {
             self.out.push('\n');

@@ -21,7 +21,7 @@ pub struct LaneGroup {
 }
 
 impl LaneGroup {
-    /// These runs.
+    /// A group of these runs, none of them in a lane yet.
     pub fn new(runs: Vec<Run>) -> Self {
         Self { runs, ..Self::default() }
     }

@@ -23,9 +23,9 @@ use crate::state::State;
 pub enum InstructionSet {
     /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM.
     Baseline,
-    /// AVX2.
+    /// AVX2 of x86-64: four numbers in a register.
     Avx2,
-    /// AVX-512 F, DQ and VL.
+    /// AVX-512 F, DQ and VL of x86-64: eight numbers in a register.
     Avx512,
 }
 
@@ -121,12 +121,12 @@ impl Kernel {
         if alike { same } else { different }
     }
 
-    /// The number of lanes.
+    /// The number of robots that it simulates at a time.
     pub fn lanes(self) -> usize {
         self.lanes
     }
 
-    /// The instruction set.
+    /// The instruction set that its code uses.
     pub fn set(self) -> InstructionSet {
         self.set
     }
@@ -185,7 +185,6 @@ fn layout<R: Real, K: Stiffness<R>>(
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::arch::x86_64::*;
-    use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
     use super::{Ground, layout};
     use crate::backend::lanes::batch::Batch;

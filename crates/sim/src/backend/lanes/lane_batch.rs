@@ -41,7 +41,7 @@ pub trait LaneBatch: Debug + Send {
 /// A batch with the step of its kernel.
 #[derive(Debug)]
 pub struct Stepped<R: Real, K: Stiffness<R>> {
-    /// The robots.
+    /// The robots in lanes.
     pub batch: Batch<R, K>,
     /// One env step, compiled for the numbers of the batch.
     pub step: fn(&mut Batch<R, K>),
@@ -65,15 +65,15 @@ impl<R: Real, K: Stiffness<R>> LaneBatch for Stepped<R, K> {
     }
 
     fn save(&mut self) {
-        self.batch.save();
+        self.batch.masses.save();
     }
 
     fn unload(&self, lane: usize, state: &mut State) {
-        self.batch.unload(lane, state);
+        self.batch.masses.unload(lane, &self.batch.occupants[lane].masses, state);
     }
 
     fn unload_saved(&self, lane: usize, state: &mut State) {
-        self.batch.unload_saved(lane, state);
+        self.batch.masses.unload_saved(lane, &self.batch.occupants[lane].masses, state);
     }
 
     fn resume(&mut self) {

@@ -1,8 +1,9 @@
 //! Length limits: after the integrator, edges that are too long or too short are partly corrected (docs/physics.md 8).
 
-use crate::backend::lanes::batch::{Batch, DIAGONAL, FRAME, MAIN, Round, Row};
+use crate::backend::lanes::batch::{Batch, Round, Row};
 use crate::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::backend::lanes::real::{Mask, Real};
+use crate::backend::lanes::springs::{DIAGONAL, FRAME, MAIN, rest};
 use crate::backend::lanes::stiffness::Stiffness;
 use crate::constants::Constants;
 use crate::lattice::CORNERS;
@@ -14,10 +15,11 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Squared lengths are compared, so a root is needed only if a limit is exceeded.
     #[inline(always)]
     pub fn limit_lengths(&mut self) {
-        let main = Bounds::<R>::new(self.rest(MAIN), &self.constants);
-        let diagonal = Bounds::<R>::new(self.rest(DIAGONAL), &self.constants);
-        let (all, share) = (self.masses.as_mut_slice(), self.constants.correction);
-        for (rim, stiffness) in self.rims.iter().zip(&self.rim_stiffness) {
+        let main = Bounds::<R>::new(rest(MAIN, &self.constants), &self.constants);
+        let diagonal = Bounds::<R>::new(rest(DIAGONAL, &self.constants), &self.constants);
+        let (all, share) = (self.masses.now.as_mut_slice(), self.constants.correction);
+        let springs = &self.springs;
+        for (rim, stiffness) in springs.rims.iter().zip(&springs.rim_stiffness) {
             let ends = [rim.from as usize, rim.to as usize];
             let r = between(all[ends[0]].at, all[ends[1]].at);
             let bites = stiffness.mask(main.broken(square(r)));
@@ -27,8 +29,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
         for row in 0..self.rows.len() {
             let Row { masses, frames } = self.rows[row].clone();
-            for (n, stiffness) in frames.clone().zip(&self.frame_stiffness[frames]) {
-                let corners = self.frames[n].indices();
+            for (n, stiffness) in frames.clone().zip(&springs.frame_stiffness[frames]) {
+                let corners = springs.frames[n].indices();
                 let [a, b, c, d] = corners;
                 let (top_left, top_right) = (all[a].at, all[b].at);
                 let (bottom_right, bottom_left) = (all[c].at, all[d].at);
@@ -62,14 +64,14 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     pub fn limit_rigid(&mut self) {
         let bounds = Rigid::<R>::new(&self.constants);
         for Round { lanes, voxels } in &self.rigid {
-            let mut at = gather(&self.masses, voxels);
+            let mut at = gather(&self.masses.now, voxels);
             let mut moved = false;
             moved |= bounds.pull_back::<0, 1>(&mut at, *lanes);
             moved |= bounds.pull_back::<1, 2>(&mut at, *lanes);
             moved |= bounds.pull_back::<2, 3>(&mut at, *lanes);
             moved |= bounds.pull_back::<3, 0>(&mut at, *lanes);
             if moved {
-                scatter(&mut self.masses, voxels, &at);
+                scatter(&mut self.masses.now, voxels, &at);
             }
         }
     }

@@ -9,10 +9,12 @@ mod grouping;
 mod kernel;
 mod lane_batch;
 mod limits;
+mod loads;
 mod mass;
 mod proximity;
 mod real;
 mod response;
+mod springs;
 mod step;
 mod stiffness;
 mod threads;
@@ -31,6 +33,8 @@ use nbc_base::model::{Body, Setting, Trajectory, Trial};
 pub use kernel::{InstructionSet, Kernel};
 #[cfg(feature = "gpu")]
 pub(super) use proximity::{MARGIN, SLACK};
+#[cfg(feature = "gpu")]
+pub(super) use springs::FRAME;
 
 use flock::LaneFlock;
 use world::World;

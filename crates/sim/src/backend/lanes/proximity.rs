@@ -19,7 +19,7 @@ pub const SLACK: f64 = 1e-9;
 /// A voxel of any lane.
 #[derive(Clone, Debug)]
 pub struct Tile {
-    /// Row and column.
+    /// Row and column in the box.
     pub cell: [usize; 2],
     /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
@@ -40,6 +40,8 @@ pub struct Proximity<R: Real> {
     near_points: Vec<NearPoint>,
     /// Pairs of tiles near each other but not neighbors.
     near_tiles: Vec<NearTiles>,
+    /// The number of surface voxels of each lane, or zero if it cannot be unstable.
+    countable: Vec<u32>,
     /// Lanes with so many close pairs that they might be unstable, as bits.
     suspects: u32,
 }
@@ -68,28 +70,23 @@ pub struct LowPoint {
 /// A point found inside a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct Inside {
-    /// The tile's masses.
+    /// The masses of the tile: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
-    /// The point's mass.
+    /// The mass that is the point.
     pub point: usize,
     /// In which lanes, as bits.
     pub lanes: u32,
 }
 
-impl<R: Real> Default for Proximity<R> {
-    fn default() -> Self {
-        Self::new(Vec::new())
-    }
-}
-
 impl<R: Real> Proximity<R> {
-    /// The broad phase over these surface voxels.
-    pub fn new(tiles: Vec<Tile>) -> Self {
+    /// The broad phase over these surface voxels. `countable` has the number of each lane's, or zero if it cannot be
+    /// unstable.
+    pub fn new(tiles: Vec<Tile>, countable: Vec<u32>) -> Self {
         let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
         points.sort_unstable();
         points.dedup();
         let reference = vec![[R::splat(f64::INFINITY); 2]; points.len()];
-        Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), suspects: 0 }
+        Self { tiles, points, reference, near_points: Vec::new(), near_tiles: Vec::new(), countable, suspects: 0 }
     }
 
     /// Lists the points at or below `height`. Returns whether a point has moved so far that the other lists have to be
@@ -110,10 +107,9 @@ impl<R: Real> Proximity<R> {
         R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any()
     }
 
-    /// Builds the lists from current positions. `surface[lane]` is the number of a lane's surface voxels, or zero if it
-    /// cannot be unstable.
+    /// Builds the lists from current positions.
     #[inline(always)]
-    pub fn renew(&mut self, masses: &[Mass<R>], surface: &[u32]) {
+    pub fn renew(&mut self, masses: &[Mass<R>]) {
         self.reference.clear();
         self.reference.extend(self.points.iter().map(|&point| masses[point].at));
         self.near_points.clear();
@@ -145,20 +141,20 @@ impl<R: Real> Proximity<R> {
         for near in &self.near_tiles {
             pairs.add(near.lanes);
         }
-        self.suspects = pairs.overfull(surface);
+        self.suspects = pairs.overfull(&self.countable);
     }
 
     /// Points inside tiles that are not theirs, by tile and then by point.
     #[inline(always)]
     pub fn insides(&self, masses: &[Mass<R>], found: &mut Vec<Inside>) {
         let slack = R::splat(SLACK);
-        let mut last = usize::MAX;
+        let mut last = None;
         let mut reach = [[R::splat(0.0); 2]; 2];
         for near in &self.near_points {
             let tile = &self.tiles[near.tile];
-            if near.tile != last {
+            if last != Some(near.tile) {
                 reach = bounds(masses, tile);
-                last = near.tile;
+                last = Some(near.tile);
             }
             let at = masses[near.point].at;
             if gap(&reach, &[at, at]).at_most(slack).bits() & near.lanes == 0 {
@@ -174,24 +170,24 @@ impl<R: Real> Proximity<R> {
     /// The instability test of docs/physics.md 9 on current positions: lanes in which the ordered pairs of non-adjacent
     /// surface voxels with overlapping boxes outnumber the surface voxels.
     #[inline(always)]
-    pub fn unstable(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
-        if self.suspects == 0 { 0 } else { self.count_overlaps(masses, surface) }
+    pub fn unstable(&self, masses: &[Mass<R>]) -> u32 {
+        if self.suspects == 0 { 0 } else { self.count_overlaps(masses) }
     }
 
     #[inline(always)]
-    fn count_overlaps(&self, masses: &[Mass<R>], surface: &[u32]) -> u32 {
+    fn count_overlaps(&self, masses: &[Mass<R>]) -> u32 {
         let mut pairs = Tally::default();
-        let mut last = usize::MAX;
+        let mut last = None;
         let mut first = [[R::splat(0.0); 2]; 2];
         for near in self.near_tiles.iter().filter(|near| near.lanes & self.suspects != 0) {
             let [a, b] = near.tiles;
-            if a != last {
+            if last != Some(a) {
                 first = bounds(masses, &self.tiles[a]);
-                last = a;
+                last = Some(a);
             }
             pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
         }
-        pairs.overfull(surface)
+        pairs.overfull(&self.countable)
     }
 }
 

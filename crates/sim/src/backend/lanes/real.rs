@@ -67,10 +67,11 @@ pub trait Real:
     }
 }
 
-/// The operators of a type of vectors, from the sum, the difference and the product of two vectors.
+/// The operators of a type of vectors, from the sum, the difference and the product of two vectors. The expressions are
+/// pasted, because a closure would be compiled without the vector instructions of the kernel.
 macro_rules! operators {
     ([$($generics:tt)*] $vector:ty, |$one:ident, $other:ident| $add:expr, $sub:expr, $mul:expr) => {
-        impl<$($generics)*> Add for $vector {
+        impl<$($generics)*> std::ops::Add for $vector {
             type Output = Self;
 
             #[inline(always)]
@@ -80,7 +81,7 @@ macro_rules! operators {
             }
         }
 
-        impl<$($generics)*> Sub for $vector {
+        impl<$($generics)*> std::ops::Sub for $vector {
             type Output = Self;
 
             #[inline(always)]
@@ -90,7 +91,7 @@ macro_rules! operators {
             }
         }
 
-        impl<$($generics)*> Mul for $vector {
+        impl<$($generics)*> std::ops::Mul for $vector {
             type Output = Self;
 
             #[inline(always)]
@@ -100,14 +101,14 @@ macro_rules! operators {
             }
         }
 
-        impl<$($generics)*> AddAssign for $vector {
+        impl<$($generics)*> std::ops::AddAssign for $vector {
             #[inline(always)]
             fn add_assign(&mut self, other: Self) {
                 *self = *self + other;
             }
         }
 
-        impl<$($generics)*> SubAssign for $vector {
+        impl<$($generics)*> std::ops::SubAssign for $vector {
             #[inline(always)]
             fn sub_assign(&mut self, other: Self) {
                 *self = *self - other;

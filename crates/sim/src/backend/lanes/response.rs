@@ -13,14 +13,14 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Contact forces and the instability test, both from the positions at the start of the substep.
     #[inline(always)]
     pub fn apply_contacts(&mut self) {
-        self.clear_contacts();
-        let mut low = std::mem::take(&mut self.low);
-        let mut inside = std::mem::take(&mut self.inside);
-        if self.proximity.survey(&self.masses, self.constants.cell, &mut low) {
-            self.proximity.renew(&self.masses, &self.countable);
+        self.loads.clear_contacts(&mut self.masses.now);
+        let mut low = std::mem::take(&mut self.touching.low);
+        let mut inside = std::mem::take(&mut self.touching.inside);
+        if self.proximity.survey(&self.masses.now, self.constants.cell, &mut low) {
+            self.proximity.renew(&self.masses.now);
         }
-        self.proximity.insides(&self.masses, &mut inside);
-        self.unstable |= self.proximity.unstable(&self.masses, &self.countable);
+        self.proximity.insides(&self.masses.now, &mut inside);
+        self.unstable |= self.proximity.unstable(&self.masses.now);
         if !low.is_empty() {
             self.collide_with_ground(&low);
         }
@@ -29,25 +29,15 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
         low.clear();
         inside.clear();
-        self.low = low;
-        self.inside = inside;
-    }
-
-    /// Removes the contact forces of the last substep.
-    #[inline(always)]
-    fn clear_contacts(&mut self) {
-        for (mass, weight) in self.loaded.drain(..) {
-            self.load[mass] = weight;
-            self.masses[mass].force = self.loads[weight as usize];
-        }
-        self.loads.truncate(self.weights);
+        self.touching.low = low;
+        self.touching.inside = inside;
     }
 
     /// Contact between each robot's low voxels and the ground, each way once.
     #[inline(never)]
     fn collide_with_ground(&mut self, low: &[LowPoint]) {
         for lane in 0..self.occupants.len() {
-            let mut voxels = std::mem::take(&mut self.voxels);
+            let mut voxels = std::mem::take(&mut self.touching.voxels);
             for point in low.iter().filter(|point| point.lanes >> lane & 1 == 1) {
                 voxels.extend(self.occupants[lane].at_mass[point.mass].iter().map(|&(voxel, _)| voxel));
             }
@@ -57,7 +47,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
                 self.collide_voxel_with_ground(lane, voxel);
             }
             voxels.clear();
-            self.voxels = voxels;
+            self.touching.voxels = voxels;
         }
     }
 
@@ -142,22 +132,13 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Adds a force in newtons to a lane's mass for this substep.
     fn add_load(&mut self, lane: usize, mass: usize, force: Vector2<f64>) {
         let scale = self.constants.per_substep_squared();
-        let weight = self.load[mass];
-        if (weight as usize) < self.weights {
-            self.load[mass] = self.loads.len() as u32;
-            self.loads.push(self.loads[weight as usize]);
-            self.loaded.push((mass, weight));
-        }
-        let load = &mut self.loads[self.load[mass] as usize];
-        for axis in 0..2 {
-            load[axis].set_lane(lane, load[axis].lane(lane) + force[axis] * scale);
-        }
-        self.masses[mass].force = *load;
+        self.loads.add(lane, mass, [force[0] * scale, force[1] * scale]);
+        self.masses.now[mass].force = self.loads.of(mass);
     }
 
     /// The velocity over the last substep, including corrections, in meters per second (docs/physics.md 5).
     fn true_velocity(&self, lane: usize, mass: usize) -> Vector2<f64> {
-        let (now, before) = (&self.masses[mass].at, &self.before[mass]);
+        let (now, before) = (&self.masses.now[mass].at, &self.masses.before[mass]);
         let speed = |axis: usize| (now[axis].lane(lane) - before[axis].lane(lane)) / self.constants.substep;
         Vector2::new(speed(0), speed(1))
     }
@@ -165,7 +146,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// A lane's surface voxel at its current position, and its masses.
     fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
         let voxel = self.occupants[lane].surface[voxel];
-        let place = |mass: usize| Vector2::new(self.masses[mass].at[0].lane(lane), self.masses[mass].at[1].lane(lane));
+        let masses = &self.masses.now;
+        let place = |mass: usize| Vector2::new(masses[mass].at[0].lane(lane), masses[mass].at[1].lane(lane));
         (Quad::new(voxel.corners.map(place), voxel.sides), voxel.corners)
     }
 

@@ -7,9 +7,10 @@
 
 use std::ops::Range;
 
-use crate::backend::lanes::batch::{Batch, DIAGONAL, Frame, MAIN, Row};
+use crate::backend::lanes::batch::{Batch, Row};
 use crate::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::backend::lanes::real::{Mask, Real};
+use crate::backend::lanes::springs::{DIAGONAL, Frame, MAIN};
 use crate::backend::lanes::stiffness::Stiffness;
 use crate::constants::Constants;
 use crate::meter::Part;
@@ -46,7 +47,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     #[inline(always)]
     fn sweep<const STAGE: u8>(&mut self) {
         self.pull_rims::<STAGE>();
-        let mut next = measure_frame::<R, STAGE>(&self.frames[0], &self.masses);
+        let mut next = measure_frame::<R, STAGE>(&self.springs.frames[0], &self.masses.now);
         for row in 0..self.rows.len() {
             let Row { masses, frames } = self.rows[row].clone();
             self.pull_frames::<STAGE>(frames, &mut next);
@@ -58,9 +59,9 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     #[inline(always)]
     fn pull_rims<const STAGE: u8>(&mut self) {
         let law = Law::<R>::new(&self.constants);
-        let (masses, aims) = (self.masses.as_mut_slice(), self.aims.as_slice());
-        let kept = self.rim_stiffness.iter().zip(&mut self.rim_frozen);
-        for (rim, (stiffness, frozen)) in self.rims.iter().zip(kept) {
+        let (masses, aims) = (self.masses.now.as_mut_slice(), self.springs.aims.as_slice());
+        let kept = self.springs.rim_stiffness.iter().zip(&mut self.springs.rim_frozen);
+        for (rim, (stiffness, frozen)) in self.springs.rims.iter().zip(kept) {
             let measure = measure::<R, STAGE>(masses, rim.from, rim.to);
             let pull = law.pull::<STAGE>(measure, stiffness.value(), aims[rim.aim as usize], frozen);
             for axis in 0..2 {
@@ -74,11 +75,12 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     #[inline(always)]
     fn pull_frames<const STAGE: u8>(&mut self, frames: Range<usize>, next: &mut [Measure<R>; 4]) {
         let law = Law::<R>::new(&self.constants);
-        let (masses, aims) = (self.masses.as_mut_slice(), self.aims.as_slice());
+        let (masses, aims) = (self.masses.now.as_mut_slice(), self.springs.aims.as_slice());
         let (main, diagonal) = (aims[MAIN], aims[DIAGONAL]);
-        let ahead = &self.frames[frames.start + 1..frames.end + 1];
-        let kept = self.frame_stiffness[frames.clone()].iter().zip(&mut self.frame_frozen[frames.clone()]);
-        for ((frame, ahead), (stiffness, frozen)) in self.frames[frames].iter().zip(ahead).zip(kept) {
+        let ahead = &self.springs.frames[frames.start + 1..frames.end + 1];
+        let kept =
+            self.springs.frame_stiffness[frames.clone()].iter().zip(&mut self.springs.frame_frozen[frames.clone()]);
+        for ((frame, ahead), (stiffness, frozen)) in self.springs.frames[frames].iter().zip(ahead).zip(kept) {
             let now = *next;
             *next = measure_frame::<R, STAGE>(ahead, masses);
             let own = aims[frame.aim as usize];
@@ -100,14 +102,14 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     #[inline(always)]
     fn finish_stage<const STAGE: u8>(&mut self, masses: Range<usize>) {
         let drag = R::splat(self.constants.drag * self.constants.substep);
-        let kept = self.load[masses.clone()].iter().zip(&mut self.before[masses.clone()]);
-        for (mass, (&load, before)) in self.masses[masses].iter_mut().zip(kept) {
+        let kept = self.loads.of_mass[masses.clone()].iter().zip(&mut self.masses.before[masses.clone()]);
+        for (mass, (&load, before)) in self.masses.now[masses].iter_mut().zip(kept) {
             if mass.stage_position::<STAGE>()[1].below(R::splat(0.0)).any() {
                 plane::<R, STAGE>(&self.constants, mass);
             }
             let pace = mass.stage_velocity::<STAGE>();
             let acceleration = [mass.force[0] - drag * pace[0], mass.force[1] - drag * pace[1]];
-            mass.force = self.loads[load as usize];
+            mass.force = self.loads.values[load as usize];
             mass.advance::<STAGE>(acceleration, before);
         }
     }

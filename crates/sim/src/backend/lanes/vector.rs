@@ -1,7 +1,6 @@
 //! Lanes as plain arrays: the portable form, which compilers translate to the vectors of the target.
 
 use std::array::from_fn;
-use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 use crate::backend::lanes::real::{Mask, Real, operators};
 

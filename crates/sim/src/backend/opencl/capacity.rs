@@ -10,11 +10,11 @@ use crate::constants::Constants;
 /// The most masses, springs and surface voxels of the robots of a launch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Capacity {
-    /// Masses.
+    /// The most masses of a body.
     pub masses: usize,
-    /// Springs.
+    /// The most springs of a body.
     pub springs: usize,
-    /// Surface voxels.
+    /// The most surface voxels of a body.
     pub tiles: usize,
 }
 

@@ -30,9 +30,9 @@ use crate::constants::Constants;
 const TEXT: &str = include_str!("step.cl");
 const KERNEL: &str = "advance";
 
-/// An open device.
+/// An open device with the compiled kernel.
 pub struct Card {
-    /// The device.
+    /// The device that is open.
     pub device: OpenClDevice,
     group: Option<usize>,
     /// The handles from the driver; `None` once the device is lost.
@@ -70,11 +70,11 @@ pub struct CardMemory<T: Plain> {
 pub struct Arguments<'a> {
     /// Four words for each robot.
     pub robots: &'a CardMemory<u32>,
-    /// The bodies.
+    /// The header of each body: where its lists are.
     pub bodies: &'a CardMemory<u32>,
-    /// Their plans.
+    /// The lists of all bodies, one after another, as a `BodyPlan` has them.
     pub plan: &'a CardMemory<u16>,
-    /// Their springs' stiffness.
+    /// The stiffness of the springs of all bodies, in kilograms per substep squared.
     pub stiffness: &'a CardMemory<f64>,
     /// The targets of each material in each env step.
     pub targets: &'a CardMemory<f64>,
@@ -86,7 +86,7 @@ pub struct Arguments<'a> {
     pub window: u32,
     /// The positions of masses, those one substep ago, and velocities.
     pub state: [&'a CardMemory<[f64; 2]>; 3],
-    /// The centers of mass.
+    /// The centers of mass after each env step, in voxels.
     pub centers: &'a CardMemory<[f64; 2]>,
     /// Env steps done, and the fault.
     pub outcomes: &'a CardMemory<[u32; 2]>,

@@ -30,7 +30,7 @@ const SOUND: u32 = 0;
 /// The data shared by simulations on a device with the same setting.
 #[derive(Clone, Debug)]
 pub struct DeviceWorld {
-    /// The device.
+    /// The device that simulates.
     pub card: Arc<Card>,
     /// The numbers of the physics.
     pub constants: Constants,

@@ -29,7 +29,7 @@ impl FallbackDevice {
         Ok(Self { processor, card: Arc::new(Card::open(device, group)?), failure: Arc::default() })
     }
 
-    /// The device.
+    /// The device that simulates.
     pub fn device(&self) -> &OpenClDevice {
         &self.card.device
     }

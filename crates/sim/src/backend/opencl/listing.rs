@@ -9,10 +9,10 @@ use opencl3::types::cl_device_id;
 
 use crate::backend::opencl::error::DeviceError;
 
-/// The kind of a device.
+/// Whether a device is a graphics card, a processor or another accelerator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DeviceKind {
-    /// A graphics card.
+    /// A graphics card (GPU).
     Graphics,
     /// Another kind of accelerator.
     Other,
@@ -31,7 +31,7 @@ impl DeviceKind {
     }
 }
 
-/// A device.
+/// An OpenCL device of this machine, with its limits.
 #[derive(Clone, Debug)]
 pub struct OpenClDevice {
     /// Its number, from 0: graphics cards first, processors last.
@@ -40,15 +40,15 @@ pub struct OpenClDevice {
     pub name: String,
     /// The name of the driver's platform.
     pub platform: String,
-    /// The driver's version.
+    /// The version of the driver, as it calls it.
     pub driver: String,
-    /// What it is.
+    /// Whether it is a graphics card, a processor or another device.
     pub kind: DeviceKind,
-    /// The size of its memory in bytes.
+    /// The size of its memory, in bytes.
     pub global_bytes: u64,
-    /// The size of the largest buffer in bytes.
+    /// The size of the largest buffer, in bytes.
     pub buffer_bytes: u64,
-    /// The size of the memory of a work-group in bytes.
+    /// The size of the memory that a work-group shares, in bytes.
     pub local_bytes: usize,
     /// The most work-items of a group.
     pub group_size: usize,

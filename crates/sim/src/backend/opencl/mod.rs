@@ -52,7 +52,7 @@ impl OpenClBackend {
         Ok(Self { device: FallbackDevice::open(device, processor, group)? })
     }
 
-    /// The device.
+    /// The device that simulates.
     pub fn device(&self) -> &OpenClDevice {
         self.device.device()
     }

@@ -1,16 +1,14 @@
 //! A body laid out for the kernel: its springs in frames and rims, and for each mass the order in which forces act on
-//! it. The order is that of `lanes/batch.rs`.
+//! it. The order is that of `lanes/springs.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::backend::lanes::FRAME;
 use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, Voxel};
 
 /// No mass, spring or tile.
 const NONE: u16 = 0xffff;
-
-/// The springs of a voxel: between which of its corners each runs. The kernel names them by these places.
-const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
 /// The goals of springs that are not driven: of main edges, of diagonals. Driven springs follow.
 const MAIN: u16 = 0;
@@ -20,7 +18,7 @@ const DRIVEN: u16 = 2;
 /// The corner by which the voxels above left, above right, below left and below right of a mass touch it.
 const TOUCHING: [usize; CORNERS] = [2, 3, 1, 0];
 
-/// A body's plan.
+/// A body laid out for the kernel, as lists of numbers.
 #[derive(Clone, Debug)]
 pub struct BodyPlan {
     /// The mass of each of its points.
@@ -225,7 +223,9 @@ mod tests {
     use nbc_base::model::{Body, Palette};
 
     fn plan(rows: &[&str]) -> BodyPlan {
-        BodyPlan::new(&Lattice::new(&Body::parse(rows, &Palette::paper()).unwrap()), &Constants::default())
+        let constants = Constants::default();
+        let body = Body::parse(rows, &Palette::paper()).unwrap();
+        BodyPlan::new(&Lattice::new(&body, &constants), &constants)
     }
 
     #[test]
@@ -250,7 +250,7 @@ mod tests {
     #[test]
     fn rigid_voxels_of_a_level_have_no_mass_in_common() {
         let body = Body::parse(&["111", "131", "110"], &Palette::paper()).unwrap();
-        let lattice = Lattice::new(&body);
+        let lattice = Lattice::new(&body, &Constants::default());
         let levels = rigid_levels(&lattice, &masses(&lattice));
         assert_eq!(levels.iter().map(Vec::len).sum::<usize>(), 7);
         for level in &levels {

@@ -17,11 +17,11 @@ pub struct SelfTest {
 /// How the results of one box compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BoxComparison {
-    /// The side of the box.
+    /// The side of the box, in voxels.
     pub side: usize,
     /// The trials that were compared.
     pub trials: usize,
-    /// Those whose results differ.
+    /// The trials of these whose results differ from those of the processor.
     pub different: usize,
 }
 
@@ -29,7 +29,7 @@ impl SelfTest {
     /// The test of every device when it is opened.
     pub const QUICK: Self = Self { sides: &[3], bodies: 9, steps: 6 };
 
-    /// Every box of the paper.
+    /// All materials in each of the three boxes of the paper.
     pub const FULL: Self = Self { sides: &[5, 7, 10], bodies: 24, steps: 84 };
 
     /// Compares the bodies of each box.

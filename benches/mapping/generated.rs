@@ -79,7 +79,7 @@ impl Sketch {
 }
 
 /// The number of the first input that is 1, and whether there is one.
-pub fn priority_encoder(inputs: usize) -> Netlist {
+fn priority_encoder(inputs: usize) -> Netlist {
     let mut sketch = Sketch::new("priority", &[inputs]);
     let requests = sketch.inputs("r", inputs);
     let mut grants = Vec::new();
@@ -204,7 +204,7 @@ fn one_hot_machine([states, inputs]: [usize; 2]) -> Netlist {
 }
 
 /// Random gates with planted redundancy: copies in another form, absorbed terms, and terms implied by others.
-pub fn random_control([inputs, gates]: [usize; 2]) -> Netlist {
+fn random_control([inputs, gates]: [usize; 2]) -> Netlist {
     let mut sketch = Sketch::new("random", &[inputs, gates]);
     let mut nets = sketch.inputs("x", inputs);
     let functions = [Function::AND, Function::OR, Function::NAND, Function::NOR, Function::AND, Function::OR];
@@ -225,18 +225,6 @@ pub fn random_control([inputs, gates]: [usize; 2]) -> Netlist {
     }
     let shown: Vec<NetId> = nets[nets.len() - (gates / 8).max(4)..].to_vec();
     sketch.outputs("y", &shown);
-    sketch.netlist
-}
-
-/// The sum and the carry of three bits.
-pub fn full_adder() -> Netlist {
-    let mut sketch = Sketch::new("adder", &[1]);
-    let [a, b, c] = sketch.inputs("x", 3)[..] else { unreachable!("three inputs") };
-    let half = sketch.gate(Function::XOR, &[a, b]);
-    let sum = sketch.gate(Function::XOR, &[half, c]);
-    let [one, two] = [[a, b], [half, c]].map(|pins| sketch.gate(Function::AND, &pins));
-    let carry = sketch.gate(Function::OR, &[one, two]);
-    sketch.outputs("y", &[sum, carry]);
     sketch.netlist
 }
 

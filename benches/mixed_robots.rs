@@ -1,4 +1,7 @@
-//! Whether quick and slow robots in one swarm would help: measured, not tested.
+//! Whether quick and slow robots in one swarm would help: `cargo bench --bench mixed_robots`. It takes a minute.
+
+// Files of the tests have more than this needs.
+#![allow(dead_code, unused_imports)]
 
 use nbc_base::model::{CircuitTest, Robot, Stimulation};
 use nbc_circuit::{CellKind, Delays, MappingObjective, Timing};
@@ -6,7 +9,10 @@ use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Compiled, Session};
 use nbc_swarm::{Assembly, Settling};
 
-use crate::support::programs::programs;
+use support::programs::programs;
+
+#[path = "../tests/it/support/mod.rs"]
+mod support;
 
 /// The holds of a test's rows with certain robots.
 #[derive(Clone, Copy, PartialEq)]
@@ -83,9 +89,7 @@ fn widened(compiled: &Compiled, rows: &[Vec<bool>]) -> Assembly {
     best
 }
 
-#[test]
-#[ignore = "measures, and takes a minute"]
-fn measure_mixed_robots() {
+fn main() {
     println!("margins: the smallest and the mean");
     for path in programs("circuits") {
         let session = &mut Session::new(DiskWorld);

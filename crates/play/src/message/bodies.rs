@@ -1,0 +1,125 @@
+//! Robots of the library, bodies that a page has made, and how voxels look.
+
+use serde::Serialize;
+#[cfg(test)]
+use ts_rs::TS;
+
+use nbc_base::model::Material;
+use nbc_session::report::{Look, Looks};
+
+/// The answer to `robots`.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct RobotCards {
+    pub(crate) robots: Vec<RobotCard>,
+    pub(crate) looks: Vec<VoxelLook>,
+    pub(crate) palette: Vec<PaletteEntry>,
+}
+
+/// A robot of a library.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct RobotCard {
+    pub(crate) name: String,
+    pub(crate) function: &'static str,
+    pub(crate) letters: String,
+    pub(crate) about: String,
+    /// The rows from the top, a material's code a character.
+    pub(crate) body: Vec<String>,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// The numbers of the corner points around each voxel, and its index in the looks.
+    pub(crate) voxels: Vec<[usize; 5]>,
+    pub(crate) points: usize,
+    pub(crate) clock: u32,
+    pub(crate) margin: f64,
+    pub(crate) errors: f64,
+    /// Whether it comes with the program.
+    pub(crate) shipped: bool,
+}
+
+/// A material that can be painted.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct PaletteEntry {
+    /// Its character in the rows of bodies.
+    pub(crate) code: char,
+    pub(crate) name: String,
+    pub(crate) about: String,
+    /// Its index in the looks.
+    pub(crate) look: usize,
+}
+
+/// How the voxels of a material look.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct VoxelLook {
+    pub(crate) name: String,
+    pub(crate) color: String,
+    /// The color of its mark.
+    pub(crate) ink: Option<String>,
+    /// Polygons within the unit square.
+    pub(crate) mark: Option<Vec<Vec<[f64; 2]>>>,
+}
+
+/// How a body walks, and which gate it is.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ProbeReport {
+    /// Under 00, 01, 10 and 11.
+    pub(crate) gaits: Vec<EncodedGait>,
+    pub(crate) letters: String,
+    pub(crate) function: &'static str,
+    pub(crate) displacement: [f64; 4],
+    /// None if it was not asked for.
+    pub(crate) character: Option<CharacterSketch>,
+    pub(crate) points: usize,
+    pub(crate) voxels: Vec<[usize; 5]>,
+    pub(crate) looks: Vec<VoxelLook>,
+}
+
+/// Poses as text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct EncodedGait {
+    /// Poses in a cycle.
+    pub(crate) frames: u32,
+    pub(crate) cycles: u32,
+    /// Base64 of numbers as in a frame.
+    pub(crate) poses: String,
+}
+
+/// The character of a body over a few switches.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct CharacterSketch {
+    pub(crate) clock: u32,
+    pub(crate) margin: f64,
+    pub(crate) errors: f64,
+    pub(crate) switches: u32,
+    pub(crate) glitches: f64,
+    pub(crate) topples: bool,
+}
+
+/// A robot file that was written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct KeptRobot {
+    pub(crate) path: String,
+    /// A declaration of a library with it.
+    #[serde(rename = "use")]
+    pub(crate) declaration: String,
+}
+
+/// The looks of a picture.
+pub(crate) fn looks(looks: &Looks) -> Vec<VoxelLook> {
+    let look = |(material, look): (&Material, Look)| VoxelLook {
+        name: material.name.clone(),
+        color: look.color.to_string(),
+        ink: look.mark.map(|mark| mark.ink.to_string()),
+        mark: look
+            .mark
+            .map(|mark| mark.polygons.iter().map(|one| one.iter().map(|&(x, y)| [x, y]).collect()).collect()),
+    };
+    looks.all().map(look).collect()
+}

@@ -1,0 +1,84 @@
+//! What the server sends a page as text: answers, progress and events. `web/src/protocol.ts` is made from these types
+//! and from those of the requests (`typescript.rs`); docs/play-protocol.md describes them.
+
+mod bodies;
+mod evolution;
+mod files;
+pub(super) mod finding;
+mod program;
+mod swarm;
+mod test_result;
+
+use serde::Serialize;
+#[cfg(test)]
+use ts_rs::TS;
+
+pub(super) use bodies::{
+    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
+};
+pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
+pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};
+pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
+pub(super) use swarm::{ShownSwarm, SwarmAnswer, SwarmRobot};
+pub(super) use test_result::{TestAnswer, TestResult};
+
+use crate::refusal::Refusal;
+
+/// A message of the server.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+#[serde(untagged)]
+pub(super) enum ServerMessage {
+    /// The result of a request.
+    Result {
+        id: u64,
+        #[serde(flatten)]
+        result: RequestResult,
+    },
+    /// A request without a result is done.
+    Done { id: u64, ok: Nothing },
+    /// A request is refused.
+    Refused { id: u64, error: Refusal },
+    /// How much of a request is done, and how much there is to do.
+    Progress { id: u64, progress: [u64; 2] },
+    /// What a page did not ask for.
+    Event(PlayEvent),
+}
+
+/// An object without fields.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(super) struct Nothing {}
+
+/// The result of a request, with its verb.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+#[serde(tag = "to", content = "ok", rename_all = "lowercase")]
+pub(super) enum RequestResult {
+    Hello(Greeting),
+    Files(Vec<FileEntry>),
+    Read(FileText),
+    Save(FileStamp),
+    Program(ProgramReport),
+    Compile(SwarmAnswer),
+    Replay(SwarmAnswer),
+    Test(TestAnswer),
+    Robots(RobotCards),
+    Probe(ProbeReport),
+    Keep(KeptRobot),
+    Evolve(EvolutionEnd),
+    Take(TakenFile),
+}
+
+/// What a page is told without a request.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+#[serde(tag = "event", rename_all = "lowercase")]
+pub(super) enum PlayEvent {
+    Archive(ArchiveChange),
+    Changed(FileChange),
+    /// The swarm cannot go on.
+    Stopped {
+        reason: String,
+    },
+}

@@ -1,0 +1,69 @@
+//! A program: its faults, its circuits and its tests.
+
+use serde::Serialize;
+#[cfg(test)]
+use ts_rs::TS;
+
+use super::finding::Finding;
+use nbc_base::model::Column;
+
+/// A checked program.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ProgramReport {
+    /// The number of errors among the diagnostics.
+    pub(crate) errors: usize,
+    pub(crate) diagnostics: Vec<Finding>,
+    pub(crate) circuits: Vec<CircuitEntry>,
+    pub(crate) tests: Vec<TestEntry>,
+}
+
+/// A circuit whose parameters are known.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct CircuitEntry {
+    pub(crate) name: String,
+    /// What `compile` takes, such as `adder[8]`.
+    pub(crate) circuit: String,
+    pub(crate) swarms: Vec<String>,
+    pub(crate) line: usize,
+}
+
+/// A test.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct TestEntry {
+    pub(crate) index: usize,
+    pub(crate) circuit: String,
+    pub(crate) title: String,
+    pub(crate) line: usize,
+    pub(crate) inputs: Vec<PortEntry>,
+    pub(crate) outputs: Vec<PortEntry>,
+    /// None for a test over all inputs until it has run.
+    pub(crate) rows: Vec<TestRowEntry>,
+}
+
+/// A row of a test.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct TestRowEntry {
+    pub(crate) row: usize,
+    pub(crate) line: usize,
+    pub(crate) inputs: Vec<String>,
+    pub(crate) outputs: Vec<String>,
+}
+
+/// A port.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct PortEntry {
+    pub(crate) name: String,
+    pub(crate) width: usize,
+}
+
+impl PortEntry {
+    /// The ports of columns.
+    pub(crate) fn of(columns: &[Column]) -> Vec<Self> {
+        columns.iter().map(|Column { name, width }| Self { name: name.clone(), width: *width }).collect()
+    }
+}

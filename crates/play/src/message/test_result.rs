@@ -1,0 +1,90 @@
+//! The verdict of a test, as far as a page shows it.
+
+use serde::Serialize;
+#[cfg(test)]
+use ts_rs::TS;
+
+use super::program::PortEntry;
+use crate::request::TestLevel;
+use nbc_base::model::Value;
+use nbc_swarm::{RowVerdict, TestVerdict};
+
+/// The answer to `test`: a result for each swarm of its circuit.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct TestAnswer {
+    pub(crate) results: Vec<TestResult>,
+}
+
+/// The verdict of a test.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct TestResult {
+    circuit: String,
+    title: String,
+    swarm: Option<String>,
+    level: TestLevel,
+    passed: bool,
+    line: usize,
+    inputs: Vec<PortEntry>,
+    outputs: Vec<PortEntry>,
+    rows: Vec<RowResult>,
+}
+
+/// The verdict of a row.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct RowResult {
+    /// Its number, from 1; both halves of a pulse have the same.
+    row: usize,
+    line: usize,
+    inputs: Vec<RowValue>,
+    expected: Vec<RowValue>,
+    observed: Vec<RowValue>,
+    passed: bool,
+    /// Cycles for which the row was held; none at the level of logic.
+    cycles: Option<usize>,
+}
+
+/// The value of a port.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct RowValue {
+    /// The digits `0`, `1` and `-`.
+    bits: String,
+    /// As the user writes it.
+    text: String,
+}
+
+impl From<&TestVerdict> for TestResult {
+    fn from(verdict: &TestVerdict) -> Self {
+        Self {
+            circuit: verdict.circuit.clone(),
+            title: verdict.title.clone(),
+            swarm: verdict.swarm.clone(),
+            level: verdict.level.into(),
+            passed: verdict.passed,
+            line: verdict.line,
+            inputs: PortEntry::of(&verdict.inputs),
+            outputs: PortEntry::of(&verdict.outputs),
+            rows: verdict.rows.iter().map(RowResult::from).collect(),
+        }
+    }
+}
+
+impl From<&RowVerdict> for RowResult {
+    fn from(verdict: &RowVerdict) -> Self {
+        let values = |values: &[Value]| {
+            values.iter().map(|value| RowValue { bits: value.digits(), text: value.to_string() }).collect()
+        };
+        Self {
+            row: verdict.row,
+            line: verdict.line,
+            inputs: values(&verdict.inputs),
+            expected: values(&verdict.expected),
+            observed: values(&verdict.observed),
+            passed: verdict.passed,
+            cycles: verdict.cycles,
+        }
+    }
+}
