@@ -5,7 +5,8 @@ use std::fs;
 
 use nbc_base::source::MemoryWorld;
 use nbc_circuit::waves::{ClockStep, Reading};
-use nbc_session::{CompileOptions, Session};
+use nbc_session::store::DiskWorld;
+use nbc_session::{Choice, CompileOptions, Compiled, Session};
 use nbc_sim::Simulator;
 use nbc_swarm::SwarmConditions;
 use rand::{Rng, SeedableRng};
@@ -13,6 +14,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::support::bench::Bench;
 use crate::support::programs::programs;
+use crate::support::root;
 
 /// The steps of each random machine in physics.
 const STEPS: usize = 10;
@@ -71,33 +73,40 @@ fn wrong_outputs(machines: usize, seed: u64) -> (usize, usize) {
         let mut session = Session::new(world);
         let checked = session.open("m.nb").unwrap();
         let compiled = session.compile(&checked, &"m".into(), &CompileOptions::default()).unwrap();
-        let machine = compiled.mapping.waves.as_ref().unwrap();
+        let ports = compiled.assembly.inputs.len();
         robots += compiled.assembly.members.len();
-        let step = ClockStep::of(&compiled.mapping.source).unwrap();
-        let ports = step.inputs.len();
-        let rows: Vec<Vec<bool>> =
-            (0..=STEPS).map(|_| (0..ports).map(|_| random.next_u32() & 1 == 1).collect()).collect();
-        let cycles = machine.cycles(rows.len());
-        let bit = |port: usize, cycle: usize| rows[machine.row_at(port, cycle, rows.len())][port];
-        let inputs = (0..cycles).map(|cycle| (0..ports).map(|port| bit(port, cycle)).collect()).collect();
-        let conditions = SwarmConditions { inputs, window: 1, poses: None };
-        let trace = nbc_swarm::simulate(&Simulator::default(), &compiled.assembly, &conditions, &mut |_| ());
-        let mut state: Vec<bool> = step.state.iter().map(|bit| bit.start).collect();
-        for (at, row) in rows.iter().enumerate() {
-            if at > 0 {
-                state = step.run(row, &state).1;
-            }
-            let expected = step.run(row, &state).0;
-            for thread in 0..machine.period as usize {
-                let shown = (0..expected.len()).map(|output| match machine.reading(output, at, thread) {
-                    Reading::Start(start) => start,
-                    Reading::Cycle(cycle) => trace.cycles[cycle].outputs[output],
-                });
-                wrong += shown.zip(&expected).filter(|(shown, expected)| shown != *expected).count();
-            }
-        }
+        let bits = |_| (0..ports).map(|_| random.next_u32() & 1 == 1).collect();
+        let rows: Vec<Vec<bool>> = (0..=STEPS).map(bits).collect();
+        wrong += wrong_in_rows(&compiled, &rows);
     }
     (robots, wrong)
+}
+
+/// The number of wrong outputs of a wave machine in physics through these rows, over all its threads.
+fn wrong_in_rows(compiled: &Compiled, rows: &[Vec<bool>]) -> usize {
+    let machine = compiled.mapping.waves.as_ref().unwrap();
+    let step = ClockStep::of(&compiled.mapping.source).unwrap();
+    let bit = |port: usize, cycle: usize| rows[machine.row_at(port, cycle, rows.len())][port];
+    let cycles = 0..machine.cycles(rows.len());
+    let inputs = cycles.map(|cycle| (0..step.inputs.len()).map(|port| bit(port, cycle)).collect()).collect();
+    let conditions = SwarmConditions { inputs, window: 1, poses: None };
+    let trace = nbc_swarm::simulate(&Simulator::default(), &compiled.assembly, &conditions, &mut |_| ());
+    let mut state: Vec<bool> = step.state.iter().map(|bit| bit.start).collect();
+    let mut wrong = 0;
+    for (at, row) in rows.iter().enumerate() {
+        if at > 0 {
+            state = step.run(row, &state).1;
+        }
+        let expected = step.run(row, &state).0;
+        for thread in 0..machine.period as usize {
+            let shown = (0..expected.len()).map(|output| match machine.reading(output, at, thread) {
+                Reading::Start(start) => start,
+                Reading::Cycle(cycle) => trace.cycles[cycle].outputs[output],
+            });
+            wrong += shown.zip(&expected).filter(|(shown, expected)| shown != *expected).count();
+        }
+    }
+    wrong
 }
 
 #[test]
@@ -113,4 +122,28 @@ fn three_hundred_random_machines_run_in_physics_in_every_thread() {
     let (robots, wrong) = wrong_outputs(300, 2);
     println!("{robots} robots of 300 machines, {wrong} wrong outputs");
     assert_eq!(wrong, 0);
+}
+
+/// The number of wrong outputs of a circuit of the gallery in so many steps, over all its threads.
+fn wrong_in(file: &str, swarm: &str, steps: usize) -> usize {
+    let mut session = Session::new(DiskWorld);
+    let checked = session.open(root().join("circuits").join(file).to_str().unwrap()).unwrap();
+    let choice = Choice { swarm: Some(swarm.to_owned()), ..Choice::default() };
+    let circuit = checked.circuit(&choice).unwrap();
+    let options = CompileOptions { swarm: choice.swarm, ..CompileOptions::default() };
+    let compiled = session.compile(&checked, &circuit, &options).unwrap();
+    let rows = vec![vec![false; compiled.assembly.inputs.len()]; steps + 1];
+    wrong_in_rows(&compiled, &rows)
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn ten_thousand_steps_of_the_gallery_are_right() {
+    for (file, swarm) in
+        [("wave_lfsr.nb", "wave"), ("wave_counter.nb", "quick_wave"), ("wave_counter.nb", "sturdy_wave")]
+    {
+        let wrong = wrong_in(file, swarm, 10_000);
+        println!("{file} as {swarm}: {wrong} wrong outputs in 10000 steps");
+        assert_eq!(wrong, 0, "{file} as {swarm}");
+    }
 }
