@@ -15,6 +15,9 @@ use crate::waves::phases::{Balancing, Phases};
 /// The most gates of logic that is searched.
 const MOST_GATES: usize = 2_000;
 
+/// Robots more than the best so far with which the search returns to that.
+const MOST_LOSS: usize = 4;
+
 /// What is to be small, the most important first: the cycles of a step, then the robots.
 pub type Weight = (u32, usize);
 
@@ -77,8 +80,8 @@ pub fn search(
     let rounds = match options.effort {
         _ if gates > MOST_GATES => 0,
         Effort::Fast => 0,
-        Effort::Normal => 240_000 / (gates + 40),
-        Effort::High => 2_400_000 / (gates + 40),
+        Effort::Normal => (100 * gates).min(900_000 / (gates + 40)),
+        Effort::High => (1_000 * gates).min(6_000_000 / (gates + 40)),
     };
     let (mut best, mut now) = (best.clone(), best);
     for round in 0..rounds {
@@ -91,14 +94,16 @@ pub fn search(
             continue;
         }
         let Ok(next) = Balanced::of(logic, network, period) else { continue };
-        // At first the search also takes networks that are a little larger.
-        let slack = if below(&mut random, 8) == 0 && 2 * round < rounds { 1 } else { 0 };
-        if next.weight <= (now.weight.0, now.weight.1 + slack) {
+        // Now and then the search takes a network that is a little larger, at first more of them.
+        let slack = if below(&mut random, 6) == 0 { 3 * (rounds - round) / rounds } else { 0 };
+        let is_taken = next.weight <= (now.weight.0, now.weight.1 + slack);
+        if is_taken {
             now = next;
             if now.weight <= best.weight {
                 best = now.clone();
             }
-        } else if below(&mut random, 200) == 0 {
+        }
+        if now.weight > (best.weight.0, best.weight.1 + MOST_LOSS) {
             now = best.clone();
         }
     }
