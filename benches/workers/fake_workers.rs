@@ -103,7 +103,7 @@ impl FakeWorkers {
             thread::sleep(due.saturating_duration_since(Instant::now()));
             let payload = better(&task, count * 1000 + self.number as u64);
             let (number, search, length) = (self.number, task.split('.').nth(4).unwrap(), payload.len());
-            let (subject, reply) = (format!("nbc.v1.answer.{search}.sleeper{number}"), format!("reply{number}"));
+            let (subject, reply) = (format!("nbc.v2.answer.{search}.sleeper{number}"), format!("reply{number}"));
             let head = format!("PUB {subject} {reply}.{acknowledgment} {length}\r\n");
             self.say(&[head.as_bytes(), &payload, b"\r\n"].concat());
         }
@@ -116,7 +116,7 @@ fn better(task: &str, count: u64) -> Vec<u8> {
     let fitness = count as f64;
     let sign = |bit: u64| if count >> bit & 1 == 1 { fitness } else { -fitness };
     let numbers = [fitness, fitness].into_iter().chain((0..4).map(sign)).flat_map(f64::to_le_bytes);
-    [1].into_iter().chain(key).chain([0, 0]).chain(numbers).chain(varint(GATES_STEPS)).chain([0]).collect()
+    [2].into_iter().chain(key).chain([0, 0]).chain(numbers).chain(varint(GATES_STEPS)).chain([0]).collect()
 }
 
 /// Env steps of an evaluation of `gates`.

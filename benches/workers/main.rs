@@ -54,7 +54,7 @@ fn measure_the_coordinator() {
         let arguments =
             ["evolve", "many_workers.nb", "--trust-workers", "--checkpoint-every", "3600", "--nats", &server.url()];
         let search = Running::start(&bench, &arguments);
-        let task = wire.wait_for(|message| message.subject.starts_with("nbc.v1.task."));
+        let task = wire.wait_for(|message| message.subject.starts_with("nbc.v2.task."));
         drop(wire);
         let token = task.subject.split('.').nth(3).unwrap();
         let connections: Vec<Arc<FakeWorkers>> =
@@ -100,7 +100,7 @@ fn measure_the_overhead() {
         let bench = make();
         let workers: Vec<Running> = (0..count).map(|number| worker(&bench, &server, &format!("w{number}"))).collect();
         let mut wire = Wire::open(&server);
-        (0..count).for_each(|_| _ = wire.wait_for(|message| message.subject == "nbc.v1.worker"));
+        (0..count).for_each(|_| _ = wire.wait_for(|message| message.subject == "nbc.v2.worker"));
         drop(wire);
         let cpu = || workers.iter().map(|worker| cpu_seconds(worker.child.id())).sum::<f64>();
         let wanted = || workers.iter().map(|worker| wanted_seconds(worker.child.id())).sum::<f64>();

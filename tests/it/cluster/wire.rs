@@ -20,7 +20,7 @@ pub struct Seen {
 
 impl Seen {
     pub fn is_answer_of(&self, worker: &str) -> bool {
-        self.subject.starts_with("nbc.v1.answer.") && self.subject.ends_with(&format!(".{worker}"))
+        self.subject.starts_with("nbc.v2.answer.") && self.subject.ends_with(&format!(".{worker}"))
     }
 }
 
@@ -31,7 +31,7 @@ impl Wire {
         stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
         let mut wire = Self { reader: BufReader::new(stream) };
         wire.say(b"CONNECT {\"verbose\":false,\"pedantic\":false}\r\n");
-        wire.subscribe("nbc.v1.>");
+        wire.subscribe("nbc.v2.>");
         wire
     }
 
@@ -53,7 +53,7 @@ impl Wire {
 
     /// Asks the server itself and waits for its answer, which is not an error.
     pub fn request(&mut self, subject: &str, payload: &str) {
-        let reply = "nbc.v1.reply.wire";
+        let reply = "nbc.v2.reply.wire";
         self.publish(&format!("{subject} {reply}"), payload.as_bytes());
         let answer = String::from_utf8(self.wait_for(|message| message.subject == reply).payload).unwrap();
         assert!(!answer.contains("error"), "{answer}");
