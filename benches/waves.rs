@@ -112,7 +112,7 @@ impl Form {
 fn main() -> ExitCode {
     let mut aims = Aims::default();
     println!(
-        "| circuit | with latches: robots, cycles a step | as a wave machine: robots, cycles a step, threads | product smaller by |"
+        "| circuit | latches: robots, cycles a step | waves: robots, cycles a step, threads | product smaller by |"
     );
     println!("|---|---|---|---|");
     let mut checks = Vec::new();

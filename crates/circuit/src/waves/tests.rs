@@ -70,8 +70,6 @@ fn check(source: &Netlist, options: &WaveOptions, random: &mut ChaCha8Rng) -> Wa
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(), ..ProptestConfig::default() })]
-
     #[test]
     fn random_machines_agree_with_their_sources_in_every_thread(seed in any::<u64>(), beat in 1u32..3) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -79,11 +77,6 @@ proptest! {
         let mapping = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
         check(&source, &WaveOptions { beat, mapping, ..WaveOptions::default() }, &mut random);
     }
-}
-
-/// The number of machines; `PROPTEST_CASES` sets another.
-fn cases() -> u32 {
-    std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(100)
 }
 
 #[test]
