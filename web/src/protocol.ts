@@ -279,6 +279,8 @@ export type RowResult = {
   /** Its number, from 1; both halves of a pulse have the same. */
   row: number,
   line: number,
+  /** The thread of a wave machine, from 0. */
+  thread: number | null,
   inputs: Array<RowValue>,
   expected: Array<RowValue>,
   observed: Array<RowValue>,
@@ -334,6 +336,24 @@ export type ShownSwarm = {
   start: number,
   /** Poses in a cycle. */
   frames: number,
+  /** What it is as a wave machine. */
+  waves: ShownWaves | null,
+};
+
+/** A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle. */
+export type ShownWaves = {
+  /** Cycles of a step. */
+  step: number,
+  /** Cycles of a beat. */
+  beat: number,
+  /** Machines that run at once on the same robots. */
+  threads: number,
+  /** For each robot, the beat of a step in which it reads its stimuli. */
+  phases: Array<number>,
+  /** The cycle in which the first step of the first thread begins, from 0. */
+  begins: number,
+  /** The bit of the inputs that is the clock, which no robot senses. */
+  clock: number | null,
 };
 
 /** The answer to `compile` and to `replay`. */

@@ -1,6 +1,7 @@
 // Light or dark, large type for a projector, and the colors that canvases draw with.
 
 import { Observable } from "./observable";
+import { THREAD_COLORS } from "./live/waves";
 import { recall, remember } from "./memory";
 
 export interface Colors {
@@ -19,6 +20,9 @@ export interface Colors {
   edge: string;
   good: string;
   bad: string;
+  /** Of the threads of a wave machine, and of what stands on them. */
+  threads: string[];
+  onThread: string;
   font: string;
 }
 
@@ -95,6 +99,8 @@ function readColors(): Colors {
     edge: named("edge"),
     good: named("good"),
     bad: named("bad"),
+    threads: Array.from({ length: THREAD_COLORS }, (_, i) => named(`thread-${i + 1}`)),
+    onThread: named("on-thread"),
     font: named("font"),
   };
 }

@@ -4,6 +4,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
+import { THREAD_COLORS } from "../src/live/waves";
+
 type Rgb = [number, number, number];
 
 const TOKENS = readFileSync("src/style/tokens.css", "utf8");
@@ -87,6 +89,8 @@ function check(pairs: string[], least: number): void {
   }
 }
 
+const THREADS = Array.from({ length: THREAD_COLORS }, (_, i) => `thread-${i + 1}`);
+
 const on = (names: string, grounds: string): string[] =>
   names.split(" ").flatMap(name => grounds.split(" ").map(ground => `${name} on ${ground}`));
 
@@ -94,6 +98,10 @@ test("text can be read", () => {
   check(on("ink dim", "paper panel raised highlight notice"), TEXT);
   check(on("accent one zero good bad", "paper panel raised"), TEXT);
   check(["on-accent on accent", "on-one on one", "tick on ground"], TEXT);
+  check(
+    THREADS.map(name => `on-thread on ${name}`),
+    TEXT,
+  );
 });
 
 test("the program can be read, on the active line, too", () => {
@@ -103,6 +111,10 @@ test("the program can be read, on the active line, too", () => {
     readFileSync("src/editor/editor.ts", "utf8"),
   );
   check(on(gutters?.[1] ?? "", "paper highlight"), TEXT);
+});
+
+test("the numbers of threads can be read in the schematic, and their strips can be seen", () => {
+  check(on(THREADS.join(" "), "paper panel"), TEXT);
 });
 
 test("fields, switches and lamps can be seen", () => {
@@ -128,6 +140,16 @@ test("values and verdicts can be told apart without green cones", () => {
       const found = difference(first, second);
       assert.ok(found >= APART, `${a} and ${b} (${theme}): ${found.toFixed(1)}`);
     }
+  }
+});
+
+test("threads that follow each other can be told apart without green cones", () => {
+  for (const [theme, colors] of Object.entries(THEMES)) {
+    const seenThreads = THREADS.map(name => seen(colors.get(name) as string, "#ffffff"));
+    seenThreads.forEach((color, i) => {
+      const found = difference(color, seenThreads[(i + 1) % THREAD_COLORS] as Rgb);
+      assert.ok(found >= APART, `thread ${i + 1} and the next one (${theme}): ${found.toFixed(1)}`);
+    });
   }
 });
 

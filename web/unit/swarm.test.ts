@@ -25,6 +25,7 @@ const SWARM = {
   hold: 2,
   start: 1,
   frames: 12,
+  waves: null,
 } satisfies ShownSwarm;
 
 /** A server that notes what it is asked, and answers when the test says so. */

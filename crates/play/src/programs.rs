@@ -4,14 +4,15 @@ use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
 use crate::message::finding::findings;
 use crate::message::{
-    CircuitEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, SwarmAnswer, SwarmRobot, TestAnswer, TestEntry,
-    TestResult, TestRowEntry, looks,
+    CircuitEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, TestAnswer,
+    TestEntry, TestResult, TestRowEntry, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::LoadedSwarm;
 use crate::served::SCHEME;
 use nbc_base::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::Effort;
+use nbc_circuit::waves::WaveMachine;
 use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, SwarmTrace};
@@ -94,7 +95,7 @@ pub(super) fn loaded(
         return Err(Refused::TooManyRobots { robots, most: MOST_ROBOTS });
     }
     let swarm = session.swarm(&compiled);
-    let answer = answer(SwarmAnswer { swarm: describe(number, &compiled, &swarm) });
+    let answer = answer(SwarmAnswer { swarm: Box::new(describe(number, &compiled, &swarm)) });
     Ok(LoadedSwarm { number, compiled, swarm, inputs, request: job.id, answer, stop: job.stop.clone() })
 }
 
@@ -115,6 +116,20 @@ fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
         hold: compiled.timing.hold,
         start: assembly.start_cycles(),
         frames: FRAMES,
+        waves: compiled.mapping.waves.as_ref().map(|machine| waves(machine, &trace.recording.robots)),
+    }
+}
+
+fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
+    // A swarm has its robots in the order of the cells.
+    let phases: Vec<i64> = machine.netlist.cells().map(|(cell, _)| machine.phase[&cell]).collect();
+    ShownWaves {
+        step: machine.cycles_per_step(),
+        beat: machine.beat,
+        threads: machine.period,
+        phases: robots.iter().map(|recorded| phases[recorded.robot]).collect(),
+        begins: machine.beginning() * i64::from(machine.beat),
+        clock: machine.clock.map(|(bit, _)| bit),
     }
 }
 

@@ -142,6 +142,24 @@ fn tests_run_and_lead_to_their_moment() {
 }
 
 #[test]
+fn a_wave_machine_says_whose_waves_its_robots_carry() {
+    let (_folder, _server, mut page) = latch();
+    let text = include_str!("../../../circuits/wave_counter.nb");
+    page.done(json!({ "do": "program", "path": "w.nb", "text": text }));
+    let compile = json!({ "do": "compile", "path": "w.nb", "circuit": "wave_counter", "swarm": "sturdy_wave" });
+    let swarm = page.done(compile)["swarm"].take();
+    let waves = &swarm["waves"];
+    let [step, beat, threads, begins] = ["step", "beat", "threads", "begins"].map(|name| waves[name].as_u64().unwrap());
+    assert_eq!((beat, waves["clock"].as_u64()), (2, Some(0)));
+    assert_eq!((step, begins % beat), (threads * beat, 0));
+    assert_eq!(waves["phases"].as_array().unwrap().len(), swarm["robots"].as_array().unwrap().len());
+    let answer = page.done(json!({ "do": "test", "path": "w.nb", "test": 0, "level": "physics" }));
+    let rows = answer["results"][1]["rows"].as_array().unwrap();
+    assert_eq!(rows.iter().filter_map(|row| row["thread"].as_u64()).max(), Some(threads - 1));
+    assert!(page.compile("latch.nb", LATCH)["waves"].is_null());
+}
+
+#[test]
 fn mistakes_are_told_with_their_places() {
     let (_folder, _server, mut page) = latch();
     let text = "circuit a(x) -> (y) { y = not z }";

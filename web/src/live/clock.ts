@@ -20,9 +20,11 @@ export class ClockPanel {
   #build(): void {
     const definition = this.swarm.definition.value;
     const bits = bitsOf(definition?.inputs ?? []).filter(bit => bit.port.width === 1);
+    // The steps of a wave machine are its clock.
+    const needless = bits.length === 0 || (definition?.waves?.clock ?? null) !== null;
     this.#pulse?.();
-    this.host.hidden = bits.length === 0;
-    if (definition === null || bits.length === 0) {
+    this.host.hidden = needless;
+    if (definition === null || needless) {
       return;
     }
     const named = bits.find(bit => /^(clk|clock|ck|cp)$/i.test(bit.name));

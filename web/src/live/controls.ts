@@ -1,6 +1,6 @@
 // Play, pause, step, reset, the speed, and the slider that rewinds.
 
-import { changeIcon, element, iconButton } from "../element";
+import { button, changeIcon, element, iconButton } from "../element";
 import type { View } from "./animation";
 import { REAL_TIME, type LiveSwarm } from "./swarm";
 
@@ -14,9 +14,15 @@ export const SPEEDS: [string, number | null][] = [
   ["max", null],
 ];
 
+/** The most cycles that are done at once. */
+const MOST_CYCLES = 1000;
+
 export class Controls implements View {
   readonly host = element("div", { class: "controls", role: "group", "aria-label": "Run" });
   readonly #play = iconButton("play", "Play", () => this.toggle(), { class: "icon primary", "data-do": "play" });
+  readonly #waveStep = button("One step", () => this.swarm.step(this.#cycles), { "data-do": "wave-step" });
+  /** Cycles of a step of a wave machine. */
+  #cycles = 1;
   readonly #slider = element("input", {
     type: "range",
     min: 0,
@@ -36,6 +42,7 @@ export class Controls implements View {
       iconButton("reset", "Back to the start", () => swarm.reset(), { "data-do": "reset" }),
       this.#play,
       iconButton("step", "One cycle (.)", () => swarm.step(), { "data-do": "step" }),
+      this.#waveStep,
       this.#speeds(),
       this.#slider,
       this.#cycle,
@@ -44,6 +51,12 @@ export class Controls implements View {
     swarm.running.follow(running => {
       changeIcon(this.#play, running ? "pause" : "play", running ? "Pause (Space)" : "Play (Space)");
       this.#play.dataset["running"] = String(running);
+    });
+    swarm.definition.follow(definition => {
+      const step = definition?.waves?.step ?? 0;
+      this.#cycles = step;
+      this.#waveStep.hidden = step === 0 || step > MOST_CYCLES;
+      this.#waveStep.title = step === 1 ? "A step has one cycle" : `A step has ${step} cycles`;
     });
     swarm.frame.on(() => this.draw());
   }

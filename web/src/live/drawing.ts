@@ -3,6 +3,7 @@
 import type { SwarmRobot, VoxelLook } from "../protocol";
 import type { Colors } from "../theme";
 import type { Outline } from "./playback";
+import { threadColor } from "./waves";
 
 /** A part of the canvas that shows a stretch of ground. */
 export interface Lane {
@@ -127,4 +128,27 @@ export function drawStimulus(pen: Pen, value: number | null, x: number, y: numbe
     pen.fillStyle = colors.one;
     pen.fillRect(x + 3, y + 3, size - 6, size - 6);
   }
+}
+
+/** A strip of a thread's color at the left of a robot's lane, and the thread's number at the right of its label. */
+export function drawThread(
+  pen: Pen,
+  thread: number,
+  area: { left: number; top: number; height: number; right: number },
+  size: number,
+  colors: Colors,
+): void {
+  const number = String(thread + 1);
+  const { left, top, height, right } = area;
+  pen.fillStyle = colors.threads[threadColor(thread) - 1] ?? colors.dim;
+  pen.fillRect(left, top, 5, height);
+  pen.font = `650 ${12 * size}px ${colors.font}`;
+  const width = Math.max(18 * size, pen.measureText(number).width + 8 * size);
+  pen.beginPath();
+  pen.roundRect(right - width, top + 4, width, 18 * size, 4);
+  pen.fill();
+  pen.fillStyle = colors.onThread;
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.fillText(number, right - width / 2, top + 4 + 9.5 * size);
 }

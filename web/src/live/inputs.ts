@@ -46,6 +46,10 @@ export class InputPanel implements View {
   }
 
   #port(port: PortEntry, bits: PortBit[]): HTMLElement {
+    const [first] = bits;
+    if (first !== undefined && first.index === this.swarm.definition.value?.waves?.clock) {
+      return waveClock(first);
+    }
     if (port.width === 1) {
       return this.#switch(bits[0] as PortBit, port.name);
     }
@@ -157,4 +161,21 @@ export class InputPanel implements View {
     const bits = this.swarm.inputs.value;
     this.swarm.setInputs(bits.slice(0, start) + toBits(value, port.width).join("") + bits.slice(start + port.width));
   }
+}
+
+/** The clock of a wave machine, which no robot senses. */
+function waveClock(bit: PortBit): HTMLElement {
+  return element(
+    "button",
+    {
+      type: "button",
+      class: "switch",
+      "aria-label": `clock ${bit.name}: each step is a clock edge`,
+      "data-input": bit.name,
+      title: "Each step is a clock edge",
+      disabled: true,
+    },
+    element("span", { class: "name" }, bit.name),
+    element("span", { class: "edge", "aria-hidden": "true" }, "↑ each step"),
+  );
 }

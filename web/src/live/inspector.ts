@@ -58,7 +58,9 @@ export class Inspector implements View {
       .map(sense => `${this.swarm.nameOf(sense)} = ${this.swarm.value(sense) ?? "?"}`)
       .join(", ");
     const walk = value === null ? "has not walked yet" : value === 1 ? "walks right: 1" : "walks left: 0";
-    return `${name}: ${gateName(robot.function)} (${robot.robot}) senses ${senses} and ${walk}`;
+    const thread = this.swarm.thread(source);
+    const wave = thread === null ? "" : ` with a wave of thread ${thread + 1}`;
+    return `${name}: ${gateName(robot.function)} (${robot.robot})${wave} senses ${senses} and ${walk}`;
   }
 
   #showFacts(robot: SwarmRobot | null): void {

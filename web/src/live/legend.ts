@@ -3,11 +3,13 @@
 import { element } from "../element";
 import type { VoxelLook } from "../protocol";
 
-export function legend(looks: { look: VoxelLook; name: string }[]): HTMLElement {
+export function legend(looks: { look: VoxelLook; name: string }[], threads: number): HTMLElement {
   const entry = (sign: HTMLElement, text: string): HTMLElement => element("li", {}, sign, element("span", {}, text));
   const lamp = (value: 0 | 1): HTMLElement =>
     element("span", { class: "lamp", "data-value": value, "aria-hidden": "true" }, String(value));
   const line = (name: string): HTMLElement => element("span", { class: `sample ${name}`, "aria-hidden": "true" });
+  const badge = (thread: number): HTMLElement =>
+    element("span", { class: "badge", "data-thread": thread, "aria-hidden": "true" }, String(thread));
   return element(
     "details",
     { class: "legend" },
@@ -19,6 +21,7 @@ export function legend(looks: { look: VoxelLook; name: string }[]): HTMLElement 
       entry(lamp(0), "0: the robot walks left. Orange, hollow, thin lines."),
       entry(line("stimulus on"), "a stimulus that the robot senses is present"),
       entry(line("stimulus"), "it is absent"),
+      threads > 1 && entry(badge(2), "the thread of the wave that a robot or a net carries"),
     ),
     element("ul", { class: "materials" }, ...looks.map(({ look, name }) => entry(swatch(look), name))),
   );

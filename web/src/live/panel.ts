@@ -3,6 +3,7 @@
 import { button, element, fill, iconButton } from "../element";
 import type { Choice, Program, Stage as CompileStage } from "../program";
 import { recall, remember } from "../memory";
+import { totalWidth } from "../ports";
 import { colors } from "../theme";
 import { Animation } from "./animation";
 import { ClockPanel } from "./clock";
@@ -69,7 +70,7 @@ export class SwarmPanel {
     swarm.stopped.on(() => this.#showStage(program.stage.value));
     swarm.definition.on(definition => {
       const looks = (definition?.looks ?? []).map(look => ({ look, name: MATERIALS[look.name] ?? look.name }));
-      fill(this.#legend, legend(looks));
+      fill(this.#legend, legend(looks, definition?.waves?.threads ?? 1));
     });
     swarm.selection.pointed.on(wake);
     swarm.selection.followed.on(wake);
@@ -130,7 +131,12 @@ export class SwarmPanel {
       return "";
     }
     const count = definition.robots.length;
-    const { hold } = definition;
+    const { hold, waves } = definition;
+    if (waves !== null) {
+      const machines = waves.threads === 1 ? "one thread" : `${waves.threads} threads at once`;
+      const step = `${waves.step} ${waves.step === 1 ? "cycle" : "cycles"}`;
+      return `${count} ${count === 1 ? "robot" : "robots"}, a step of ${step}, ${machines}`;
+    }
     const settles = `, settles within ${hold} ${hold === 1 ? "cycle" : "cycles"}`;
     return `${count} ${count === 1 ? "robot" : "robots"}${settles}`;
   }
@@ -163,6 +169,10 @@ function firstHint(swarm: LiveSwarm): HTMLElement {
   };
   swarm.inputs.on(note);
   swarm.clock.on(note);
+  swarm.definition.on(definition => {
+    const switches = totalWidth(definition?.inputs ?? []) - Number((definition?.waves?.clock ?? null) !== null);
+    hint.classList.toggle("needless", definition !== null && switches === 0);
+  });
   return hint;
 }
 

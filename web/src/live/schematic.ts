@@ -5,11 +5,15 @@ import type { BitSource } from "../protocol";
 import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
+import { threadColor } from "./waves";
 
 interface Marked {
   element: Element;
   source: BitSource;
   shown: number | null | undefined;
+  /** What shows the number of the thread, and which is shown. */
+  number: Element | null;
+  thread: number | null;
 }
 interface Box {
   x: number;
@@ -64,6 +68,11 @@ export class Schematic implements View {
         marked.element.classList.toggle("one", value === 1);
         marked.element.classList.toggle("zero", value === 0);
       }
+      const thread = this.swarm.thread(marked.source);
+      if (thread !== marked.thread) {
+        marked.thread = thread;
+        showThread(marked, thread);
+      }
     }
   }
 
@@ -101,7 +110,12 @@ export class Schematic implements View {
       const [, kind, name] = /^(\w+)-(.*)$/.exec(part.dataset["id"] ?? "") ?? [];
       const source = kind === "cell" ? { robot: Number(name) } : this.swarm.nets.get(name ?? "");
       if (source !== undefined) {
-        this.#marked.push({ element: part, source, shown: undefined });
+        const threaded = (this.swarm.definition.value?.waves?.threads ?? 1) > 1 && "robot" in source;
+        const number = threaded && kind === "cell" ? threadNumber(part) : null;
+        if (threaded && kind === "net") {
+          addHalo(part);
+        }
+        this.#marked.push({ element: part, source, shown: undefined, number, thread: null });
       }
       if (kind === "cell") {
         // One robot for the tab key, and arrows for the others: a large circuit is passed as quickly as a small one.
@@ -248,6 +262,40 @@ export class Schematic implements View {
     window.addEventListener("pointermove", move);
     window.addEventListener("pointerup", end, { once: true });
   }
+}
+
+function showThread({ element: part, number }: Marked, thread: number | null): void {
+  if (thread === null) {
+    part.removeAttribute("data-thread");
+  } else {
+    part.setAttribute("data-thread", String(threadColor(thread)));
+  }
+  if (number !== null) {
+    number.textContent = thread === null ? "" : String(thread + 1);
+  }
+}
+
+/** A wide line of the thread's color below each line of a net, whose own color is its value. */
+function addHalo(net: SVGElement): void {
+  const halo = document.createElementNS(net.namespaceURI, "g");
+  halo.setAttribute("class", "halo");
+  halo.append(...[...net.querySelectorAll("polyline, line, path")].map(line => line.cloneNode()));
+  net.prepend(halo);
+}
+
+/** A place for the number of a thread, below the function of a robot. */
+function threadNumber(cell: SVGElement): Element | null {
+  const frame = cell.querySelector("rect");
+  if (frame === null) {
+    return null;
+  }
+  const [x, y] = ["x", "y"].map(name => Number(frame.getAttribute(name)));
+  const number = document.createElementNS(cell.namespaceURI, "text");
+  number.setAttribute("class", "thread");
+  number.setAttribute("x", String((x ?? 0) + 6));
+  number.setAttribute("y", String((y ?? 0) + 30));
+  cell.append(number);
+  return number;
 }
 
 /** Colors show values here, so the legend of the critical path would mislead. */

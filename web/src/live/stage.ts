@@ -2,7 +2,7 @@
 
 import { colors, enlargement } from "../theme";
 import { LaneGrid, followWithSlack, middleOf } from "./camera";
-import { drawGround, drawLamp, drawRobot, drawStimulus, type Lane } from "./drawing";
+import { drawGround, drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
 import type { BitSource } from "../protocol";
@@ -96,7 +96,12 @@ export class Stage implements View {
     const top = this.#grid.top(lane) - this.pane.scrolled;
     const lamp = Math.min(64 * size, height);
     this.#drawFrame(pen, robot, left, top, height);
-    this.#drawLabel(pen, robot, left + 12, top, height, label - 16);
+    const thread = this.swarm.thread({ robot });
+    const badge = this.#hasThreads() ? 24 * size : 0;
+    if (thread !== null) {
+      drawThread(pen, thread, { left, top, height, right: left + label - 4 }, size, colors.value);
+    }
+    this.#drawLabel(pen, robot, left + 12, top, height, [label - 16, badge]);
     this.#drawWalk(pen, robot, { left: left + label, top, width: this.#grid.laneWidth - label - lamp, height });
     const value = this.swarm.value({ robot });
     drawLamp(
@@ -109,6 +114,10 @@ export class Stage implements View {
     );
   }
 
+  #hasThreads(): boolean {
+    return (this.swarm.definition.value?.waves?.threads ?? 1) > 1;
+  }
+
   #drawFrame(pen: Pen, robot: number, left: number, top: number, height: number): void {
     const pointed = sameSource(this.swarm.selection.pointed.value, { robot });
     pen.fillStyle = pointed ? colors.value.accent : colors.value.panel;
@@ -119,7 +128,15 @@ export class Stage implements View {
     }
   }
 
-  #drawLabel(pen: Pen, index: number, left: number, top: number, height: number, width: number): void {
+  /** The name, the gate and the stimuli of a robot; its name leaves room for a `badge` at the end of its line. */
+  #drawLabel(
+    pen: Pen,
+    index: number,
+    left: number,
+    top: number,
+    height: number,
+    [width, badge]: [number, number],
+  ): void {
     const robot = this.swarm.definition.value?.robots[index];
     if (robot === undefined) {
       return;
@@ -133,12 +150,12 @@ export class Stage implements View {
     // A low lane has the net and its gate in one line.
     const low = height < LOW * size;
     const above = middle - (low ? 5 : 9) * size;
-    pen.fillText(robot.net, left, above, low ? width / 2 : width);
-    const beside = Math.min(width / 2, pen.measureText(robot.net).width) + 8 * size;
+    pen.fillText(robot.net, left, above, low ? (width - badge) / 2 : width - badge);
+    const beside = Math.min((width - badge) / 2, pen.measureText(robot.net).width) + 8 * size;
     pen.fillStyle = colors.value.dim;
     pen.font = `${12 * size}px ${colors.value.font}`;
     if (low) {
-      pen.fillText(gateName(robot.function), left + beside, above, width - beside);
+      pen.fillText(gateName(robot.function), left + beside, above, width - badge - beside);
     } else {
       pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
     }

@@ -9,6 +9,7 @@ import type { BitSource, ShownSwarm } from "../protocol";
 import type { Fields } from "../request";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
+import { threadAt } from "./waves";
 
 export interface AutomaticClock {
   bit: number;
@@ -179,6 +180,12 @@ export class LiveSwarm {
     return logged?.robots[source.robot] ?? null;
   }
 
+  /** The thread whose wave a source carries in the cycle that is shown; null where there is but one, or none. */
+  thread(source: BitSource, cycle = this.playback.cycle): number | null {
+    const waves = this.definition.value?.waves ?? null;
+    return waves !== null && waves.threads > 1 && "robot" in source ? threadAt(waves, source.robot, cycle) : null;
+  }
+
   /** What a source is called. */
   nameOf(source: BitSource): string {
     const definition = this.definition.value;
@@ -240,7 +247,9 @@ export class LiveSwarm {
     const clock = this.clock.value;
     const name = clock === null || before === null ? null : bitsOf(before.inputs)[clock.bit]?.name;
     const bit = bitsOf(swarm.inputs).find(other => other.name === name);
-    return clock === null || bit === undefined ? null : { bit: bit.index, half: clock.half };
+    return clock === null || bit === undefined || bit.index === swarm.waves?.clock
+      ? null
+      : { bit: bit.index, half: clock.half };
   }
 
   #forget(): void {

@@ -19,7 +19,12 @@ export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
     "div",
     { class: "scroll" },
     verdict.swarm === null ? null : element("h4", {}, `swarm ${verdict.swarm}`),
-    element("table", { class: "rows" }, head(verdict), element("tbody", {}, ...rows.map(row => tableRow(row, leads)))),
+    element(
+      "table",
+      { class: "rows" },
+      head(verdict),
+      element("tbody", {}, ...rows.map(row => tableRow(row, leads, hasThreads(verdict)))),
+    ),
     left > 0 && element("p", { class: "dim" }, `${left} more ${left === 1 ? "row" : "rows"}`),
   );
 }
@@ -36,6 +41,7 @@ function head(verdict: TestResult): HTMLElement {
       element("th", { scope: "colgroup", colspan: verdict.inputs.length, class: "group" }, "inputs"),
       element("th", { scope: "colgroup", colspan: verdict.outputs.length, class: "group" }, "expected"),
       element("th", { scope: "colgroup", colspan: verdict.outputs.length, class: "group" }, "observed"),
+      hasThreads(verdict) && element("th", { rowspan: 2 }, ""),
       element("th", { rowspan: 2 }, ""),
       element("th", { rowspan: 2 }, ""),
     ),
@@ -43,7 +49,12 @@ function head(verdict: TestResult): HTMLElement {
   );
 }
 
-function tableRow(row: RowResult, leads: Leads): HTMLElement {
+/** Whether a row says its thread, as those of a wave machine do. */
+function hasThreads(verdict: TestResult): boolean {
+  return verdict.rows.some(row => row.thread !== null);
+}
+
+function tableRow(row: RowResult, leads: Leads, threaded: boolean): HTMLElement {
   const cells = (values: { text: string }[]): HTMLElement[] =>
     values.map((value, i) => element("td", { class: i === 0 ? "first" : "" }, value.text));
   return element(
@@ -52,6 +63,7 @@ function tableRow(row: RowResult, leads: Leads): HTMLElement {
     ...cells(row.inputs),
     ...cells(row.expected),
     ...cells(row.observed),
+    threaded && element("td", { class: "thread" }, row.thread === null ? "" : `thread ${row.thread + 1}`),
     element("td", { class: row.passed ? "pass" : "fail" }, row.passed ? "✓ pass" : "✗ fail"),
     element(
       "td",

@@ -98,7 +98,7 @@ impl WaveMachine {
     }
 
     /// The beat in which the first step of the first thread begins.
-    fn beginning(&self) -> i64 {
+    pub fn beginning(&self) -> i64 {
         let earliest = self.inputs.iter().flatten().copied().chain(self.outputs.iter().map(|output| output.phase));
         let earliest = earliest.min().unwrap_or(0).min(0);
         WARM_UP.max(i64::from(self.period)) - earliest

@@ -19,7 +19,7 @@ pub(super) use bodies::{
 pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
 pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};
 pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
-pub(super) use swarm::{ShownSwarm, SwarmAnswer, SwarmRobot};
+pub(super) use swarm::{ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot};
 pub(super) use test_result::{TestAnswer, TestResult};
 
 use crate::refusal::Refusal;

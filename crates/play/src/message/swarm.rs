@@ -12,7 +12,7 @@ use nbc_swarm::StimulusSource;
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct SwarmAnswer {
-    pub(crate) swarm: ShownSwarm,
+    pub(crate) swarm: Box<ShownSwarm>,
 }
 
 /// The swarm of a page.
@@ -38,6 +38,26 @@ pub(crate) struct ShownSwarm {
     pub(crate) start: usize,
     /// Poses in a cycle.
     pub(crate) frames: u32,
+    /// What it is as a wave machine.
+    pub(crate) waves: Option<ShownWaves>,
+}
+
+/// A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownWaves {
+    /// Cycles of a step.
+    pub(crate) step: usize,
+    /// Cycles of a beat.
+    pub(crate) beat: u32,
+    /// Machines that run at once on the same robots.
+    pub(crate) threads: u32,
+    /// For each robot, the beat of a step in which it reads its stimuli.
+    pub(crate) phases: Vec<i64>,
+    /// The cycle in which the first step of the first thread begins, from 0.
+    pub(crate) begins: i64,
+    /// The bit of the inputs that is the clock, which no robot senses.
+    pub(crate) clock: Option<usize>,
 }
 
 /// A robot of the swarm.

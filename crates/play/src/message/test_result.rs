@@ -38,6 +38,8 @@ pub(crate) struct RowResult {
     /// Its number, from 1; both halves of a pulse have the same.
     row: usize,
     line: usize,
+    /// The thread of a wave machine, from 0.
+    thread: Option<usize>,
     inputs: Vec<RowValue>,
     expected: Vec<RowValue>,
     observed: Vec<RowValue>,
@@ -80,6 +82,7 @@ impl From<&RowVerdict> for RowResult {
         Self {
             row: verdict.row,
             line: verdict.line,
+            thread: verdict.thread,
             inputs: values(&verdict.inputs),
             expected: values(&verdict.expected),
             observed: values(&verdict.observed),

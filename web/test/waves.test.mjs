@@ -1,0 +1,60 @@
+// A wave machine, live: its robots carry the waves of its threads in turn, and a step is one edge of its clock.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+
+import { cycle } from "./browser.mjs";
+import { opened } from "./opened.mjs";
+
+const COUNTER = readFileSync(new URL("../../circuits/wave_counter.nb", import.meta.url), "utf8");
+
+const here = opened({ "counter.nb": COUNTER }, "counter.nb", async page => {
+  // The first swarm of the circuit, `quick_wave`.
+  await page.getByText(/, a step of \d+ cycles, \d+ threads at once$/).waitFor();
+  await page.locator("[data-do=reset]").click();
+  await page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 0");
+});
+
+/** The number of the thread that each robot of the schematic carries. */
+function threads(page) {
+  return page.locator('.schematic [data-id^="cell-"] .thread').allTextContents();
+}
+
+test("a step runs all its cycles, after which each robot carries the same thread again", async () => {
+  const { page } = here;
+  const title = await page.locator("[data-do=wave-step]").getAttribute("title");
+  const [, step] = /^A step has (\d+) cycles$/.exec(title).map(Number);
+  await page.getByText(`, a step of ${step} cycles, ${step} threads at once`).waitFor();
+  assert.ok((await threads(page)).every(thread => thread === ""));
+  await page.locator("[data-do=step]").click();
+  await page.waitForFunction(() => document.querySelector(".schematic .thread")?.textContent !== "");
+  const first = await threads(page);
+  await page.locator("[data-do=step]").click();
+  await page.waitForFunction(before => document.querySelector(".schematic .thread")?.textContent !== before, first[0]);
+  const second = await threads(page);
+  assert.deepEqual(
+    second.map(Number),
+    first.map(thread => (Number(thread) % step) + 1),
+  );
+  await page.locator("[data-do=wave-step]").click();
+  await page.waitForFunction(now => document.querySelector(".cycle").textContent === `cycle ${now}`, 2 + step);
+  assert.equal(await cycle(page), 2 + step);
+  assert.deepEqual(await threads(page), second);
+  const color = await page.locator('.schematic [data-id="cell-0"]').getAttribute("data-thread");
+  assert.equal(color, second[0]);
+});
+
+test("its clock is no switch", async () => {
+  const clock = here.page.locator('button[data-input="clk"]');
+  assert.ok(await clock.isDisabled());
+  assert.equal(await clock.getAttribute("title"), "Each step is a clock edge");
+  assert.ok(await here.page.locator(".clock").isHidden());
+});
+
+test("the rows of its test say their thread", async () => {
+  await here.page.locator("#tab-tests").click();
+  await here.page.locator(".test [data-do=physics]").click();
+  await here.page.getByText("✓ passes in physics").waitFor();
+  assert.ok((await here.page.getByText("thread 2", { exact: true }).count()) > 0);
+});
