@@ -118,6 +118,17 @@ proptest! {
     }
 }
 
+#[test]
+fn a_clock_of_memory_whose_state_depends_on_delays_has_no_times() {
+    let body = "circuit memory(clk) -> (q) {\n    q = register[start = 1](0, clk)\n}\n";
+    let library = CellLibrary::uniform([Function::AND, Function::NOT]);
+    let netlist = mapped(body, &library);
+    let timing = Timing::of(&netlist, &library, Delays::Clock);
+    assert!(timing.storage.unphased.iter().any(|unphased| unphased.why == WhyUnphased::Race), "{netlist}");
+    let times = ClockTimes::all(&netlist, &timing.storage, timing.hold, library.kinds_of(&netlist));
+    assert_eq!(times, []);
+}
+
 /// The timing of a circuit called `memory`, mapped onto cells of one cycle, and the names of nets.
 #[track_caller]
 fn check(body: &str, library: &CellLibrary, latches: usize, flip_flops: usize, unphased: &[WhyUnphased]) -> u32 {

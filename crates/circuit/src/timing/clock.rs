@@ -3,13 +3,13 @@
 
 use std::collections::BTreeSet;
 
-use petgraph::visit::NodeIndexable;
+use petgraph::visit::{Dfs, NodeIndexable};
 
 use crate::cells::CellKind;
 use crate::timing::arrivals::{Arrivals, Delay, Delays};
 use crate::timing::phase::{MOST_ROOTS, Passage, Phase, RootValues, earliest, passages, phases};
 use crate::timing::update::NetUpdate;
-use crate::{Latch, NetId, Netlist, Node, Storage};
+use crate::{Latch, NetId, Netlist, Node, Storage, WhyUnphased};
 
 /// After this many periods without an end, data do not arrive in time.
 const MOST_PERIODS: usize = 64;
@@ -72,15 +72,29 @@ pub struct ClockPath {
 }
 
 impl ClockTimes {
-    /// The times of each input that opens and closes latches; without clocks whose latches do not settle in a row.
-    /// `hold` is the time after which every row has settled.
+    /// The times of each input that opens and closes latches; without clocks whose latches do not settle in a row, and
+    /// without those that drive memory whose state depends on delays. `hold` is the time after which every row has
+    /// settled.
     pub fn all<'k>(netlist: &Netlist, storage: &Storage, hold: u32, kind: impl Fn(NetId) -> &'k CellKind) -> Vec<Self> {
         let roots: Vec<NetId> = storage.roots().into_iter().map(|(root, _)| root).take(MOST_ROOTS).collect();
         let values = phases(netlist, &roots);
         let is_input = |root: &&NetId| matches!(netlist.node(**root), Node::Input(_));
         let times = |&clock: &NetId| Clocked { netlist, storage, kind: &kind, clock, values: &values }.times(hold);
-        roots.iter().filter(is_input).filter_map(times).collect()
+        let is_safe = |clock: &&NetId| !drives_race(netlist, storage, **clock);
+        roots.iter().filter(is_input).filter(is_safe).filter_map(times).collect()
     }
+}
+
+/// Whether an input drives memory whose state depends on delays when it closes. No time of the input is enough for it.
+fn drives_race(netlist: &Netlist, storage: &Storage, input: NetId) -> bool {
+    let races: BTreeSet<NetId> = storage
+        .unphased
+        .iter()
+        .filter(|unphased| unphased.why == WhyUnphased::Race)
+        .flat_map(|unphased| unphased.nets.iter().copied())
+        .collect();
+    let mut driven = Dfs::new(netlist.graph(), input);
+    !races.is_empty() && std::iter::from_fn(|| driven.next(netlist.graph())).any(|net| races.contains(&net))
 }
 
 /// A netlist with the clock whose times are wanted.
