@@ -20,8 +20,6 @@ use nbc_base::model::Function;
 pub struct Certificate {
     /// How the logic of a step was proved equal.
     pub method: Method,
-    /// The number of pins that read the state of an earlier step.
-    pub later_pins: usize,
 }
 
 /// A net or a constant as a listener reads it, by steps later.
@@ -41,7 +39,7 @@ pub fn certify(step: &ClockStep, machine: &WaveMachine) -> Result<Certificate, C
         let net = step.outputs.get(output).cloned();
         CertifyError::Different { net: net.unwrap_or_else(|| bit(output - step.outputs.len())) }
     })?;
-    Ok(Certificate { method, later_pins: machine.held.len() })
+    Ok(Certificate { method })
 }
 
 struct Checker<'a> {

@@ -53,6 +53,9 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
     let cells = usable(library, beat);
     let logic = WaveLogic::of(&step);
     let starts = mappings(&logic.network, &cells, &options.mapping)?;
+    if let Some(wanted) = options.cycles.filter(|cycles| !cycles.is_multiple_of(beat)) {
+        return Err(WaveError::UnevenStep { wanted, beat });
+    }
     let period = options.cycles.map(|cycles| cycles / beat);
     let short = |least: u32| WaveError::ShortStep { wanted: options.cycles.unwrap_or(0), least: least * beat };
     let balanced = search(&logic, starts, &cells, period, &options.mapping).map_err(short)?;

@@ -51,6 +51,13 @@ pub enum WaveError {
         /// The clock.
         clock: String,
     },
+    /// The requested step is no whole number of beats.
+    UnevenStep {
+        /// The requested cycles.
+        wanted: u32,
+        /// Cycles of a beat.
+        beat: u32,
+    },
     /// The requested step is too short.
     ShortStep {
         /// The requested cycles.
@@ -82,6 +89,9 @@ impl fmt::Display for WaveError {
                 write!(f, "`{rising}` changes when the clock rises, but `{falling}` when it falls")
             }
             Self::ClockIsRead { clock } => write!(f, "the clock `{clock}` is also read as data"),
+            Self::UnevenStep { wanted, beat } => {
+                write!(f, "a step of {wanted} cycles is no whole number of beats of {beat} cycles")
+            }
             Self::ShortStep { wanted, least } => {
                 write!(f, "a step of {} is too short, expected at least {least}", counted(*wanted as usize, "cycle"))
             }
@@ -97,7 +107,7 @@ impl WaveError {
         Some(match self {
             Self::Netlist(_) => return None,
             Self::Unmapped(error) => return error.help(),
-            Self::NoBuffer => "a `buf`, `and`, `or` or `not` robot of clock 1 is enough".to_owned(),
+            Self::NoBuffer => "a `buf`, `and` or `or` robot that is quick enough for the beat suffices".to_owned(),
             Self::Loop { .. } | Self::Latch { .. } => {
                 "in a wave machine every loop passes a `register`; `registers: pulsed` allows latches".to_owned()
             }
@@ -107,6 +117,7 @@ impl WaveError {
             Self::TwoClocks { .. } => "give all registers one clock".to_owned(),
             Self::BothEdges { .. } => "let all registers change at the same edge".to_owned(),
             Self::ClockIsRead { .. } => "in a wave machine the clock is no stimulus: read another input".to_owned(),
+            Self::UnevenStep { .. } => "make `step` a multiple of `beat`".to_owned(),
             Self::ShortStep { .. } => "leave out `step` for the shortest one".to_owned(),
         })
     }
