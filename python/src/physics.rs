@@ -265,6 +265,11 @@ impl Experiment {
             record_moment(&*flock, &mut recorded, u32::is_multiple_of(env_step, stride));
             let is_stopped = |i| flock.fault(i).is_some_and(|fault| fault.kind == FaultKind::Stopped);
             if (0..flock.len()).any(is_stopped) {
+                // Robots that had done this env step before the interrupt have no fault yet.
+                let next = Fault { env_step: env_step + 1, ..STOPPED };
+                for Recorded { trajectory, .. } in recorded.iter_mut().filter(|_| env_step < self.schedule.steps()) {
+                    trajectory.fault.get_or_insert(next);
+                }
                 break;
             }
         }

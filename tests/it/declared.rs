@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nbc::Session;
 use nbc_base::model::{
-    Axis, Body, Count, Evolution, MutationWeights, Niche, Palette, Pattern, Rules, SampledWorlds, Schedule,
+    Axis, Body, Count, Evolution, Genome, MutationWeights, Niche, Palette, Pattern, Rules, SampledWorlds, Schedule,
     SearchObjective, Setting, Spell, Symmetry, Trial, Variation,
 };
 use nbc_base::source::MemoryWorld;
@@ -94,7 +94,10 @@ fn changes() -> Vec<Change> {
         ("newcomers: 3", |run| run.newcomers = 3),
         ("seed: 8", |run| run.seeds = vec![8]),
         ("as: code", |run| run.rules = Rules::Code),
+        ("genome: voxels", |run| run.genome = Genome::Voxels { crossover: 0.0 }),
+        ("genome: voxels, crossover: 70%", |run| run.genome = Genome::Voxels { crossover: 0.7 }),
         ("objective: gate", |run| run.objective = SearchObjective::Gate),
+        ("objective: wave", |run| run.objective = SearchObjective::Wave),
         ("objective: gate, vary: { all: 20%, drag: 0.5, start: 2 }, worlds: 1", |run| {
             let all: Variation = "all=20%,drag=50%,start=2".parse().unwrap();
             run.objective = SearchObjective::Gate;

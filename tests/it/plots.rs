@@ -1,7 +1,7 @@
 //! Plots of evolution: heat maps, progress, champions, comparisons.
 
 use nbc::Session;
-use nbc_base::model::{Axis, Behavior, Body, Count, Genotype, Trajectory};
+use nbc_base::model::{Axis, Behavior, Body, Count, Trajectory};
 use nbc_base::source::MemoryWorld;
 use nbc_session::report::{self, ArchiveMap, Champions, Course};
 use nbc_swarm::evolve::{Archive, Champion, Elite, NicheKey};
@@ -25,7 +25,7 @@ fn elite(rows: &[&str], behavior: &str, fitness: f64) -> Elite {
         behavior: behavior.parse().unwrap(),
         displacement: [1.0; 4],
         body: Body::parse(rows, &nbc_base::model::Palette::paper()).unwrap(),
-        genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+        genotype: None,
         generation: 0,
         evaluations: 0,
     }

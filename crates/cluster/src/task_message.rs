@@ -50,7 +50,7 @@ enum WorkRecord {
 
 #[derive(Serialize, Deserialize)]
 struct EvaluationRecord {
-    gate: bool,
+    objective: SearchObjective,
     /// Stimuli as bits, and env steps.
     variable: Vec<(u32, u32)>,
     fixed_steps: u32,
@@ -160,7 +160,7 @@ impl EvaluationRecord {
             (bits, spell.steps)
         };
         Self {
-            gate: protocol.objective == SearchObjective::Gate,
+            objective: protocol.objective,
             variable: protocol.variable.spells.iter().map(spell).collect(),
             fixed_steps: protocol.fixed_steps,
             world: protocol.world,
@@ -189,9 +189,8 @@ impl EvaluationRecord {
             Spell { pattern: Pattern::new(&present), steps }
         };
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
-        let objective = if self.gate { SearchObjective::Gate } else { SearchObjective::Distance };
         let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
-        let Self { fixed_steps, world, others, .. } = self;
+        let Self { objective, fixed_steps, world, others, .. } = self;
         let protocol = EvaluationProtocol { objective, variable, fixed_steps, world, others };
         let task = EvaluationTask { body, rivals: Rivals::new(niche, self.rivals) };
         Some(Task::Evaluation(Arc::new(protocol), task))

@@ -8,7 +8,7 @@ use crate::jobs::{Job, JobEnd};
 use crate::message::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry, PlayEvent, RequestResult};
 use crate::refusal::Refused;
 use crate::request::EvolveRequest;
-use nbc_base::model::{Axis, Behavior, Body, Evolution, Fault, Genotype};
+use nbc_base::model::{Axis, Behavior, Body, Evolution, Fault};
 use nbc_base::source::MemoryWorld;
 use nbc_session::report::axis_word;
 use nbc_session::{Observer, Session};
@@ -100,7 +100,7 @@ impl Tending {
                 behavior: scores.behavior,
                 displacement: scores.displacement,
                 body,
-                genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+                genotype: None,
                 generation,
                 evaluations: self.evaluations,
             });

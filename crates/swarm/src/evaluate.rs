@@ -33,7 +33,7 @@ pub fn evaluate_tasks(
 ) -> Vec<Evaluated> {
     match protocol.objective {
         SearchObjective::Distance => distance(simulator, protocol, tasks),
-        SearchObjective::Gate => gate::evaluate(simulator, protocol, tasks),
+        SearchObjective::Gate | SearchObjective::Wave => gate::evaluate(simulator, protocol, tasks),
     }
 }
 
@@ -41,7 +41,7 @@ pub fn evaluate_tasks(
 pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
     match protocol.objective {
         SearchObjective::Distance => protocol.distance_steps(),
-        SearchObjective::Gate => gate::steps(protocol),
+        SearchObjective::Gate | SearchObjective::Wave => gate::steps(protocol),
     }
 }
 

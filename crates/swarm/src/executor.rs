@@ -75,7 +75,7 @@ mod tests {
     fn tasks_of_all_kinds_together_have_the_results_of_each_alone() {
         let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
         let screening = Task::Screening { body, behavior: "RRRL".parse().unwrap(), most: 1 };
-        let [mut tasks, gates] = [SearchObjective::Distance, SearchObjective::Gate].map(evaluations);
+        let [mut tasks, gates] = [SearchObjective::Distance, SearchObjective::Wave].map(evaluations);
         tasks.insert(1, screening);
         gates.into_iter().for_each(|task| tasks.insert(2, task));
         let (simulator, done) = (Simulator::default(), Cell::new(0));

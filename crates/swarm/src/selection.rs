@@ -160,7 +160,7 @@ fn robot(candidate: &RobotCandidate, measurement: Measurement) -> Robot {
         displacement,
         character,
         provenance: candidate.provenance.clone(),
-        genotype: Some(candidate.elite.genotype.clone()),
+        genotype: candidate.elite.genotype.clone(),
     }
 }
 
@@ -181,7 +181,7 @@ mod tests {
             behavior: "RRRR".parse().unwrap(),
             displacement: [0.0; 4],
             body: Body::parse(rows, &Palette::paper()).unwrap(),
-            genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+            genotype: None,
             generation: 1,
             evaluations: 1,
         };

@@ -18,7 +18,10 @@ pub struct Evolution {
     pub height: usize,
     /// The materials a body may use.
     pub palette: Arc<Palette>,
-    /// The weights of the mutation operators.
+    /// What bodies are made from.
+    #[serde(default, skip_serializing_if = "Genome::is_cppn")]
+    pub genome: Genome,
+    /// The weights of the mutation operators of networks.
     pub mutation: MutationWeights,
     /// The stimuli of the long simulation, in which they change (paper, Methods).
     pub variable: Schedule,
@@ -65,6 +68,27 @@ impl SampledWorlds {
     pub const MOST: u32 = 1000;
     /// The number of worlds if it is not declared.
     pub const USUAL: u32 = 4;
+}
+
+/// What bodies are made from, and what mutations change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Genome {
+    /// A network that gives each place its material, as in the paper.
+    #[default]
+    Cppn,
+    /// The voxels themselves.
+    Voxels {
+        /// The share of offspring that take a part of a second parent, from 0 to 1.
+        crossover: f64,
+    },
+}
+
+impl Genome {
+    /// Whether it is the paper's.
+    pub fn is_cppn(&self) -> bool {
+        *self == Self::Cppn
+    }
 }
 
 /// The reading of the paper where its text and its code differ (docs/physics.md 11).
@@ -147,6 +171,8 @@ pub enum SearchObjective {
     Distance,
     /// Correct output in every cycle of random sequences, with the shortest clock.
     Gate,
+    /// Correct output in the cycle of the stimuli themselves, while they may change in every cycle.
+    Wave,
 }
 
 /// The niches that one evaluation may enter.

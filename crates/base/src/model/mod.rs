@@ -28,7 +28,9 @@ pub use circuit::{
     Parameter, Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
 };
 pub use column::{Column, bit_parts};
-pub use evolution::{Axis, Count, Evolution, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, Symmetry};
+pub use evolution::{
+    Axis, Count, Evolution, Genome, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, Symmetry,
+};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialKind, Response};

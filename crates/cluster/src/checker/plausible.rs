@@ -40,7 +40,7 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
     let CandidateOutcome::Measured(scores) = &evaluated.outcome else { return is_complete };
     let could_enter = match protocol.objective {
         SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
-        SearchObjective::Gate => task.rivals.admit(scores.behavior, &scores.fitness),
+        SearchObjective::Gate | SearchObjective::Wave => task.rivals.admit(scores.behavior, &scores.fitness),
     };
     is_complete && could_enter && is_sound(scores) && evaluated.work.left_out == 0
 }
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn results_of_both_objectives_are_plausible_and_changed_ones_are_not() {
-        for objective in [SearchObjective::Distance, SearchObjective::Gate] {
+        for objective in [SearchObjective::Distance, SearchObjective::Gate, SearchObjective::Wave] {
             let evolution = Evolution { objective, ..evolution() };
             let search = Search::new(&evolution, 1);
             let tasks: Vec<EvaluationTask> =

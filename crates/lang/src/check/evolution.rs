@@ -13,7 +13,7 @@ use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, Value
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::LEAST_ACTUATORS;
 use nbc_base::model::{
-    Axis, Count, Evolution, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette, Pattern,
+    Axis, Count, Evolution, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette, Pattern,
     PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, Symmetry, Variation,
 };
 use nbc_base::source::Span;
@@ -85,7 +85,7 @@ pub(crate) fn evolution(
     };
     let (width, height) = fields.read("box", (base.width, base.height), area);
     let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
-    fields.read("genome", (), |value| fields::choice(value, &[("cppn", ())]));
+    let genome = genome(&mut fields, base.genome);
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
     let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
     let objective = fields.read("objective", base.objective, objective);
@@ -94,6 +94,7 @@ pub(crate) fn evolution(
         width,
         height,
         palette: palette.unwrap_or(base.palette),
+        genome,
         mutation: fields.read("mutation", base.mutation, mutation),
         variable,
         fixed_steps: fields.read("fixed", base.fixed_steps, steps),
@@ -140,6 +141,7 @@ fn paper() -> Evolution {
         width: 5,
         height: 5,
         palette: Arc::new(Palette::new(Vec::new())),
+        genome: Genome::default(),
         mutation: MutationWeights::default(),
         variable: Schedule::default(),
         fixed_steps: 10 * nbc_base::model::CYCLE_STEPS,
@@ -161,7 +163,7 @@ fn paper() -> Evolution {
 fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: SearchObjective) -> Option<SampledWorlds> {
     let usual = base.map_or(Variation::default(), |base| base.vary);
     let vary = fields.read("vary", usual, |value| match world::variation(value)? {
-        vary if vary == Variation::default() || objective == SearchObjective::Gate => Ok(vary),
+        vary if vary == Variation::default() || objective != SearchObjective::Distance => Ok(vary),
         _ => Err(EvolutionError::WorldsWithoutGate.at(value.span)),
     });
     let usual = base.map_or(SampledWorlds::USUAL, |base| base.worlds);
@@ -169,8 +171,24 @@ fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: Searc
         _ if vary == Variation::default() => Err(EvolutionError::WorldsWithoutChange.at(value.span)),
         worlds => Ok(worlds),
     });
-    let is_used = vary != Variation::default() && objective == SearchObjective::Gate;
+    let is_used = vary != Variation::default() && objective != SearchObjective::Distance;
     is_used.then_some(SampledWorlds { worlds, vary })
+}
+
+/// What bodies are made from; only voxels can be crossed.
+fn genome(fields: &mut Fields<'_>, base: Genome) -> Genome {
+    let usual = match base {
+        Genome::Cppn => 0.0,
+        Genome::Voxels { crossover } => crossover,
+    };
+    let voxels = Genome::Voxels { crossover: usual };
+    let genome =
+        fields.read("genome", base, |value| fields::choice(value, &[("cppn", Genome::Cppn), ("voxels", voxels)]));
+    let crossover = fields.read("crossover", usual, |value| match genome {
+        Genome::Cppn => Err(EvolutionError::CrossoverOfNetworks.at(value.span)),
+        Genome::Voxels { .. } => world::share(value),
+    });
+    if genome.is_cppn() { genome } else { Genome::Voxels { crossover } }
 }
 
 fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {
@@ -298,7 +316,10 @@ fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u
 }
 
 fn objective(value: &ValueSyntax) -> Result<SearchObjective, Diagnostic> {
-    fields::choice(value, &[("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate)])
+    fields::choice(
+        value,
+        &[("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate), ("wave", SearchObjective::Wave)],
+    )
 }
 
 fn niche(value: &ValueSyntax) -> Result<Niche, Diagnostic> {

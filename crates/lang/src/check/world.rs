@@ -98,7 +98,7 @@ fn factor(value: &ValueSyntax) -> Result<f64, Diagnostic> {
 }
 
 /// A part of a whole, or a probability.
-fn share(value: &ValueSyntax) -> Result<f64, Diagnostic> {
+pub(crate) fn share(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     ratio(value, 0.0..=1.0)
 }
 

@@ -48,11 +48,12 @@ const MATERIAL: [(&str, Holds); 8] = [
     ("present", Holds::Words(&[])),
 ];
 
-const EVOLUTION: [(&str, Holds); 19] = [
+const EVOLUTION: [(&str, Holds); 20] = [
     ("from", Holds::Name(NameKind::Evolution, &[])),
     ("box", Holds::Words(&[])),
     ("materials", Holds::Name(NameKind::Material, &[])),
-    ("genome", Holds::Words(&["cppn"])),
+    ("genome", Holds::Words(&["cppn", "voxels"])),
+    ("crossover", Holds::Words(&[])),
     ("variable", Holds::Name(NameKind::Schedule, &[])),
     ("fixed", Holds::Words(&[])),
     ("descriptors", Holds::Words(&["active in", "behavior", "sensory in", "voxels in"])),
@@ -62,7 +63,7 @@ const EVOLUTION: [(&str, Holds); 19] = [
     ("seed", Holds::Words(&[])),
     ("mutation", Holds::Words(&[])),
     ("as", Holds::Words(&["code", "paper"])),
-    ("objective", Holds::Words(&["distance", "gate"])),
+    ("objective", Holds::Words(&["distance", "gate", "wave"])),
     ("symmetry", Holds::Words(&["none", "npn"])),
     ("niche", Holds::Words(&["dominance", "pareto"])),
     ("world", Holds::Name(NameKind::World, &[])),

@@ -55,6 +55,7 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
     let [first, second] = match search.evolution().objective {
         SearchObjective::Distance => ["variable", "fixed"],
         SearchObjective::Gate => ["settled", "unchanged"],
+        SearchObjective::Wave => ["steps", "worst"],
     };
     let mut text = format!("{:<10}{:<12}{:>8}{first:>11}{second:>11}\n", "behavior", "function", "niches");
     for best in &stats.champions {

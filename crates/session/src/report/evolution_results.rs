@@ -124,7 +124,7 @@ impl EvolutionResults {
     pub fn unit(&self) -> &'static str {
         match self.objective {
             SearchObjective::Distance => "distance (voxels)",
-            SearchObjective::Gate => "correct output (share)",
+            SearchObjective::Gate | SearchObjective::Wave => "correct output (share)",
         }
     }
 }

@@ -152,7 +152,7 @@ fn read_record(text: &[u8]) -> Result<Checkpoint, StateError> {
 mod tests {
     use super::*;
     use nbc_base::model::{
-        Axis, Behavior, Count, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule, SearchObjective,
+        Axis, Behavior, Count, Genome, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule, SearchObjective,
         Symmetry,
     };
     use nbc_swarm::evolve::{CandidateOutcome, Scores};
@@ -163,6 +163,7 @@ mod tests {
             width: 4,
             height: 3,
             palette: Palette::paper(),
+            genome: Genome::Cppn,
             mutation: MutationWeights::default(),
             variable: Schedule::default(),
             fixed_steps: 84,
@@ -181,7 +182,11 @@ mod tests {
     }
 
     fn search() -> Search {
-        let mut search = Search::new(&evolution(), 1);
+        search_of(&evolution())
+    }
+
+    fn search_of(evolution: &Evolution) -> Search {
+        let mut search = Search::new(evolution, 1);
         for generation in 0..5 {
             let candidates = search.ask();
             let scores = |i: usize| Scores {
@@ -202,6 +207,10 @@ mod tests {
         let read = Checkpoint::read("a", &bytes).unwrap();
         assert_eq!((read.env_steps, read.left_out), (7, 8));
         assert_eq!(read.resume("a", &evolution(), 1), Ok(search()));
+        let voxels = Evolution { genome: Genome::Voxels { crossover: 0.1 + 0.2 }, ..evolution() };
+        let read = Checkpoint::read("a", &Checkpoint::print(&search_of(&voxels), 7, 8)).unwrap();
+        assert!(!read.state.mirrors.is_empty());
+        assert_eq!(read.resume("a", &voxels, 1), Ok(search_of(&voxels)));
     }
 
     #[test]
@@ -226,7 +235,7 @@ mod tests {
         let wider = Evolution { width: 5, ..evolution() };
         assert_eq!(rejected(&wider, 1), "`a` was made by a different declaration of `small`");
         let mut forged = Checkpoint::read("a", &Checkpoint::print(&search(), 0, 0)).unwrap();
-        forged.state.niches[0].1[0].genotype.links.clear();
+        forged.state.niches[0].1[0].genotype.as_mut().unwrap().links.clear();
         let message = forged.resume("a", &evolution(), 1).unwrap_err().message;
         assert_eq!(message, "`a` does not belong to evolution `small`");
         let text = String::from_utf8(Checkpoint::print(&search(), 0, 0)).unwrap();

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::store::declared::Declared;
 use crate::store::wording::StateError;
 use nbc_base::model::{Axis, Behavior, Body, Genotype, Palette};
-use nbc_swarm::evolve::{Counts, Elite, NicheKey, SearchState};
+use nbc_swarm::evolve::{Counts, Elite, MirrorSource, NicheKey, SearchState};
 
 /// The most bins of an axis that can be declared.
 const MAX_BINS: usize = 1000;
@@ -20,6 +20,9 @@ pub(super) struct SearchRecord {
     generation: u32,
     counts: Counts,
     mirrors: Vec<Genotype>,
+    /// The mirror images of bodies that no network develops into.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    mirror_bodies: Vec<Vec<String>>,
     niches: Vec<(NicheKey, Vec<EliteRecord>)>,
 }
 
@@ -31,7 +34,8 @@ struct EliteRecord {
     behavior: Behavior,
     displacement: [f64; 4],
     body: Vec<String>,
-    genotype: Genotype,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    genotype: Option<Genotype>,
     generation: u32,
     evaluations: u64,
 }
@@ -41,7 +45,14 @@ impl SearchRecord {
         let SearchState { seed, generation, counts, mirrors, niches } = state;
         let record = |elites: Vec<Elite>| elites.into_iter().map(EliteRecord::of).collect();
         let niches = niches.into_iter().map(|(key, elites)| (key, record(elites))).collect();
-        Self { seed, generation, counts, mirrors, niches }
+        let (mut networks, mut bodies) = (Vec::new(), Vec::new());
+        for mirror in mirrors {
+            match mirror {
+                MirrorSource::Network(genotype) => networks.push(genotype),
+                MirrorSource::Voxels(body) => bodies.push(body.rows()),
+            }
+        }
+        Self { seed, generation, counts, mirrors: networks, mirror_bodies: bodies, niches }
     }
 
     /// The state of a search by that declaration.
@@ -49,7 +60,7 @@ impl SearchRecord {
     /// # Errors
     /// The niche or body that cannot belong to it.
     pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, StateError> {
-        let Self { seed, generation, counts, mirrors, niches } = self;
+        let Self { seed, generation, counts, mirrors, mirror_bodies, niches } = self;
         let bins = declared
             .axes
             .iter()
@@ -65,6 +76,11 @@ impl SearchRecord {
             Ok((key, elites.collect::<Result<Vec<_>, _>>()?))
         };
         let niches = niches.into_iter().map(niche).collect::<Result<_, StateError>>()?;
+        let body = |rows: Vec<String>| {
+            Body::parse(&rows, &declared.palette).map(MirrorSource::Voxels).map_err(StateError::Body)
+        };
+        let networks = mirrors.into_iter().map(|genotype| Ok(MirrorSource::Network(genotype)));
+        let mirrors = networks.chain(mirror_bodies.into_iter().map(body)).collect::<Result<_, StateError>>()?;
         Ok(SearchState { seed, generation, counts, mirrors, niches })
     }
 }

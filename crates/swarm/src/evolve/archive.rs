@@ -19,8 +19,8 @@ pub struct Elite {
     pub displacement: [f64; 4],
     /// Its voxels.
     pub body: Body,
-    /// The network it was developed from.
-    pub genotype: Genotype,
+    /// The network it developed from, if it did from one.
+    pub genotype: Option<Genotype>,
     /// The generation in which it was born.
     pub generation: u32,
     /// Evaluations made in the run up to and with its own.
@@ -184,7 +184,7 @@ mod tests {
             behavior: nbc_base::model::Function::new(behavior).into(),
             displacement: [0.0; 4],
             body: Body::new(5, 5, codes, nbc_base::model::Palette::paper()),
-            genotype: Genotype { nodes: Vec::new(), links: Vec::new() },
+            genotype: None,
             generation: 0,
             evaluations: 0,
         }

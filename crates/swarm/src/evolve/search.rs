@@ -1,15 +1,16 @@
 //! The search: it is asked for candidates and told their results, generation by generation (paper, Methods;
 //! docs/physics.md 11).
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::mutate::pick;
+use crate::evolve::neighbors::{crossed, random_body};
 use crate::evolve::{
     AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Rivals, Scores, cppn, develop,
-    mirrored, mutate, phenotype, recodings, validate,
+    mirrored, mutate, neighbor, phenotype, recodings, validate,
 };
-use nbc_base::model::{Behavior, Body, Evolution, Genotype, NodeKind, Rules, Symmetry};
+use nbc_base::model::{Behavior, Body, Evolution, Genome, Genotype, NodeKind, Rules, Symmetry};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
@@ -32,12 +33,21 @@ pub struct Candidate {
     pub index: u32,
     /// How the candidate was made.
     pub origin: CandidateOrigin,
-    /// Its network.
-    pub genotype: Genotype,
+    /// Its network, if it developed from one.
+    pub genotype: Option<Genotype>,
     /// Its voxels.
     pub body: Body,
-    /// Networks drawn before it whose bodies could not be tried.
+    /// Networks or bodies drawn before it that could not be tried.
     pub undeveloped: u32,
+}
+
+/// A body whose mirror image is to be tried next.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MirrorSource {
+    /// The network that develops into the mirror image.
+    Network(Genotype),
+    /// The mirror image itself.
+    Voxels(Body),
 }
 
 /// A MAP-Elites search in progress. Everything it will do follows from the declaration, the seed and its state.
@@ -49,7 +59,7 @@ pub struct Search {
     seed: u64,
     generation: u32,
     counts: Counts,
-    mirrors: Vec<Genotype>,
+    mirrors: Vec<MirrorSource>,
 }
 
 /// The state needed to continue a search later.
@@ -61,8 +71,8 @@ pub struct SearchState {
     pub generation: u32,
     /// Counts of the results.
     pub counts: Counts,
-    /// Networks whose bodies are mirror images to be tried next.
-    pub mirrors: Vec<Genotype>,
+    /// The mirror images to be tried next.
+    pub mirrors: Vec<MirrorSource>,
     /// Filled niches and their elites.
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
 }
@@ -71,7 +81,7 @@ impl SearchState {
     /// Whether a run of this declaration can reach this state: every body is what its network develops into, is valid,
     /// and is in its niche.
     pub fn fits(&self, evolution: &Evolution) -> bool {
-        let Evolution { palette, rules, width, height, .. } = evolution;
+        let Evolution { genome, palette, rules, width, height, .. } = evolution;
         let descriptor = Descriptor::new(evolution);
         let is_foreign =
             |kind| matches!(kind, NodeKind::Output(code, _) if usize::from(code) > palette.materials().len());
@@ -79,11 +89,22 @@ impl SearchState {
             true => None,
             false => develop(genotype, palette, *rules, *width, *height).ok(),
         };
-        let holds = |key: &NicheKey, elite: &Elite| {
-            develops(&elite.genotype).as_ref() == Some(&elite.body)
-                && descriptor.niche(&elite.body, elite.behavior) == *key
+        let is_voxels = |body: &Body| {
+            (body.width(), body.height(), body.palette()) == (*width, *height, palette) && validate(body).is_ok()
         };
-        self.mirrors.iter().all(|genotype| develops(genotype).is_some())
+        let is_body = |elite: &Elite| match (genome, &elite.genotype) {
+            (Genome::Cppn, Some(genotype)) => develops(genotype).as_ref() == Some(&elite.body),
+            (Genome::Voxels { .. }, None) => is_voxels(&elite.body),
+            _ => false,
+        };
+        let is_mirror = |mirror: &MirrorSource| match (genome, mirror) {
+            (Genome::Cppn, MirrorSource::Network(genotype)) => develops(genotype).is_some(),
+            (Genome::Voxels { .. }, MirrorSource::Voxels(body)) => is_voxels(body),
+            _ => false,
+        };
+        let holds =
+            |key: &NicheKey, elite: &Elite| is_body(elite) && descriptor.niche(&elite.body, elite.behavior) == *key;
+        self.mirrors.iter().all(is_mirror)
             && self.niches.iter().all(|(key, elites)| elites.iter().all(|elite| holds(key, elite)))
     }
 }
@@ -168,7 +189,7 @@ impl Search {
             candidates.extend(self.draw(index, origin, parent));
         }
         let next = candidates.len() as u32;
-        candidates.extend((next..).zip(&self.mirrors).map(|(index, genotype)| self.mirror(index, genotype)));
+        candidates.extend((next..).zip(&self.mirrors).map(|(index, source)| self.mirror(index, source)));
         candidates
     }
 
@@ -218,7 +239,10 @@ impl Search {
         };
         let taken = self.offer(elite);
         if taken && self.evolution.symmetry == Symmetry::Npn && candidate.origin != CandidateOrigin::Mirror {
-            self.mirrors.push(mirrored(&candidate.genotype));
+            self.mirrors.push(match &candidate.genotype {
+                Some(genotype) => MirrorSource::Network(mirrored(genotype)),
+                None => MirrorSource::Voxels(candidate.body.mirrored()),
+            });
         }
     }
 
@@ -252,18 +276,58 @@ impl Search {
         parents
     }
 
-    /// Mutates until the body is valid; `None` if this seems impossible.
+    /// A new body; `None` if this seems impossible.
     fn draw(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
+        match self.evolution.genome {
+            Genome::Cppn => self.develop(index, origin, parent),
+            Genome::Voxels { crossover } => self.assemble(index, origin, parent, crossover),
+        }
+    }
+
+    /// Changes the voxels of a parent, after putting a part of another elite of its behavior in their place for that
+    /// share of the offspring; without a parent, draws random voxels.
+    fn assemble(
+        &self,
+        index: u32,
+        origin: CandidateOrigin,
+        parent: Option<&Elite>,
+        crossover: f64,
+    ) -> Option<Candidate> {
+        let Evolution { palette, width, height, .. } = &self.evolution;
+        let mut rng = self.stream(index);
+        for undeveloped in 0..MOST_ATTEMPTS {
+            let body = match parent {
+                None => random_body(*width, *height, palette, &mut rng),
+                Some(elite) if rng.random::<f64>() < crossover => {
+                    let mates: Vec<&Elite> =
+                        self.archive.elites().filter(|mate| mate.behavior == elite.behavior).collect();
+                    let mate = pick(mates.len(), &mut rng).map_or(elite, |at| mates[at]);
+                    neighbor(&crossed(&elite.body, &mate.body, &mut rng), &mut rng)
+                }
+                Some(elite) => neighbor(&elite.body, &mut rng),
+            };
+            if validate(&body).is_ok() && parent.is_none_or(|elite| elite.body != body) {
+                return Some(Candidate { index, origin, genotype: None, body, undeveloped });
+            }
+        }
+        None
+    }
+
+    /// Mutates a network until its body is valid; `None` if this seems impossible.
+    fn develop(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
         let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
         let mut rng = self.stream(index);
-        let start =
-            parent.map_or_else(|| cppn::start(palette.materials().len(), *rules), |elite| elite.genotype.clone());
+        let start = parent
+            .and_then(|elite| elite.genotype.clone())
+            .unwrap_or_else(|| cppn::start(palette.materials().len(), *rules));
         let mut genotype = start.clone();
         for undeveloped in 0..MOST_ATTEMPTS {
             mutate(&mut genotype, mutation, *rules, &mut rng);
             let body = phenotype(&genotype, palette, *rules, *width, *height);
             match judge(*rules, parent.map(|elite| &elite.body), &body) {
-                Attempt::Done => return Some(Candidate { index, origin, genotype, body, undeveloped }),
+                Attempt::Done => {
+                    return Some(Candidate { index, origin, genotype: Some(genotype), body, undeveloped });
+                }
                 Attempt::GoOn => {}
                 Attempt::Undo => genotype.clone_from(&start),
             }
@@ -271,10 +335,15 @@ impl Search {
         None
     }
 
-    fn mirror(&self, index: u32, genotype: &Genotype) -> Candidate {
+    fn mirror(&self, index: u32, source: &MirrorSource) -> Candidate {
         let Evolution { palette, rules, width, height, .. } = &self.evolution;
-        let body = phenotype(genotype, palette, *rules, *width, *height);
-        Candidate { index, origin: CandidateOrigin::Mirror, genotype: genotype.clone(), body, undeveloped: 0 }
+        let (genotype, body) = match source {
+            MirrorSource::Network(genotype) => {
+                (Some(genotype.clone()), phenotype(genotype, palette, *rules, *width, *height))
+            }
+            MirrorSource::Voxels(body) => (None, body.clone()),
+        };
+        Candidate { index, origin: CandidateOrigin::Mirror, genotype, body, undeveloped: 0 }
     }
 
     /// The random stream of a place in the coming generation.
@@ -321,7 +390,7 @@ fn image(recoding: &Recoding, elite: &Elite) -> Elite {
         behavior: recoding.behavior(elite.behavior),
         displacement: recoding.displacement(&elite.displacement),
         body: recoding.body(&elite.body),
-        genotype: recoding.genotype(&elite.genotype),
+        genotype: elite.genotype.as_ref().map(|genotype| recoding.genotype(genotype)),
         ..elite.clone()
     }
 }
@@ -344,6 +413,7 @@ pub(crate) mod tests {
             width: 5,
             height: 5,
             palette: Palette::paper(),
+            genome: Genome::Cppn,
             mutation: MutationWeights::default(),
             variable: Schedule { spells },
             fixed_steps: 840,
@@ -395,6 +465,29 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn offspring_of_voxels_differ_in_few_voxels_or_have_a_second_parent() {
+        let run = |crossover| {
+            let evolution = Evolution { genome: Genome::Voxels { crossover }, ..evolution() };
+            let mut search = Search::new(&evolution, 1);
+            let mut most = 0;
+            for _ in 0..20 {
+                for candidate in search.ask() {
+                    assert_eq!((validate(&candidate.body), &candidate.genotype), (Ok(()), &None));
+                    let CandidateOrigin::Offspring(key) = &candidate.origin else { continue };
+                    let (_, elites) = search.archive().niches().find(|(niche, _)| *niche == key).unwrap();
+                    let pairs = elites[0].body.codes().iter().zip(candidate.body.codes());
+                    most = most.max(pairs.filter(|(a, b)| a != b).count());
+                }
+                advance(&mut search);
+            }
+            assert!(search.archive().stats().filled > 16 && search.state().fits(search.evolution()));
+            most
+        };
+        assert_eq!(run(0.0), 3);
+        assert!(run(0.5) > 8);
+    }
+
+    #[test]
     fn equal_seeds_give_equal_searches_and_different_seeds_different_ones() {
         let run = |seed| {
             let mut search = Search::new(&evolution(), seed);
@@ -421,8 +514,11 @@ pub(crate) mod tests {
 
     #[test]
     fn a_resumed_search_continues_exactly() {
-        for symmetry in [Symmetry::None, Symmetry::Npn] {
-            let evolution = Evolution { symmetry, rules: Rules::Code, ..evolution() };
+        let voxels = Genome::Voxels { crossover: 0.5 };
+        for (symmetry, genome) in
+            [(Symmetry::None, Genome::Cppn), (Symmetry::Npn, Genome::Cppn), (Symmetry::Npn, voxels)]
+        {
+            let evolution = Evolution { symmetry, genome, rules: Rules::Code, ..evolution() };
             let mut straight = Search::new(&evolution, 7);
             (0..12).for_each(|_| advance(&mut straight));
             let mut resumed = Search::resume(&evolution, straight.state());
@@ -447,10 +543,28 @@ pub(crate) mod tests {
         };
         check(|state| state.niches[0].0.0[0] += 1);
         check(|state| state.niches[0].1[0].body = Body::new(5, 5, vec![3; 25], Palette::paper()));
-        check(|state| state.niches[0].1[0].genotype.links.clear());
-        check(|state| state.mirrors[0].nodes.clear());
+        check(|state| state.niches[0].1[0].genotype.as_mut().unwrap().links.clear());
+        check(|state| state.niches[0].1[0].genotype = None);
+        check(|state| state.mirrors[0] = MirrorSource::Voxels(state.niches[0].1[0].body.clone()));
         let poorer = Arc::new(Palette::new(Palette::paper().materials()[..4].to_vec()));
         assert!(!state.fits(&Evolution { palette: poorer, ..evolution.clone() }));
+    }
+
+    #[test]
+    fn a_state_of_the_other_genome_is_rejected() {
+        let voxels = Evolution { genome: Genome::Voxels { crossover: 0.0 }, symmetry: Symmetry::Npn, ..evolution() };
+        let mut search = Search::new(&voxels, 3);
+        (0..4).for_each(|_| advance(&mut search));
+        let state = search.state();
+        assert!(state.fits(&voxels) && !state.mirrors.is_empty());
+        assert!(!state.fits(&Evolution { genome: Genome::Cppn, ..voxels.clone() }));
+        let apart = Body::parse(&["33303", "00000", "00000", "00000", "00000"], &Palette::paper()).unwrap();
+        let small = Body::parse(&["333"], &Palette::paper()).unwrap();
+        for body in [apart, small] {
+            let mut changed = state.clone();
+            changed.mirrors[0] = MirrorSource::Voxels(body);
+            assert!(!changed.fits(&voxels));
+        }
     }
 
     #[test]
@@ -458,7 +572,7 @@ pub(crate) mod tests {
         let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 3);
         (0..6).for_each(|_| advance(&mut search));
         for elite in search.archive().elites() {
-            assert_eq!(phenotype(&elite.genotype, &Palette::paper(), Rules::Paper, 5, 5), elite.body);
+            assert_eq!(phenotype(elite.genotype.as_ref().unwrap(), &Palette::paper(), Rules::Paper, 5, 5), elite.body);
             for recoding in recodings(&Palette::paper()) {
                 let (body, behavior) = (recoding.body(&elite.body), recoding.behavior(elite.behavior));
                 let held = !search.rivals(&body).admit(behavior, &elite.fitness);

@@ -22,6 +22,8 @@ pub(crate) enum EvolutionError {
     SeedRange { most: u32 },
     /// Too many stimuli.
     TooManyStimuli { most: usize },
+    /// A share of crossed offspring where bodies develop from networks.
+    CrossoverOfNetworks,
     /// Other worlds for an objective that has none.
     WorldsWithoutGate,
     /// A number of worlds that do not vary.
@@ -73,10 +75,15 @@ impl EvolutionError {
             Self::TooManyStimuli { most } => {
                 Diagnostic::new(Code::OutOfRange, "too many stimuli", span, format!("expected at most {most} stimuli"))
             }
+            Self::CrossoverOfNetworks => {
+                let message = "only bodies made of voxels can be crossed";
+                Diagnostic::new(Code::Value, message, span, "this evolution's genome is `cppn`")
+                    .with_help("write `genome: voxels`, or remove `crossover`")
+            }
             Self::WorldsWithoutGate => {
-                let message = "only the gate objective tries bodies in several worlds";
+                let message = "only the objectives of gates try bodies in several worlds";
                 Diagnostic::new(Code::Value, message, span, "this evolution's objective is `distance`")
-                    .with_help("write `objective: gate`, or name one world with `world`")
+                    .with_help("write `objective: gate` or `objective: wave`, or name one world with `world`")
             }
             Self::WorldsWithoutChange => {
                 let label = "expected `vary` too, for example `vary: { all: 10% }`";
