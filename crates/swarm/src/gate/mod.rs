@@ -25,8 +25,8 @@ pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
     cycles as u64 * u64::from(CYCLE_STEPS) * (1 + protocol.others.len() as u64)
 }
 
-/// The result of each task: the simulations from the four patterns, then the random ones, then both in each of the other
-/// worlds. After each cycle, bodies that can no longer enter a niche are dropped; their scores can only decrease.
+/// The result of each task: the simulations from the four patterns, then the random ones, then both in each of the
+/// other worlds. After each cycle, bodies that can no longer enter a niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     protocol: &EvaluationProtocol,
