@@ -103,6 +103,10 @@ fn changes() -> Vec<Change> {
             run.objective = SearchObjective::Gate;
             run.sample = Some(SampledWorlds { worlds: 1, vary: all });
         }),
+        ("objective: wave, behaviors: [xnor, LRRL]", |run| {
+            run.objective = SearchObjective::Wave;
+            run.behaviors = ["LRRL", "RLLR"].map(|behavior| behavior.parse().unwrap()).to_vec();
+        }),
         ("symmetry: npn", |run| run.symmetry = Symmetry::Npn),
         ("niche: pareto(4)", |run| run.niche = Niche::Pareto(4)),
     ]

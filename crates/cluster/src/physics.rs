@@ -30,9 +30,15 @@ impl PhysicsId {
         }
         let tasks: Vec<EvaluationTask> =
             bodies.into_iter().map(|body| EvaluationTask { body, rivals: Rivals::none() }).collect();
-        let (objective, world) = (SearchObjective::Distance, PhysicsWorld::default());
-        let protocol =
-            EvaluationProtocol { objective, variable: schedule, fixed_steps: STEPS, world, others: Vec::new() };
+        let (objective, behaviors, world) = (SearchObjective::Distance, Vec::new(), PhysicsWorld::default());
+        let protocol = EvaluationProtocol {
+            objective,
+            behaviors,
+            variable: schedule,
+            fixed_steps: STEPS,
+            world,
+            others: Vec::new(),
+        };
         hash.add(format!("{:?}", evaluate_tasks(simulator, &protocol, &tasks)).as_bytes());
         Self(hash.0)
     }

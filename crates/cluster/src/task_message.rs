@@ -51,6 +51,8 @@ enum WorkRecord {
 #[derive(Serialize, Deserialize)]
 struct EvaluationRecord {
     objective: SearchObjective,
+    /// The bits of the functions.
+    behaviors: Vec<u8>,
     /// Stimuli as bits, and env steps.
     variable: Vec<(u32, u32)>,
     fixed_steps: u32,
@@ -161,6 +163,7 @@ impl EvaluationRecord {
         };
         Self {
             objective: protocol.objective,
+            behaviors: protocol.behaviors.iter().map(|behavior| behavior.function().bits()).collect(),
             variable: protocol.variable.spells.iter().map(spell).collect(),
             fixed_steps: protocol.fixed_steps,
             world: protocol.world,
@@ -181,7 +184,11 @@ impl EvaluationRecord {
         let is_bounded =
             steps.max(self.fixed_steps.into()) <= MOST_STEPS && self.others.len() <= SampledWorlds::MOST as usize;
         let are_possible = self.world.is_possible() && self.others.iter().all(PhysicsWorld::is_possible);
-        if !is_bounded || !are_possible || self.rivals.len() != Behavior::all().count() {
+        if !is_bounded
+            || !are_possible
+            || self.rivals.len() != Behavior::all().count()
+            || self.behaviors.len() > Behavior::all().count()
+        {
             return None;
         }
         let spell = |(bits, steps): (u32, u32)| {
@@ -190,8 +197,10 @@ impl EvaluationRecord {
         };
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
         let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
-        let Self { objective, fixed_steps, world, others, .. } = self;
-        let protocol = EvaluationProtocol { objective, variable, fixed_steps, world, others };
+        let Self { objective, behaviors, fixed_steps, world, others, .. } = self;
+        let behavior = |bits: &u8| Behavior::all().nth(usize::from(*bits));
+        let behaviors: Vec<Behavior> = behaviors.iter().map(behavior).collect::<Option<_>>()?;
+        let protocol = EvaluationProtocol { objective, behaviors, variable, fixed_steps, world, others };
         let task = EvaluationTask { body, rivals: Rivals::new(niche, self.rivals) };
         Some(Task::Evaluation(Arc::new(protocol), task))
     }

@@ -3,13 +3,15 @@
 use crate::evolve::{CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, WorldSample};
-use nbc_base::model::{Body, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
+use nbc_base::model::{Behavior, Body, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
 
 /// The simulations of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvaluationProtocol {
     /// The objective.
     pub objective: SearchObjective,
+    /// The behaviors as which gates are scored, the nearest of them; if there are none, what the body does.
+    pub behaviors: Vec<Behavior>,
     /// The stimuli of the long simulation.
     pub variable: Schedule,
     /// The length of each simulation under one constant pattern, in env steps.
@@ -51,12 +53,20 @@ pub struct Evaluated {
 impl EvaluationProtocol {
     /// The protocol of a declared run.
     pub fn of(evolution: &Evolution) -> Self {
-        let Evolution { objective, variable, fixed_steps, world, sample, .. } = evolution;
+        let Evolution { objective, behaviors, variable, fixed_steps, world, sample, .. } = evolution;
         let others = sample.map_or(Vec::new(), |sample| {
             let worlds = WorldSample { variation: sample.vary, seed: SAMPLE_SEED };
             (0..sample.worlds).map(|number| worlds.world(world, number as usize)).collect()
         });
-        Self { objective: *objective, variable: variable.clone(), fixed_steps: *fixed_steps, world: *world, others }
+        let behaviors = behaviors.clone();
+        Self {
+            objective: *objective,
+            behaviors,
+            variable: variable.clone(),
+            fixed_steps: *fixed_steps,
+            world: *world,
+            others,
+        }
     }
 
     /// Env steps of a full evaluation of the distance objective.

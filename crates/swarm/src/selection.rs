@@ -170,7 +170,7 @@ mod tests {
 
     use super::*;
     use crate::measure;
-    use nbc_base::model::{Body, Genotype, Palette};
+    use nbc_base::model::{Body, Palette};
     use nbc_sim::Simulator;
 
     const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Palette, PhysicsWorld, Schedule, Variation};
+use super::{Behavior, Palette, PhysicsWorld, Schedule, Variation};
 
 /// A declared evolution run (paper, Methods).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,6 +41,10 @@ pub struct Evolution {
     pub rules: Rules,
     /// What makes a body better than another in its niche.
     pub objective: SearchObjective,
+    /// The behaviors that gates are searched for: a body is scored as the one that it comes nearest to. If there are
+    /// none, it is scored as what it does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub behaviors: Vec<Behavior>,
     /// The niches that one evaluation may enter.
     pub symmetry: Symmetry,
     /// The elites that a niche keeps.

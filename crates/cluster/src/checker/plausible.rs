@@ -42,13 +42,17 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
         SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
         SearchObjective::Gate | SearchObjective::Wave => task.rivals.admit(scores.behavior, &scores.fitness),
     };
-    is_complete && could_enter && is_sound(scores) && evaluated.work.left_out == 0
+    is_complete && could_enter && is_sound(protocol, scores) && evaluated.work.left_out == 0
 }
 
-/// Whether the numbers are finite and belong to the behavior.
-fn is_sound(scores: &Scores) -> bool {
+/// Whether the numbers are finite, and the behavior is one that is asked for, or else the one that they show.
+fn is_sound(protocol: &EvaluationProtocol, scores: &Scores) -> bool {
     let finite = scores.fitness.iter().chain(&scores.displacement).all(|number| number.is_finite());
-    finite && Behavior::of(&scores.displacement) == scores.behavior
+    let is_asked = match protocol.behaviors.as_slice() {
+        [] => Behavior::of(&scores.displacement) == scores.behavior,
+        asked => asked.contains(&scores.behavior),
+    };
+    finite && is_asked
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::check::derived::{self, CheckState};
 use crate::check::fields::{self, Fields};
+use crate::check::library;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
 use crate::check::wording::{EvolutionError, Expected, NameError};
@@ -13,8 +14,9 @@ use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, Value
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::LEAST_ACTUATORS;
 use nbc_base::model::{
-    Axis, Count, Evolution, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette, Pattern,
-    PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, Symmetry, Variation,
+    Axis, Behavior, Count, Evolution, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette,
+    Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, Symmetry,
+    Variation,
 };
 use nbc_base::source::Span;
 
@@ -107,6 +109,7 @@ pub(crate) fn evolution(
         rules: fields
             .read("as", base.rules, |value| fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])),
         objective,
+        behaviors: behaviors(&mut fields, base.behaviors, objective),
         symmetry: fields.read("symmetry", base.symmetry, |value| {
             fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
         }),
@@ -152,11 +155,25 @@ fn paper() -> Evolution {
         seeds: vec![1],
         rules: Rules::default(),
         objective: SearchObjective::default(),
+        behaviors: Vec::new(),
         symmetry: Symmetry::default(),
         niche: Niche::default(),
         world: PhysicsWorld::default(),
         sample: None,
     }
+}
+
+/// The behaviors that gates are searched for.
+fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObjective) -> Vec<Behavior> {
+    let is_gate = objective != SearchObjective::Distance;
+    let read = |value: &ValueSyntax| match library::behavior(value)? {
+        behavior if is_gate => Ok(behavior),
+        _ => Err(EvolutionError::BehaviorsWithoutGate.at(value.span)),
+    };
+    let mut behaviors = fields.read_list("behaviors", read).unwrap_or(base);
+    behaviors.sort_unstable_by_key(|behavior| behavior.function().bits());
+    behaviors.dedup();
+    if is_gate { behaviors } else { Vec::new() }
 }
 
 /// The other worlds of the gate objective; none if nothing varies.

@@ -60,7 +60,7 @@ fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sou
 }
 
 /// A function by its name, or a behavior by its four letters.
-fn behavior(value: &ValueSyntax) -> Result<Behavior, Diagnostic> {
+pub(crate) fn behavior(value: &ValueSyntax) -> Result<Behavior, Diagnostic> {
     let name = fields::word(value, Expected::Behavior)?;
     if let Some(function) = Function::parse(&name.text) {
         return Ok(function.into());

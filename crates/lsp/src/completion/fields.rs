@@ -48,7 +48,7 @@ const MATERIAL: [(&str, Holds); 8] = [
     ("present", Holds::Words(&[])),
 ];
 
-const EVOLUTION: [(&str, Holds); 20] = [
+const EVOLUTION: [(&str, Holds); 21] = [
     ("from", Holds::Name(NameKind::Evolution, &[])),
     ("box", Holds::Words(&[])),
     ("materials", Holds::Name(NameKind::Material, &[])),
@@ -64,6 +64,7 @@ const EVOLUTION: [(&str, Holds); 20] = [
     ("mutation", Holds::Words(&[])),
     ("as", Holds::Words(&["code", "paper"])),
     ("objective", Holds::Words(&["distance", "gate", "wave"])),
+    ("behaviors", Holds::Function),
     ("symmetry", Holds::Words(&["none", "npn"])),
     ("niche", Holds::Words(&["dominance", "pareto"])),
     ("world", Holds::Name(NameKind::World, &[])),

@@ -174,6 +174,7 @@ mod tests {
             seeds: vec![1],
             rules: Rules::Paper,
             objective: SearchObjective::Distance,
+            behaviors: Vec::new(),
             symmetry: Symmetry::Npn,
             niche: Niche::Pareto(3),
             world: PhysicsWorld::default(),

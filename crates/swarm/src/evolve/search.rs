@@ -424,6 +424,7 @@ pub(crate) mod tests {
             seeds: vec![1],
             rules: Rules::Paper,
             objective: SearchObjective::Distance,
+            behaviors: Vec::new(),
             symmetry: Symmetry::None,
             niche: Niche::Dominance,
             world: PhysicsWorld::default(),

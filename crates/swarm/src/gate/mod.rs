@@ -32,7 +32,7 @@ pub(crate) fn evaluate(
     protocol: &EvaluationProtocol,
     tasks: &[EvaluationTask],
 ) -> Vec<Evaluated> {
-    let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(protocol.objective, task)).collect();
+    let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(protocol, task)).collect();
     let stages = stages(protocol.objective);
     for world in std::iter::once(&protocol.world).chain(&protocol.others) {
         for (stage, lanes) in stages.iter().enumerate() {
@@ -77,6 +77,10 @@ fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attemp
 /// A body during its evaluation.
 struct Attempt<'a> {
     objective: SearchObjective,
+    /// The behaviors that it may be scored as; if there are none, its own.
+    asked: &'a [Behavior],
+    /// The behavior at the fresh starts, as soon as they are done.
+    own: Behavior,
     task: &'a EvaluationTask,
     /// The holds of each lane so far.
     holds: Vec<Vec<PatternHold>>,
@@ -87,9 +91,10 @@ struct Attempt<'a> {
 }
 
 impl<'a> Attempt<'a> {
-    fn new(objective: SearchObjective, task: &'a EvaluationTask) -> Self {
+    fn new(protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
         let scores = Scores { fitness: [1.0; 2], behavior: Behavior::of(&[0.0; 4]), displacement: [0.0; 4] };
-        Self { objective, task, holds: Vec::new(), scores, env_steps: 0, outcome: None }
+        let (objective, asked) = (protocol.objective, protocol.behaviors.as_slice());
+        Self { objective, asked, own: scores.behavior, task, holds: Vec::new(), scores, env_steps: 0, outcome: None }
     }
 
     /// Records one more cycle of a lane.
@@ -116,14 +121,31 @@ impl<'a> Attempt<'a> {
         }
         if self.holds[0].len() == 1 {
             self.scores.displacement = settled_displacement(&self.holds[..LANES]);
-            self.scores.behavior = Behavior::of(&self.scores.displacement);
+            self.own = Behavior::of(&self.scores.displacement);
         }
-        self.scores.fitness = fitness(self.objective, self.scores.behavior, self.holds.iter().flatten());
+        let (is_open, behavior, bound) = self.score();
+        (self.scores.behavior, self.scores.fitness) = (behavior, bound);
         if self.scores.fitness[0] < HOPELESS {
             self.outcome = Some(CandidateOutcome::Inconsistent);
-        } else if cycles >= HOLD && !self.task.rivals.admit(self.scores.behavior, &self.scores.fitness) {
+        } else if cycles >= HOLD && !is_open {
             self.outcome = Some(CandidateOutcome::Surpassed);
         }
+    }
+
+    /// Whether it can still enter a niche, and the behavior that it comes nearest to of those with which it can, or else
+    /// of all, with its fitnesses so far.
+    fn score(&self) -> (bool, Behavior, [f64; 2]) {
+        let own = [self.own];
+        let asked = if self.asked.is_empty() { own.as_slice() } else { self.asked };
+        let score = |&behavior: &_| {
+            let bound = fitness(self.objective, behavior, self.holds.iter().flatten());
+            (self.task.rivals.admit(behavior, &bound), behavior, bound)
+        };
+        let scores = asked.iter().map(score);
+        // The first of equals.
+        scores
+            .reduce(|best, next| if (next.0, next.2[0]) > (best.0, best.2[0]) { next } else { best })
+            .expect("there is at least one")
     }
 
     /// Its result; a full evaluation has `all` env steps.
@@ -178,5 +200,26 @@ mod tests {
             }
         }
         assert!(lower > 0, "{alone:?}");
+    }
+
+    #[test]
+    fn a_body_is_scored_as_the_nearest_behavior_that_is_asked_for() {
+        let evolution = Evolution { objective: SearchObjective::Wave, ..crate::evolve::tests::evolution() };
+        let task = |candidate: &Candidate| EvaluationTask { body: candidate.body.clone(), rivals: Rivals::none() };
+        let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(4).map(task).collect();
+        let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
+        let scores = |behaviors: &[Behavior]| {
+            let protocol = EvaluationProtocol { behaviors: behaviors.to_vec(), ..EvaluationProtocol::of(&evolution) };
+            let done = evaluate(&Simulator::default(), &protocol, &tasks);
+            done.into_iter().map(|one| match one.outcome {
+                CandidateOutcome::Measured(scores) => Some((scores.behavior, scores.fitness)),
+                _ => None,
+            })
+        };
+        let best = |one: (Behavior, [f64; 2]), two: (Behavior, [f64; 2])| if two.1[0] > one.1[0] { two } else { one };
+        let [xor, xnor] = asked.map(|behavior| scores(&[behavior]));
+        let nearest: Vec<_> = xor.zip(xnor).map(|(xor, xnor)| xor.into_iter().chain(xnor).reduce(best)).collect();
+        assert!(nearest.iter().flatten().count() > 1);
+        assert_eq!(scores(&asked).collect::<Vec<_>>(), nearest);
     }
 }

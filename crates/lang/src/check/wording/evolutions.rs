@@ -24,6 +24,8 @@ pub(crate) enum EvolutionError {
     TooManyStimuli { most: usize },
     /// A share of crossed offspring where bodies develop from networks.
     CrossoverOfNetworks,
+    /// Behaviors for an objective that takes all.
+    BehaviorsWithoutGate,
     /// Other worlds for an objective that has none.
     WorldsWithoutGate,
     /// A number of worlds that do not vary.
@@ -79,6 +81,11 @@ impl EvolutionError {
                 let message = "only bodies made of voxels can be crossed";
                 Diagnostic::new(Code::Value, message, span, "this evolution's genome is `cppn`")
                     .with_help("write `genome: voxels`, or remove `crossover`")
+            }
+            Self::BehaviorsWithoutGate => {
+                let message = "only the objectives of gates search for some behaviors";
+                Diagnostic::new(Code::Value, message, span, "this evolution's objective is `distance`")
+                    .with_help("write `objective: gate` or `objective: wave`, or remove `behaviors`")
             }
             Self::WorldsWithoutGate => {
                 let message = "only the objectives of gates try bodies in several worlds";
