@@ -42,7 +42,8 @@ impl Compiling {
             "area" => MappingObjective::Area,
             "delay" => MappingObjective::Delay,
             "margin" => MappingObjective::Margin,
-            word => return Err(bad_word("objective", word, &["area", "delay", "margin"])),
+            "sturdy" => MappingObjective::Sturdy,
+            word => return Err(bad_word("objective", word, &["area", "delay", "margin", "sturdy"])),
         };
         let effort = match self.effort.as_str() {
             "fast" => Effort::Fast,

@@ -131,7 +131,7 @@ fn the_delay_objective_makes_fewer_levels() {
 fn the_same_source_gives_the_same_cells() {
     let bench = Bench::new();
     bench.file("fa.blif", FULL_ADDER);
-    for objective in ["area", "delay", "margin"] {
+    for objective in ["area", "delay", "margin", "sturdy"] {
         let written = ["one.blif", "two.blif"].map(|out| {
             let ran = bench.run(&["synth", "fa.blif", "-o", out, "--objective", objective]);
             assert_eq!(ran.status, 0, "{}", ran.err);

@@ -16,6 +16,8 @@ pub struct CellKind {
     pub settle: [[u32; 4]; 4],
     /// Smallest displacement in the correct direction at the end of a hold, in voxels per cycle.
     pub margin: f64,
+    /// How far a world may differ before it makes errors; 0 if that was not measured.
+    pub radius: f64,
     /// Whether its output may change for a while when its inputs switch, although it is to stay.
     pub glitches: bool,
 }
@@ -23,7 +25,7 @@ pub struct CellKind {
 impl CellKind {
     /// A kind without glitches whose output is correct `clock` cycles after every switch.
     pub const fn uniform(clock: u32, margin: f64) -> Self {
-        Self { cost: 1, clock, settle: [[clock; 4]; 4], margin, glitches: false }
+        Self { cost: 1, clock, settle: [[clock; 4]; 4], margin, radius: 0.0, glitches: false }
     }
 
     /// Cycles from a change of `pin` (0 or 1) to `value` until the output stays at `output`; none if that cannot
@@ -77,9 +79,9 @@ impl CellLibrary {
         self.kinds.iter().map(|(&function, kind)| (function, kind))
     }
 
-    /// The cells whose margin is at least `margin`.
-    pub(crate) fn with_margin(&self, margin: f64) -> Self {
-        self.kinds().filter(|(_, kind)| kind.margin >= margin).map(|(f, kind)| (f, kind.clone())).collect()
+    /// The cells for which a quality is at least `least`.
+    pub(crate) fn with(&self, quality: fn(&CellKind) -> f64, least: f64) -> Self {
+        self.kinds().filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
     /// Whether these cells and constants can make every boolean function.

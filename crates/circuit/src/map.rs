@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::cells::CellLibrary;
+use crate::cells::{CellKind, CellLibrary};
 use crate::elaborate::MAX_CELLS;
 use crate::guarded::Guarded;
 use crate::loops::Loops;
@@ -35,8 +35,10 @@ pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) 
     }
     let mut source = netlist.clone();
     passes::run(&mut source)?;
-    if options.objective == MappingObjective::Margin {
-        return map_widest(&source, library, options);
+    match options.objective {
+        MappingObjective::Area | MappingObjective::Delay => {}
+        MappingObjective::Margin => return map_best(&source, library, options, |kind| kind.margin),
+        MappingObjective::Sturdy => return map_best(&source, library, options, |kind| kind.radius),
     }
     let mut mapped = Mapper::new(&source, library).map(options)?;
     DissolveWires.run_on(&mut mapped)?;
@@ -45,13 +47,19 @@ pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) 
     Ok(mapped)
 }
 
-/// Maps with the robots of the widest margins that suffice for this circuit.
-fn map_widest(source: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
-    let mut margins: Vec<f64> = library.kinds().map(|(_, kind)| kind.margin).collect();
-    margins.sort_by(f64::total_cmp);
+/// Maps with the robots of the highest quality that suffice for this circuit.
+fn map_best(
+    source: &Netlist,
+    library: &CellLibrary,
+    options: &MapOptions,
+    quality: fn(&CellKind) -> f64,
+) -> Result<Netlist, MapError> {
+    let mut levels: Vec<f64> = library.kinds().map(|(_, kind)| quality(kind)).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
     let options = &MapOptions { objective: MappingObjective::Area, ..options.clone() };
-    let wide = margins.into_iter().rev().map(|margin| library.with_margin(margin));
-    let mapped = wide.map(|wide| map_with(source, &wide, options)).find(Result::is_ok);
+    let best = levels.into_iter().rev().map(|least| library.with(quality, least));
+    let mapped = best.map(|best| map_with(source, &best, options)).find(Result::is_ok);
     mapped.unwrap_or_else(|| map_with(source, library, options))
 }
 
@@ -283,6 +291,17 @@ mod tests {
         };
         assert_eq!(cells(MappingObjective::Area), (5, 0.1));
         assert_eq!(cells(MappingObjective::Margin), (9, 2.0));
+    }
+
+    #[test]
+    fn the_sturdy_objective_takes_cells_of_the_largest_radius() {
+        let mut library = library("xor and or not");
+        let sturdy = CellKind { radius: 2.0, ..CellKind::uniform(1, 0.1) };
+        library.insert(Function::NAND, sturdy.clone());
+        library.insert(Function::AND, CellKind { radius: 1.5, ..sturdy });
+        let options = MapOptions { objective: MappingObjective::Sturdy, ..MapOptions::default() };
+        let mapped = map_with(&full_adder(), &library, &options).unwrap();
+        assert!(mapped.cells().all(|(_, cell)| cell.function == Function::NAND));
     }
 
     #[test]

@@ -12,6 +12,9 @@ pub enum MappingObjective {
     Delay,
     /// The risk of a wrong output: maximizes the smallest noise margin of the robots, then minimizes their number.
     Margin,
+    /// The risk of a wrong output in another world: maximizes the smallest radius of the robots, then minimizes their
+    /// number.
+    Sturdy,
 }
 
 /// How long a search takes.

@@ -4,11 +4,13 @@ use nbc_base::model::{Character, Function, Library, Pattern, Robot};
 use nbc_circuit::{CellKind, CellLibrary, MappingObjective};
 
 /// The library with the robots first that suit the objective: those with the shortest clocks for the delay, those with
-/// the widest margins for the margin. For the area, the order stays.
+/// the widest margins for the margin, those that bear the largest changes of the world for sturdiness. For the area,
+/// the order stays.
 pub fn prefer(library: Library, objective: MappingObjective) -> Library {
     let mut robots = library.robots;
     let faster = |a: &Character, b: &Character| a.clock.cmp(&b.clock);
     let wider = |a: &Character, b: &Character| b.margin.total_cmp(&a.margin);
+    let sturdier = |a: &Character, b: &Character| radius(b).total_cmp(&radius(a));
     match objective {
         MappingObjective::Area => {}
         MappingObjective::Delay => {
@@ -17,8 +19,17 @@ pub fn prefer(library: Library, objective: MappingObjective) -> Library {
         MappingObjective::Margin => {
             robots.sort_by(|a, b| wider(&a.character, &b.character).then(faster(&a.character, &b.character)));
         }
+        MappingObjective::Sturdy => robots.sort_by(|a, b| {
+            let (a, b) = (&a.character, &b.character);
+            sturdier(a, b).then(faster(a, b)).then(wider(a, b))
+        }),
     }
     Library { robots }
+}
+
+/// How far a world may differ before a robot makes errors; 0 if that was not measured.
+fn radius(character: &Character) -> f64 {
+    character.radius.as_ref().map_or(0.0, |found| found.radius)
 }
 
 /// The robots of a library that react within so many cycles, and show nothing else before if that is one.
@@ -47,6 +58,7 @@ fn kind(library: &Library, function: Function) -> Option<CellKind> {
     let character = &robot.character;
     let mut kind = CellKind::uniform(character.clock, character.margin);
     kind.glitches = character.glitch_rate != 0.0;
+    kind.radius = radius(character);
     for transition in &character.settle {
         let index = |pattern: Pattern| {
             let index = pattern.pair_index();

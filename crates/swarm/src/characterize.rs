@@ -73,10 +73,11 @@ pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32)
     Ok(None)
 }
 
-/// Whether a robot has a wrong output in a world, at its clock in the first, cheap sequences.
-pub(super) fn errs(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> bool {
+/// The share of switches with a wrong output of a robot in a world, at its clock in the first, cheap sequences. All are
+/// wrong if a simulation fails.
+pub(super) fn errors_in(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> f64 {
     let probe = Probe { world: *world, ..Probe::new(simulator, &robot.body, robot.behavior) };
-    probe.random(robot.character.clock, FIRST_SWITCHES).map_or(true, |tally| tally.wrong > 0)
+    probe.random(robot.character.clock, FIRST_SWITCHES).map_or(1.0, |tally| tally.error_rate())
 }
 
 /// A body under test.

@@ -1,21 +1,24 @@
 //! How far a world may differ from the paper's before a robot makes errors as a gate (docs/robustness.md).
 
 use crate::WorldSample;
-use crate::characterize::errs;
+use crate::characterize::errors_in;
 use nbc_base::model::{PhysicsWorld, Robot, SafeRadius};
 use nbc_sim::Simulator;
 
 /// The factors of the changes that are tried, in order.
-const RADII: [f64; 8] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
+const RADII: [f64; 10] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0];
 
 /// The largest factor of a sample's changes at which a robot makes no errors in any of its worlds, nor at a smaller one
-/// that was tried.
+/// that was tried, and its errors at factor 1.
 pub fn safe_radius(simulator: &Simulator, robot: &Robot, sample: &WorldSample, worlds: u32) -> SafeRadius {
-    let is_safe = |radius: &&f64| {
-        let scaled = WorldSample { variation: sample.variation.times(**radius), ..*sample };
-        let world = |number| scaled.world(&PhysicsWorld::default(), number as usize);
-        (0..worlds).all(|number| !errs(simulator, robot, &world(number)))
+    let errors = |radius: f64| {
+        let scaled = WorldSample { variation: sample.variation.times(radius), ..*sample };
+        let world = move |number| scaled.world(&PhysicsWorld::default(), number as usize);
+        (0..worlds).map(move |number| errors_in(simulator, robot, &world(number)))
     };
+    let is_safe = |radius: &&f64| errors(**radius).all(|share| share == 0.0);
     let radius = RADII.iter().take_while(is_safe).last().copied().unwrap_or(0.0);
-    SafeRadius { vary: sample.variation.changes(), worlds, seed: sample.seed, radius }
+    let mean = || errors(1.0).sum::<f64>() / f64::from(worlds.max(1));
+    let error_rate = Some(if radius < 1.0 { mean() } else { 0.0 });
+    SafeRadius { vary: sample.variation.changes(), worlds, seed: sample.seed, radius, error_rate }
 }

@@ -45,9 +45,10 @@ struct Reach<'a> {
 
 impl<'a> Reach<'a> {
     fn of(robot: &'a Robot, found: SafeRadius) -> Self {
+        let worlds = |of: &SafeRadius| (of.vary.clone(), of.worlds, of.seed);
         let is_same = |known: &SafeRadius| {
-            let is_comparable = SafeRadius { radius: found.radius, ..known.clone() } == found;
-            !is_comparable || known.radius == found.radius
+            let is_same_rate = known.error_rate.is_none() || known.error_rate == found.error_rate;
+            worlds(known) != worlds(&found) || (known.radius == found.radius && is_same_rate)
         };
         let verified = robot.character.radius.as_ref().is_none_or(is_same);
         Self { name: &robot.name, found, verified }
@@ -86,9 +87,12 @@ impl RadiusArguments {
         match context.format {
             OutputFormat::Json => context.print_json(Schema::Radii, &serde_json::json!({ "robots": found }))?,
             OutputFormat::Text => {
-                for Reach { name, found, verified } in &found {
+                for Reach { name, found: SafeRadius { radius, error_rate, .. }, verified } in &found {
                     let differs = if *verified { "" } else { ", unlike its file" };
-                    context.print(format_args!("{name:<24} radius {}{differs}\n", found.radius))?;
+                    let errors = error_rate
+                        .filter(|rate| *rate > 0.0)
+                        .map_or(String::new(), |rate| format!(", {:.2} % of switches wrong at radius 1", 100.0 * rate));
+                    context.print(format_args!("{name:<24} radius {radius}{errors}{differs}\n"))?;
                 }
                 let (robots, worlds) = (counted(found.len(), "robot"), counted(self.worlds as usize, "world"));
                 context.print(format_args!("{robots}, radius 1 is {} in {worlds}\n", sample.variation))?;

@@ -90,6 +90,8 @@ enum ObjectiveWord {
     Delay,
     /// Wide noise margins
     Margin,
+    /// Robots that bear the largest changes of the world
+    Sturdy,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]
@@ -109,6 +111,7 @@ impl From<ObjectiveWord> for MappingObjective {
             ObjectiveWord::Area => Self::Area,
             ObjectiveWord::Delay => Self::Delay,
             ObjectiveWord::Margin => Self::Margin,
+            ObjectiveWord::Sturdy => Self::Sturdy,
         }
     }
 }

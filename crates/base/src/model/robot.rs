@@ -68,6 +68,9 @@ pub struct SafeRadius {
     pub seed: u64,
     /// The largest factor of the changes up to which no output was wrong.
     pub radius: f64,
+    /// The share of switches with a wrong output in the worlds of radius 1, if it was counted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_rate: Option<f64>,
 }
 
 impl Character {

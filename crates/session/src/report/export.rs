@@ -147,12 +147,14 @@ impl<'a> EliteData<'a> {
 /// The table of a library's robots.
 pub fn robots_csv(library: &Library) -> String {
     const CHARACTER: [&str; 6] = ["clock", "switches", "error_rate", "glitch_rate", "margin", "topples"];
+    const RADIUS: [&str; 3] = ["radius", "radius_vary", "radius_error_rate"];
     const PROVENANCE: [&str; 6] = ["program", "version", "evolution", "seed", "generation", "evaluations"];
     let own = ["name", "behavior", "function"].map(str::to_owned);
     let head = own
         .into_iter()
         .chain(CHARACTER.map(str::to_owned))
-        .chain(switches().map(|(from, to)| format!("settle_{from}_{to}")));
+        .chain(switches().map(|(from, to)| format!("settle_{from}_{to}")))
+        .chain(RADIUS.map(str::to_owned));
     let head = head.chain(displacement_columns()).chain(BodyData::COLUMNS.map(str::to_owned));
     let head = line(head.chain(PROVENANCE.map(str::to_owned)));
     std::iter::once(head).chain(library.robots.iter().map(|robot| line(robot_cells(robot)))).collect()
@@ -168,6 +170,10 @@ fn robot_cells(robot: &Robot) -> Vec<String> {
         let same = character.settle.iter().find(|transition| (transition.from, transition.to) == (from, to));
         same.map_or(String::new(), |transition| transition.cycles.to_string())
     }));
+    let radius = character.radius.as_ref();
+    cells.push(radius.map_or(String::new(), |found| found.radius.to_string()));
+    cells.push(radius.map_or(String::new(), |found| cell(&found.vary.replace(',', " "))));
+    cells.push(radius.and_then(|found| found.error_rate).map_or(String::new(), |rate| rate.to_string()));
     cells.extend(robot.displacement.map(|value| value.to_string()));
     cells.extend(BodyData::of(&robot.body).cells());
     cells.extend([&provenance.program, &provenance.version, &provenance.evolution].map(|text| cell(text)));

@@ -8,7 +8,7 @@ use crate::report::looks::material_words;
 use crate::report::{Align, TextTable};
 use crate::store;
 use nbc_base::diag::counted;
-use nbc_base::model::{Library, Palette, Pattern, Robot};
+use nbc_base::model::{Library, Palette, Pattern, Robot, SafeRadius};
 
 /// The data of a robot in a list, for programs.
 #[derive(Clone, Debug, Serialize)]
@@ -24,8 +24,14 @@ pub struct Listing {
     pub bounds: String,
     /// Its clock in cycles.
     pub clock: u32,
+    /// The longest of its settle times in cycles; none if they were not measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settle: Option<u32>,
     /// Its smallest displacement in voxels per cycle.
     pub margin: f64,
+    /// How far worlds may differ, if that was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<SafeRadius>,
     /// The share of random switches with a wrong output.
     pub error_rate: f64,
     /// Random switches over which they were counted.
@@ -49,7 +55,9 @@ impl Listing {
             function: robot.function().name(),
             bounds: format!("{}x{}", robot.body.width(), robot.body.height()),
             clock: character.clock,
+            settle: character.settle.iter().map(|transition| transition.cycles).max(),
             margin: character.margin,
+            radius: character.radius.clone(),
             error_rate: character.error_rate,
             switches: character.switches,
             glitch_rate: character.glitch_rate,
@@ -72,7 +80,9 @@ impl Listing {
             ("behavior", Left),
             ("box", Left),
             ("clock", Right),
+            ("settles", Right),
             ("margin", Right),
+            ("radius", Right),
             ("errors", Right),
             ("glitches", Right),
         ]);
@@ -83,7 +93,9 @@ impl Listing {
                 robot.behavior.clone(),
                 robot.bounds.clone(),
                 robot.clock.to_string(),
+                robot.settle.map_or(String::new(), |cycles| cycles.to_string()),
                 format!("{:.3}", robot.margin),
+                robot.radius.as_ref().map_or(String::new(), |found| found.radius.to_string()),
                 percent(robot.error_rate),
                 percent(robot.glitch_rate),
             ]);
@@ -119,6 +131,7 @@ pub fn describe_robot(robot: &Robot) -> String {
          clock         {clock}\n\
          errors        {errors}\n\
          settles       {settles}\n\
+         worlds        {worlds}\n\
          made by       {program} {version}, evolution {evolution}, seed {seed}, generation {generation}, \
          {evaluations} evaluations\n",
         name = robot.name,
@@ -130,6 +143,7 @@ pub fn describe_robot(robot: &Robot) -> String {
         legend = legend(robot),
         displacement = displacement.join(", "),
         settles = settles(robot),
+        worlds = worlds(robot),
         program = provenance.program,
         version = provenance.version,
         evolution = provenance.evolution,
@@ -142,6 +156,16 @@ pub fn describe_robot(robot: &Robot) -> String {
 /// The materials that the body has, by code.
 fn legend(robot: &Robot) -> String {
     material_words(&robot.body).join("  ")
+}
+
+/// How far worlds may differ, and the errors at radius 1.
+fn worlds(robot: &Robot) -> String {
+    let Some(SafeRadius { vary, worlds, radius, error_rate, .. }) = &robot.character.radius else {
+        return "not measured".to_owned();
+    };
+    let errors = error_rate.map_or(String::new(), |rate| format!(", {} of switches wrong at radius 1", percent(rate)));
+    let worlds = counted(*worlds as usize, "world");
+    format!("radius {radius} in {worlds}, radius 1 is {vary}{errors}")
 }
 
 /// The settle times, grouped: `1: 00>01 01>11, 2: 11>10`.

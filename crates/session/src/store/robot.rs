@@ -143,7 +143,13 @@ pub(crate) mod tests {
                 margin: 0.25,
                 topples: false,
                 settle: vec![Transition { from: Pattern::PAIRS[1], to: Pattern::PAIRS[3], cycles: 2 }],
-                radius: Some(SafeRadius { vary: "all=10%".to_owned(), worlds: 20, seed: 1, radius: 1.5 }),
+                radius: Some(SafeRadius {
+                    vary: "all=10%".to_owned(),
+                    worlds: 20,
+                    seed: 1,
+                    radius: 1.5,
+                    error_rate: Some(0.0),
+                }),
             },
             provenance: Provenance {
                 program: "nbc".to_owned(),

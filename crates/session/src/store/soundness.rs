@@ -70,7 +70,11 @@ fn character(character: &Character) -> Option<Flaw> {
     if !margin.is_finite() {
         return Some(Flaw::Margin);
     }
-    let is_radius = |found: &SafeRadius| found.radius.is_finite() && found.vary.parse::<Variation>().is_ok();
+    let is_radius = |found: &SafeRadius| {
+        found.radius.is_finite()
+            && found.error_rate.is_none_or(|rate| (0.0..=1.0).contains(&rate))
+            && found.vary.parse::<Variation>().is_ok()
+    };
     if !radius.as_ref().is_none_or(is_radius) {
         return Some(Flaw::Radius);
     }

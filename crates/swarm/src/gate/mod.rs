@@ -132,8 +132,8 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Whether it can still enter a niche, and the behavior that it comes nearest to of those with which it can, or else
-    /// of all, with its fitnesses so far.
+    /// Whether it can still enter a niche, and the behavior that it comes nearest to of those with which it can, or
+    /// else of all, with its fitnesses so far.
     fn score(&self) -> (bool, Behavior, [f64; 2]) {
         let own = [self.own];
         let asked = if self.asked.is_empty() { own.as_slice() } else { self.asked };
