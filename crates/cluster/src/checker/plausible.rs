@@ -42,7 +42,11 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
         SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
         SearchObjective::Gate | SearchObjective::Wave => task.rivals.admit(scores.behavior, &scores.fitness),
     };
-    is_complete && could_enter && is_sound(protocol, scores) && evaluated.work.left_out == 0
+    // A gate that is wrong in a world is not tried in those that follow.
+    let worlds = 1 + protocol.others.len() as u64;
+    let is_whole =
+        evaluated.work.left_out.is_multiple_of(full_steps(protocol) / worlds) && evaluated.work.env_steps > 0;
+    is_complete && could_enter && is_sound(protocol, scores) && is_whole
 }
 
 /// Whether the numbers are finite, and the behavior is one that is asked for, or else the one that they show.

@@ -1,5 +1,7 @@
 //! The patterns of the simulations of gates, cycle by cycle.
 
+use std::ops::RangeInclusive;
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -30,22 +32,25 @@ pub(super) fn stages(objective: SearchObjective) -> [Vec<Lane>; 2] {
                 let held = [Pattern::PAIRS[first]; HOLD];
                 held.into_iter().chain(trail(first, rng)).collect()
             };
-            let random = |rng: &mut ChaCha8Rng| {
+            let starts = (0..LANES).map(|first| start(first, &mut rng)).collect();
+            let waves = |rng: &mut ChaCha8Rng| {
                 (0..RANDOM_CYCLES).map(|_| Pattern::PAIRS[rng.random_range(0..4u32) as usize]).collect()
             };
-            [(0..LANES).map(|first| start(first, &mut rng)).collect(), (0..LANES).map(|_| random(&mut rng)).collect()]
+            let random = |lane| if lane < LANES / 2 { waves(&mut rng) } else { random_holds(1..=4, &mut rng) };
+            [starts, (0..LANES).map(random).collect()]
         }
         SearchObjective::Distance | SearchObjective::Gate => {
             let walk = |walk: [usize; LANES]| walk.iter().flat_map(|&i| [Pattern::PAIRS[i]; HOLD]).collect();
-            let random = |rng: &mut ChaCha8Rng| {
-                let HoldPlan(holds) = HoldPlan::random(RANDOM_CYCLES / 2, 2..=4, rng);
-                let cycles =
-                    holds.into_iter().flat_map(|(pattern, cycles)| std::iter::repeat_n(pattern, cycles as usize));
-                cycles.take(RANDOM_CYCLES).collect()
-            };
-            [WALKS.map(walk).into(), (0..LANES).map(|_| random(&mut rng)).collect()]
+            [WALKS.map(walk).into(), (0..LANES).map(|_| random_holds(2..=4, &mut rng)).collect()]
         }
     }
+}
+
+/// Random patterns, each held for a random number of cycles.
+fn random_holds(cycles: RangeInclusive<u32>, rng: &mut ChaCha8Rng) -> Lane {
+    let HoldPlan(holds) = HoldPlan::random(RANDOM_CYCLES / *cycles.start() as usize, cycles, rng);
+    let cycles = holds.into_iter().flat_map(|(pattern, cycles)| std::iter::repeat_n(pattern, cycles as usize));
+    cycles.take(RANDOM_CYCLES).collect()
 }
 
 /// Patterns that follow `first` such that each pattern follows each once, itself too.

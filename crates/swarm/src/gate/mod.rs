@@ -26,7 +26,8 @@ pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
 }
 
 /// The result of each task: the simulations from the four patterns, then the random ones, then both in each of the
-/// other worlds. After each cycle, bodies that can no longer enter a niche are dropped; their scores can only decrease.
+/// other worlds, as long as the body is right in the world before. After each cycle, bodies that can no longer enter a
+/// niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     protocol: &EvaluationProtocol,
@@ -41,6 +42,7 @@ pub(crate) fn evaluate(
             }
             try_lanes(simulator, world, &mut attempts, lanes, stage * LANES);
         }
+        attempts.iter_mut().for_each(Attempt::leave_world);
     }
     let all = steps(protocol);
     attempts.into_iter().map(|attempt| attempt.end(all)).collect()
@@ -51,7 +53,7 @@ pub(crate) fn evaluate(
 fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attempt], lanes: &[Lane], first: usize) {
     let noise = RobotNoise::new(&world.noise, 0);
     let sensed: Vec<Lane> = (first..).zip(lanes).map(|(lane, cycles)| sensed(world, lane, cycles)).collect();
-    let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.outcome.is_none()).collect();
+    let mut open: Vec<&mut Attempt> = attempts.iter_mut().filter(|attempt| attempt.is_open()).collect();
     let bodies: Vec<Body> = open.iter().flat_map(|attempt| vec![noise.worn(&attempt.task.body); lanes.len()]).collect();
     let mut flock = simulator.flock(&setting(world), &bodies);
     for cycle in 0..lanes[0].len() {
@@ -68,9 +70,9 @@ fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attemp
             }
             attempt.look();
         }
-        let keep: Vec<bool> = open.iter().flat_map(|attempt| vec![attempt.outcome.is_none(); lanes.len()]).collect();
+        let keep: Vec<bool> = open.iter().flat_map(|attempt| vec![attempt.is_open(); lanes.len()]).collect();
         flock.retain(&keep);
-        open.retain(|attempt| attempt.outcome.is_none());
+        open.retain(|attempt| attempt.is_open());
     }
 }
 
@@ -81,6 +83,12 @@ struct Attempt<'a> {
     asked: &'a [Behavior],
     /// The behavior at the fresh starts, as soon as they are done.
     own: Behavior,
+    /// The number of worlds besides its own.
+    others: usize,
+    /// The number of worlds that it was right in.
+    passed: usize,
+    /// Whether it was wrong in a world, so that no others follow.
+    is_done: bool,
     task: &'a EvaluationTask,
     /// The holds of each lane so far.
     holds: Vec<Vec<PatternHold>>,
@@ -94,7 +102,19 @@ impl<'a> Attempt<'a> {
     fn new(protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
         let scores = Scores { fitness: [1.0; 2], behavior: Behavior::of(&[0.0; 4]), displacement: [0.0; 4] };
         let (objective, asked) = (protocol.objective, protocol.behaviors.as_slice());
-        Self { objective, asked, own: scores.behavior, task, holds: Vec::new(), scores, env_steps: 0, outcome: None }
+        Self {
+            objective,
+            asked,
+            own: scores.behavior,
+            others: protocol.others.len(),
+            passed: 0,
+            is_done: false,
+            task,
+            holds: Vec::new(),
+            scores,
+            env_steps: 0,
+            outcome: None,
+        }
     }
 
     /// Records one more cycle of a lane.
@@ -123,29 +143,53 @@ impl<'a> Attempt<'a> {
             self.scores.displacement = settled_displacement(&self.holds[..LANES]);
             self.own = Behavior::of(&self.scores.displacement);
         }
-        let (is_open, behavior, bound) = self.score();
-        (self.scores.behavior, self.scores.fitness) = (behavior, bound);
-        if self.scores.fitness[0] < HOPELESS {
+        let Bound { is_open, behavior, raw } = self.bound();
+        (self.scores.behavior, self.scores.fitness) = (behavior, self.over_worlds(raw));
+        if self.passed == 0 && raw[0] < HOPELESS {
             self.outcome = Some(CandidateOutcome::Inconsistent);
         } else if cycles >= HOLD && !is_open {
             self.outcome = Some(CandidateOutcome::Surpassed);
         }
     }
 
-    /// Whether it can still enter a niche, and the behavior that it comes nearest to of those with which it can, or
-    /// else of all, with its fitnesses so far.
-    fn score(&self) -> (bool, Behavior, [f64; 2]) {
-        let own = [self.own];
-        let asked = if self.asked.is_empty() { own.as_slice() } else { self.asked };
-        let score = |&behavior: &_| {
-            let bound = fitness(self.objective, behavior, self.holds.iter().flatten());
-            (self.task.rivals.admit(behavior, &bound), behavior, bound)
+    /// The bounds for the behavior that it comes nearest to of those with which it can enter a niche, or else of all.
+    fn bound(&self) -> Bound {
+        let asked = match (self.passed, self.asked) {
+            (0, []) => &[self.own],
+            (0, asked) => asked,
+            // In other worlds it must be the same gate as in its own.
+            _ => &[self.scores.behavior],
         };
-        let scores = asked.iter().map(score);
+        let bound = |&behavior: &_| {
+            let raw = fitness(self.objective, behavior, self.holds.iter().flatten());
+            Bound { is_open: self.task.rivals.admit(behavior, &self.over_worlds(raw)), behavior, raw }
+        };
+        let bounds = asked.iter().map(bound);
         // The first of equals.
-        scores
-            .reduce(|best, next| if (next.0, next.2[0]) > (best.0, best.2[0]) { next } else { best })
-            .expect("there is at least one")
+        let nearer = |best: Bound, next: Bound| {
+            if (next.is_open, next.raw[0]) > (best.is_open, best.raw[0]) { next } else { best }
+        };
+        bounds.reduce(nearer).expect("there is at least one")
+    }
+
+    /// The fitnesses with those that it has over all cycles so far: if it is wrong in a world, that counts for this one
+    /// and the worlds before count as one each; as long as it is right, all others count as one.
+    fn over_worlds(&self, raw: [f64; 2]) -> [f64; 2] {
+        let counted = if is_right(raw) { self.others } else { self.passed };
+        raw.map(|own| (counted as f64 + own) / (self.others + 1) as f64)
+    }
+
+    /// Ends a world; a body that was wrong in it is tried in no others.
+    fn leave_world(&mut self) {
+        if self.is_open() {
+            self.is_done = !is_right(self.bound().raw);
+            self.passed += usize::from(!self.is_done);
+        }
+    }
+
+    /// Whether it is to be simulated further.
+    fn is_open(&self) -> bool {
+        self.outcome.is_none() && !self.is_done
     }
 
     /// Its result; a full evaluation has `all` env steps.
@@ -153,6 +197,20 @@ impl<'a> Attempt<'a> {
         let outcome = self.outcome.unwrap_or(CandidateOutcome::Measured(self.scores));
         Evaluated { outcome, work: Work { env_steps: self.env_steps, left_out: all - self.env_steps } }
     }
+}
+
+/// What a body can still reach.
+struct Bound {
+    /// Whether that is enough for a niche.
+    is_open: bool,
+    behavior: Behavior,
+    /// The fitnesses over all cycles so far, in whatever world.
+    raw: [f64; 2],
+}
+
+/// Whether fitnesses are those of a body whose every counted cycle was right.
+fn is_right(raw: [f64; 2]) -> bool {
+    raw.iter().all(|score| *score > 0.5)
 }
 
 /// Displacement under each pattern at the four fresh starts, without the first cycle, in which the body finds
@@ -169,37 +227,36 @@ fn settled_displacement(walks: &[Vec<PatternHold>]) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::evolve::{Candidate, Rivals, Search};
-    use nbc_base::model::{Evolution, SearchObjective, WorldFactors};
+    use nbc_base::model::{Evolution, Palette, SearchObjective, WorldFactors};
 
     #[test]
-    fn the_score_is_the_least_of_all_worlds() {
-        let factors = WorldFactors { friction: 0.5, gravity: 1.4, ..WorldFactors::default() };
-        let world = PhysicsWorld { factors, ..PhysicsWorld::default() };
-        let evolution = Evolution { objective: SearchObjective::Gate, ..crate::evolve::tests::evolution() };
-        let search = Search::new(&evolution, 5);
-        let task = |candidate: &Candidate| EvaluationTask { body: candidate.body.clone(), rivals: Rivals::none() };
-        let tasks: Vec<EvaluationTask> = search.ask().iter().take(4).map(task).collect();
-        let scores = |others, tasks| {
-            let protocol = EvaluationProtocol { others, ..EvaluationProtocol::of(&evolution) };
-            let done = evaluate(&Simulator::default(), &protocol, tasks);
-            assert!(done.iter().all(|one| one.work.env_steps + one.work.left_out == steps(&protocol)));
-            done.into_iter().map(|one| one.outcome).collect::<Vec<_>>()
+    fn a_body_is_tried_in_worlds_until_it_is_wrong_in_one() {
+        let light = PhysicsWorld {
+            factors: WorldFactors { gravity: 0.1, ..WorldFactors::default() },
+            ..PhysicsWorld::default()
         };
-        let [alone, both] = [vec![], vec![world]].map(|others| scores(others, &tasks));
-        assert_eq!(scores(vec![PhysicsWorld::default()], &tasks[..2]), alone[..2], "the same world again");
-        let mut lower = 0;
-        for pair in alone.iter().zip(&both) {
-            match pair {
-                (CandidateOutcome::Measured(one), CandidateOutcome::Measured(two)) => {
-                    assert!(two.fitness[0] <= one.fitness[0] && two.fitness[1] <= one.fitness[1]);
-                    assert_eq!(two.behavior, one.behavior, "the behavior is that of the first world");
-                    lower += usize::from(two.fitness != one.fitness);
-                }
-                (CandidateOutcome::Measured(_), two) => assert_eq!(two, &CandidateOutcome::Inconsistent),
-                (one, two) => assert_eq!(one, two),
-            }
-        }
-        assert!(lower > 0, "{alone:?}");
+        let evolution = Evolution { objective: SearchObjective::Gate, ..crate::evolve::tests::evolution() };
+        let scores = |rows: [&str; 5], others: &[PhysicsWorld]| {
+            let body = Body::parse(&rows, &Palette::paper()).unwrap();
+            let protocol = EvaluationProtocol { others: others.to_vec(), ..EvaluationProtocol::of(&evolution) };
+            let done = evaluate(&Simulator::default(), &protocol, &[EvaluationTask { body, rivals: Rivals::none() }]);
+            assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(&protocol));
+            let CandidateOutcome::Measured(scores) = done[0].outcome else { panic!("{:?}", done[0]) };
+            (scores.fitness, done[0].work.env_steps)
+        };
+        let own = PhysicsWorld::default();
+        // Robots of the library: a NOT, and an XOR that glitches.
+        let gate = ["33388", "44886", "40086", "40086", "40066"];
+        let glitching = ["33333", "30000", "88500", "48554", "44444"];
+        let (alone, one) = scores(gate, &[]);
+        assert!(is_right(alone));
+        assert_eq!(scores(gate, &[own, own]), (alone.map(|score| (2.0 + score) / 3.0), 3 * one));
+        let (wrong, taken) = scores(gate, &[own, light, own]);
+        assert!(wrong.iter().any(|score| *score < 2.5 / 4.0) && wrong.iter().all(|score| *score > 2.0 / 4.0));
+        assert_eq!(taken, 3 * one, "the last world is left out");
+        let (alone, one) = scores(glitching, &[]);
+        assert!(!is_right(alone));
+        assert_eq!(scores(glitching, &[own, own]), (alone.map(|score| score / 3.0), one));
     }
 
     #[test]
