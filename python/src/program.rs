@@ -52,7 +52,8 @@ impl Compiling {
             word => return Err(bad_word("effort", word, &["fast", "normal", "high"])),
         };
         let cancel = watch.cancel.clone();
-        Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs: self.runs, cancel })
+        let runs = self.runs;
+        Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs, cancel, ..CompileOptions::default() })
     }
 }
 

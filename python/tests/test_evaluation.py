@@ -36,8 +36,22 @@ def test_gates_are_tried_in_other_worlds_too():
     sample = run.fields["sample"]
     assert sample["worlds"] == 2
     assert (sample["vary"]["drag"], sample["vary"]["missed"], sample["vary"]["dead"]) == (0.2, 0.01, 0)
-    with pytest.raises(nbc.NbcError, match="only the gate objective"):
+    with pytest.raises(nbc.NbcError, match="only the objectives of gates"):
         nbc.Evolution(vary={"friction": 0.1})
+
+
+def test_some_behaviors_are_searched_voxel_by_voxel():
+    run = nbc.Evolution(
+        shape=(3, 3), genome="voxels", crossover=0.5, objective="wave", behaviors=["xor", "RLLR"], symmetry="npn", batch=4
+    )
+    assert run.fields["genome"] == {"voxels": {"crossover": 0.5}}
+    search = nbc.Search(run, seed=1)
+    for _ in range(3):
+        search.step()
+    elites = search.archive()
+    assert len(elites) > 0 and set(elites.behavior) <= {"LRRL", "RLLR"}
+    with pytest.raises(nbc.NbcError, match="only bodies made of voxels"):
+        nbc.Evolution(crossover=0.5)
 
 
 def test_niches_count_voxels():

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
+use crate::cli::harden::{HardenArguments, Hardened};
 use crate::cli::options::circuit::{CircuitArguments, RunsArguments};
 use crate::cli::options::mapping::MappingArguments;
 use crate::cli::wording::UsageError;
@@ -23,6 +24,7 @@ Examples:
   nbc build circuits/latch.nb                    the netlist as text
   nbc build circuits/latch.nb --emit blif -o latch.blif
   nbc build circuits/counter.nb --emit timing    the times of its clock
+  nbc build circuits/counter.nb --harden 20%     without the robots that fail in other worlds
   nbc build adder.nb --circuit 'adder[8]' --cells nand,not --emit json";
 
 /// Compile a circuit to robots, prove the result, and print its netlist
@@ -43,6 +45,8 @@ pub struct BuildArguments {
     mapping: MappingArguments,
     #[command(flatten)]
     runs: RunsArguments,
+    #[command(flatten)]
+    harden: HardenArguments,
 }
 
 /// The output.
@@ -74,16 +78,21 @@ impl BuildArguments {
         let choice = self.circuit.choice();
         let circuit = checked.circuit(&choice)?;
         let options = self.mapping.with(CompileOptions { swarm: choice.swarm, ..self.runs.options() });
+        let Some(hardened) = self.harden.find(&session, &checked, &circuit, &options, context)? else {
+            return Ok(Status::Interrupted);
+        };
+        let options = CompileOptions { without: hardened.without.clone(), ..options };
         let mapping = match chosen {
             Some(cells) => session.map_onto(&checked, &circuit, &cells, &options)?,
             None => session.map(&checked, &circuit, &options)?,
         };
-        let text = emit(kind, mapping);
+        let is_short = !hardened.tried.is_empty() && !hardened.reached;
+        let text = emit(kind, mapping, hardened);
         match &self.output {
             Some(path) => store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?,
             None => context.print(text)?,
         }
-        Ok(Status::Done)
+        Ok(if is_short { Status::TestFailed } else { Status::Done })
     }
 
     fn emit(&self, format: OutputFormat) -> Result<Emit, Failure> {
@@ -96,7 +105,7 @@ impl BuildArguments {
     }
 }
 
-fn emit(emit: Emit, mapping: Mapping) -> String {
+fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
     match emit {
         Emit::Netlist => mapping.netlist.to_string(),
         Emit::Blif => blif::write(&Design { logic: mapping.netlist, registers: Vec::new() }),
@@ -104,7 +113,7 @@ fn emit(emit: Emit, mapping: Mapping) -> String {
         Emit::Dot => dot::write(&mapping.netlist),
         Emit::Timing => describe_timing(&mapping),
         Emit::Json => {
-            let document = Document::new(Schema::Build, describe(&mapping));
+            let document = Document::new(Schema::Build, describe(&mapping, hardened));
             serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
         }
     }
@@ -136,7 +145,7 @@ fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -
     |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock)
 }
 
-fn describe(mapping: &Mapping) -> serde_json::Value {
+fn describe(mapping: &Mapping, hardened: Hardened) -> serde_json::Value {
     let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;
     let timing = mapping.timing();
     // The rings and loops of a wave machine are its waves.
@@ -173,6 +182,7 @@ fn describe(mapping: &Mapping) -> serde_json::Value {
         "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()),
         "waves": waves.as_ref().map(WaveTiming::of),
         "proved": true,
+        "hardened": (!hardened.tried.is_empty()).then_some(hardened),
         "races": races.map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
     })
 }

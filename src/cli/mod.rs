@@ -20,6 +20,7 @@ mod failure;
 mod fmt;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod harden;
 mod in_order;
 mod interrupt;
 mod library;
@@ -44,6 +45,7 @@ mod test;
 mod threads;
 mod watch;
 mod wording;
+mod world_runs;
 
 use std::ffi::OsString;
 use std::io::{self, Write};

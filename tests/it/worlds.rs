@@ -259,3 +259,57 @@ fn a_robot_has_a_radius_and_its_file_keeps_it() {
     bench.file("nand.yaml", written.replace("vary: 'dead=100%'", "vary: 'daed=100%'"));
     assert_eq!(bench.run(&["library", "rewrite", "nand.yaml"]).status, 2);
 }
+
+/// A library of two robots for one gate: a quick one, and one that bears other worlds.
+fn bench_with_two_gates(more: &str) -> Bench {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path().join("robots")).unwrap();
+    for name in ["thin_nand", "wide_nand"] {
+        let path = crate::support::root().join(format!("tests/robots/{name}.yaml"));
+        bench.file(&format!("robots/{name}.yaml"), &std::fs::read_to_string(path).unwrap());
+    }
+    let source = format!(
+        "library two {{ from: \"robots\"{more} }}\n\
+         circuit and_gate(a, b) -> (q) {{ q = not (a nand b) }}\n\
+         swarm walkers {{ circuit: and_gate, library: two }}\n\
+         test and_gate {{ a b | q\n 0 0 | 0\n 1 1 | 1\n 1 0 | 0\n 1 1 | 1\n 0 1 | 0\n 1 1 | 1 }}\n"
+    );
+    bench.file("gate.nb", &source);
+    bench
+}
+
+#[test]
+fn hardening_leaves_out_the_robot_that_fails_in_other_worlds() {
+    let bench = bench_with_two_gates("");
+    let command = ["build", "gate.nb", "--objective", "delay", "--harden", "35%", "--worlds", "12"];
+    let ran = bench.run(&[&command[..], &["--least-yield", "90%", "--format", "json"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let hardened = validate("build", &ran.out)["hardened"].clone();
+    let tried = hardened["tried"].as_array().unwrap();
+    assert_eq!((&hardened["without"], &hardened["reached"]), (&serde_json::json!(["thin_nand"]), &true.into()));
+    assert_eq!(tried.len(), 2);
+    assert!(tried[0]["yield"]["share"].as_f64() < Some(0.9) && tried[0]["fails_first"][0] == "thin_nand");
+    assert!(ran.err.ends_with("to use these robots, write `without: [thin_nand]` in the library\n"), "{}", ran.err);
+    let plain = bench.run(&["build", "gate.nb", "--format", "json"]);
+    assert!(validate("build", &plain.out)["hardened"].is_null());
+}
+
+#[test]
+fn hardening_that_cannot_reach_its_goal_says_so() {
+    let bench = bench_with_two_gates(", without: [wide_nand]");
+    let ran = bench.run(&["build", "gate.nb", "--harden", "45%", "--worlds", "12"]);
+    assert_eq!(ran.status, 1);
+    assert!(ran.err.ends_with("no choice of robots passes in enough worlds; no robot is left out\n"), "{}", ran.err);
+    assert!(ran.out.contains("nand("));
+    bench.file("untested.nb", "circuit inverter(a) -> (q) { q = not a }\n");
+    let ran = bench.run(&["build", "untested.nb", "--harden", "friction=10%"]);
+    assert!(ran.status == 2 && ran.err.contains("the file has no test of `inverter`"), "{}", ran.err);
+}
+
+#[test]
+fn a_robot_that_a_library_leaves_out_must_be_in_it() {
+    let bench = bench_with_two_gates(", without: [thin_nnad]");
+    let ran = bench.run(&["test", "gate.nb"]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("the library has no robot `thin_nnad`") && ran.err.contains("`thin_nand`"), "{}", ran.err);
+}

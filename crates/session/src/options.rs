@@ -13,6 +13,8 @@ pub struct CompileOptions {
     pub swarm: Option<String>,
     /// Robots to use instead of those that the source declares.
     pub robots: Option<Library>,
+    /// The names of robots that are left out.
+    pub without: Vec<String>,
     /// What mapping minimizes.
     pub objective: MappingObjective,
     /// The amount of search in mapping.
@@ -26,7 +28,7 @@ pub struct CompileOptions {
 impl Default for CompileOptions {
     fn default() -> Self {
         let MapOptions { objective, effort, cancel } = MapOptions::default();
-        Self { swarm: None, robots: None, objective, effort, runs: RUNS.to_owned(), cancel }
+        Self { swarm: None, robots: None, without: Vec::new(), objective, effort, runs: RUNS.to_owned(), cancel }
     }
 }
 

@@ -91,7 +91,8 @@ pub(super) fn of_swarm(
     })
 }
 
-/// The robots of a declared library, or of the default library, unless the options have others.
+/// The robots of a declared library, or of the default library, unless the options have others, without those that the
+/// options leave out.
 ///
 /// # Errors
 /// When they cannot be read.
@@ -101,11 +102,13 @@ pub(super) fn robots(
     library: Option<&str>,
     options: &CompileOptions,
 ) -> Result<Library, Vec<Diagnostic>> {
-    match (&options.robots, program.library(library.unwrap_or(DEFAULT_LIBRARY))) {
-        (Some(robots), _) => Ok(robots.clone()),
-        (None, Some(declared)) => sources.library(declared, &options.runs),
-        (None, None) => Ok(sources.shipped().clone()),
-    }
+    let mut library = match (&options.robots, program.library(library.unwrap_or(DEFAULT_LIBRARY))) {
+        (Some(robots), _) => robots.clone(),
+        (None, Some(declared)) => sources.library(declared, &options.runs)?,
+        (None, None) => sources.shipped().clone(),
+    };
+    library.robots.retain(|robot| !options.without.contains(&robot.name));
+    Ok(library)
 }
 
 /// The swarm of that name, which must be one of the circuit's.

@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use crate::store;
-use crate::wording::of_library;
-use nbc_base::diag::Diagnostic;
+use crate::wording::{RobotNameError, of_library};
+use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Library, LibrarySource, Origin};
 use nbc_base::source::SourceWorld;
 
@@ -43,6 +43,17 @@ impl<'a> RobotSources<'a> {
         if let Some(behaviors) = &declared.behaviors {
             library.robots.retain(|robot| behaviors.contains(&robot.behavior));
         }
+        let robots = &library.robots;
+        let is_known = |name: &str| robots.iter().any(|robot| robot.name == name);
+        let unknown = declared.without.iter().filter(|(name, _)| !is_known(name)).map(|(name, place)| {
+            let meant = Suggestion::near(name, robots.iter().map(|robot| robot.name.as_str()));
+            RobotNameError::Unknown { name: name.clone(), meant }.at(*place)
+        });
+        let unknown: Vec<Diagnostic> = unknown.collect();
+        if !unknown.is_empty() {
+            return Err(unknown);
+        }
+        library.robots.retain(|robot| declared.without.iter().all(|(name, _)| robot.name != *name));
         Ok(library)
     }
 

@@ -77,6 +77,22 @@ pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>
     command.into_iter().fold(error, Diagnostic::with_help)
 }
 
+/// A robot that a library does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum RobotNameError {
+    /// No robot has the name, perhaps a similar one.
+    Unknown { name: String, meant: Suggestion },
+}
+
+impl RobotNameError {
+    /// The error at the name.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let Self::Unknown { name, meant } = self;
+        let message = format!("the library has no robot `{name}`");
+        Diagnostic::new(Code::Unknown, message, span, "not in the library").with_suggestion(Some(span), &meant)
+    }
+}
+
 /// A row of a test that is no step of a wave machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum WaveRowError {

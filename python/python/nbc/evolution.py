@@ -42,7 +42,10 @@ class Evolution:
         generations: Optional[int] = None,
         batch: Optional[int] = None,
         newcomers: Optional[int] = None,
+        genome: Optional[str] = None,
+        crossover: Optional[float] = None,
         objective: Optional[str] = None,
+        behaviors: Optional[Sequence[str]] = None,
         symmetry: Optional[str] = None,
         niche: Optional[str] = None,
         fixed: Optional[str] = None,
@@ -62,13 +65,16 @@ class Evolution:
             generations: how many generations make it complete.
             batch: offspring in each generation.
             newcomers: fresh random bodies in each generation.
-            objective: ``distance`` (the paper's) or ``gate``.
+            genome: ``cppn`` (the paper's) or ``voxels``.
+            crossover: of voxels: the share of offspring that take a part of a second parent, from 0 to 1.
+            objective: ``distance`` (the paper's), ``gate`` or ``wave``.
+            behaviors: the behaviors that gates are searched for, for example ``["xor", "RLLR"]``; by default all.
             symmetry: ``none`` or ``npn``.
             niche: ``dominance`` (the paper's) or for example ``pareto(4)``.
             fixed: the length of a fixed simulation, for example ``10 cycles``.
             descriptors: the axes of the archive, for example ``["voxels in 4 bins", "behavior"]``.
             rules: ``paper`` or ``code``, where the paper's text and code differ.
-            vary: the largest changes of other worlds in which the gate objective tries bodies too, for example
+            vary: the largest changes of other worlds in which the objectives of gates try bodies too, for example
                 ``{"friction": 0.1}``, or ``{"all": 0.1}`` for all factors.
             worlds: the number of these worlds.
             box: refused; it was (columns, rows) in version 0.2.
@@ -84,7 +90,10 @@ class Evolution:
             "generations": generations,
             "batch": batch,
             "newcomers": newcomers,
+            "genome": genome,
+            "crossover": crossover,
             "objective": objective,
+            "behaviors": None if behaviors is None else f"[{', '.join(_words(behaviors, 'behaviors'))}]",
             "symmetry": symmetry,
             "niche": niche,
             "fixed": fixed,

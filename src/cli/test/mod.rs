@@ -23,6 +23,7 @@ use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOption
 use nbc_swarm::{Executor, Level, Task, TaskResult, TestVerdict};
 
 use worlds::WorldsArguments;
+pub(super) use worlds::share;
 
 /// Test the circuits of a file
 #[derive(Args)]

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::draw::wording::DrawError;
-use crate::cli::in_order::in_order;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
+use crate::cli::world_runs::{Experiment, WorldRuns};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};
 use nbc_session::store;
-use nbc_session::{RunEnd, Session, TestCase};
-use nbc_swarm::{Proportion, Robustness, TestVerdict, WorldSample, WorldTrial};
+use nbc_session::{Session, TestCase};
+use nbc_swarm::{Proportion, Robustness};
 
 /// The number of worlds of a sample.
 const WORLDS: u32 = 100;
@@ -39,19 +39,6 @@ pub(super) struct WorldsArguments {
     picture: Option<PathBuf>,
 }
 
-/// A test under one variation.
-struct Experiment<'c, 'a> {
-    case: &'c TestCase<'a>,
-    variation: Variation,
-    scale: f64,
-}
-
-/// A test in one world, to be run.
-struct Visit<'e, 'c, 'a> {
-    experiment: &'e Experiment<'c, 'a>,
-    world: usize,
-}
-
 impl WorldsArguments {
     /// Whether tests run in other worlds than their own.
     pub(super) fn is_used(&self) -> bool {
@@ -71,7 +58,14 @@ impl WorldsArguments {
     ) -> Result<Status, Failure> {
         self.check_picture()?;
         let experiments = self.experiments(cases);
-        let found = self.run(session, &experiments, interrupt, context)?;
+        let runs = WorldRuns { session, interrupt, worlds: self.count(), seed: self.seed };
+        let found = runs.run(&experiments, |robustness| {
+            if context.format == OutputFormat::Text {
+                context.print(report::describe_robustness(robustness))?;
+                context.flush()?;
+            }
+            Ok(())
+        })?;
         let left = experiments.len() - found.len();
         if context.format == OutputFormat::Json {
             let mut value = serde_json::json!({ "worlds": self.count(), "seed": self.seed, "tests": found });
@@ -120,46 +114,6 @@ impl WorldsArguments {
         experiments
     }
 
-    /// The results of the experiments that are complete.
-    fn run(
-        &self,
-        session: &Session,
-        experiments: &[Experiment<'_, '_>],
-        interrupt: &Interrupt,
-        context: &mut Context,
-    ) -> Result<Vec<Robustness>, Failure> {
-        let visits: Vec<Visit<'_, '_, '_>> = experiments
-            .iter()
-            .flat_map(|experiment| (0..self.count()).map(move |world| Visit { experiment, world }))
-            .collect();
-        let work: u64 = visits.iter().map(|visit| visit.experiment.case.work()).sum();
-        let bar = Progress::new("testing", work);
-        let visit = |_: usize, visit: &Visit<'_, '_, '_>| {
-            let run = (!interrupt.is_raised()).then(|| visit.run(session, self.seed, interrupt, &bar));
-            run.flatten()
-        };
-        let (mut found, mut trials, mut stopped) = (Vec::new(), Vec::new(), false);
-        let mut tell = |done: Option<(TestVerdict, WorldTrial)>| {
-            // After an interruption, worlds that were begun may still be completed.
-            stopped |= done.is_none();
-            let Some((verdict, trial)) = done.filter(|_| !stopped) else { return Ok(()) };
-            trials.push(trial);
-            if trials.len() == self.count() {
-                let Experiment { case, variation, scale } = &experiments[found.len()];
-                let trials = std::mem::take(&mut trials);
-                let robustness = Robustness::of(&verdict, case.robots(), (*variation, *scale), &trials);
-                if context.format == OutputFormat::Text {
-                    context.print(report::describe_robustness(&robustness))?;
-                    context.flush()?;
-                }
-                found.push(robustness);
-            }
-            Ok::<(), Failure>(())
-        };
-        in_order(rayon::current_num_threads(), &visits, visit, |done| bar.suspend(|| tell(done)))?;
-        Ok(found)
-    }
-
     /// The yields against the size of the change: a curve for each test and variation.
     fn draw(&self, found: &[Robustness]) -> report::Svg {
         let common = self.vary.iter().map(Variation::common).collect::<Option<Vec<f64>>>();
@@ -188,23 +142,6 @@ impl WorldsArguments {
     }
 }
 
-impl Visit<'_, '_, '_> {
-    /// The verdict in the world; `None` if it was interrupted.
-    fn run(
-        &self,
-        session: &Session,
-        seed: u64,
-        interrupt: &Interrupt,
-        bar: &Progress,
-    ) -> Option<(TestVerdict, WorldTrial)> {
-        let Experiment { case, variation, .. } = self.experiment;
-        let world = WorldSample { variation: *variation, seed }.world(&case.world(), self.world);
-        let run = session.run_case(case.trial_in(world), &mut interrupt.observe(bar.part()));
-        let trial = (run.end == RunEnd::Complete).then(|| run.world_trial()).flatten()?;
-        Some((run.verdict, trial))
-    }
-}
-
 /// A factor of changes.
 fn scale(text: &str) -> Result<f64, String> {
     let scale = text.parse().ok().filter(|scale| (0.0..=1000.0).contains(scale));
@@ -212,7 +149,7 @@ fn scale(text: &str) -> Result<f64, String> {
 }
 
 /// A share, also in percent.
-fn share(text: &str) -> Result<f64, String> {
+pub(in crate::cli) fn share(text: &str) -> Result<f64, String> {
     let share = match text.strip_suffix('%') {
         Some(percent) => percent.parse::<f64>().map(|percent| percent / 100.0),
         None => text.parse(),

@@ -61,6 +61,8 @@ pub struct LibrarySource {
     pub from: Origin,
     /// The behaviors it is restricted to; `None` is all.
     pub behaviors: Option<Vec<Behavior>>,
+    /// The names of robots that are left out, each with its place.
+    pub without: Vec<(String, Span)>,
 }
 
 /// The source of a library's robots.

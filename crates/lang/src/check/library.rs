@@ -9,7 +9,7 @@ use crate::syntax::tree::{
 };
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Behavior, Function, LibrarySource, Origin};
-use nbc_base::source::{SourceWorld, Sources};
+use nbc_base::source::{SourceWorld, Sources, Span};
 
 /// Checks a library.
 pub(crate) fn library(
@@ -22,8 +22,9 @@ pub(crate) fn library(
     let mut fields = Fields::new("library", source);
     let from = fields.need("from", "from: shipped", |value| origin(value, home, evolutions, sources));
     let behaviors = fields.read_list("behaviors", behavior);
+    let without = fields.read_list("without", robot).unwrap_or_default();
     faults.extend(fields.finish());
-    Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors })
+    Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors, without })
 }
 
 /// Folders of libraries that contain no robots.
@@ -57,6 +58,14 @@ fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sou
         return Ok(Origin::Shipped);
     }
     evolutions.resolve_beside(name, home, &["shipped"]).map(|_| Origin::Evolution(name.text.clone()))
+}
+
+/// The name of a robot, also as text.
+fn robot(value: &ValueSyntax) -> Result<(String, Span), Diagnostic> {
+    match &value.kind {
+        ValueKind::Text(name) => Ok((name.clone(), value.span)),
+        _ => fields::word(value, Expected::Robot).map(|name| (name.text.clone(), name.span)),
+    }
 }
 
 /// A function by its name, or a behavior by its four letters.

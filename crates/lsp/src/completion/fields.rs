@@ -72,8 +72,11 @@ const EVOLUTION: [(&str, Holds); 21] = [
     ("worlds", Holds::Words(&[])),
 ];
 
-const LIBRARY: [(&str, Holds); 2] =
-    [("from", Holds::Name(NameKind::Evolution, &["shipped"])), ("behaviors", Holds::Function)];
+const LIBRARY: [(&str, Holds); 3] = [
+    ("from", Holds::Name(NameKind::Evolution, &["shipped"])),
+    ("behaviors", Holds::Function),
+    ("without", Holds::Words(&[])),
+];
 
 const SWARM: [(&str, Holds); 8] = [
     ("circuit", Holds::Name(NameKind::Circuit, &[])),
