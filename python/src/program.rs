@@ -103,9 +103,12 @@ impl Program {
     }
 
     /// Its evolutions.
-    fn evolutions(&self) -> Vec<(String, Evolution)> {
-        let evolutions = self.checked.program.evolutions.iter();
-        evolutions.map(|evolution| (evolution.name.clone(), Evolution(evolution.clone()))).collect()
+    fn evolutions(&self, py: Python<'_>) -> PyResult<Vec<(String, Evolution)>> {
+        let started = |evolution: &nbc::Evolution| {
+            let started = self.session.started(&self.checked, evolution, nbc::RUNS);
+            Ok((evolution.name.clone(), Evolution(started.map_err(|found| diagnosed(py, &found))?)))
+        };
+        self.checked.program.evolutions.iter().map(started).collect()
     }
 
     /// Compiles a circuit to a swarm.

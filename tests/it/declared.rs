@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nbc::Session;
 use nbc_base::model::{
     Axis, Body, Count, Evolution, Genome, MutationWeights, Niche, Palette, Pattern, Rules, SampledWorlds, Schedule,
-    SearchObjective, Setting, Spell, Symmetry, Trial, Variation,
+    SearchObjective, Setting, Spell, StartBodies, Symmetry, Trial, Variation,
 };
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
@@ -96,6 +96,10 @@ fn changes() -> Vec<Change> {
         ("as: code", |run| run.rules = Rules::Code),
         ("genome: voxels", |run| run.genome = Genome::Voxels { crossover: 0.0 }),
         ("genome: voxels, crossover: 70%", |run| run.genome = Genome::Voxels { crossover: 0.7 }),
+        ("genome: voxels, start: shipped", |run| {
+            run.genome = Genome::Voxels { crossover: 0.0 };
+            run.start = Some(StartBodies { library: "shipped".to_owned(), bodies: Vec::new() });
+        }),
         ("objective: gate", |run| run.objective = SearchObjective::Gate),
         ("objective: wave", |run| run.objective = SearchObjective::Wave),
         ("objective: gate, vary: { all: 20%, drag: 0.5, start: 2 }, worlds: 1", |run| {
@@ -187,4 +191,37 @@ evolution usual { from: own, materials: [muscle, antimuscle, s1_shrink, s2_grow]
     for (at, one) in found.iter().enumerate() {
         assert!(found[..at].iter().all(|other| other != one), "the body senses both stimuli");
     }
+}
+
+#[test]
+fn a_search_of_voxels_begins_with_the_robots_that_fit() {
+    let mut world = MemoryWorld::default();
+    let source = "
+        library some { from: shipped, behaviors: [nand, RRRR] }
+        evolution own { box: 6 x 7, genome: voxels, start: some, batch: 1, newcomers: 0 }
+        evolution other { from: own, box: 4 x 4 }
+    ";
+    world.insert("run.nb", source.to_owned());
+    let mut session = Session::new(world);
+    let checked = session.checked("run.nb");
+    assert_eq!(checked.diagnostics, []);
+    let started = |name: &str| session.started(&checked, checked.program.evolution(name).unwrap(), "out");
+    let own = started("own").unwrap();
+    let fitting: Vec<Vec<String>> = session
+        .shipped()
+        .robots
+        .iter()
+        .filter(|robot| ["RRRL", "RRRR"].contains(&&*robot.behavior.to_string()) && robot.body.width() < 6)
+        .map(|robot| {
+            let empty = std::iter::repeat_n("0".repeat(6), 7 - robot.body.height());
+            empty.chain(robot.body.rows().iter().map(|row| format!("{row}0"))).collect()
+        })
+        .collect();
+    assert!(fitting.len() > 1);
+    assert_eq!(own.start.as_ref().unwrap().bodies, fitting);
+    let first: Vec<Vec<String>> =
+        Search::new(&own, 1).ask().iter().skip(1).map(|candidate| candidate.body.rows()).collect();
+    assert_eq!(first, fitting, "after the random body");
+    let error = started("other").unwrap_err().list.remove(0);
+    assert_eq!(error.message, "no robot of `some` fits into the box and the materials of `other`");
 }

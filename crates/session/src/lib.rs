@@ -21,6 +21,7 @@ mod run_report;
 mod schedule;
 mod session;
 mod simulation;
+mod start_bodies;
 pub mod store;
 mod swarm_run;
 mod test;

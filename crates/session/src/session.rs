@@ -11,11 +11,11 @@ use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
 use crate::{
-    Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, store,
-    swarm_run,
+    Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, start_bodies,
+    store, swarm_run,
 };
 use nbc_base::diag::Diagnostics;
-use nbc_base::model::{CircuitTest, Instance, Library, Simulation};
+use nbc_base::model::{CircuitTest, Evolution, Instance, Library, Simulation};
 use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::CellLibrary;
 use nbc_sim::Simulator;
@@ -124,6 +124,16 @@ impl Session {
         let robots = plan::robots(self.sources(checked), &checked.program, library, options);
         let robots = robots.map_err(|faults| checked.fail(faults))?;
         Ok(nbc_swarm::prefer(robots, options.objective))
+    }
+
+    /// An evolution of a program with the robots of the library that it begins with, if it has one; robots of other
+    /// evolutions are in the folder `runs`.
+    ///
+    /// # Errors
+    /// When the robots cannot be read, or none of them fits.
+    pub fn started(&self, checked: &Checked, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
+        let started = start_bodies::started(self.sources(checked), &checked.program, evolution, runs);
+        started.map_err(|faults| checked.fail(faults))
     }
 
     fn sources<'a>(&'a self, checked: &'a Checked) -> RobotSources<'a> {

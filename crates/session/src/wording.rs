@@ -77,6 +77,22 @@ pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>
     command.into_iter().fold(error, Diagnostic::with_help)
 }
 
+/// A library with which an evolution cannot begin: none of its robots fits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct StartError {
+    pub evolution: String,
+    pub library: String,
+}
+
+impl StartError {
+    /// The error at the library.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let Self { evolution, library } = self;
+        let message = format!("no robot of `{library}` fits into the box and the materials of `{evolution}`");
+        Diagnostic::new(Code::Value, message, span, "the evolution begins with these robots")
+    }
+}
+
 /// A robot that a library does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum RobotNameError {

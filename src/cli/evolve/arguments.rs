@@ -56,6 +56,11 @@ pub struct EvolveArguments {
 }
 
 impl EvolveArguments {
+    /// The folder of runs, in which the robots of other evolutions are.
+    pub(super) fn runs(&self) -> String {
+        self.out.as_deref().unwrap_or(Path::new(RUNS)).to_string_lossy().into_owned()
+    }
+
     /// The folder for the runs of a declaration, or for a part of their results.
     pub(super) fn folder(&self, part: impl AsRef<Path>) -> ResultPlace {
         ResultPlace::new(self.out.as_deref(), Path::new(RUNS), part)

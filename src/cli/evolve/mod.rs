@@ -212,22 +212,25 @@ impl EvolveArguments {
     /// The evolutions of the file itself, or of the prelude without a file, or the one given by name, which may be in a
     /// file that it uses.
     fn chosen(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
-        let program = match &self.file {
-            None => nbc_session::prelude(),
-            Some(path) => Session::new(interrupt.world()).open(&path.to_string_lossy())?.program.clone(),
+        let mut session = Session::new(interrupt.world());
+        let checked = self.file.as_ref().map(|path| session.open(&path.to_string_lossy())).transpose()?;
+        let program = checked.as_ref().map_or_else(nbc_session::prelude, |checked| checked.program.clone());
+        let started = |evolution: &Evolution| match &checked {
+            None => Ok(evolution.clone()),
+            Some(checked) => session.started(checked, evolution, &self.runs()),
         };
         let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
         if let Some(name) = &self.run {
-            let found = program.evolution(name).cloned();
+            let found = program.evolution(name);
             let unknown = || EvolveError::UnknownEvolution { name: name.clone(), known: known() };
-            return Ok(vec![found.ok_or_else(unknown)?]);
+            return Ok(vec![started(found.ok_or_else(unknown)?)?]);
         }
         let Some(path) = &self.file else { return Ok(program.evolutions) };
         if program.own_evolutions.is_empty() {
             return Err(EvolveError::NoEvolution { file: path.display().to_string(), known: known() }.into());
         }
         let own = program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name));
-        Ok(own.cloned().collect())
+        Ok(own.map(started).collect::<Result<_, _>>()?)
     }
 }
 

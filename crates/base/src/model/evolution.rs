@@ -21,6 +21,9 @@ pub struct Evolution {
     /// What bodies are made from.
     #[serde(default, skip_serializing_if = "Genome::is_cppn")]
     pub genome: Genome,
+    /// The robots with which a search of voxels begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartBodies>,
     /// The weights of the mutation operators of networks.
     pub mutation: MutationWeights,
     /// The stimuli of the long simulation, in which they change (paper, Methods).
@@ -93,6 +96,16 @@ impl Genome {
     pub fn is_cppn(&self) -> bool {
         *self == Self::Cppn
     }
+}
+
+/// The bodies of a library, with which a search begins.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StartBodies {
+    /// The declared library.
+    pub library: String,
+    /// The rows of those of its robots that fit into the box, in the codes of the run; empty until they are read.
+    pub bodies: Vec<Vec<String>>,
 }
 
 /// The reading of the paper where its text and its code differ (docs/physics.md 11).

@@ -29,7 +29,8 @@ pub use circuit::{
 };
 pub use column::{Column, bit_parts};
 pub use evolution::{
-    Axis, Count, Evolution, Genome, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, Symmetry,
+    Axis, Count, Evolution, Genome, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, StartBodies,
+    Symmetry,
 };
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};

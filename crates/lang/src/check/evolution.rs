@@ -15,8 +15,8 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::LEAST_ACTUATORS;
 use nbc_base::model::{
     Axis, Behavior, Count, Evolution, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette,
-    Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, Symmetry,
-    Variation,
+    Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, StartBodies,
+    Symmetry, Variation,
 };
 use nbc_base::source::Span;
 
@@ -88,6 +88,7 @@ pub(crate) fn evolution(
     let (width, height) = fields.read("box", (base.width, base.height), area);
     let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
     let genome = genome(&mut fields, base.genome);
+    let start = start(&mut fields, base.start, genome, home, known);
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
     let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
     let objective = fields.read("objective", base.objective, objective);
@@ -97,6 +98,7 @@ pub(crate) fn evolution(
         height,
         palette: palette.unwrap_or(base.palette),
         genome,
+        start,
         mutation: fields.read("mutation", base.mutation, mutation),
         variable,
         fixed_steps: fields.read("fixed", base.fixed_steps, steps),
@@ -145,6 +147,7 @@ fn paper() -> Evolution {
         height: 5,
         palette: Arc::new(Palette::new(Vec::new())),
         genome: Genome::default(),
+        start: None,
         mutation: MutationWeights::default(),
         variable: Schedule::default(),
         fixed_steps: 10 * nbc_base::model::CYCLE_STEPS,
@@ -190,6 +193,25 @@ fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: Searc
     });
     let is_used = vary != Variation::default() && objective != SearchObjective::Distance;
     is_used.then_some(SampledWorlds { worlds, vary })
+}
+
+/// The library with which a search begins; only voxels need no network.
+fn start(
+    fields: &mut Fields<'_>,
+    base: Option<StartBodies>,
+    genome: Genome,
+    home: Home,
+    known: &Known<'_>,
+) -> Option<StartBodies> {
+    let start = fields.read("start", base, |value| {
+        let name = fields::word(value, Expected::Name("library"))?;
+        known.names.libraries.resolve(name, home)?;
+        match genome {
+            Genome::Cppn => Err(EvolutionError::StartOfNetworks.at(value.span)),
+            Genome::Voxels { .. } => Ok(Some(StartBodies { library: name.text.clone(), bodies: Vec::new() })),
+        }
+    });
+    start.filter(|_| !genome.is_cppn())
 }
 
 /// What bodies are made from; only voxels can be crossed.

@@ -23,8 +23,8 @@ use crate::check::world::{Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
-    CircuitId, CircuitTest, Column, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference, Simulation,
-    Stimulation,
+    CircuitId, CircuitTest, Column, Evolution, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference,
+    Simulation, Stimulation,
 };
 use nbc_base::source::{Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -36,6 +36,7 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
     assembly.materials();
     assembly.schedules();
     assembly.worlds();
+    assembly.library_names();
     assembly.evolutions();
     assembly.libraries();
     assembly.circuits();
@@ -200,11 +201,17 @@ impl<'a> Assembly<'a> {
         }));
     }
 
+    /// The names of libraries, which evolutions may begin with.
+    fn library_names(&mut self) {
+        for (home, source) in self.declarations.records(RecordKeyword::Library) {
+            let declared = self.names.libraries.declare(&source.name, (), home);
+            self.note(declared);
+        }
+    }
+
     fn libraries(&mut self) {
         for (home, source) in self.declarations.records(RecordKeyword::Library) {
             let checked = library(source, home, &self.names.evolutions, self.declarations.sources, &mut self.faults);
-            let declared = self.names.libraries.declare(&source.name, (), home);
-            self.note(declared);
             self.program.libraries.extend(checked);
         }
     }
@@ -303,7 +310,10 @@ impl<'a> Assembly<'a> {
         }
         for (home, source) in self.declarations.records(RecordKeyword::Library) {
             let name = source.name.text.as_str();
-            let used = name == DEFAULT_LIBRARY || self.program.swarms.iter().any(|swarm| swarm.library == name);
+            let begins = |evolution: &Evolution| evolution.start.as_ref().is_some_and(|start| start.library == name);
+            let used = name == DEFAULT_LIBRARY
+                || self.program.swarms.iter().any(|swarm| swarm.library == name)
+                || self.program.evolutions.iter().any(begins);
             if home == Home::Own && !used {
                 self.faults.push(CircuitError::UnusedLibrary { library: name.to_owned() }.at(source.name.span));
             }

@@ -48,12 +48,13 @@ const MATERIAL: [(&str, Holds); 8] = [
     ("present", Holds::Words(&[])),
 ];
 
-const EVOLUTION: [(&str, Holds); 21] = [
+const EVOLUTION: [(&str, Holds); 22] = [
     ("from", Holds::Name(NameKind::Evolution, &[])),
     ("box", Holds::Words(&[])),
     ("materials", Holds::Name(NameKind::Material, &[])),
     ("genome", Holds::Words(&["cppn", "voxels"])),
     ("crossover", Holds::Words(&[])),
+    ("start", Holds::Name(NameKind::Library, &[])),
     ("variable", Holds::Name(NameKind::Schedule, &[])),
     ("fixed", Holds::Words(&[])),
     ("descriptors", Holds::Words(&["active in", "behavior", "sensory in", "voxels in"])),

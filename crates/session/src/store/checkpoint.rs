@@ -164,6 +164,7 @@ mod tests {
             height: 3,
             palette: Palette::paper(),
             genome: Genome::Cppn,
+            start: None,
             mutation: MutationWeights::default(),
             variable: Schedule::default(),
             fixed_steps: 84,

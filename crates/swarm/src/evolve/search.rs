@@ -22,6 +22,8 @@ pub enum CandidateOrigin {
     Random,
     /// From an elite of that niche by mutation.
     Offspring(NicheKey),
+    /// A robot with which the search begins.
+    Start,
     /// The mirror image of a body that entered the archive in the previous generation.
     Mirror,
 }
@@ -182,12 +184,21 @@ impl Search {
     pub fn ask(&self) -> Vec<Candidate> {
         let parents = self.parents();
         let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
+        let first = if self.generation == 0 { self.first_bodies() } else { Vec::new() };
         let offspring = parents.iter().map(|(key, elite)| (CandidateOrigin::Offspring((*key).clone()), Some(*elite)));
         let newcomers = std::iter::repeat_n((CandidateOrigin::Random, None), fresh);
         let mut candidates: Vec<Candidate> = Vec::new();
         for (index, (origin, parent)) in (0..).zip(offspring.chain(newcomers)) {
             candidates.extend(self.draw(index, origin, parent));
         }
+        let next = candidates.len() as u32;
+        candidates.extend((next..).zip(first).map(|(index, body)| Candidate {
+            index,
+            origin: CandidateOrigin::Start,
+            genotype: None,
+            body,
+            undeveloped: 0,
+        }));
         let next = candidates.len() as u32;
         candidates.extend((next..).zip(&self.mirrors).map(|(index, source)| self.mirror(index, source)));
         candidates
@@ -260,6 +271,13 @@ impl Search {
             taken |= status != AddStatus::Rejected;
         }
         taken
+    }
+
+    /// The robots with which the search begins.
+    fn first_bodies(&self) -> Vec<Body> {
+        let rows = self.evolution.start.iter().flat_map(|start| &start.bodies);
+        let bodies = rows.filter_map(|rows| Body::parse(rows, &self.evolution.palette).ok());
+        bodies.filter(|body| validate(body).is_ok()).collect()
     }
 
     /// Distinct niches, drawn evenly without replacement, and an elite of each.
@@ -414,6 +432,7 @@ pub(crate) mod tests {
             height: 5,
             palette: Palette::paper(),
             genome: Genome::Cppn,
+            start: None,
             mutation: MutationWeights::default(),
             variable: Schedule { spells },
             fixed_steps: 840,

@@ -24,6 +24,8 @@ pub(crate) enum EvolutionError {
     TooManyStimuli { most: usize },
     /// A share of crossed offspring where bodies develop from networks.
     CrossoverOfNetworks,
+    /// Robots to begin with where bodies develop from networks.
+    StartOfNetworks,
     /// Behaviors for an objective that takes all.
     BehaviorsWithoutGate,
     /// Other worlds for an objective that has none.
@@ -81,6 +83,11 @@ impl EvolutionError {
                 let message = "only bodies made of voxels can be crossed";
                 Diagnostic::new(Code::Value, message, span, "this evolution's genome is `cppn`")
                     .with_help("write `genome: voxels`, or remove `crossover`")
+            }
+            Self::StartOfNetworks => {
+                let message = "only a search of voxels can begin with robots";
+                Diagnostic::new(Code::Value, message, span, "this evolution's genome is `cppn`")
+                    .with_help("write `genome: voxels`, or remove `start`")
             }
             Self::BehaviorsWithoutGate => {
                 let message = "only the objectives of gates search for some behaviors";

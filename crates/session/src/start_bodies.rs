@@ -1,0 +1,51 @@
+//! The robots with which an evolution begins: those of its library that fit into its box.
+
+use crate::robots::RobotSources;
+use crate::wording::StartError;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Body, Evolution, Palette, Program, StartBodies};
+
+/// The evolution with the bodies of its library, if it begins with one.
+///
+/// # Errors
+/// When the robots cannot be read, or none of them fits.
+pub(super) fn started(
+    sources: RobotSources<'_>,
+    program: &Program,
+    evolution: &Evolution,
+    runs: &str,
+) -> Result<Evolution, Vec<Diagnostic>> {
+    let Some(declared) = evolution.start.as_ref().and_then(|start| program.library(&start.library)) else {
+        return Ok(evolution.clone());
+    };
+    let library = sources.library(declared, runs)?;
+    let bodies: Vec<Vec<String>> =
+        library.robots.iter().filter_map(|robot| placed(&robot.body, evolution)).map(|body| body.rows()).collect();
+    if bodies.is_empty() {
+        let (evolution, library) = (evolution.name.clone(), declared.name.clone());
+        return Err(vec![StartError { evolution, library }.at(declared.span)]);
+    }
+    let start = StartBodies { library: declared.name.clone(), bodies };
+    Ok(Evolution { start: Some(start), ..evolution.clone() })
+}
+
+/// A body on the ground in the middle of the evolution's box, in its codes; `None` if it does not fit, or has other
+/// materials.
+fn placed(body: &Body, evolution: &Evolution) -> Option<Body> {
+    let Evolution { width, height, palette, .. } = evolution;
+    let (above, left) = (height.checked_sub(body.height())?, width.checked_sub(body.width())? / 2);
+    let mut codes = vec![0; width * height];
+    for row in 0..body.height() {
+        for column in 0..body.width() {
+            codes[(above + row) * width + left + column] = code(body, body.code(row, column), palette)?;
+        }
+    }
+    Some(Body::new(*width, *height, codes, palette.clone()))
+}
+
+/// The code of the material in another palette.
+fn code(body: &Body, code: u8, palette: &Palette) -> Option<u8> {
+    let Some(place) = usize::from(code).checked_sub(1) else { return Some(0) };
+    let material = &body.palette().materials()[place];
+    palette.materials().iter().position(|other| other.kind == material.kind).map(|place| place as u8 + 1)
+}
