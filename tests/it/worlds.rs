@@ -264,9 +264,9 @@ fn a_robot_has_a_radius_and_its_file_keeps_it() {
 fn bench_with_two_gates(more: &str) -> Bench {
     let bench = Bench::new();
     std::fs::create_dir(bench.path().join("robots")).unwrap();
-    for name in ["thin_nand", "wide_nand"] {
-        let path = crate::support::root().join(format!("tests/robots/{name}.yaml"));
-        bench.file(&format!("robots/{name}.yaml"), &std::fs::read_to_string(path).unwrap());
+    for (folder, name) in [("thin", "nand_5x5"), ("robots", "nand_7x7")] {
+        let path = crate::support::root().join(format!("library/{folder}/{name}.yaml"));
+        bench.file(&format!("robots/{name}.yaml"), std::fs::read_to_string(path).unwrap());
     }
     let source = format!(
         "library two {{ from: \"robots\"{more} }}\n\
@@ -286,17 +286,17 @@ fn hardening_leaves_out_the_robot_that_fails_in_other_worlds() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     let hardened = validate("build", &ran.out)["hardened"].clone();
     let tried = hardened["tried"].as_array().unwrap();
-    assert_eq!((&hardened["without"], &hardened["reached"]), (&serde_json::json!(["thin_nand"]), &true.into()));
+    assert_eq!((&hardened["without"], &hardened["reached"]), (&serde_json::json!(["nand_5x5"]), &true.into()));
     assert_eq!(tried.len(), 2);
-    assert!(tried[0]["yield"]["share"].as_f64() < Some(0.9) && tried[0]["fails_first"][0] == "thin_nand");
-    assert!(ran.err.ends_with("to use these robots, write `without: [thin_nand]` in the library\n"), "{}", ran.err);
+    assert!(tried[0]["yield"]["share"].as_f64() < Some(0.9) && tried[0]["fails_first"][0] == "nand_5x5");
+    assert!(ran.err.ends_with("to use these robots, write `without: [nand_5x5]` in the library\n"), "{}", ran.err);
     let plain = bench.run(&["build", "gate.nb", "--format", "json"]);
     assert!(validate("build", &plain.out)["hardened"].is_null());
 }
 
 #[test]
 fn hardening_that_cannot_reach_its_goal_says_so() {
-    let bench = bench_with_two_gates(", without: [wide_nand]");
+    let bench = bench_with_two_gates(", without: [nand_7x7]");
     let ran = bench.run(&["build", "gate.nb", "--harden", "45%", "--worlds", "12"]);
     assert_eq!(ran.status, 1);
     assert!(ran.err.ends_with("no choice of robots passes in enough worlds; no robot is left out\n"), "{}", ran.err);
@@ -308,8 +308,8 @@ fn hardening_that_cannot_reach_its_goal_says_so() {
 
 #[test]
 fn a_robot_that_a_library_leaves_out_must_be_in_it() {
-    let bench = bench_with_two_gates(", without: [thin_nnad]");
+    let bench = bench_with_two_gates(", without: [nand_5x6]");
     let ran = bench.run(&["test", "gate.nb"]);
     assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("the library has no robot `thin_nnad`") && ran.err.contains("`thin_nand`"), "{}", ran.err);
+    assert!(ran.err.contains("the library has no robot `nand_5x6`") && ran.err.contains("`nand_5x5`"), "{}", ran.err);
 }

@@ -38,6 +38,14 @@ impl Declared {
         }
     }
 
+    /// The number of worlds besides its own in which the run tried bodies.
+    pub fn others(&self) -> usize {
+        match &self.whole {
+            FullDeclaration::Data(evolution) => evolution.sample.map_or(0, |sample| sample.worlds as usize),
+            FullDeclaration::Text(_) => 0,
+        }
+    }
+
     /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be
     /// others.
     pub(super) fn fits(&self, evolution: &Evolution) -> bool {

@@ -17,6 +17,10 @@ pub(super) const HOLD: usize = 4;
 const WALKS: [[usize; LANES]; LANES] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1, 3, 0]];
 /// Cycles of each random sequence.
 const RANDOM_CYCLES: usize = 36;
+/// Cycles of the first hold of waves: long enough to show bodies that are right only for a while.
+const WAVE_HOLD: usize = 12;
+/// Cycles of each random sequence of waves.
+const WAVE_CYCLES: usize = 48;
 /// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 
@@ -29,28 +33,29 @@ pub(super) fn stages(objective: SearchObjective) -> [Vec<Lane>; 2] {
     match objective {
         SearchObjective::Wave => {
             let start = |first: usize, rng: &mut ChaCha8Rng| {
-                let held = [Pattern::PAIRS[first]; HOLD];
+                let held = [Pattern::PAIRS[first]; WAVE_HOLD];
                 held.into_iter().chain(trail(first, rng)).collect()
             };
             let starts = (0..LANES).map(|first| start(first, &mut rng)).collect();
             let waves = |rng: &mut ChaCha8Rng| {
-                (0..RANDOM_CYCLES).map(|_| Pattern::PAIRS[rng.random_range(0..4u32) as usize]).collect()
+                (0..WAVE_CYCLES).map(|_| Pattern::PAIRS[rng.random_range(0..4u32) as usize]).collect()
             };
-            let random = |lane| if lane < LANES / 2 { waves(&mut rng) } else { random_holds(1..=4, &mut rng) };
-            [starts, (0..LANES).map(random).collect()]
+            let mut random = vec![waves(&mut rng), waves(&mut rng)];
+            random.extend([1..=4, 1..=4, 3..=12, 3..=12].map(|cycles| random_holds(WAVE_CYCLES, cycles, &mut rng)));
+            [starts, random]
         }
         SearchObjective::Distance | SearchObjective::Gate => {
             let walk = |walk: [usize; LANES]| walk.iter().flat_map(|&i| [Pattern::PAIRS[i]; HOLD]).collect();
-            [WALKS.map(walk).into(), (0..LANES).map(|_| random_holds(2..=4, &mut rng)).collect()]
+            [WALKS.map(walk).into(), (0..LANES).map(|_| random_holds(RANDOM_CYCLES, 2..=4, &mut rng)).collect()]
         }
     }
 }
 
-/// Random patterns, each held for a random number of cycles.
-fn random_holds(cycles: RangeInclusive<u32>, rng: &mut ChaCha8Rng) -> Lane {
-    let HoldPlan(holds) = HoldPlan::random(RANDOM_CYCLES / *cycles.start() as usize, cycles, rng);
+/// Random patterns, each held for a random number of cycles, until there are so many.
+fn random_holds(length: usize, cycles: RangeInclusive<u32>, rng: &mut ChaCha8Rng) -> Lane {
+    let HoldPlan(holds) = HoldPlan::random(length / *cycles.start() as usize, cycles, rng);
     let cycles = holds.into_iter().flat_map(|(pattern, cycles)| std::iter::repeat_n(pattern, cycles as usize));
-    cycles.take(RANDOM_CYCLES).collect()
+    cycles.take(length).collect()
 }
 
 /// Patterns that follow `first` such that each pattern follows each once, itself too.
@@ -111,8 +116,8 @@ mod tests {
     fn each_wave_makes_every_step_once_after_its_first_hold() {
         let [starts, random] = stages(SearchObjective::Wave);
         for (first, lane) in starts.iter().enumerate() {
-            assert_eq!(lane[..HOLD], [Pattern::PAIRS[first]; HOLD]);
-            assert_eq!(steps([&lane[HOLD - 1..]]), [[1; 4]; 4]);
+            assert_eq!(lane[..WAVE_HOLD], [Pattern::PAIRS[first]; WAVE_HOLD]);
+            assert_eq!(steps([&lane[WAVE_HOLD - 1..]]), [[1; 4]; 4]);
         }
         let random = steps(random.iter().map(Vec::as_slice));
         assert!(random.iter().flatten().all(|&times| times > 0), "{random:?}");
