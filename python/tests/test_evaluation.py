@@ -41,9 +41,8 @@ def test_gates_are_tried_in_other_worlds_too():
 
 
 def test_some_behaviors_are_searched_voxel_by_voxel():
-    run = nbc.Evolution(
-        shape=(3, 3), genome="voxels", crossover=0.5, objective="wave", behaviors=["xor", "RLLR"], symmetry="npn", batch=4
-    )
+    voxels = dict(genome="voxels", crossover=0.5, shape=(3, 3), batch=4)
+    run = nbc.Evolution(objective="wave", behaviors=["xor", "RLLR"], symmetry="npn", **voxels)
     assert run.fields["genome"] == {"voxels": {"crossover": 0.5}}
     search = nbc.Search(run, seed=1)
     for _ in range(3):

@@ -154,7 +154,8 @@ class Program:
             circuit: its name, by default the last one of the file.
             library: a folder of robot files, or ``shipped``; by default what the file declares.
             swarm: a declared swarm, if there are several for the circuit.
-            objective: what mapping minimizes: ``area``, ``delay``, ``margin`` (of risk) or ``sturdy`` (in other worlds).
+            objective: what mapping minimizes: ``area``, ``delay``, or the risk of a thin ``margin`` or of other worlds
+                (``sturdy``).
             effort: ``fast``, ``normal`` or ``high``.
             runs: the folder of evolution runs that the file's libraries may be from.
 
