@@ -105,7 +105,7 @@ impl Program {
     /// Its evolutions.
     fn evolutions(&self, py: Python<'_>) -> PyResult<Vec<(String, Evolution)>> {
         let started = |evolution: &nbc::Evolution| {
-            let started = self.session.started(&self.checked, evolution, nbc::RUNS);
+            let started = self.session.started(&self.checked, evolution, &CompileOptions::default().runs);
             Ok((evolution.name.clone(), Evolution(started.map_err(|found| diagnosed(py, &found))?)))
         };
         self.checked.program.evolutions.iter().map(started).collect()

@@ -184,12 +184,12 @@ mod tests {
     }
 
     fn search() -> Search {
-        search_of(&evolution())
+        search_of(&evolution(), 5)
     }
 
-    fn search_of(evolution: &Evolution) -> Search {
+    fn search_of(evolution: &Evolution, generations: usize) -> Search {
         let mut search = Search::new(evolution, 1);
-        for generation in 0..5 {
+        for generation in 0..generations {
             let candidates = search.ask();
             let scores = |i: usize| Scores {
                 fitness: [0.1 * i as f64, 1.0 / (i + generation + 1) as f64],
@@ -210,9 +210,12 @@ mod tests {
         assert_eq!((read.env_steps, read.left_out), (7, 8));
         assert_eq!(read.resume("a", &evolution(), 1), Ok(search()));
         let voxels = Evolution { genome: Genome::Voxels { crossover: 0.1 + 0.2 }, ..evolution() };
-        let read = Checkpoint::read("a", &Checkpoint::print(&search_of(&voxels), 7, 8)).unwrap();
-        assert!(!read.state.mirrors.is_empty());
-        assert_eq!(read.resume("a", &voxels, 1), Ok(search_of(&voxels)));
+        for generations in [1, 5] {
+            let search = search_of(&voxels, generations);
+            assert_eq!(search.state().mirrors.is_empty(), generations == 5);
+            let read = Checkpoint::read("a", &Checkpoint::print(&search, 7, 8)).unwrap();
+            assert_eq!(read.resume("a", &voxels, 1), Ok(search));
+        }
     }
 
     #[test]
