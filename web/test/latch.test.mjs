@@ -112,7 +112,7 @@ test("what is pointed at is marked in all views, and a robot can be followed alo
   await here.page.locator("body").press("Escape");
   await here.page.locator('.schematic [data-id="cell-0"]').hover();
   await here.page.locator('.schematic [data-id="cell-0"].pointed').waitFor();
-  assert.match(await here.page.locator(".inspector .line").textContent(), /NOT a \(not_7x7\) senses d = [01]/);
+  assert.match(await here.page.locator(".inspector .line").textContent(), /NOT a \(not_5x5\) senses d = [01]/);
   await here.page.locator('.schematic [data-id="cell-0"]').click();
   await here.page.locator(".inspector .facts:not([hidden])").waitFor();
   await here.page.locator("[data-do=all]").click();
