@@ -21,6 +21,7 @@ const HALF_MARGIN: f64 = 0.05;
 /// Fields of a line of a run's `progress.jsonl`.
 #[derive(Deserialize)]
 struct Line {
+    generation: u32,
     evaluations: u64,
     filled: usize,
     qd_score: f64,
@@ -37,7 +38,9 @@ fn main() -> Fallible<()> {
         let checkpoint = Checkpoint::open(&Path::new(&folder).join("checkpoint.nbc")).map_err(|fault| fault.message)?;
         let checkpoint = checkpoint.ok_or("the folder has no run")?;
         let text = std::fs::read_to_string(Path::new(&folder).join("progress.jsonl"))?;
-        let lines: Vec<Line> = text.lines().map(serde_json::from_str).collect::<Result<_, _>>()?;
+        let mut lines: Vec<Line> = text.lines().map(serde_json::from_str).collect::<Result<_, _>>()?;
+        // Later lines were written after the checkpoint.
+        lines.retain(|line| line.generation <= checkpoint.state.generation);
         let Line { evaluations, filled, env_steps, .. } = lines.last().ok_or("the run has no generation")?;
         let found = CLASSES.map(|word| best(&checkpoint, word.parse().expect("a behavior")));
         let (name, steps) = (&checkpoint.declared.name, *env_steps as f64 / 1e6);

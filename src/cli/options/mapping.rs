@@ -90,7 +90,7 @@ enum ObjectiveWord {
     Delay,
     /// Wide noise margins
     Margin,
-    /// Robots that bear the largest changes of the world
+    /// Robots that bear the largest changes of the world, by the radius in their files
     Sturdy,
 }
 
