@@ -54,7 +54,7 @@ impl TaskSender {
     /// Starts to send a task.
     pub fn send(&mut self, task: &TaskMessage) {
         let (jetstream, key, bytes) = (self.jetstream.clone(), task.key, task.encode());
-        let subject = task_subject(&self.token, &self.search, key);
+        let subject = self.subject(key);
         let publish = async move {
             let acknowledgment = jetstream.publish(subject, bytes.into()).await.map_err(|error| error.to_string())?;
             acknowledgment.await.map(|_| ()).map_err(|error| error.to_string())
@@ -99,21 +99,36 @@ impl TaskSender {
         if tasks.is_empty() || !self.sending.is_empty() {
             return Vec::new();
         }
-        let Ok(there) = self.subjects().await else { return Vec::new() };
-        tasks
-            .retain(|&key| !self.kept.contains(&key) && !there.contains(&task_subject(&self.token, &self.search, key)));
+        let Ok(there) = self.subjects(&tasks).await else { return Vec::new() };
+        tasks.retain(|&key| !self.kept.contains(&key) && !there.contains(&self.subject(key)));
         tasks
     }
 
-    /// The subjects of this search's tasks that the server has.
-    async fn subjects(&self) -> Result<BTreeSet<String>, String> {
-        let text = |error: &dyn ToString| error.to_string();
-        // The queue may be gone, too.
-        Connection::queue(&self.jetstream, &self.token).await?;
+    fn subject(&self, key: TaskKey) -> String {
+        task_subject(&self.token, &self.search, key)
+    }
+
+    /// The subjects of this search's tasks that the server has. A queue that would never give some of these tasks to a
+    /// worker is made again.
+    async fn subjects(&self, tasks: &[TaskKey]) -> Result<BTreeSet<String>, String> {
+        // The queue may be gone, too. What it has to do is asked first: a task that is done later leaves the stream.
+        let queue = Connection::queue(&self.jetstream, &self.token).await?;
         let stream = Connection::stream(&self.jetstream).await?;
-        let found = stream.info_with_subjects(task_subjects(&self.token, &self.search)).await;
-        let pairs = found.map_err(|error| text(&error))?.try_collect::<Vec<_>>().await;
-        Ok(pairs.map_err(|error| text(&error))?.into_iter().map(|(subject, _)| subject).collect())
+        let found = stream.info_with_subjects(task_subjects(&self.token, &self.search)).await.map_err(text)?;
+        let last = found.info.state.last_sequence;
+        let pairs = found.try_collect::<Vec<_>>().await.map_err(text)?;
+        let there: BTreeSet<String> = pairs.into_iter().map(|(subject, _)| subject).collect();
+        let info = queue.cached_info();
+        let is_idle = info.num_pending == 0 && info.num_ack_pending == 0;
+        let has_ours = tasks.iter().any(|&key| there.contains(&self.subject(key)));
+        // After a failure of its disk the server may number its messages from an earlier number on than the queue does,
+        // which takes the new ones for done.
+        if info.delivered.stream_sequence > last || is_idle && has_ours {
+            (self.log)("the queue of the NATS server has lost its place; it is made again\n");
+            stream.delete_consumer(&info.name).await.map_err(text)?;
+            Connection::queue(&self.jetstream, &self.token).await?;
+        }
+        Ok(there)
     }
 
     /// Removes this search's tasks from the server. A server that cannot be reached drops them when they are too old.
@@ -122,4 +137,8 @@ impl TaskSender {
             let _ = stream.purge().filter(task_subjects(&self.token, &self.search)).await;
         }
     }
+}
+
+fn text(error: impl ToString) -> String {
+    error.to_string()
 }

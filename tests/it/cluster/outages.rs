@@ -148,6 +148,20 @@ fn a_server_whose_disk_is_full_is_named_and_the_search_continues_when_there_is_r
 }
 
 #[test]
+fn a_queue_that_would_never_give_out_its_tasks_is_made_again() {
+    let Some(mut server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    let good = worker(&bench, &server, "good");
+    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("good")));
+    server.restart_without_messages();
+    search.wait_for("the queue of the NATS server has lost its place; it is made again");
+    assert_same(&bench, &search.end());
+    good.kill();
+}
+
+#[test]
 fn a_queue_is_opened_as_soon_as_its_subjects_are_free() {
     let Some(server) = Server::start(&[]) else { return };
     let (bench, mut wire) = (bench(), Wire::open(&server));

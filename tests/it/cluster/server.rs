@@ -54,6 +54,14 @@ impl Server {
         self.start_again();
     }
 
+    /// Kills it and starts it again without the messages, but with what it has noted about them: as after a disk that
+    /// kept one and lost the other.
+    pub fn restart_without_messages(&mut self) {
+        self.stop();
+        fs::remove_dir_all(self.store.join("jetstream/$G/streams/nbc-tasks/msgs")).unwrap();
+        self.start_again();
+    }
+
     fn start_again(&mut self) {
         self.child = spawn(&self.port.to_string(), &self.folder, &self.store, &self.options);
         assert_eq!(chosen_port(&self.folder, &self.child), self.port);
