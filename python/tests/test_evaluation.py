@@ -47,8 +47,8 @@ def test_some_behaviors_are_searched_voxel_by_voxel():
     search = nbc.Search(run, seed=1)
     for _ in range(3):
         search.step()
-    elites = search.archive()
-    assert len(elites) > 0 and set(elites.behavior) <= {"LRRL", "RLLR"}
+    elites = search.archive.elites
+    assert len(elites) > 0 and set(elites["behavior"]) <= {"LRRL", "RLLR"}
     with pytest.raises(nbc.NbcError, match="only bodies made of voxels"):
         nbc.Evolution(crossover=0.5)
 

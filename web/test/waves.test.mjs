@@ -1,16 +1,32 @@
 // A wave machine, live: its robots carry the waves of its threads in turn, and a step is one edge of its clock.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { cycle } from "./browser.mjs";
 import { opened } from "./opened.mjs";
 
-const COUNTER = readFileSync(new URL("../../circuits/wave_counter.nb", import.meta.url), "utf8");
+// Its loop has two robots, so that two machines are at work at once.
+const FLIP_FLOP = `//! A flip-flop that is set, cleared, held or flipped.
 
-const here = opened({ "counter.nb": COUNTER }, "counter.nb", async page => {
-  // The first swarm of the circuit, `quick_wave`.
+circuit flip_flop(set, clear, clk) -> (q) {
+    q = register((set and not q) or (q and not clear), clk)
+}
+
+swarm wave { circuit: flip_flop, registers: waves, beat: 1 cycle }
+
+test flip_flop "flips while both are on" {
+    set clear clk | q
+    0   0     0   | 0
+    1   1     ^   | 1
+    1   1     ^   | 0
+    1   1     ^   | 1
+    0   0     ^   | 1
+    0   1     ^   | 0
+}
+`;
+
+const here = opened({ "flip_flop.nb": FLIP_FLOP }, "flip_flop.nb", async page => {
   await page.getByText(/, a step of \d+ cycles, \d+ threads at once$/).waitFor();
   await page.locator("[data-do=reset]").click();
   await page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 0");

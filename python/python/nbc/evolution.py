@@ -18,7 +18,7 @@ from .progress import Progress, reporting
 
 __all__ = ["Evaluation", "Evolution", "evaluate"]
 
-Field = Union[str, int, Sequence[str]]
+Field = Union[str, float, Sequence[str]]
 
 
 class Evolution:
