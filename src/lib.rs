@@ -191,7 +191,7 @@ pub use nbc_base::model::{Axis, Behavior, Count};
 /// ```
 /// use nbc::{Pattern, Schedule, Spell};
 /// let spells = vec![Spell { pattern: Pattern::PAIRS[1], steps: 840 }];
-/// assert_eq!(nbc::read_schedule("schedule", "01*10")?, Schedule { spells });
+/// assert_eq!(nbc::read_schedule("schedule", "01*10", 2)?, Schedule { spells });
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use nbc_base::model::Spell;
@@ -312,7 +312,7 @@ pub use {
 pub use nbc_session::SimulationRun;
 
 /// ```
-/// let schedule: nbc::Schedule = nbc::read_schedule("schedule", "00*10 01*56steps")?;
+/// let schedule: nbc::Schedule = nbc::read_schedule("schedule", "00*10 01*56steps", 2)?;
 /// assert_eq!(schedule.steps(), 896);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```

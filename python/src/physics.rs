@@ -22,6 +22,9 @@ const TOGETHER: usize = 32;
 /// The most memory of recorded paths and poses.
 const MOST_BYTES: u64 = 1 << 33;
 
+/// The stimuli of the paper's materials.
+const PAPER_STIMULI: usize = 2;
+
 /// What a call without room for its results can do.
 const LESS: &str = "simulate fewer bodies at once, or with `record=None`";
 
@@ -38,13 +41,14 @@ pub enum ScheduleWords {
 }
 
 impl ScheduleWords {
-    /// The schedule.
+    /// The schedule of so many stimuli.
     ///
     /// # Errors
     /// When it is invalid.
-    pub fn read(self, py: Python<'_>) -> PyResult<Schedule> {
+    pub fn read(self, py: Python<'_>, stimuli: usize) -> PyResult<Schedule> {
+        let read = |text: &str| nbc::read_schedule("schedule", text, stimuli);
         let spells = match self {
-            Self::Text(text) => return nbc::read_schedule("schedule", &text).map_err(|found| diagnosed(py, &found)),
+            Self::Text(text) => return read(&text).map_err(|found| diagnosed(py, &found)),
             Self::Spells(spells) => spells,
         };
         let spell = |(digits, steps)| Ok(Spell { pattern: pattern(digits)?, steps });
@@ -52,12 +56,12 @@ impl ScheduleWords {
     }
 }
 
-/// The spells of a schedule: patterns as digits, and env steps.
+/// The spells of a schedule of the paper's two stimuli: patterns as digits, and env steps.
 #[pyfunction]
 pub fn read_schedule(py: Python<'_>, schedule: ScheduleWords) -> PyResult<Vec<(String, u32)>> {
     at_once(py, || {
-        let spells = schedule.read(py)?.spells;
-        Ok(spells.into_iter().map(|spell| (spell.pattern.to_string(), spell.steps)).collect())
+        let spells = schedule.read(py, PAPER_STIMULI)?.spells;
+        Ok(spells.into_iter().map(|spell| (spell.pattern.digits(PAPER_STIMULI), spell.steps)).collect())
     })
 }
 
@@ -140,7 +144,7 @@ impl TrialArguments<'_> {
         at_once(py, || {
             let palette = palette(self.materials.as_deref())?;
             let experiment = Experiment {
-                schedule: self.schedule.read(py)?,
+                schedule: self.schedule.read(py, palette.stimuli())?,
                 batch: Batch::read(&self.codes, &self.shapes, &palette)?,
                 setting: setting(self.world_width, self.start_x),
                 record_com: self.record_com,

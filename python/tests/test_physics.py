@@ -76,6 +76,18 @@ def test_materials_of_ones_own():
     np.testing.assert_array_equal(as_paper.com, with_own.com)
 
 
+def test_a_third_stimulus():
+    touch = {"name": "touch", "kind": "sensor", "stimulus": 3, "absent": 1.1, "present": 0.6}
+    own = [*nbc.PAPER_MATERIALS, touch]
+    assert nbc.simulate([["393"]], "001*1", materials=own).com[0, -1, 0] != (
+        nbc.simulate([["393"]], "000*1", materials=own).com[0, -1, 0]
+    )
+    pairs = nbc.simulate([["393"]], [("001", 84)], materials=own)
+    np.testing.assert_array_equal(pairs.com, nbc.simulate([["393"]], "001*1", materials=own).com)
+    with pytest.raises(nbc.NbcError, match="invalid stimulus pattern `00`"):
+        nbc.simulate([["393"]], "00*1", materials=own)
+
+
 def test_a_fault_is_a_value(walkers):
     exploding = [{"name": "a", "kind": "actuator", "period": 2, "phase": 90.0, "range": [0.6, 1.6]}]
     walk = nbc.simulate([["1111", "1111", "1111", "1111"]], "00*2", materials=exploding)

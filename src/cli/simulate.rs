@@ -23,11 +23,12 @@ use nbc_sim::LaneBackend;
 
 A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, \
 1 rigid, 2 soft, 3 actuator, 4 actuator in antiphase. While stimulus 1 is present, 5 shrinks and 7 grows; while \
-stimulus 2 is present, 6 shrinks and 8 grows.")]
+stimulus 2 is present, 6 shrinks and 8 grows. A file may have `materials:` of its own; a pattern has a digit for each \
+stimulus that they sense.")]
 pub struct SimulateArguments {
     /// A file with a body, or the name of a robot in the library
     robot: String,
-    /// Patterns of the two stimuli with durations: `01*10` is ten cycles, `01*56steps` is 56 env steps
+    /// Patterns of the stimuli with durations: `01*10` is ten cycles, `01*56steps` is 56 env steps
     #[arg(long)]
     schedule: String,
     /// The ground column of the body's left column [default: the middle of the world]
@@ -57,9 +58,10 @@ impl SimulateArguments {
     /// # Errors
     /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let schedule = read_schedule("--schedule", &self.schedule)?;
         let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::default() };
         let body = read_body(&self.robot)?;
+        let stimuli = body.palette().stimuli();
+        let schedule = read_schedule("--schedule", &self.schedule, stimuli)?;
         setting.check(&body).map_err(UsageError::Setting)?;
         let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;
         let trial = Trial { body, schedule: schedule.clone() };
@@ -68,7 +70,7 @@ impl SimulateArguments {
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
         context.print_result(Schema::Simulate, &Outcome::of(&schedule, &trajectory), || {
-            describe(&schedule, &trajectory)
+            describe(&schedule, stimuli, &trajectory)
         })?;
         Ok(Status::Done)
     }
@@ -91,7 +93,7 @@ impl<'a> Outcome<'a> {
     }
 }
 
-fn describe(schedule: &Schedule, trajectory: &Trajectory) -> String {
+fn describe(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> String {
     use Align::{Left, Right};
     let mut table =
         TextTable::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
@@ -104,7 +106,7 @@ fn describe(schedule: &Schedule, trajectory: &Trajectory) -> String {
             Some(walked) => (format!("{walked:+.6}"), format!("{:?}", Direction::of(walked)).to_lowercase()),
             None => ("-".to_owned(), "-".to_owned()),
         };
-        table.push(vec![spell.pattern.to_string(), length, walked, direction]);
+        table.push(vec![spell.pattern.digits(stimuli), length, walked, direction]);
     }
     match trajectory.fault {
         None => format!("{table}voxels walked\n"),

@@ -170,7 +170,7 @@ fn a_stopped_flock_can_be_restored() {
         other.restore(robot, state);
     }
     other.advance(&[Pattern::PAIRS[1]; 3], 50);
-    let schedule = nbc::read_schedule("schedule", "10*50steps 01*50steps").unwrap();
+    let schedule = nbc::read_schedule("schedule", "10*50steps 01*50steps", 2).unwrap();
     let trial = Trial { body: bodies[0].clone(), schedule };
     let whole = Simulator::default().run_trials(&Setting::default(), &[trial]).remove(0);
     assert_eq!(other.center(2).map(f64::to_bits), [whole.com_x[100], whole.com_y[100]].map(f64::to_bits));

@@ -18,7 +18,10 @@ fn schedule(cycles: u32) -> Schedule {
 fn film(body: &Body, cycles: u32) -> (Film, Stage) {
     let stage = Stage::of_trial(&Setting::default(), body, &schedule(cycles), CYCLE_STEPS / FRAMES_PER_CYCLE);
     let largest = body.width().max(body.height());
-    (Film { title: "walker".to_owned(), lanes: vec!["01".to_owned()], scheme: Scheme::Paper, largest }, stage)
+    (
+        Film { title: "walker".to_owned(), lanes: vec!["01".to_owned()], scheme: Scheme::Paper, largest, stimuli: 2 },
+        stage,
+    )
 }
 
 fn gif_bytes(body: &Body, cycles: u32) -> Vec<u8> {
@@ -127,7 +130,7 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
     let trace = latch(&[(false, true), (true, true)], 2);
     let assembly = crate::page::assembly(&trace);
     let lanes: Vec<String> = trace.robots.iter().map(|robot| robot.net.clone()).collect();
-    let film = Film { title: "latch".to_owned(), lanes, scheme: Scheme::Paper, largest: 5 };
+    let film = Film { title: "latch".to_owned(), lanes, scheme: Scheme::Paper, largest: 5, stimuli: 2 };
     let stage = Stage::of_swarm(&assembly, &trace, CYCLE_STEPS);
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();
@@ -138,7 +141,7 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
     let count = |picture: &[u8], color: u8, columns: std::ops::Range<usize>| {
         picture.chunks(width).flat_map(|row| &row[columns.clone()]).filter(|&&pixel| pixel == color).count()
     };
-    let [one, two, ground] = [Color::STIMULUS_1, Color::STIMULUS_2, Color::GROUND].map(number);
+    let [one, two, ground] = [Color::stimulus(0), Color::stimulus(1), Color::GROUND].map(number);
     for (picture, cycle) in pictures.iter().zip(&trace.cycles) {
         for (i, color) in [one, two].into_iter().enumerate() {
             // A frame of two pixels around twelve by twelve, which are filled while the stimulus is present.

@@ -285,3 +285,39 @@ test inverter \"turns over\" {
     assert_eq!(of_own.com_x, of_paper.com_x, "the same materials under other names and codes");
     assert!(report.passed());
 }
+
+/// A body whose last material senses a third stimulus.
+const THIRD: &str = r#"{
+    "materials": [
+        { "name": "actuator", "kind": "actuator", "period": 84, "phase": 0, "range": [0.6, 1.6] },
+        { "name": "touch", "kind": "sensor", "stimulus": 3, "absent": 1.1, "present": 0.6 }
+    ],
+    "body": ["121", "111"]
+}"#;
+
+#[test]
+fn patterns_have_a_digit_for_each_stimulus_that_a_body_senses() {
+    let bench = Bench::new();
+    bench.file("third.json", THIRD);
+    let simulate = |schedule: &str| bench.run(&["simulate", "third.json", "--schedule", schedule, "--format", "json"]);
+    let walked = |schedule: &str| simulate(schedule).expect_json()["displacement"][0].as_f64().unwrap();
+    assert_eq!(walked("000*3"), walked("110*3"), "nothing senses these stimuli");
+    assert_ne!(walked("000*3"), walked("001*3"));
+    bench.run(&["simulate", "third.json", "--schedule", "00*3"]).expect_fault(&[
+        "invalid stimulus pattern `00`",
+        "expected 3 digits, 0 or 1, for the stimuli that the materials of the body sense",
+        "`001*10` is ten cycles",
+    ]);
+    let ran = bench.run(&["simulate", "third.json", "--schedule", "001*1 110*1"]);
+    assert!(ran.out.contains("\n001 ") && ran.out.contains("\n110 "), "{}", ran.out);
+    let draw = |kind: &str, file: &str| {
+        assert_eq!(bench.run(&["draw", "third.json", "--as", kind, "-o", file]).status, 0);
+        fs::read_to_string(bench.path().join(file)).unwrap()
+    };
+    let (strip, paths) = (draw("strip", "strip.svg"), draw("spacetime", "paths.svg"));
+    assert!(
+        ["000", "011", "111"].iter().all(|pattern| strip.contains(&format!(">{pattern}<"))),
+        "each pattern has a row"
+    );
+    assert!(paths.contains("stimulus 3") && paths.contains("111 "), "{paths}");
+}

@@ -1,7 +1,7 @@
 //! Pictures by their content: what is drawn and where, and that the same input gives the same bytes.
 
 use crate::support::traces::{large, latch, latch_netlist};
-use nbc_base::model::{Body, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory};
+use nbc_base::model::{Body, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory, Trial};
 use nbc_circuit::Netlist;
 use nbc_session::report::{self, Scheme};
 use nbc_swarm::{StimulusSource, SwarmTrace};
@@ -122,7 +122,9 @@ fn one_robots_diagram_shows_its_schedule() {
     let spell = |pattern: usize, steps| Spell { pattern: Pattern::PAIRS[pattern], steps };
     let schedule = Schedule { spells: vec![spell(0, 840), spell(3, 840)] };
     let com_x: Vec<f64> = (0..=1680).map(|i| 250.0 + f64::from(i) * 0.01).collect();
-    let svg = report::draw_robot("nand_1", &schedule, &Trajectory { com_x, com_y: vec![], fault: None }).finish();
+    let body = Body::parse(&["3"], &nbc_base::model::Palette::paper()).unwrap();
+    let trial = Trial { body, schedule };
+    let svg = report::draw_robot("nand_1", &trial, &Trajectory { com_x, com_y: vec![], fault: None }).finish();
     let texts = texts(&svg);
     for wanted in ["nand_1 in space and time", "voxels walked: 00 +8.40, 11 +8.40", "stimulus 1", "stimulus 2", "20"] {
         assert!(texts.iter().any(|text| text == wanted), "{wanted:?} is not among {texts:?}");

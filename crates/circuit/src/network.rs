@@ -77,6 +77,26 @@ impl Network {
         values
     }
 
+    /// The same network with an inverter for each gate that inverts one signal because its pins are equal or one is a
+    /// constant, if there is a cell for it; likewise with buffers.
+    pub(crate) fn with_plain_inverters(&self, has_cell: impl Fn(Function) -> bool) -> Self {
+        let mut plain = self.clone();
+        for gate in &mut plain.gates {
+            let [a, b] = gate.pins;
+            let signal = if a > 1 { a } else { b };
+            if signal < 2 || (a > 1 && b > 1 && a != b) {
+                continue;
+            }
+            let pin = |pin: Signal, value: bool| if pin == signal { value } else { pin == 1 };
+            let [off, on] = [false, true].map(|value| gate.function.output(pin(a, value), pin(b, value)));
+            let function = if off { Function::NOT } else { Function::BUF };
+            if off != on && has_cell(function) {
+                *gate = Gate { function, pins: [signal; 2] };
+            }
+        }
+        plain
+    }
+
     /// The gates that the outputs depend on, the others left out.
     pub fn swept(&self) -> Self {
         let mut used = vec![false; self.signals()];
@@ -228,5 +248,22 @@ mod tests {
         for pattern in 0..8u64 {
             assert_eq!(u64::from(pattern.count_ones()), (sum >> pattern & 1) + 2 * (carry >> pattern & 1));
         }
+    }
+
+    #[test]
+    fn gates_that_invert_one_signal_become_inverters() {
+        let mut network = Network::new(2);
+        let [a, b] = [0, 1].map(|i| network.input(i));
+        let from_constant = network.add(Function::parse("nota_or_b").unwrap(), [a, 0]);
+        let from_pins = network.add(Function::NOR, [b, b]);
+        let copied = network.add(Function::AND, [1, a]);
+        let real = network.add(Function::NAND, [a, b]);
+        network.outputs = vec![from_constant, from_pins, copied, real];
+        let plain = network.with_plain_inverters(|_| true);
+        let functions: Vec<Function> = plain.gates.iter().map(|gate| gate.function).collect();
+        assert_eq!(functions, [Function::NOT, Function::NOT, Function::BUF, Function::NAND]);
+        let inputs: Vec<u64> = (0..2).map(|i| counting_word(i, 0)).collect();
+        assert_eq!(plain.simulate(&inputs), network.simulate(&inputs));
+        assert_eq!(network.with_plain_inverters(|_| false), network);
     }
 }

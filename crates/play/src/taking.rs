@@ -67,6 +67,7 @@ fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {
         lanes: assembly.members.iter().map(|one| format!("{} ({})", one.net, one.robot.function())).collect(),
         scheme: SCHEME,
         largest: sides.max().unwrap_or(1),
+        stimuli: 2,
     };
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| {})?;

@@ -129,7 +129,10 @@ pub(super) fn compile(
     let timing = mapping.timing();
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),
-        Some(machine) => nbc_swarm::assemble_waves(machine, &nbc_swarm::within_beat(&plan.library, machine.beat)),
+        Some(machine) => {
+            let library = nbc_swarm::within_beat(&plan.library, machine.beat, options.objective);
+            nbc_swarm::assemble_waves(machine, &library)
+        }
     };
     let assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world);
     let weak_robots = nbc_swarm::weak_robots(&assembly);

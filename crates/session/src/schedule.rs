@@ -8,32 +8,32 @@ use nbc_base::source::{SourceFile, Sources, Span};
 /// The most env steps of a schedule.
 const MAX_STEPS: u64 = 10_000_000;
 
-/// Reads a schedule of two stimuli: entries with blanks between them, each of two stimulus bits, `*`, and a number of
+/// Reads a schedule: entries with blanks between them, each of a bit for each of so many stimuli, `*`, and a number of
 /// cycles or env steps. Messages call the text `name`.
 ///
 /// # Errors
 /// A diagnostic for each entry that is wrong, at its place.
-pub fn read_schedule(name: &str, text: &str) -> Result<Schedule, Diagnostics> {
+pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule, Diagnostics> {
     let mut sources = Sources::default();
     let id = sources.add(name, text);
-    parse(sources.file(id)).map_err(|list| Diagnostics { list, sources })
+    parse(sources.file(id), stimuli).map_err(|list| Diagnostics { list, sources })
 }
 
-fn parse(file: &SourceFile) -> Result<Schedule, Vec<Diagnostic>> {
+fn parse(file: &SourceFile, stimuli: usize) -> Result<Schedule, Vec<Diagnostic>> {
     let (mut spells, mut faults) = (Vec::new(), Vec::new());
     for span in words(file) {
-        match parse_entry(file, span) {
+        match parse_entry(file, span, stimuli) {
             Ok(spell) => spells.push(spell),
             Err(fault) => faults.push(fault),
         }
     }
     let whole = Span::new(file.id, 0, file.text.len());
     if spells.is_empty() && faults.is_empty() {
-        faults.push(ScheduleError::Empty.at(whole));
+        faults.push(ScheduleError::Empty.at(whole, stimuli));
     }
     let steps: u64 = spells.iter().map(|spell| u64::from(spell.steps)).sum();
     if steps > MAX_STEPS {
-        faults.push(ScheduleError::TooLong { steps, most: MAX_STEPS }.at(whole));
+        faults.push(ScheduleError::TooLong { steps, most: MAX_STEPS }.at(whole, stimuli));
     }
     if faults.is_empty() { Ok(Schedule { spells }) } else { Err(faults) }
 }
@@ -44,23 +44,24 @@ fn words(file: &SourceFile) -> Vec<Span> {
     file.text.split_whitespace().map(|word| Span::new(file.id, start(word), start(word) + word.len())).collect()
 }
 
-fn parse_entry(file: &SourceFile, span: Span) -> Result<Spell, Diagnostic> {
+fn parse_entry(file: &SourceFile, span: Span, stimuli: usize) -> Result<Spell, Diagnostic> {
     let entry = &file.text[span.range()];
     let start = span.range().start;
     let Some((bits, length)) = entry.split_once('*') else {
-        return Err(ScheduleError::NoDuration { entry: entry.to_owned() }.at(span));
+        return Err(ScheduleError::NoDuration { entry: entry.to_owned() }.at(span, stimuli));
     };
     let bits_span = Span::new(file.id, start, start + bits.len());
     let length_span = Span::new(file.id, start + bits.len() + 1, span.range().end);
-    Ok(Spell { pattern: parse_bits(bits, bits_span)?, steps: parse_length(length, length_span)? })
+    let pattern = parse_bits(bits, stimuli).map_err(|fault| fault.at(bits_span, stimuli))?;
+    Ok(Spell { pattern, steps: parse_length(length).map_err(|fault| fault.at(length_span, stimuli))? })
 }
 
-fn parse_bits(bits: &str, span: Span) -> Result<Pattern, Diagnostic> {
-    let found = Pattern::PAIRS.into_iter().find(|pattern| pattern.to_string() == bits);
-    found.ok_or_else(|| ScheduleError::Pattern { found: bits.to_owned() }.at(span))
+fn parse_bits(bits: &str, stimuli: usize) -> Result<Pattern, ScheduleError> {
+    let pattern = Pattern::try_from(bits.to_owned()).ok().filter(|_| bits.len() == stimuli);
+    pattern.ok_or_else(|| ScheduleError::Pattern { found: bits.to_owned() })
 }
 
-fn parse_length(length: &str, span: Span) -> Result<u32, Diagnostic> {
+fn parse_length(length: &str) -> Result<u32, ScheduleError> {
     let found = length.to_owned();
     let (number, unit) = match length.find(|c: char| !c.is_ascii_digit()) {
         Some(at) => length.split_at(at),
@@ -69,14 +70,14 @@ fn parse_length(length: &str, span: Span) -> Result<u32, Diagnostic> {
     let steps_each = match unit {
         "cycle" | "cycles" => u64::from(CYCLE_STEPS),
         "step" | "steps" => 1,
-        _ => return Err(ScheduleError::NotADuration { found }.at(span)),
+        _ => return Err(ScheduleError::NotADuration { found }),
     };
     // A number that overflows is too long for a schedule.
     let count = number.parse::<u64>().unwrap_or(if number.is_empty() { 0 } else { u64::MAX });
     match count.saturating_mul(steps_each) {
-        0 => Err(ScheduleError::NoTime { found }.at(span)),
+        0 => Err(ScheduleError::NoTime { found }),
         steps @ 1..=MAX_STEPS => Ok(u32::try_from(steps).expect("the limit fits")),
-        _ => Err(ScheduleError::LongEntry { found, most: MAX_STEPS }.at(span)),
+        _ => Err(ScheduleError::LongEntry { found, most: MAX_STEPS }),
     }
 }
 
@@ -89,12 +90,18 @@ mod tests {
     type FaultAtPlace = (String, String);
 
     fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
+        read_of(2, text)
+    }
+
+    fn read_of(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
         let mut sources = Sources::default();
         let id = sources.add("--schedule", text);
-        let told = |spell: Spell| (spell.pattern.to_string(), spell.steps);
-        parse(sources.file(id)).map(|schedule| schedule.spells.into_iter().map(told).collect()).map_err(|faults| {
-            faults.into_iter().map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned())).collect()
-        })
+        let told = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
+        parse(sources.file(id), stimuli).map(|schedule| schedule.spells.into_iter().map(told).collect()).map_err(
+            |faults| {
+                faults.into_iter().map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned())).collect()
+            },
+        )
     }
 
     fn check(text: &str, expected: &[(&str, u32)]) {
@@ -110,6 +117,14 @@ mod tests {
     fn entries_are_cycles_or_env_steps() {
         check("00*10 01*56steps", &[("00", 840), ("01", 56)]);
         check("  11*1cycle\n10*2cycles ", &[("11", 84), ("10", 168)]);
+    }
+
+    #[test]
+    fn patterns_have_a_digit_for_each_stimulus() {
+        assert_eq!(read_of(3, "011*1 100*2steps"), Ok(vec![("011".to_owned(), 84), ("100".to_owned(), 2)]));
+        let fault = ("invalid stimulus pattern `01`".to_owned(), "01".to_owned());
+        assert_eq!(read_of(3, "011*1 01*1"), Err(vec![fault]));
+        check_fault("011*1", "invalid stimulus pattern `011`", "011");
     }
 
     #[test]

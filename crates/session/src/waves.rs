@@ -27,7 +27,7 @@ pub(super) fn map_waves(
     let fits = |beat: &u32| times.step.is_none_or(|step| step.is_multiple_of(*beat));
     let beats = times.beat.map_or_else(|| BEATS.into_iter().filter(fits).collect(), |beat| vec![beat]);
     let made = beats.into_iter().map(|beat| {
-        let cells = nbc_swarm::cells(&nbc_swarm::within_beat(library, beat));
+        let cells = nbc_swarm::cells(&nbc_swarm::within_beat(library, beat, options.objective));
         let options = WaveOptions { cycles: times.step, beat, mapping: options.clone() };
         balance(&source, &cells, &options).map(|machine| (cells, machine))
     });

@@ -178,7 +178,7 @@ pub(super) enum ScheduleError {
     TooLong { steps: u64, most: u64 },
     /// An entry without `*`.
     NoDuration { entry: String },
-    /// A pattern that is not one of two stimuli.
+    /// A pattern that has no digit for each stimulus.
     Pattern { found: String },
     /// A duration that is not a number of cycles or env steps.
     NotADuration { found: String },
@@ -189,10 +189,11 @@ pub(super) enum ScheduleError {
 }
 
 impl ScheduleError {
-    /// The error at its place in the text.
-    pub(super) fn at(self, span: Span) -> Diagnostic {
+    /// The error at its place in the text of a schedule of so many stimuli.
+    pub(super) fn at(self, span: Span, stimuli: usize) -> Diagnostic {
+        let example = format!("{:0>stimuli$}", 1);
         let (message, label) = match self {
-            Self::Empty => ("the schedule is empty".to_owned(), "expected an entry such as `01*10`".to_owned()),
+            Self::Empty => ("the schedule is empty".to_owned(), format!("expected an entry such as `{example}*10`")),
             Self::TooLong { steps, most } => {
                 (format!("the schedule of {steps} env steps is too long"), format!("expected at most {most}"))
             }
@@ -201,7 +202,11 @@ impl ScheduleError {
                 format!("expected `*` and a number, for example `{entry}*10`"),
             ),
             Self::Pattern { found } => {
-                (format!("invalid stimulus pattern `{found}`"), "expected 00, 01, 10 or 11".to_owned())
+                let expected = match stimuli {
+                    2 => "00, 01, 10 or 11".to_owned(),
+                    _ => format!("{stimuli} digits, 0 or 1, for the stimuli that the materials of the body sense"),
+                };
+                (format!("invalid stimulus pattern `{found}`"), format!("expected {expected}"))
             }
             Self::NotADuration { found } => (
                 format!("`{found}` is not a duration"),
@@ -214,7 +219,8 @@ impl ScheduleError {
                 (format!("the duration `{found}` is too long"), format!("expected at most {most} env steps"))
             }
         };
-        Diagnostic::new(Code::BadSchedule, message, span, label)
-            .with_help("write stimuli, `*` and a duration: `01*10` is ten cycles, `01*56steps` is 56 env steps")
+        Diagnostic::new(Code::BadSchedule, message, span, label).with_help(format!(
+            "write stimuli, `*` and a duration: `{example}*10` is ten cycles, `{example}*56steps` is 56 env steps"
+        ))
     }
 }

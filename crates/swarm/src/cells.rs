@@ -32,13 +32,16 @@ fn radius(character: &Character) -> f64 {
     character.radius.as_ref().map_or(0.0, |found| found.radius)
 }
 
-/// The robots of a library that react within so many cycles, and show nothing else before if that is one.
-pub fn within_beat(library: &Library, beat: u32) -> Library {
+/// The robots of a library that react within so many cycles, and show nothing else before if that is one. All cost a
+/// wave machine one beat, and an error would stay in it, so the sturdiest are first, or the widest where the objective
+/// is the margin.
+pub fn within_beat(library: &Library, beat: u32, objective: MappingObjective) -> Library {
     let is_quick = |robot: &&Robot| {
         let character = &robot.character;
         character.clock <= beat && (beat > 1 || character.glitch_rate == 0.0)
     };
-    Library { robots: library.robots.iter().filter(is_quick).cloned().collect() }
+    let quick = Library { robots: library.robots.iter().filter(is_quick).cloned().collect() };
+    prefer(quick, if objective == MappingObjective::Margin { objective } else { MappingObjective::Sturdy })
 }
 
 /// The cells of a library: for each function its first robot, or else the first that computes it with exchanged inputs.

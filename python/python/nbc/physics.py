@@ -83,7 +83,8 @@ def simulate(
 
     Args:
         bodies: an integer array (N, H, W) of numpy or a library such as JAX, or a list of bodies of any sizes.
-        schedule: the stimuli over time, for all bodies.
+        schedule: the stimuli over time, for all bodies; a pattern has a digit for each stimulus that the materials
+            sense, two for the paper's.
         materials: the materials of the codes; by default the paper's.
         world_width: ground voxels in a row.
         start_x: the ground column of each body's left column; by default the middle of the world.

@@ -7,12 +7,14 @@ use crate::cli::Failure;
 use crate::cli::draw::wording::DrawError;
 use crate::cli::options::circuit::{CircuitArguments, RunsArguments};
 use crate::cli::robots::behavior;
-use nbc_base::model::{Behavior, CYCLE_STEPS, Schedule};
+use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Spell};
 use nbc_session::read_schedule;
 use nbc_session::report::{FRAMES_PER_CYCLE, Scheme};
 
-/// The default schedule of robots: every pattern as long as in the paper.
-const SCHEDULE: &str = "00*10 01*10 10*10 11*10";
+/// The cycles of each pattern if no schedule is given, as in the paper.
+const CYCLES: u32 = 10;
+/// The most patterns that are tried if no schedule is given.
+const MOST_PATTERNS: usize = 64;
 
 /// The arguments of all kinds of pictures.
 #[derive(Args)]
@@ -20,7 +22,7 @@ pub struct DrawRequest {
     /// A file with a body, a robot of the library, a folder of robot files, `shipped`, the folder of a run, or a source
     /// file (.nb)
     pub(super) what: String,
-    /// The schedule of a robot's stimuli, as in `nbc simulate` [default: 00*10 01*10 10*10 11*10]
+    /// The schedule of a robot's stimuli, as in `nbc simulate` [default: ten cycles of each pattern]
     #[arg(long)]
     pub(super) schedule: Option<String>,
     /// The cycle of a pose [default: the end of the schedule]
@@ -62,8 +64,16 @@ impl DrawRequest {
         CYCLE_STEPS / frames
     }
 
-    pub(super) fn schedule(&self) -> Result<Schedule, Failure> {
-        Ok(read_schedule("--schedule", self.schedule.as_deref().unwrap_or(SCHEDULE))?)
+    /// The schedule of some bodies, by default all patterns of the stimuli that they sense.
+    pub(super) fn schedule<'a>(&self, bodies: impl IntoIterator<Item = &'a Body>) -> Result<Schedule, Failure> {
+        let stimuli = bodies.into_iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
+        match &self.schedule {
+            Some(text) => Ok(read_schedule("--schedule", text, stimuli)?),
+            None => {
+                let spell = |pattern| Spell { pattern, steps: CYCLES * CYCLE_STEPS };
+                Ok(Schedule { spells: Pattern::all(stimuli).take(MOST_PATTERNS).map(spell).collect() })
+            }
+        }
     }
 
     /// The env step of a pose: the end of the schedule, or the cycle of `--at`.

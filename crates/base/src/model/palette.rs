@@ -63,6 +63,16 @@ impl Palette {
         self.material(code).map(|material| material.kind)
     }
 
+    /// The number of stimuli in patterns for bodies of these materials: up to the last that a material senses, and at
+    /// least the paper's two.
+    pub fn stimuli(&self) -> usize {
+        let sensed = self.materials.iter().filter_map(|material| match material.kind {
+            MaterialKind::Sensor(response) => Some(response.stimulus + 1),
+            _ => None,
+        });
+        sensed.fold(2, usize::max)
+    }
+
     /// Names and numbers in an order that is total.
     fn key(&self) -> impl Iterator<Item = (&str, (u8, u64, [u64; 3]))> {
         self.materials.iter().map(|material| (material.name.as_str(), material.kind.bits()))

@@ -27,6 +27,16 @@ impl Pattern {
         Self(present.iter().enumerate().fold(0, |bits, (i, &on)| bits | (u32::from(on) << i)))
     }
 
+    /// The patterns of so many stimuli, counted as binary numbers with stimulus 1 first.
+    ///
+    /// # Panics
+    /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
+    pub fn all(stimuli: usize) -> impl Iterator<Item = Self> {
+        assert!(stimuli <= Self::MAX_STIMULI, "a pattern holds at most 32 stimuli");
+        let pattern = move |number: u64| (0..stimuli).fold(0, |bits, i| bits | (number >> (stimuli - 1 - i) & 1) << i);
+        (0..1u64 << stimuli).map(move |number| Self(pattern(number) as u32))
+    }
+
     /// Whether stimulus `i` (from 0) is present.
     pub fn has(self, i: usize) -> bool {
         self.0 >> i & 1 == 1
@@ -66,5 +76,18 @@ impl fmt::Display for Pattern {
     /// The two-stimulus form, `01` for stimulus 2 alone.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.digits(2))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_are_counted_with_stimulus_1_first() {
+        assert_eq!(Pattern::all(2).collect::<Vec<_>>(), Pattern::PAIRS);
+        let digits: Vec<String> = Pattern::all(3).map(|pattern| pattern.digits(3)).collect();
+        assert_eq!(digits, ["000", "001", "010", "011", "100", "101", "110", "111"]);
+        assert_eq!(Pattern::all(32).nth(1).map(|pattern| pattern.has(31)), Some(true));
     }
 }

@@ -52,13 +52,21 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
     let beat = options.beat.max(1);
     let cells = usable(library, beat);
     let logic = WaveLogic::of(&step);
-    let starts = mappings(&logic.network, &cells, &options.mapping)?;
     if let Some(wanted) = options.cycles.filter(|cycles| !cycles.is_multiple_of(beat)) {
         return Err(WaveError::UnevenStep { wanted, beat });
     }
     let period = options.cycles.map(|cycles| cycles / beat);
     let short = |least: u32| WaveError::ShortStep { wanted: options.cycles.unwrap_or(0), least: least * beat };
-    let balanced = search(&logic, starts, &cells, period, &options.mapping).map_err(short)?;
+    let found = |effort| {
+        let mapping = MapOptions { effort, ..options.mapping.clone() };
+        search(&logic, mappings(&logic.network, &cells, &mapping)?, &cells, period, &mapping).map_err(short)
+    };
+    let mut balanced = found(options.mapping.effort)?;
+    if options.mapping.effort == Effort::High {
+        // A random walk may miss what a shorter one finds.
+        let quick = found(Effort::Normal)?;
+        balanced = if quick.weight < balanced.weight { quick } else { balanced };
+    }
     WaveMachine::new(&step, &balanced.graph, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
 }
 

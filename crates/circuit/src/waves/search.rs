@@ -107,5 +107,8 @@ pub fn search(
             now = best.clone();
         }
     }
-    Ok(best)
+    // The walk may have left an inverter that is a larger gate with a constant; the robot of an inverter is sturdier.
+    let plain = best.network.with_plain_inverters(|function| cells.get(function).is_some());
+    let plain = Balanced::of(logic, plain, period).ok();
+    Ok(plain.filter(|plain| plain.weight <= best.weight).unwrap_or(best))
 }

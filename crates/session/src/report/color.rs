@@ -38,10 +38,8 @@ impl Color {
         Self::new(86, 180, 233),
         Self::new(240, 228, 66),
     ];
-    /// Stimulus 1, in all pictures.
-    pub const STIMULUS_1: Self = Self::SERIES[0];
-    /// Stimulus 2, in all pictures.
-    pub const STIMULUS_2: Self = Self::SERIES[4];
+    /// The colors of stimuli in all pictures, stimulus 1 first; they start again at their end.
+    pub const STIMULI: [Self; 4] = [Self::SERIES[0], Self::SERIES[4], Self::SERIES[3], Self::SERIES[5]];
     /// Outputs, in all pictures.
     pub const OUTPUT: Self = Self::SERIES[2];
     /// Faults, in all pictures.
@@ -55,6 +53,11 @@ impl Color {
     /// The `i`-th color of the series, which starts again at its end.
     pub fn series(i: usize) -> Self {
         Self::SERIES[i % Self::SERIES.len()]
+    }
+
+    /// The color of stimulus `i`, counted from 0.
+    pub fn stimulus(i: usize) -> Self {
+        Self::STIMULI[i % Self::STIMULI.len()]
     }
 
     /// A mixture with another color: 0 is this one, 1 the other.

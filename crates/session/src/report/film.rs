@@ -37,6 +37,8 @@ pub struct Film {
     pub scheme: Scheme,
     /// Rows and columns of the largest body.
     pub largest: usize,
+    /// The number of stimuli to show; of more than four, the first four.
+    pub stimuli: usize,
 }
 
 /// A film being drawn.
@@ -65,7 +67,7 @@ impl<'a> Painter<'a> {
     fn new(film: &'a Film, stage: &Stage) -> Self {
         let backdrop = rasterize(&film.backdrop(), 1.0);
         let looks = Looks::of_palettes(stage.palettes(), film.scheme);
-        let swatches = Swatches::new(&looks, film.scheme);
+        let swatches = Swatches::new(&looks, film.scheme, film.stimuli);
         let frame = backdrop.clone();
         Self { film, backdrop, looks, swatches, cameras: Vec::new(), frame, indexed: Vec::new() }
     }
@@ -115,7 +117,7 @@ impl<'a> Painter<'a> {
             fill_rect(&mut self.frame, (to_pixel((voxel as f64, 0.0)).0, ground), 1.0, tall, Color::PALE);
         }
         paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, !film.is_dense(), to_pixel);
-        for (i, color) in [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate() {
+        for (i, color) in Color::STIMULI.into_iter().take(film.stimuli).enumerate() {
             let side = film.lamp();
             let place = (left + side + i as f64 * side * 1.375, ground - side);
             fill_rect(&mut self.frame, place, side, side, color);

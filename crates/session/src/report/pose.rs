@@ -30,7 +30,7 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
     let when = format!(
         "after {:.2} cycles, stimuli {}, {:+.2} voxels along",
         f64::from(moment.step) / f64::from(CYCLE_STEPS),
-        moment.patterns[0],
+        moment.patterns[0].digits(body.palette().stimuli()),
         camera - start_of(body),
     );
     svg.text((14.0, 46.0), &when, Type::new(11.0).colored(Color::GRAY));

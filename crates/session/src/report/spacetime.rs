@@ -7,10 +7,14 @@ use crate::report::Color;
 use crate::report::chart::{Panel, range_of};
 use crate::report::element::{Anchor, Paint, Point, Type};
 use crate::report::svg::{Svg, shorten};
-use nbc_base::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory};
+use nbc_base::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory, Trial};
 use nbc_swarm::{RobotTrace, StimulusSource, SwarmTrace};
 
 const PANEL_WIDTH: f64 = 150.0;
+/// The width of a letter of a heading, about.
+const LETTER_WIDTH: f64 = 7.0;
+/// The most spells of which a heading tells how far the robot walked in them.
+const MOST_WALKED: usize = 12;
 const STRIP_WIDTH: f64 = 13.0;
 const STRIP_GAP: f64 = 4.0;
 const MARGIN: f64 = 56.0;
@@ -81,7 +85,8 @@ impl Strip {
 }
 
 /// The diagram of one robot under a schedule.
-pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> Svg {
+pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
+    let (schedule, stimuli) = (&trial.schedule, trial.body.palette().stimuli());
     let cycles_of = |steps: u32| f64::from(steps) / f64::from(CYCLE_STEPS);
     let ends: Vec<f64> = schedule
         .spells
@@ -91,9 +96,9 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
             Some(cycles_of(*steps))
         })
         .collect();
-    let strip = |i: usize, color| Strip {
+    let strip = |i: usize| Strip {
         name: format!("stimulus {}", i + 1),
-        color,
+        color: Color::stimulus(i),
         spells: Spells::Bits(
             schedule.spells.iter().zip(&ends).map(|(spell, &end)| (end, spell.pattern.has(i))).collect(),
         ),
@@ -103,24 +108,33 @@ pub fn draw_robot(name: &str, schedule: &Schedule, trajectory: &Trajectory) -> S
         subtitle: String::new(),
         path: trajectory.com_x.clone(),
         cycles: (trajectory.com_x.len().saturating_sub(1)) as f64 / f64::from(CYCLE_STEPS),
-        sensed: vec![strip(0, Color::STIMULUS_1), strip(1, Color::STIMULUS_2)],
+        sensed: (0..stimuli).map(strip).collect(),
         output: None,
         fault: trajectory.fault.map(|fault| cycles_of(fault.env_step - 1)),
     };
-    let heading = Some(format!("voxels walked: {}", walked(schedule, trajectory)));
-    let rows = [Row { heading, tracks: vec![track], changes: &ends, panel: 2.0 * PANEL_WIDTH }];
+    let heading = format!("voxels walked: {}", walked(schedule, stimuli, trajectory));
+    // The heading needs more width than the path if there are many patterns.
+    let panel = (heading.chars().count() as f64 * LETTER_WIDTH - 130.0).max(2.0 * PANEL_WIDTH);
+    let rows = [Row { heading: Some(heading), tracks: vec![track], changes: &ends, panel }];
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
 
-/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`, without incomplete spells.
-fn walked(schedule: &Schedule, trajectory: &Trajectory) -> String {
+/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`, without incomplete spells. Of many spells, the first.
+fn walked(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> String {
     let mut start = 0;
     let mut told = Vec::new();
     for spell in &schedule.spells {
         let end = start + spell.steps as usize;
         let Some(place) = trajectory.com_x.get(end) else { break };
-        told.push(format!("{} {:+.2}", spell.pattern, place - trajectory.com_x[start]).replace('-', "\u{2212}"));
+        told.push(
+            format!("{} {:+.2}", spell.pattern.digits(stimuli), place - trajectory.com_x[start])
+                .replace('-', "\u{2212}"),
+        );
         start = end;
+        if told.len() == MOST_WALKED && schedule.spells.len() > MOST_WALKED {
+            told.push("\u{2026}".to_owned());
+            break;
+        }
     }
     told.join(", ")
 }
@@ -190,10 +204,10 @@ fn input_changes(trace: &SwarmTrace) -> Vec<f64> {
 
 fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
     let robot = &trace.robots[k];
-    let sensed = [Color::STIMULUS_1, Color::STIMULUS_2].into_iter().enumerate().filter_map(|(i, color)| {
+    let sensed = (0..robot.senses.len()).filter_map(|i| {
         let bits = trace.cycles.iter().map(|cycle| cycle.sensed[k][i]);
         let wired = !matches!(robot.senses[i], StimulusSource::Constant(_));
-        wired.then(|| Strip::of_cycles(&robot.sensed_nets[i], color, bits))
+        wired.then(|| Strip::of_cycles(&robot.sensed_nets[i], Color::stimulus(i), bits))
     });
     let bits = trace.cycles.iter().map(|cycle| cycle.bits[k]);
     Track {

@@ -62,7 +62,11 @@ fn snapshots(setting: &Setting, body: &Body, schedule: &Schedule) -> Vec<WalkedS
     let mut rows: Vec<WalkedSpell> = Vec::new();
     for spell in schedule.spells.iter().take(MAX_ROWS) {
         ends.push(ends.last().copied().unwrap_or(0) + spell.steps);
-        rows.push(WalkedSpell { pattern: spell.pattern.to_string(), walked: 0.0, moments: Vec::new() });
+        rows.push(WalkedSpell {
+            pattern: spell.pattern.digits(body.palette().stimuli()),
+            walked: 0.0,
+            moments: Vec::new(),
+        });
     }
     let mut start = None;
     for moment in Stage::of_trial(setting, body, schedule, STRIDE) {

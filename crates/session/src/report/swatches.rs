@@ -17,8 +17,8 @@ pub struct Swatches {
 }
 
 impl Swatches {
-    /// The colors of a film with materials of these looks, and their mixtures with the background.
-    pub fn new(looks: &Looks, scheme: Scheme) -> Self {
+    /// The colors of a film with materials of these looks and so many stimuli, and their mixtures with the background.
+    pub fn new(looks: &Looks, scheme: Scheme, stimuli: usize) -> Self {
         let materials: Vec<Color> = (1..=8).map(|code| scheme.color(code)).collect();
         let own = [
             Color::WHITE,
@@ -27,11 +27,12 @@ impl Swatches {
             Color::PALE,
             Color::GROUND,
             Color::SKY,
-            Color::STIMULUS_1,
-            Color::STIMULUS_2,
+            Color::stimulus(0),
+            Color::stimulus(1),
             Color::FAULT,
         ];
-        let mut colors: Vec<Color> = own.into_iter().chain(materials.iter().copied()).collect();
+        let further = Color::STIMULI.into_iter().take(stimuli).skip(2);
+        let mut colors: Vec<Color> = own.into_iter().chain(further).chain(materials.iter().copied()).collect();
         let partners = [Color::SKY, Color::GROUND, Color::BLACK];
         // Pixels on edges are mixtures with the background.
         for color in materials {

@@ -25,14 +25,14 @@ impl PictureKind for FilmPicture {
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
         let TitledBody { title, body } = robot;
         let lanes = vec![format!("{} x {}", body.width(), body.height())];
-        let stage = Stage::of_trial(&Setting::default(), body, &request.schedule()?, request.stride());
+        let stage = Stage::of_trial(&Setting::default(), body, &request.schedule([body])?, request.stride());
         Ok(self.film(title, lanes, std::slice::from_ref(body), request, stage))
     }
 
     fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
         let bodies: Vec<Body> = robots.robots.iter().map(|one| one.body.clone()).collect();
         let lanes = robots.robots.iter().map(|one| one.name.clone()).collect();
-        let stage = Stage::of_trials(&Setting::default(), &bodies, &request.schedule()?, request.stride());
+        let stage = Stage::of_trials(&Setting::default(), &bodies, &request.schedule(&bodies)?, request.stride());
         Ok(self.film(&robots.title, lanes, &bodies, request, stage))
     }
 
@@ -50,7 +50,8 @@ impl PictureKind for FilmPicture {
 impl FilmPicture {
     fn film(&self, title: &str, lanes: Vec<String>, bodies: &[Body], request: &DrawRequest, stage: Stage) -> Drawing {
         let largest = bodies.iter().map(|body| body.width().max(body.height())).max().unwrap_or(1);
-        let film = Film { title: title.to_owned(), lanes, scheme: request.scheme(), largest };
+        let stimuli = bodies.iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
+        let film = Film { title: title.to_owned(), lanes, scheme: request.scheme(), largest, stimuli };
         Drawing::Film { format: self.0, film, stage }
     }
 }

@@ -18,7 +18,7 @@ impl PictureKind for PosePicture {
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
-        let schedule = request.schedule()?;
+        let schedule = request.schedule([&robot.body])?;
         let step = request.step(&schedule)?;
         Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, request.scheme())))
     }

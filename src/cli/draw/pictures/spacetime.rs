@@ -24,13 +24,13 @@ impl PictureKind for SpacetimePicture {
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
-        let trial = Trial { body: robot.body.clone(), schedule: request.schedule()? };
+        let trial = Trial { body: robot.body.clone(), schedule: request.schedule([&robot.body])? };
         let trajectory = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
-        Ok(Drawing::Picture(report::draw_robot(&robot.title, &trial.schedule, &trajectory)))
+        Ok(Drawing::Picture(report::draw_robot(&robot.title, &trial, &trajectory)))
     }
 
     fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(champions(robots, &request.schedule()?)))
+        Ok(Drawing::Picture(champions(robots, &request.schedule(robots.robots.iter().map(|one| &one.body))?)))
     }
 
     fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {

@@ -18,7 +18,7 @@ impl PictureKind for StripPicture {
     }
 
     fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
-        let schedule = request.schedule()?;
+        let schedule = request.schedule([&robot.body])?;
         Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, request.scheme())))
     }
 }
