@@ -1,56 +1,19 @@
 //! The search: it is asked for candidates and told their results, generation by generation (paper, Methods;
 //! docs/physics.md 11).
 
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::evolve::mutate::pick;
-use crate::evolve::neighbors::{crossed, random_body};
 use crate::evolve::{
-    AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Rivals, Scores, cppn, develop,
-    mirrored, mutate, neighbor, phenotype, recodings, validate,
+    AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Rivals, Scores, develop,
+    mirrored, recodings, validate,
 };
-use nbc_base::model::{Behavior, Body, Evolution, Genome, Genotype, NodeKind, Rules, Symmetry};
+use nbc_base::model::{Behavior, Body, Evolution, Genome, Genotype, NodeKind, Symmetry};
 
-/// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
-const MOST_ATTEMPTS: u32 = 20_000;
+mod offspring;
 
-/// The origin of a candidate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum CandidateOrigin {
-    /// A new random network.
-    Random,
-    /// From an elite of that niche by mutation.
-    Offspring(NicheKey),
-    /// A robot with which the search begins.
-    Start,
-    /// The mirror image of a body that entered the archive in the previous generation.
-    Mirror,
-}
-
-/// A body to be tried.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
-    /// Its place in the generation.
-    pub index: u32,
-    /// How the candidate was made.
-    pub origin: CandidateOrigin,
-    /// Its network, if it developed from one.
-    pub genotype: Option<Genotype>,
-    /// Its voxels.
-    pub body: Body,
-    /// Networks or bodies drawn before it that could not be tried.
-    pub undeveloped: u32,
-}
-
-/// A body whose mirror image is to be tried next.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MirrorSource {
-    /// The network that develops into the mirror image.
-    Network(Genotype),
-    /// The mirror image itself.
-    Voxels(Body),
-}
+pub use offspring::{Candidate, CandidateOrigin, MirrorSource};
 
 /// A MAP-Elites search in progress. Everything it will do follows from the declaration, the seed and its state.
 #[derive(Clone, Debug, PartialEq)]
@@ -294,76 +257,6 @@ impl Search {
         parents
     }
 
-    /// A new body; `None` if this seems impossible.
-    fn draw(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
-        match self.evolution.genome {
-            Genome::Cppn => self.develop(index, origin, parent),
-            Genome::Voxels { crossover } => self.assemble(index, origin, parent, crossover),
-        }
-    }
-
-    /// Changes the voxels of a parent, after putting a part of another elite of its behavior in their place for that
-    /// share of the offspring; without a parent, draws random voxels.
-    fn assemble(
-        &self,
-        index: u32,
-        origin: CandidateOrigin,
-        parent: Option<&Elite>,
-        crossover: f64,
-    ) -> Option<Candidate> {
-        let Evolution { palette, width, height, .. } = &self.evolution;
-        let mut rng = self.stream(index);
-        for undeveloped in 0..MOST_ATTEMPTS {
-            let body = match parent {
-                None => random_body(*width, *height, palette, &mut rng),
-                Some(elite) if rng.random::<f64>() < crossover => {
-                    let mates: Vec<&Elite> =
-                        self.archive.elites().filter(|mate| mate.behavior == elite.behavior).collect();
-                    let mate = pick(mates.len(), &mut rng).map_or(elite, |at| mates[at]);
-                    neighbor(&crossed(&elite.body, &mate.body, &mut rng), &mut rng)
-                }
-                Some(elite) => neighbor(&elite.body, &mut rng),
-            };
-            if validate(&body).is_ok() && parent.is_none_or(|elite| elite.body != body) {
-                return Some(Candidate { index, origin, genotype: None, body, undeveloped });
-            }
-        }
-        None
-    }
-
-    /// Mutates a network until its body is valid; `None` if this seems impossible.
-    fn develop(&self, index: u32, origin: CandidateOrigin, parent: Option<&Elite>) -> Option<Candidate> {
-        let Evolution { palette, rules, width, height, mutation, .. } = &self.evolution;
-        let mut rng = self.stream(index);
-        let start = parent
-            .and_then(|elite| elite.genotype.clone())
-            .unwrap_or_else(|| cppn::start(palette.materials().len(), *rules));
-        let mut genotype = start.clone();
-        for undeveloped in 0..MOST_ATTEMPTS {
-            mutate(&mut genotype, mutation, *rules, &mut rng);
-            let body = phenotype(&genotype, palette, *rules, *width, *height);
-            match judge(*rules, parent.map(|elite| &elite.body), &body) {
-                Attempt::Done => {
-                    return Some(Candidate { index, origin, genotype: Some(genotype), body, undeveloped });
-                }
-                Attempt::GoOn => {}
-                Attempt::Undo => genotype.clone_from(&start),
-            }
-        }
-        None
-    }
-
-    fn mirror(&self, index: u32, source: &MirrorSource) -> Candidate {
-        let Evolution { palette, rules, width, height, .. } = &self.evolution;
-        let (genotype, body) = match source {
-            MirrorSource::Network(genotype) => {
-                (Some(genotype.clone()), phenotype(genotype, palette, *rules, *width, *height))
-            }
-            MirrorSource::Voxels(body) => (None, body.clone()),
-        };
-        Candidate { index, origin: CandidateOrigin::Mirror, genotype, body, undeveloped: 0 }
-    }
-
     /// The random stream of a place in the coming generation.
     fn stream(&self, index: u32) -> ChaCha8Rng {
         stream(self.seed, self.generation, index)
@@ -375,28 +268,6 @@ pub fn stream(seed: u64, generation: u32, index: u32) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(u64::from(generation) << 32 | u64::from(index));
     rng
-}
-
-/// What follows a mutation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Attempt {
-    /// The body is tried.
-    Done,
-    /// Mutate again.
-    GoOn,
-    /// Undo all mutations so far.
-    Undo,
-}
-
-/// By the paper's text, a mutation without a valid body is undone, and an offspring differs from its parent. In the
-/// authors' code, mutations accumulate until the body is valid, even if it is the parent's.
-fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
-    match (validate(body), rules, parent) {
-        (Ok(()), Rules::Paper, Some(parent)) if parent == body => Attempt::GoOn,
-        (Ok(()), _, _) => Attempt::Done,
-        (Err(_), Rules::Paper, Some(_)) => Attempt::Undo,
-        (Err(_), _, _) => Attempt::GoOn,
-    }
 }
 
 /// The image of an elite under a recoding.
@@ -418,8 +289,9 @@ pub(crate) mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::evolve::phenotype;
     use nbc_base::model::{
-        Axis, Count, MutationWeights, Niche, Palette, Pattern, PhysicsWorld, Schedule, SearchObjective, Spell,
+        Axis, Count, MutationWeights, Niche, Palette, Pattern, PhysicsWorld, Rules, Schedule, SearchObjective, Spell,
     };
 
     /// The paper's run in a 5 x 5 box.
@@ -516,20 +388,6 @@ pub(crate) mod tests {
         };
         assert_eq!(run(1), run(1));
         assert_ne!(run(1).archive(), run(2).archive());
-    }
-
-    #[test]
-    fn invalid_mutations_are_undone_by_the_text_and_add_up_by_the_code() {
-        use Attempt::{Done, GoOn, Undo};
-        let [same, other, apart] = ["3330", "3331", "3303"].map(|row| Body::parse(&[row], &Palette::paper()).unwrap());
-        let check = |rules, parent: Option<&Body>, expected: [Attempt; 3]| {
-            let found = [&same, &other, &apart].map(|found| judge(rules, parent, found));
-            assert_eq!(found, expected, "{rules:?}, {parent:?}");
-        };
-        check(Rules::Paper, Some(&same), [GoOn, Done, Undo]);
-        check(Rules::Code, Some(&same), [Done, Done, GoOn]);
-        check(Rules::Paper, None, [Done, Done, GoOn]);
-        check(Rules::Code, None, [Done, Done, GoOn]);
     }
 
     #[test]
