@@ -121,11 +121,14 @@ fn errors_of_long_runs() {
     let turns = pairs.map(|pair| (0..2049).map(|at| Pattern::PAIRS[pair[at % 2]]).collect());
     let plans: Vec<Vec<Pattern>> = random.chain(turns).collect();
     println!("robot             random  in turn  first");
+    let mut errors = 0;
     for robot in quick_gates().iter().filter(|robot| robot.function().arity() > 0) {
         let wrong = wrong_cycles(robot, &plans);
         let count = |some: &[Vec<usize>]| some.iter().map(Vec::len).sum::<usize>();
         let first = wrong.iter().filter_map(|cycles| cycles.first()).min();
         let first = first.map_or("-".to_owned(), ToString::to_string);
+        errors += count(&wrong);
         println!("{:<16}  {:>6}  {:>7}  {first}", robot.name, count(&wrong[..8]), count(&wrong[8..]));
     }
+    assert_eq!(errors, 0);
 }

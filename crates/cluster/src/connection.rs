@@ -155,6 +155,11 @@ impl Connection {
     }
 }
 
+/// The words of an error.
+pub fn words(error: impl ToString) -> String {
+    error.to_string()
+}
+
 /// Whether a stream cannot be made because another one has its subjects.
 fn has_overlap(error: &CreateStreamError) -> bool {
     let CreateStreamErrorKind::JetStream(error) = error.kind() else { return false };

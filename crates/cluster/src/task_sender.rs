@@ -8,7 +8,7 @@ use futures_util::TryStreamExt;
 use tokio::task::JoinSet;
 
 use crate::Log;
-use crate::connection::{Connection, task_subject, task_subjects};
+use crate::connection::{Connection, task_subject, task_subjects, words};
 use crate::message::TaskKey;
 use crate::task_message::TaskMessage;
 
@@ -114,9 +114,9 @@ impl TaskSender {
         // The queue may be gone, too. What it has to do is asked first: a task that is done later leaves the stream.
         let queue = Connection::queue(&self.jetstream, &self.token).await?;
         let stream = Connection::stream(&self.jetstream).await?;
-        let found = stream.info_with_subjects(task_subjects(&self.token, &self.search)).await.map_err(text)?;
+        let found = stream.info_with_subjects(task_subjects(&self.token, &self.search)).await.map_err(words)?;
         let last = found.info.state.last_sequence;
-        let pairs = found.try_collect::<Vec<_>>().await.map_err(text)?;
+        let pairs = found.try_collect::<Vec<_>>().await.map_err(words)?;
         let there: BTreeSet<String> = pairs.into_iter().map(|(subject, _)| subject).collect();
         let info = queue.cached_info();
         let is_idle = info.num_pending == 0 && info.num_ack_pending == 0;
@@ -125,7 +125,7 @@ impl TaskSender {
         // which takes the new ones for done.
         if info.delivered.stream_sequence > last || is_idle && has_ours {
             (self.log)("the queue of the NATS server has lost its place; it is made again\n");
-            stream.delete_consumer(&info.name).await.map_err(text)?;
+            stream.delete_consumer(&info.name).await.map_err(words)?;
             Connection::queue(&self.jetstream, &self.token).await?;
         }
         Ok(there)
@@ -137,8 +137,4 @@ impl TaskSender {
             let _ = stream.purge().filter(task_subjects(&self.token, &self.search)).await;
         }
     }
-}
-
-fn text(error: impl ToString) -> String {
-    error.to_string()
 }

@@ -12,7 +12,7 @@ use futures_util::StreamExt;
 use tokio::time;
 
 use crate::answer_message::AnswerMessage;
-use crate::connection::{Connection, PATIENCE, SILENCE, search_of};
+use crate::connection::{Connection, PATIENCE, SILENCE, search_of, words};
 use crate::delivery::Delivery;
 use crate::task_message::{TOGETHER, TaskMessage};
 use crate::wording::ClusterError;
@@ -91,14 +91,14 @@ impl<'a> WorkerThread<'a> {
     async fn fetch(&mut self) -> Result<Vec<OpenTask>, String> {
         let mut taken = Vec::new();
         let most = self.together;
-        let waiting = self.queue.fetch().max_messages(most).messages().await.map_err(text)?;
+        let waiting = self.queue.fetch().max_messages(most).messages().await.map_err(words)?;
         self.take(waiting, &mut taken).await?;
         if taken.is_empty() {
-            let one = self.queue.batch().max_messages(1).expires(REQUEST).messages().await.map_err(text)?;
+            let one = self.queue.batch().max_messages(1).expires(REQUEST).messages().await.map_err(words)?;
             self.take(one, &mut taken).await?;
             if !taken.is_empty() && self.together > 1 {
                 let most = self.together - 1;
-                let others = self.queue.fetch().max_messages(most).messages().await.map_err(text)?;
+                let others = self.queue.fetch().max_messages(most).messages().await.map_err(words)?;
                 self.take(others, &mut taken).await?;
             }
         }
@@ -111,7 +111,7 @@ impl<'a> WorkerThread<'a> {
         let end = time::Instant::now() + REQUEST + PATIENCE;
         while time::Instant::now() < end && !(self.worker.is_ending() && taken.is_empty()) {
             match time::timeout(GLANCE, batch.next()).await {
-                Ok(Some(message)) => self.accept(message.map_err(text)?, taken).await,
+                Ok(Some(message)) => self.accept(message.map_err(words)?, taken).await,
                 Ok(None) => break,
                 Err(_) => {}
             }
@@ -157,8 +157,4 @@ async fn hold(ackers: Vec<Arc<Acker>>) {
             let _ = acker.ack_with(AckKind::Progress).await;
         }
     }
-}
-
-fn text(error: impl ToString) -> String {
-    error.to_string()
 }

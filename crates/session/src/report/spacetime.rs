@@ -11,8 +11,10 @@ use nbc_base::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory, Trial};
 use nbc_swarm::{RobotTrace, StimulusSource, SwarmTrace};
 
 const PANEL_WIDTH: f64 = 150.0;
-/// The width of a letter of a heading, about.
+/// The width of a letter of a heading, at most, by the look of pictures.
 const LETTER_WIDTH: f64 = 7.0;
+/// The width of a picture of one robot beside its panel.
+const BESIDE_PANEL: f64 = 130.0;
 /// The most spells of which a heading tells how far the robot walked in them.
 const MOST_WALKED: usize = 12;
 const STRIP_WIDTH: f64 = 13.0;
@@ -114,7 +116,7 @@ pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
     };
     let heading = format!("voxels walked: {}", walked(schedule, stimuli, trajectory));
     // The heading needs more width than the path if there are many patterns.
-    let panel = (heading.chars().count() as f64 * LETTER_WIDTH - 130.0).max(2.0 * PANEL_WIDTH);
+    let panel = (heading.chars().count() as f64 * LETTER_WIDTH - BESIDE_PANEL).max(2.0 * PANEL_WIDTH);
     let rows = [Row { heading: Some(heading), tracks: vec![track], changes: &ends, panel }];
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
